@@ -1,0 +1,26 @@
+// camera-director: dispatches to the subcommands.
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <iostream>
+
+#include "app/commands.hpp"
+
+int main(int argc, char** argv) {
+    using namespace camdir::app;
+    CLI::App root("Automatic cameras for spectators of live 3D games.", "camera-director");
+    root.set_version_flag("--version", CAMERA_DIRECTOR_VERSION);
+    root.require_subcommand(1);
+    Run run;
+
+    try {
+        root.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return root.exit(error) == 0 ? exit_done : exit_usage;
+    }
+    try {
+        return run();
+    } catch (const std::exception& error) {
+        std::cerr << "camera-director: " << error.what() << '\n';
+        return exit_failed;
+    }
+}

@@ -1,0 +1,46 @@
+// Baking: Scene -> VFS-rep. The paper's section 4.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <stop_token>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/error.hpp"
+#include "freespace/freespace.hpp"
+#include "scene/scene.hpp"
+
+namespace camdir::bake {
+
+struct Parameters {
+    double d0 = 16.0;      // sampling distance in units of 0.0254 m: sets which openings exist. 2 .. 256
+    unsigned threads = 0;  // 0 = one a core. Never changes the result
+};
+
+// How far a stage is; injected so that baking knows no terminal. Called from one thread at a time.
+struct Progress {
+    std::string_view stage;
+    std::uint64_t done;
+    std::uint64_t total;
+};
+using ProgressSink = std::function<void(const Progress&)>;
+
+struct StageReport {
+    std::string stage;
+    double seconds;
+    std::vector<freespace::Count> counts;
+};
+
+struct Baked {
+    freespace::Contents contents;
+    std::vector<StageReport> stages;
+};
+
+// Runs all stages. Fails with ErrorCode::interrupted soon after `stop` is requested, and with `failed`
+// when the scene has no obstacles, no spawn point in free space, or too many samples for memory.
+[[nodiscard]] Result<Baked> bake(const scene::Scene& scene, const Parameters& parameters,
+                                 const ProgressSink& progress, std::stop_token stop);
+
+}  // namespace camdir::bake

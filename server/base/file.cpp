@@ -1,0 +1,127 @@
+#include "base/file.hpp"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <system_error>
+#include <utility>
+
+namespace camdir {
+namespace {
+
+std::string reason(int error) {
+    return std::generic_category().message(error);
+}
+
+class Descriptor {
+  public:
+    explicit Descriptor(int fd) : fd_(fd) {}
+    Descriptor(Descriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
+    Descriptor& operator=(Descriptor&&) = delete;
+    ~Descriptor() {
+        if (fd_ >= 0) ::close(fd_);
+    }
+    [[nodiscard]] int get() const { return fd_; }
+    [[nodiscard]] bool close() { return ::close(std::exchange(fd_, -1)) == 0; }
+
+  private:
+    int fd_;
+};
+
+struct OpenFile {
+    Descriptor descriptor;
+    std::size_t size;
+};
+
+Result<OpenFile> open_regular(const std::filesystem::path& path) {
+    // Non-blocking, so that a named pipe is refused instead of waited for.
+    OpenFile file{Descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)), 0};
+    if (file.descriptor.get() < 0) return fail(path.string() + ": cannot open: " + reason(errno));
+    struct stat status {};
+    if (::fstat(file.descriptor.get(), &status) != 0)
+        return fail(path.string() + ": cannot stat: " + reason(errno));
+    if (!S_ISREG(status.st_mode)) return fail(path.string() + ": not a regular file");
+    file.size = static_cast<std::size_t>(status.st_size);
+    return file;
+}
+
+bool write_all(int fd, std::span<const std::byte> content) {
+    while (!content.empty()) {
+        const ssize_t written = ::write(fd, content.data(), content.size());
+        if (written < 0 && errno == EINTR) continue;
+        if (written < 0) return false;
+        content = content.subspan(static_cast<std::size_t>(written));
+    }
+    return true;
+}
+
+}  // namespace
+
+Result<Bytes> read_file(const std::filesystem::path& path) {
+    auto file = open_regular(path);
+    if (!file) return tl::unexpected(file.error());
+    Bytes content(file->size);
+    std::size_t done = 0;
+    while (done < content.size()) {
+        const ssize_t got = ::read(file->descriptor.get(), content.data() + done, content.size() - done);
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) return fail(path.string() + ": cannot read: " + reason(errno));
+        if (got == 0) break;
+        done += static_cast<std::size_t>(got);
+    }
+    content.resize(done);
+    return content;
+}
+
+Result<void> write_file(const std::filesystem::path& path, std::span<const std::byte> content) {
+    if (path == "-") {
+        if (!write_all(STDOUT_FILENO, content))
+            return fail("standard output: cannot write: " + reason(errno));
+        return {};
+    }
+    std::string temporary = path.string() + ".XXXXXX";
+    Descriptor descriptor(::mkostemp(temporary.data(), O_CLOEXEC));
+    if (descriptor.get() < 0) return fail(path.string() + ": cannot create: " + reason(errno));
+    const bool written = write_all(descriptor.get(), content) && ::fchmod(descriptor.get(), 0644) == 0 &&
+                         ::fsync(descriptor.get()) == 0 && descriptor.close() &&
+                         ::rename(temporary.c_str(), path.c_str()) == 0;
+    if (!written) {
+        const int error = errno;
+        ::unlink(temporary.c_str());
+        return fail(path.string() + ": cannot write: " + reason(error));
+    }
+    return {};
+}
+
+Result<void> write_file(const std::filesystem::path& path, const std::string& content) {
+    return write_file(path, std::as_bytes(std::span(content)));
+}
+
+Result<MappedFile> MappedFile::open(const std::filesystem::path& path) {
+    auto file = open_regular(path);
+    if (!file) return tl::unexpected(file.error());
+    const std::size_t size = file->size;
+    if (size == 0) return MappedFile(nullptr, 0);
+    void* data = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file->descriptor.get(), 0);
+    if (data == MAP_FAILED) return fail(path.string() + ": cannot map: " + reason(errno));
+    return MappedFile(static_cast<const std::byte*>(data), size);
+}
+
+MappedFile::MappedFile(MappedFile&& other) noexcept
+    : data_(std::exchange(other.data_, nullptr)), size_(std::exchange(other.size_, 0)) {}
+
+MappedFile& MappedFile::operator=(MappedFile&& other) noexcept {
+    std::swap(data_, other.data_);
+    std::swap(size_, other.size_);
+    return *this;
+}
+
+MappedFile::~MappedFile() {
+    if (data_ != nullptr) ::munmap(const_cast<std::byte*>(data_), size_);
+}
+
+}  // namespace camdir

@@ -1,0 +1,42 @@
+// Whole files in and out.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+
+namespace camdir {
+
+using Bytes = std::vector<std::byte>;
+
+// Reads a regular file. Errors name the path and the system's reason.
+[[nodiscard]] Result<Bytes> read_file(const std::filesystem::path& path);
+
+// Writes to a temporary file beside `path`, syncs it and renames it over `path`: a reader sees the old
+// content or all of the new one, and a failed or interrupted write leaves nothing behind.
+// The path "-" writes to standard output.
+[[nodiscard]] Result<void> write_file(const std::filesystem::path& path, std::span<const std::byte> content);
+[[nodiscard]] Result<void> write_file(const std::filesystem::path& path, const std::string& content);
+
+// A read-only memory mapping of a regular file. Movable; the bytes live as long as the object.
+class MappedFile {
+  public:
+    [[nodiscard]] static Result<MappedFile> open(const std::filesystem::path& path);
+    MappedFile(MappedFile&& other) noexcept;
+    MappedFile& operator=(MappedFile&& other) noexcept;
+    ~MappedFile();
+
+    [[nodiscard]] std::span<const std::byte> bytes() const { return {data_, size_}; }
+
+  private:
+    MappedFile(const std::byte* data, std::size_t size) : data_(data), size_(size) {}
+
+    const std::byte* data_ = nullptr;
+    std::size_t size_ = 0;
+};
+
+}  // namespace camdir

@@ -1,0 +1,15 @@
+// The project's vector types. Right-handed, z up, lengths in map units, angles in radians.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace camdir {
+
+using Vec3f = Eigen::Vector3f;  // stored and queried data
+using Vec3d = Eigen::Vector3d;  // baking and the exact oracle
+using Quatf = Eigen::Quaternionf;
+using Box3f = Eigen::AlignedBox3f;
+using Box3d = Eigen::AlignedBox3d;
+
+}  // namespace camdir

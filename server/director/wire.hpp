@@ -1,0 +1,19 @@
+// Where the director's results go: DDS in the server, memory in the tests.
+#pragma once
+
+#include "director/messages.hpp"
+
+namespace camdir::director {
+
+// Called from the director's workers, for one match by one thread at a time; calls for different matches
+// may overlap. Must not throw and must not call back into the director.
+class Wire {
+  public:
+    virtual ~Wire() = default;
+    virtual void publish(const std::string& match_id, const CameraFrame& frame) = 0;
+    virtual void publish(const ObserverStatus& status) = 0;
+    // The observer is gone: its status is withdrawn.
+    virtual void withdraw(const std::string& match_id, const std::string& observer_id) = 0;
+};
+
+}  // namespace camdir::director

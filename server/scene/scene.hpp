@@ -1,0 +1,57 @@
+// A Scene is the obstacles of one map, whatever the format it came in: the paper's S (section 3).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/geometry.hpp"
+
+namespace camdir::scene {
+
+// Obstacle half space: points with normal.dot(p) <= distance are on the solid's side. `normal` has length 1.
+struct Plane {
+    Vec3d normal;
+    double distance;
+};
+
+// A convex solid: the intersection of planes[first_plane .. first_plane + plane_count).
+struct Brush {
+    std::uint32_t first_plane;
+    std::uint32_t plane_count;
+    Box3d bounds;
+};
+
+struct SpawnPoint {
+    Vec3d eye;         // where a spawned player's eye is
+    double yaw = 0.0;  // radians, 0 looks along x, counter-clockwise seen from above
+    std::string kind;  // the format's own name for it: info_player_deathmatch, seed, ...
+};
+
+// Something the reader found in the source and left out on purpose; shown by `inspect`.
+struct LeftOut {
+    std::string what;
+    std::uint64_t count;
+};
+
+struct Scene {
+    std::string name;               // the map's name: file name without folder and extension
+    std::string source;             // as the user named it: path, or archive.pk3:member
+    std::uint64_t source_hash = 0;  // xxh3-64 of the map file's (or member's) bytes
+    double metres_per_unit = 1.0;
+
+    // The obstacles' surfaces, welded: every index < vertices.size(), no triangle of zero area.
+    std::vector<Vec3d> vertices;
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+
+    // The obstacles' volumes where the format knows them (Quake 3), else empty.
+    std::vector<Plane> planes;
+    std::vector<Brush> brushes;
+
+    Box3d bounds;  // of the playable world; encloses `vertices`
+    std::vector<SpawnPoint> spawn_points;
+    std::vector<LeftOut> left_out;
+};
+
+}  // namespace camdir::scene

@@ -1,0 +1,78 @@
+#include "base/file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+namespace camdir {
+namespace {
+
+namespace fs = std::filesystem;
+
+class FileTest : public testing::Test {
+  protected:
+    void SetUp() override {
+        std::string pattern = (fs::temp_directory_path() / "camdir-file-XXXXXX").string();
+        folder_ = ::mkdtemp(pattern.data());
+    }
+    void TearDown() override { fs::remove_all(folder_); }
+
+    [[nodiscard]] std::size_t entries() const {
+        return static_cast<std::size_t>(
+            std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+    }
+
+    fs::path folder_;
+};
+
+std::string text(std::span<const std::byte> bytes) {
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+TEST_F(FileTest, WrittenContentIsReadAndMappedBack) {
+    const fs::path path = folder_ / "a";
+    ASSERT_TRUE(write_file(path, std::string("first")));
+    ASSERT_TRUE(write_file(path, std::string("second, longer")));
+    EXPECT_EQ(text(read_file(path).value()), "second, longer");
+    EXPECT_EQ(text(MappedFile::open(path).value().bytes()), "second, longer");
+    EXPECT_EQ(entries(), 1U) << "no temporary file stays";
+}
+
+TEST_F(FileTest, EmptyFileIsEmptyBothWays) {
+    const fs::path path = folder_ / "empty";
+    ASSERT_TRUE(write_file(path, std::string()));
+    EXPECT_TRUE(read_file(path).value().empty());
+    EXPECT_TRUE(MappedFile::open(path).value().bytes().empty());
+}
+
+TEST_F(FileTest, ErrorsNameThePathAndTheReason) {
+    const fs::path missing = folder_ / "missing";
+    EXPECT_THAT(read_file(missing).error().message, testing::HasSubstr(missing.string()));
+    EXPECT_THAT(read_file(missing).error().message, testing::HasSubstr("No such file"));
+    EXPECT_THAT(MappedFile::open(folder_).error().message, testing::HasSubstr("not a regular file"));
+    const fs::path nowhere = folder_ / "no" / "such" / "folder";
+    EXPECT_THAT(write_file(nowhere, std::string("x")).error().message, testing::HasSubstr(nowhere.string()));
+}
+
+TEST_F(FileTest, NamedPipeIsRefusedInsteadOfWaitedFor) {
+    const fs::path pipe = folder_ / "pipe";
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    EXPECT_THAT(read_file(pipe).error().message, testing::HasSubstr("not a regular file"));
+}
+
+TEST_F(FileTest, FailedReplacementKeepsWhatWasThere) {
+    const fs::path target = folder_ / "target";
+    fs::create_directory(target);  // a rename over a folder fails after the temporary file was written
+    std::ofstream(target / "inside") << "kept";
+    EXPECT_FALSE(write_file(target, std::string("x")));
+    EXPECT_TRUE(fs::exists(target / "inside"));
+    EXPECT_EQ(entries(), 1U);
+}
+
+}  // namespace
+}  // namespace camdir
