@@ -1,0 +1,97 @@
+// The server's configuration: one JSON file. What each key means, its range and its default are in the one
+// table of keys.cpp; validation, the schema and the reference page are made from it.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "camera/profile.hpp"
+
+namespace camdir::config {
+
+struct Dds {
+    std::int64_t domain = 0;
+    std::string interface = "lo";  // name or address; empty = Cyclone chooses
+    bool multicast = false;
+    std::int64_t participant_index = 0;  // -1 = none
+    std::int64_t port = 7400;            // the domain's base port
+    std::vector<std::string> peers;      // addresses, asked by unicast
+    std::vector<std::string> partitions = {"match/*"};
+    std::int64_t director_id = 0;  // 0 = drawn at start
+    std::int64_t strength = 100;   // ownership strength: the highest live director is heard
+    std::int64_t lease_ms = 200;   // after which a hung director is replaced by its standby
+    std::string xml;               // Cyclone configuration used instead of the keys about the network
+};
+
+struct Http {
+    bool enabled = true;
+    std::string address = "127.0.0.1";
+    std::int64_t port = 9464;  // 0 = any free one, told in the log
+};
+
+struct Map {
+    std::string name;    // as in MatchInfo.map_name
+    std::string file;    // MAP.vfs
+    std::string source;  // when set, `file` is baked from it when missing or stale
+    double d0 = 16.0;    // bake::Parameters::d0
+    bool strict = false;
+};
+
+struct Matches {
+    std::string default_profile = "default";
+    std::int64_t silence_frames = 30;  // a match without poses for silence_frames / rate_hz is silent
+    double forget_s = 300.0;           // a silent match, or one without a game server, is forgotten after
+    double automatic_hold_s = 5.0;
+    double automatic_lead = 1.0;
+    double automatic_half_life_s = 10.0;
+};
+
+struct Limits {
+    std::int64_t matches = 64;
+    std::int64_t players = 256;    // a match
+    std::int64_t observers = 256;  // a match
+    std::int64_t shots = 256;      // a match
+    std::int64_t workers = 0;      // threads; 0 = one a core
+};
+
+struct Log {
+    std::string level = "info";
+    std::string format = "text";
+};
+
+struct Config {
+    Dds dds;
+    Http http;
+    std::vector<Map> maps;                            // names are distinct
+    std::map<std::string, camera::Profile> profiles;  // "default" is always there
+    Matches matches;
+    Limits limits;
+    Log log;
+};
+
+// Reads and validates a file. Relative paths in it are taken from its folder. The error names every problem,
+// one a line: JSON pointer, value, what was expected.
+[[nodiscard]] Result<Config> load(const std::filesystem::path& file);
+
+// The same from text. `name` stands for the file in errors; `folder` is what relative paths start from.
+[[nodiscard]] Result<Config> parse(const std::string& text, const std::string& name,
+                                   const std::filesystem::path& folder);
+
+// An observer's overrides: a JSON object with keys of a profile, or empty. The error is one line.
+[[nodiscard]] Result<camera::Profile> override_profile(const camera::Profile& base,
+                                                       const std::string& overrides);
+
+// JSON pointers of the keys that differ and take effect only after a restart.
+[[nodiscard]] std::vector<std::string> changes_for_restart(const Config& running, const Config& loaded);
+
+// JSON Schema (2020-12) of the file.
+[[nodiscard]] std::string schema();
+
+// The reference of all keys, Markdown.
+[[nodiscard]] std::string reference();
+
+}  // namespace camdir::config

@@ -1,0 +1,44 @@
+// The maps that the director knows, and how far each is from use.
+#pragma once
+
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "freespace/freespace.hpp"
+
+namespace camdir::director {
+
+enum class MapState { loading, ready, failed };
+
+struct MapEntry {
+    MapState state = MapState::loading;
+    std::string reason;            // why it failed, or what it waits for
+    bool strict = false;           // refuse game servers whose map file differs from the baked one
+    std::uint64_t generation = 0;  // differs whenever the freespace differs
+    std::optional<freespace::Freespace> freespace;  // set when ready; stays set while a newer one is baked
+};
+
+// Thread-safe. Whoever changes it calls Director::maps_changed() afterwards.
+class MapLibrary {
+  public:
+    void add(const std::string& name, bool strict);  // loading, or loading again
+    void set_loading(const std::string& name, const std::string& reason);
+    void set_ready(const std::string& name, freespace::Freespace freespace);
+    void set_failed(const std::string& name, const std::string& reason);
+    void remove(const std::string& name);
+
+    // nullopt: no map of this name is configured.
+    [[nodiscard]] std::optional<MapEntry> find(const std::string& name) const;
+    [[nodiscard]] std::vector<std::string> names() const;  // ascending
+    [[nodiscard]] std::map<std::string, MapEntry> entries() const;
+
+  private:
+    mutable std::mutex mutex_;
+    std::map<std::string, MapEntry> entries_;
+    std::uint64_t generation_ = 0;
+};
+
+}  // namespace camdir::director

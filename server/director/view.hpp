@@ -1,0 +1,96 @@
+// The read-only view of the director: what http and logs show.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "director/messages.hpp"
+
+namespace camdir::director {
+
+// What is counted, since the director's start.
+enum class Counter : std::size_t {
+    match_infos,
+    pose_frames,
+    events,
+    requests,
+    camera_frames,
+    cameras,
+    cuts,
+    searches,            // times that a camera began to search
+    silences,            // times that a match fell silent
+    drop_unknown_match,  // pose frames and events of matches without a MatchInfo
+    drop_old_epoch,
+    drop_early_epoch,  // of an epoch whose MatchInfo has not come yet
+    drop_old_frame,    // frame number not above the one before
+    drop_superseded,   // a newer pose frame came before a worker was free
+    drop_waiting,      // no map, so no camera
+    drop_players,      // poses above limits.players
+    drop_events,       // the match's queue of events was full
+    drop_control,      // the match's queue of other messages was full
+    refused_matches,
+    refused_requests,
+    map_hash_mismatches,
+    count
+};
+inline constexpr std::size_t counter_count = static_cast<std::size_t>(Counter::count);
+
+// Counts of durations by upper bound; the last bucket has none.
+struct Durations {
+    static constexpr std::array<double, 14> bounds_s = {2e-6, 5e-6, 1e-5, 2e-5, 5e-5, 1e-4, 2e-4,
+                                                        5e-4, 1e-3, 2e-3, 5e-3, 1e-2, 5e-2, 0.25};
+    std::array<std::uint64_t, bounds_s.size() + 1> buckets{};
+    double sum_s = 0.0;
+};
+
+struct Statistics {
+    std::array<std::uint64_t, counter_count> counters{};
+    Durations step;     // one shot's tracker step
+    Durations latency;  // from the receiving of a pose frame to its cameras' leaving
+    std::uint64_t matches = 0;
+    std::uint64_t silent_matches = 0;
+    std::uint64_t observers = 0;
+    std::uint64_t shots = 0;
+
+    [[nodiscard]] std::uint64_t operator[](Counter counter) const {
+        return counters[static_cast<std::size_t>(counter)];
+    }
+};
+
+struct ShotView {
+    std::uint32_t camera_id = 0;
+    std::uint32_t target = no_player;  // the player that is followed now
+    bool automatic = false;
+    std::string profile;
+    std::uint64_t observers = 0;
+    std::uint32_t flags = 0;  // of the last camera
+};
+
+struct ObserverView {
+    std::string observer_id;
+    RequestState state = RequestState::refused;
+    std::uint32_t camera_id = 0;
+    std::string reason;
+};
+
+struct MatchView {
+    std::string match_id;
+    bool answered = false;  // false: the match's worker was busy for too long, the rest is empty
+    std::uint64_t epoch = 0;
+    std::string map_name;
+    std::string state;  // "running", "silent", "waiting for map", "no game server"
+    float rate_hz = 0.0F;
+    float spectator_delay_s = 0.0F;
+    std::uint64_t players = 0;
+    std::uint32_t last_pose_number = 0;
+    std::vector<ShotView> shots;
+    std::vector<ObserverView> observers;
+};
+
+struct View {
+    std::vector<MatchView> matches;  // by match_id
+};
+
+}  // namespace camdir::director
