@@ -1,0 +1,111 @@
+#include "evaluation/csv.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include "evaluation/lines.hpp"
+
+namespace camdir::evaluation {
+namespace {
+
+std::vector<std::string_view> split(std::string_view line) {
+    std::vector<std::string_view> fields;
+    while (true) {
+        const std::size_t comma = line.find(',');
+        fields.push_back(line.substr(0, comma));
+        if (comma == std::string_view::npos) return fields;
+        line.remove_prefix(comma + 1);
+    }
+}
+
+// What the user wrote, safe to print and short.
+std::string quoted(std::string_view field) {
+    constexpr std::size_t longest = 40;
+    std::string text = "\"";
+    for (const char c : field.substr(0, longest))
+        text += c >= ' ' && c <= '~' ? c : '?';
+    return text + (field.size() > longest ? "...\"" : "\"");
+}
+
+std::string shown(double value) {
+    std::array<char, 32> text{};
+    const auto end = std::to_chars(text.data(), text.data() + text.size(), value);
+    return {text.data(), end.ptr};
+}
+
+class Table {
+  public:
+    Table(std::span<const Column> columns, const RowSink& sink)
+        : columns_(columns), sink_(sink), values_(columns.size()) {}
+
+    [[nodiscard]] bool has_header() const { return field_count_ != 0; }
+
+    Result<void> read_header(std::string_view line) {
+        const auto names = split(line);
+        for (const Column& column : columns_) {
+            std::size_t place = 0;
+            while (place < names.size() && names[place] != column.name)
+                ++place;
+            if (place == names.size())
+                return fail("the header lacks the column \"" + std::string(column.name) + "\"; found " +
+                            quoted(line));
+            places_.push_back(place);
+        }
+        field_count_ = names.size();
+        return {};
+    }
+
+    Result<void> read_row(std::string_view line) {
+        const auto fields = split(line);
+        if (fields.size() != field_count_)
+            return fail(std::to_string(fields.size()) + " fields, expected " + std::to_string(field_count_) +
+                        " as in the header");
+        for (std::size_t i = 0; i < columns_.size(); ++i) {
+            auto value = read_number(fields[places_[i]], columns_[i]);
+            if (!value) return tl::unexpected(value.error());
+            values_[i] = *value;
+        }
+        return sink_(values_);
+    }
+
+  private:
+    static Result<double> read_number(std::string_view field, const Column& column) {
+        double value = 0.0;
+        const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+        const bool number = error == std::errc{} && end == field.data() + field.size() && !field.empty();
+        if (number && value >= column.minimum && value <= column.maximum &&
+            (!column.whole || value == std::trunc(value)))
+            return value;
+        return fail("column \"" + std::string(column.name) + "\" is " + quoted(field) + ", expected " +
+                    (column.whole ? "an integer" : "a number") + " from " + shown(column.minimum) + " to " +
+                    shown(column.maximum));
+    }
+
+    std::span<const Column> columns_;
+    const RowSink& sink_;
+    std::vector<std::size_t> places_;  // of each of columns_ among the fields
+    std::vector<double> values_;
+    std::size_t field_count_ = 0;
+};
+
+}  // namespace
+
+Result<void> read_csv(std::span<const std::byte> bytes, const std::string& name,
+                      std::span<const Column> columns, const RowSink& sink) {
+    Table table(columns, sink);
+    std::uint64_t line_number = 1;
+    const auto read = for_each_line(bytes, [&](std::string_view line) {
+        auto taken = table.has_header() ? table.read_row(line) : table.read_header(line);
+        if (taken) ++line_number;
+        return taken;
+    });
+    if (!read) return fail(name + ":" + std::to_string(line_number) + ": " + read.error().message);
+    if (!table.has_header()) return fail(name + ": empty, expected a header line");
+    return {};
+}
+
+}  // namespace camdir::evaluation
