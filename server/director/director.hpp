@@ -29,6 +29,7 @@ class Director final : public Receiver {
     void receive(const std::string& match_id, const MatchEvent& event) override;
     void receive(const ObserverRequest& request) override;
     void request_gone(const std::string& match_id, const std::string& observer_id) override;
+    [[nodiscard]] bool responsive(std::chrono::milliseconds limit) const override;
 
     // The library's maps changed: shots on them begin or end.
     void maps_changed();
@@ -40,9 +41,6 @@ class Director final : public Receiver {
     // All matches, each as of one instant. Waits for the workers, at most `patience`; matches that did not
     // answer by then are marked.
     [[nodiscard]] View view(std::chrono::milliseconds patience) const;
-    // No worker is busy with one turn for longer than this.
-    [[nodiscard]] bool responsive(std::chrono::milliseconds limit) const;
-
     // Waits until all that was received before the call is handled.
     void settle();
     // Settles and stops the workers; what is received afterwards is ignored, and nothing is published.

@@ -1,6 +1,7 @@
 // What the wire brings: the director receives it in the server, a recorder in the tests of the wire.
 #pragma once
 
+#include <chrono>
 #include <string>
 
 #include "director/messages.hpp"
@@ -24,6 +25,8 @@ class Receiver {
     virtual void receive(const std::string& match_id, const MatchEvent& event) = 0;
     virtual void receive(const ObserverRequest& request) = 0;  // new or changed; may come before its match
     virtual void request_gone(const std::string& match_id, const std::string& observer_id) = 0;
+    // No worker is busy with one turn for longer than this: a director that is not gives way to its standby.
+    [[nodiscard]] virtual bool responsive(std::chrono::milliseconds limit) const = 0;
 };
 
 }  // namespace camdir::director
