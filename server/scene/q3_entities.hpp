@@ -1,0 +1,40 @@
+// The entity text of a BSP: what stands where.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "base/error.hpp"
+#include "base/geometry.hpp"
+#include "scene/scene.hpp"
+
+namespace camdir::scene::q3 {
+
+// Views into the text that was parsed.
+struct Entity {
+    std::size_t number;  // place in the text, from 0
+    std::vector<std::pair<std::string_view, std::string_view>> pairs;
+
+    // The first pair with this key; empty when there is none.
+    [[nodiscard]] std::string_view value(std::string_view key) const;
+    [[nodiscard]] std::string_view class_name() const { return value("classname"); }
+
+    // Key `origin`; zero without it. Fails unless it is three numbers below 2^20.
+    [[nodiscard]] Result<Vec3d> origin() const;
+    // Keys `angle` or `angles`: radians, 0 when absent or no number.
+    [[nodiscard]] double yaw() const;
+    // Number of the brush model: `model` is "*N".
+    [[nodiscard]] std::optional<std::size_t> brush_model() const;
+};
+
+// Groups of quoted pairs in braces. Errors name the byte of the entity lump.
+[[nodiscard]] Result<std::vector<Entity>> parse_entities(std::string_view text);
+
+// Players appear here: deathmatch, single player and team spawn points.
+[[nodiscard]] bool is_spawn_point(std::string_view class_name);
+
+}  // namespace camdir::scene::q3

@@ -1,0 +1,24 @@
+// The bytes of a map: a file, or a member of a zip archive (pk3).
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "base/error.hpp"
+#include "base/file.hpp"
+
+namespace camdir::scene {
+
+// A member larger than this when unpacked is refused, so that a small archive cannot fill the memory.
+inline constexpr std::size_t max_member_bytes = std::size_t{256} << 20;
+
+struct Source {
+    std::string map_name;  // file name without folder and extension
+    Bytes bytes;
+};
+
+// `source` is a file, or `archive.pk3:member`. An existing file wins over the reading with a colon.
+// Errors name the file, the member and the reason.
+[[nodiscard]] Result<Source> read_source(const std::string& source);
+
+}  // namespace camdir::scene
