@@ -1,0 +1,53 @@
+#include "evaluation/motion.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+namespace camdir::evaluation {
+namespace {
+
+// The rotation vector of `to` * `from`^-1 in degrees: its axis times its angle.
+Vec3d rotation_between(const Eigen::Quaterniond& from, const Eigen::Quaterniond& to) {
+    Eigen::Quaterniond turn = to * from.conjugate();
+    if (turn.w() < 0.0) turn.coeffs() = -turn.coeffs();
+    const double sine = turn.vec().norm();
+    if (sine == 0.0) return Vec3d::Zero();
+    const double angle = 2.0 * std::atan2(sine, turn.w());
+    return turn.vec() * (angle / sine * 180.0 / std::numbers::pi);
+}
+
+}  // namespace
+
+void MotionMeter::add(double time, const CameraSample& camera) {
+    State now;
+    now.time = time;
+    now.position = camera.position;
+    now.orientation = camera.orientation;
+    if (length_ >= 1) {
+        now.step = time - last_.time;
+        assert(now.step > 0.0);
+        const Vec3d rotation = rotation_between(last_.orientation, now.orientation);
+        now.velocity = (now.position - last_.position) / now.step;
+        now.angular_velocity = rotation / now.step;
+        samples_.angular_speed.push_back(now.angular_velocity.norm());
+        samples_.largest_rotation = std::max(samples_.largest_rotation, rotation.norm());
+    }
+    if (length_ >= 2) {
+        const double span = (now.step + last_.step) / 2.0;
+        now.acceleration = (now.velocity - last_.velocity) / span;
+        samples_.acceleration.push_back(now.acceleration.norm());
+        samples_.angular_acceleration.push_back((now.angular_velocity - last_.angular_velocity).norm() /
+                                                span);
+    }
+    if (length_ >= 3) {
+        const double span = (now.step + 2.0 * last_.step + step_before_last_) / 4.0;
+        samples_.jerk.push_back((now.acceleration - last_.acceleration).norm() / span);
+    }
+    step_before_last_ = last_.step;
+    last_ = now;
+    ++length_;
+}
+
+}  // namespace camdir::evaluation

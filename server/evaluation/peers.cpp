@@ -1,0 +1,22 @@
+#include "evaluation/peers.hpp"
+
+namespace camdir::evaluation {
+
+std::optional<Peer> find_peer(std::string_view name) {
+    if (name == "eye") return Peer::eye;
+    if (name == "rigid") return Peer::rigid;
+    return std::nullopt;
+}
+
+CameraPath follow(Peer peer, const Trace& trace, double metres_per_unit) {
+    const double distance = peer == Peer::rigid ? 120.0 * 0.0254 / metres_per_unit : 0.0;
+    CameraPath path;
+    path.reserve(trace.poses.size());
+    for (const TracePose& pose : trace.poses) {
+        const Vec3d forward = pose.orientation * Vec3d::UnitX();
+        path.push_back({pose.eye - distance * forward, pose.orientation, pose.discontinuity});
+    }
+    return path;
+}
+
+}  // namespace camdir::evaluation

@@ -1,0 +1,22 @@
+// The cameras that users would pick instead: what the tracker is compared with.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "evaluation/camera_path.hpp"
+
+namespace camdir::evaluation {
+
+enum class Peer {
+    eye,    // the first-person view
+    rigid,  // fixed to the player, 120 units behind the eye, through walls
+};
+
+// By its name above.
+[[nodiscard]] std::optional<Peer> find_peer(std::string_view name);
+
+// The cameras of `peer` over the trace; cuts at discontinuities. `metres_per_unit` is the map's.
+[[nodiscard]] CameraPath follow(Peer peer, const Trace& trace, double metres_per_unit);
+
+}  // namespace camdir::evaluation
