@@ -1,0 +1,144 @@
+#include "dds/decode.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+namespace camdir::dds {
+namespace {
+
+constexpr float unit_tolerance = 1e-3F;
+
+template <class Sequence>
+auto elements(const Sequence& sequence) {
+    return std::span(sequence._buffer, sequence._length);
+}
+
+bool finite(std::span<const float> values) {
+    return std::all_of(values.begin(), values.end(), [](float value) { return std::isfinite(value); });
+}
+
+// `quaternions` holds x y z w of each, finite.
+bool unit_length(std::span<const float> quaternions) {
+    for (std::size_t i = 0; i < quaternions.size(); i += 4) {
+        const Eigen::Map<const Eigen::Vector4f> quaternion(&quaternions[i]);
+        // Of huge components the norm overflows to infinity, which is off as well.
+        if (!(std::abs(quaternion.norm() - 1.0F) <= unit_tolerance)) return false;
+    }
+    return true;
+}
+
+Vec3f vector(std::span<const float> values, std::size_t index) {
+    return Vec3f(&values[3 * index]);
+}
+
+Quatf quaternion(std::span<const float> values, std::size_t index) {
+    return Quatf(&values[4 * index]);
+}
+
+std::optional<Defect> check(const camera_director_PoseFrame& sample) {
+    const std::size_t count = sample.player_id._length;
+    if (count > director::max_players) return Defect::too_many;
+    if (sample.eye._length != 3 * count || sample.orientation._length != 4 * count ||
+        (sample.velocity._length != 3 * count && sample.velocity._length != 0) ||
+        sample.flags._length != count) {
+        return Defect::array_length;
+    }
+    if (!finite(elements(sample.eye)) || !finite(elements(sample.orientation)) ||
+        !finite(elements(sample.velocity))) {
+        return Defect::not_finite;
+    }
+    if (!unit_length(elements(sample.orientation))) return Defect::not_unit;
+    return std::nullopt;
+}
+
+std::optional<Defect> check(const camera_director_MatchInfo& sample) {
+    if (!valid_match_id(sample.match_id)) return Defect::bad_match_id;
+    const std::size_t count = sample.player_id._length;
+    if (count > director::max_players) return Defect::too_many;
+    const auto fits = [count](std::size_t length) { return length == count || length == 0; };
+    if (!fits(sample.player_name._length) || !fits(sample.player_class._length) ||
+        !fits(sample.player_team._length)) {
+        return Defect::array_length;
+    }
+    const float numbers[] = {sample.metres_per_unit, sample.rate_hz, sample.spectator_delay_s};
+    if (!finite(numbers)) return Defect::not_finite;
+    if (std::any_of(std::begin(numbers), std::end(numbers), [](float number) { return number < 0.0F; })) {
+        return Defect::out_of_range;
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+bool valid_match_id(std::string_view match_id) {
+    return !match_id.empty() && std::none_of(match_id.begin(), match_id.end(), [](char c) {
+        return static_cast<unsigned char>(c) < 0x20 || c == 0x7f ||
+               std::string_view("*?[]").find(c) != std::string_view::npos;
+    });
+}
+
+std::optional<Defect> decode(const camera_director_MatchInfo& sample, director::MatchInfo& message) {
+    if (const auto defect = check(sample)) return defect;
+    message.match_id = sample.match_id;
+    message.epoch = sample.epoch;
+    message.map_name = sample.map_name != nullptr ? sample.map_name : "";
+    message.map_hash = sample.map_hash;
+    message.metres_per_unit = sample.metres_per_unit;
+    message.rate_hz = sample.rate_hz;
+    message.spectator_delay_s = sample.spectator_delay_s;
+    message.players.assign(sample.player_id._length, {});
+    for (std::uint32_t i = 0; i < sample.player_id._length; ++i) {
+        director::Player& player = message.players[i];
+        player.id = sample.player_id._buffer[i];
+        if (sample.player_name._length != 0) player.name = sample.player_name._buffer[i];
+        if (sample.player_class._length != 0) player.player_class = sample.player_class._buffer[i];
+        if (sample.player_team._length != 0) player.team = sample.player_team._buffer[i];
+    }
+    return std::nullopt;
+}
+
+std::optional<Defect> decode(const camera_director_PoseFrame& sample, director::PoseFrame& message) {
+    if (const auto defect = check(sample)) return defect;
+    message.epoch = sample.epoch;
+    message.frame_number = sample.frame_number;
+    message.frame_time = sample.frame_time;
+    message.source_time = sample.source_time;
+    message.poses.resize(sample.player_id._length);
+    for (std::uint32_t i = 0; i < sample.player_id._length; ++i) {
+        director::PlayerPose& pose = message.poses[i];
+        pose.player_id = sample.player_id._buffer[i];
+        pose.eye = vector(elements(sample.eye), i);
+        pose.orientation = quaternion(elements(sample.orientation), i);
+        pose.velocity = Vec3f::Zero();
+        if (sample.velocity._length != 0) pose.velocity = vector(elements(sample.velocity), i);
+        pose.flags = sample.flags._buffer[i];
+    }
+    return std::nullopt;
+}
+
+std::optional<Defect> decode(const camera_director_MatchEvent& sample, director::MatchEvent& message) {
+    if (!std::isfinite(sample.value)) return Defect::not_finite;
+    message = {.epoch = sample.epoch,
+               .frame_time = sample.frame_time,
+               .kind = sample.kind,
+               .actor = sample.actor,
+               .subject = sample.subject,
+               .value = sample.value};
+    return std::nullopt;
+}
+
+std::optional<Defect> decode(const camera_director_ObserverRequest& sample,
+                             director::ObserverRequest& message) {
+    if (sample.group._length > director::max_players) return Defect::too_many;
+    const auto group = elements(sample.group);
+    message.match_id = sample.match_id;
+    message.observer_id = sample.observer_id;
+    message.target = sample.target;
+    message.group.assign(group.begin(), group.end());
+    message.profile = sample.profile;
+    message.overrides = sample.overrides;
+    return std::nullopt;
+}
+
+}  // namespace camdir::dds

@@ -1,0 +1,46 @@
+// The director's messages become wire samples, in memory that is allocated once.
+#pragma once
+
+#include <camera_director.h>
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "director/messages.hpp"
+
+namespace camdir::dds {
+
+// The CameraFrame samples of one match. One thread at a time.
+class CameraFrameEncoder {
+  public:
+    // `match_id` has at most 63 bytes.
+    CameraFrameEncoder(const std::string& match_id, std::uint64_t director_id);
+    CameraFrameEncoder(const CameraFrameEncoder&) = delete;
+    CameraFrameEncoder& operator=(const CameraFrameEncoder&) = delete;
+
+    // The sample points into the encoder and is valid until the next call. `write_time` is CLOCK_REALTIME
+    // in nanoseconds. Precondition: at most 256 cameras. Does not allocate.
+    [[nodiscard]] const camera_director_CameraFrame& encode(const director::CameraFrame& frame,
+                                                            std::int64_t write_time);
+
+  private:
+    std::array<std::uint32_t, director::max_cameras> camera_id_{};
+    std::array<std::uint32_t, director::max_cameras> target_{};
+    std::array<float, 3 * director::max_cameras> position_{};
+    std::array<float, 4 * director::max_cameras> orientation_{};
+    std::array<float, director::max_cameras> vertical_fov_{};
+    std::array<float, director::max_cameras> clearance_{};
+    std::array<std::uint32_t, director::max_cameras> flags_{};
+    camera_director_CameraFrame sample_{};
+};
+
+// Longer texts are cut to what the wire's bounds hold, at the end of a UTF-8 character.
+[[nodiscard]] camera_director_ObserverStatus encode(const director::ObserverStatus& status);
+
+// Samples whose key is set and whose rest is empty: for unregistering and disposing.
+[[nodiscard]] camera_director_CameraFrame camera_frame_key(const std::string& match_id);
+[[nodiscard]] camera_director_ObserverStatus observer_status_key(const std::string& match_id,
+                                                                 const std::string& observer_id);
+
+}  // namespace camdir::dds

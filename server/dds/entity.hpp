@@ -1,0 +1,46 @@
+// Ownership of one DDS entity, and DDS's return codes as the project's errors.
+#pragma once
+
+#include <dds/dds.h>
+
+#include <string>
+#include <utility>
+
+#include "base/error.hpp"
+
+namespace camdir::dds {
+
+// Deletes the entity, and with it its children, at the end of its life. Never destroy one inside a DDS
+// callback.
+class Entity {
+  public:
+    Entity() = default;
+    explicit Entity(dds_entity_t handle) : handle_(handle) {}
+    Entity(Entity&& other) noexcept : handle_(std::exchange(other.handle_, 0)) {}
+    Entity& operator=(Entity&& other) noexcept {
+        reset(std::exchange(other.handle_, 0));
+        return *this;
+    }
+    ~Entity() { reset(); }
+
+    [[nodiscard]] dds_entity_t handle() const { return handle_; }
+    void reset(dds_entity_t handle = 0) {
+        if (handle_ > 0) dds_delete(handle_);
+        handle_ = handle;
+    }
+
+  private:
+    dds_entity_t handle_ = 0;
+};
+
+[[nodiscard]] inline tl::unexpected<Error> dds_failure(const std::string& doing, dds_return_t code) {
+    return fail(doing + ": DDS says: " + dds_strretcode(code));
+}
+
+// What a dds_create_... call returned: the entity, or the error of `doing`.
+[[nodiscard]] inline Result<Entity> created(dds_entity_t handle, const std::string& doing) {
+    if (handle < 0) return dds_failure(doing, handle);
+    return Entity(handle);
+}
+
+}  // namespace camdir::dds

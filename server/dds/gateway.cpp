@@ -1,0 +1,84 @@
+#include "dds/gateway.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <random>
+#include <thread>
+
+namespace camdir::dds {
+namespace {
+
+std::uint64_t drawn_id() {
+    std::random_device random;
+    return (static_cast<std::uint64_t>(random()) << 32U | random()) | 1U;
+}
+
+Reception::Terms terms_of(const config::Dds& config, std::uint64_t director_id) {
+    return {.leadership = {.strength = static_cast<std::int32_t>(config.strength),
+                           .lease = std::chrono::milliseconds(config.lease_ms)},
+            .director_id = director_id,
+            .partitions = config.partitions};
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Gateway>> Gateway::open(const config::Dds& config) {
+    auto participant = Participant::open(config);
+    if (!participant) return tl::unexpected(participant.error());
+    std::unique_ptr<Gateway> gateway(new Gateway(std::move(*participant), config));
+    if (auto opened = gateway->reception_.open(); !opened) return tl::unexpected(opened.error());
+    return gateway;
+}
+
+Gateway::Gateway(Participant participant, const config::Dds& config)
+    : participant_(std::move(participant)),
+      director_id_(config.director_id != 0 ? static_cast<std::uint64_t>(config.director_id) : drawn_id()),
+      reception_(participant_, terms_of(config, director_id_), table_, counters_) {}
+
+Gateway::~Gateway() {
+    stop_receiving();
+    close();
+}
+
+void Gateway::close() {
+    const auto matches = table_.all();
+    if (matches.empty()) return;
+    table_.clear();
+    for (const auto& match : matches)
+        match->resign();
+    // The participant's end would overtake what the readers have not acknowledged.
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+}
+
+void Gateway::publish(const std::string& match_id, const director::CameraFrame& frame) {
+    const auto match = table_.find(match_id);
+    if (!match) return;
+    count(match->write(frame), counters_.camera_frames_written, Topic::camera_frame, match_id);
+}
+
+void Gateway::publish(const director::ObserverStatus& status) {
+    const auto match = table_.find(status.match_id);
+    if (!match) return;
+    count(match->write(status), counters_.statuses_written, Topic::observer_status, status.match_id);
+}
+
+void Gateway::withdraw(const std::string& match_id, const std::string& observer_id) {
+    const auto match = table_.find(match_id);
+    if (!match) return;
+    count(match->withdraw(observer_id), counters_.statuses_withdrawn, Topic::observer_status, match_id);
+}
+
+void Gateway::count(dds_return_t written, Counter& counter, Topic topic, const std::string& match_id) {
+    if (written >= 0) {
+        ++counter;
+        return;
+    }
+    ++counters_.write_failures;
+    if (const auto failures = failure_log_.due()) {
+        spdlog::error("{} of match '{}' not written: {} ({} failures since the last such line)",
+                      topic_name(topic), match_id, dds_strretcode(written), *failures);
+    }
+}
+
+}  // namespace camdir::dds

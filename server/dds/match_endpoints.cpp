@@ -1,0 +1,95 @@
+#include "dds/match_endpoints.hpp"
+
+#include <chrono>
+#include <cstring>
+
+namespace camdir::dds {
+namespace {
+
+std::int64_t now_realtime() {
+    return std::chrono::duration_cast<std::chrono::nanoseconds>(
+               std::chrono::system_clock::now().time_since_epoch())
+        .count();
+}
+
+}  // namespace
+
+Result<std::unique_ptr<MatchEndpoints>> MatchEndpoints::open(const Participant& participant,
+                                                             const std::string& match_id,
+                                                             const Leadership& leadership,
+                                                             std::uint64_t director_id) {
+    std::unique_ptr<MatchEndpoints> match(new MatchEndpoints(match_id, director_id));
+    if (auto opened = match->open_readers(participant); !opened) return tl::unexpected(opened.error());
+    if (auto opened = match->open_writers(participant, leadership); !opened) {
+        return tl::unexpected(opened.error());
+    }
+    return match;
+}
+
+Result<void> MatchEndpoints::open_readers(const Participant& participant) {
+    const std::string partition = match_partition(match_id_);
+    auto subscriber =
+        created(dds_create_subscriber(participant.handle(), partition_qos({&partition, 1}).get(), nullptr),
+                "creating the subscriber of " + partition);
+    if (!subscriber) return tl::unexpected(subscriber.error());
+    subscriber_ = std::move(*subscriber);
+
+    for (const auto& [topic, reader] :
+         {std::pair{Topic::pose_frame, &pose_reader_}, std::pair{Topic::match_event, &event_reader_},
+          std::pair{Topic::observer_request, &request_reader_}}) {
+        *reader = dds_create_reader(subscriber_.handle(), participant.topic(topic), reader_qos(topic).get(),
+                                    nullptr);
+        if (*reader < 0) {
+            return dds_failure("creating the reader of " + partition + " " + topic_name(topic), *reader);
+        }
+    }
+    return {};
+}
+
+Result<void> MatchEndpoints::open_writers(const Participant& participant, const Leadership& leadership) {
+    const std::string partition = match_partition(match_id_);
+    auto publisher =
+        created(dds_create_publisher(participant.handle(), partition_qos({&partition, 1}).get(), nullptr),
+                "creating the publisher of " + partition);
+    if (!publisher) return tl::unexpected(publisher.error());
+    publisher_ = std::move(*publisher);
+
+    for (const auto& [topic, writer] : {std::pair{Topic::camera_frame, &camera_writer_},
+                                        std::pair{Topic::observer_status, &status_writer_}}) {
+        *writer = dds_create_writer(publisher_.handle(), participant.topic(topic),
+                                    writer_qos(topic, leadership).get(), nullptr);
+        if (*writer < 0) {
+            return dds_failure("creating the writer of " + partition + " " + topic_name(topic), *writer);
+        }
+    }
+    return {};
+}
+
+dds_return_t MatchEndpoints::write(const director::CameraFrame& frame) {
+    wrote_ = true;
+    return dds_write(camera_writer_, &encoder_.encode(frame, now_realtime()));
+}
+
+dds_return_t MatchEndpoints::write(const director::ObserverStatus& status) {
+    const camera_director_ObserverStatus sample = encode(status);
+    return dds_write(status_writer_, &sample);
+}
+
+dds_return_t MatchEndpoints::withdraw(const std::string& observer_id) {
+    const camera_director_ObserverStatus key = observer_status_key(match_id_, observer_id);
+    if (const dds_return_t disposed = dds_dispose(status_writer_, &key); disposed < 0) return disposed;
+    return dds_unregister_instance(status_writer_, &key);
+}
+
+void MatchEndpoints::assert_liveliness() {
+    if (!wrote_.exchange(false)) dds_assert_liveliness(camera_writer_);
+}
+
+void MatchEndpoints::resign() {
+    const camera_director_CameraFrame key = camera_frame_key(match_id_);
+    dds_unregister_instance(camera_writer_, &key);
+    // Its end is told to the readers, which unregisters every status.
+    dds_delete(status_writer_);
+}
+
+}  // namespace camdir::dds

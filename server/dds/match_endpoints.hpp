@@ -1,0 +1,56 @@
+// What the director reads and writes in one match's partition.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <string>
+
+#include "dds/encode.hpp"
+#include "dds/entity.hpp"
+#include "dds/participant.hpp"
+
+namespace camdir::dds {
+
+class MatchEndpoints {
+  public:
+    // `match_id` is valid (decode.hpp). The participant must outlive the endpoints.
+    [[nodiscard]] static Result<std::unique_ptr<MatchEndpoints>> open(const Participant& participant,
+                                                                      const std::string& match_id,
+                                                                      const Leadership& leadership,
+                                                                      std::uint64_t director_id);
+
+    [[nodiscard]] const std::string& match_id() const { return match_id_; }
+    [[nodiscard]] dds_entity_t pose_reader() const { return pose_reader_; }
+    [[nodiscard]] dds_entity_t event_reader() const { return event_reader_; }
+    [[nodiscard]] dds_entity_t request_reader() const { return request_reader_; }
+
+    // The writing calls may run beside the readers' thread, but one at a time. They return DDS's error.
+    [[nodiscard]] dds_return_t write(const director::CameraFrame& frame);
+    [[nodiscard]] dds_return_t write(const director::ObserverStatus& status);
+    // The observer's status ends for everybody.
+    [[nodiscard]] dds_return_t withdraw(const std::string& observer_id);
+
+    // "I am alive" when no camera was written since the call before. Thread-safe.
+    void assert_liveliness();
+    // Gives the match up: observers hear the next director, if there is one. Thread-safe.
+    void resign();
+
+  private:
+    MatchEndpoints(std::string match_id, std::uint64_t director_id)
+        : match_id_(std::move(match_id)), encoder_(match_id_, director_id) {}
+    [[nodiscard]] Result<void> open_readers(const Participant& participant);
+    [[nodiscard]] Result<void> open_writers(const Participant& participant, const Leadership& leadership);
+
+    std::string match_id_;
+    CameraFrameEncoder encoder_;
+    std::atomic<bool> wrote_{false};  // a camera frame, since the last assertion of liveliness
+    Entity subscriber_;               // owns the readers
+    Entity publisher_;                // owns the writers
+    dds_entity_t pose_reader_ = 0;
+    dds_entity_t event_reader_ = 0;
+    dds_entity_t request_reader_ = 0;
+    dds_entity_t camera_writer_ = 0;
+    dds_entity_t status_writer_ = 0;
+};
+
+}  // namespace camdir::dds

@@ -1,0 +1,120 @@
+#include "dds/participant.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <utility>
+
+namespace camdir::dds {
+namespace {
+
+std::string escaped(const std::string& text) {
+    std::string xml;
+    for (const char c : text) {
+        switch (c) {
+            case '&':
+                xml += "&amp;";
+                break;
+            case '<':
+                xml += "&lt;";
+                break;
+            case '>':
+                xml += "&gt;";
+                break;
+            case '"':
+                xml += "&quot;";
+                break;
+            default:
+                xml += c;
+        }
+    }
+    return xml;
+}
+
+std::string element(const std::string& name, const std::string& content) {
+    return "<" + name + ">" + content + "</" + name + ">";
+}
+
+std::string general(const config::Dds& config) {
+    std::string xml;
+    if (!config.interface.empty()) {
+        xml += element("Interfaces", "<NetworkInterface name=\"" + escaped(config.interface) + "\"/>");
+    }
+    xml += element("AllowMulticast", config.multicast ? "true" : "false");
+    // A match's frame leaves in one datagram.
+    xml += element("MaxMessageSize", "65500B");
+    return element("General", xml);
+}
+
+std::string discovery(const config::Dds& config) {
+    const bool indexed = config.participant_index >= 0;
+    std::string xml =
+        element("ParticipantIndex", indexed ? std::to_string(config.participant_index) : "none");
+    std::string peers;
+    for (const std::string& peer : config.peers)
+        peers += "<Peer address=\"" + escaped(peer) + "\"/>";
+    if (!peers.empty()) xml += element("Peers", peers);
+    xml += element("SPDPInterval", "1s");
+    xml += element("Ports", element("Base", std::to_string(config.port)));
+    return element("Discovery", xml);
+}
+
+// Hundreds of clients announce themselves at once; no sample of the contract comes near a megabyte.
+std::string internals() {
+    return element("Internal", "<SocketReceiveBufferSize max=\"4MB\"/>" + element("MaxSampleSize", "1MB"));
+}
+
+void log_message(void* /*unused*/, const dds_log_data_t* message) {
+    const bool error = (message->priority & (DDS_LC_FATAL | DDS_LC_ERROR)) != 0;
+    std::string text(message->message, message->size);
+    while (!text.empty() && text.back() == '\n')
+        text.pop_back();
+    spdlog::log(error ? spdlog::level::err : spdlog::level::warn, "Cyclone DDS: {}", text);
+}
+
+}  // namespace
+
+std::string domain_xml(const config::Dds& config) {
+    if (!config.xml.empty()) return config.xml;
+    return element("CycloneDDS",
+                   "<Domain Id=\"any\">" + general(config) + discovery(config) + internals() + "</Domain>");
+}
+
+Participant::Participant(Participant&& other) noexcept
+    : open_(std::exchange(other.open_, false)),
+      domain_(std::move(other.domain_)),
+      participant_(std::move(other.participant_)),
+      topics_(std::move(other.topics_)) {}
+
+Participant::~Participant() {
+    if (open_) dds_delete(DDS_CYCLONEDDS_HANDLE);
+}
+
+Result<Participant> Participant::open(const config::Dds& config) {
+    dds_set_log_sink(log_message, nullptr);
+    Participant participant;
+    const auto id = static_cast<dds_domainid_t>(config.domain);
+    const std::string where = "DDS domain " + std::to_string(id);
+
+    auto domain = created(dds_create_domain(id, domain_xml(config).c_str()),
+                          where + ": joining as participant index " +
+                              std::to_string(config.participant_index) + " on interface '" +
+                              config.interface + "' (is the index taken, or the configuration bad?)");
+    if (!domain) return tl::unexpected(domain.error());
+    participant.domain_ = std::move(*domain);
+
+    auto handle = created(dds_create_participant(id, nullptr, nullptr), where + ": creating the participant");
+    if (!handle) return tl::unexpected(handle.error());
+    participant.participant_ = std::move(*handle);
+
+    for (std::size_t i = 0; i < topic_count; ++i) {
+        const auto topic = static_cast<Topic>(i);
+        auto entity = created(
+            dds_create_topic(participant.handle(), &topic_type(topic), topic_name(topic), nullptr, nullptr),
+            where + ": creating the topic " + topic_name(topic));
+        if (!entity) return tl::unexpected(entity.error());
+        participant.topics_[i] = std::move(*entity);
+    }
+    return participant;
+}
+
+}  // namespace camdir::dds

@@ -1,0 +1,306 @@
+#include "dds/reception.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cassert>
+#include <chrono>
+#include <string_view>
+
+#include "dds/decode.hpp"
+
+namespace camdir::dds {
+namespace {
+
+constexpr std::size_t samples_a_take = 32;
+
+// Tags of the waitset that are no Source.
+const char guard_tag = 0;
+const char match_info_tag = 0;
+
+dds_attach_t attachment(const void* tag) {
+    return reinterpret_cast<dds_attach_t>(tag);
+}
+
+}  // namespace
+
+Reception::Reception(const Participant& participant, Terms terms, MatchTable& table, Counters& counters)
+    : participant_(participant),
+      terms_(std::move(terms)),
+      table_(table),
+      counters_(counters),
+      match_info_samples_(topic_type(Topic::match_info), samples_a_take),
+      pose_samples_(topic_type(Topic::pose_frame), samples_a_take),
+      event_samples_(topic_type(Topic::match_event), samples_a_take),
+      request_samples_(topic_type(Topic::observer_request), samples_a_take) {}
+
+Reception::~Reception() {
+    stop();
+}
+
+Result<void> Reception::open() {
+    auto waitset = created(dds_create_waitset(participant_.handle()), "creating the waitset");
+    if (!waitset) return tl::unexpected(waitset.error());
+    waitset_ = std::move(*waitset);
+    auto guard = created(dds_create_guardcondition(participant_.handle()), "creating the guard condition");
+    if (!guard) return tl::unexpected(guard.error());
+    guard_ = std::move(*guard);
+    if (const auto code = dds_waitset_attach(waitset_.handle(), guard_.handle(), attachment(&guard_tag));
+        code < 0) {
+        return dds_failure("attaching the guard condition", code);
+    }
+    triggered_.resize(2);
+
+    auto subscriber =
+        created(dds_create_subscriber(participant_.handle(), partition_qos(terms_.partitions).get(), nullptr),
+                "creating the subscriber of MatchInfo");
+    if (!subscriber) return tl::unexpected(subscriber.error());
+    subscriber_ = std::move(*subscriber);
+    match_info_reader_ = dds_create_reader(subscriber_.handle(), participant_.topic(Topic::match_info),
+                                           reader_qos(Topic::match_info).get(), nullptr);
+    if (match_info_reader_ < 0) return dds_failure("creating the reader of MatchInfo", match_info_reader_);
+    return watch(match_info_reader_, &match_info_tag);
+}
+
+// The condition lives and is detached with the reader.
+Result<void> Reception::watch(dds_entity_t reader, const void* tag) {
+    const dds_entity_t condition = dds_create_readcondition(reader, DDS_ANY_STATE);
+    if (condition < 0) return dds_failure("creating a read condition", condition);
+    const dds_return_t attached = dds_waitset_attach(waitset_.handle(), condition, attachment(tag));
+    if (attached < 0) return dds_failure("attaching a read condition", attached);
+    return {};
+}
+
+void Reception::start(director::Receiver& receiver) {
+    assert(!thread_.joinable());
+    receiver_ = &receiver;
+    thread_ = std::thread([this] { run(); });
+}
+
+void Reception::stop() {
+    if (!thread_.joinable()) return;
+    stopping_ = true;
+    dds_set_guardcondition(guard_.handle(), true);
+    thread_.join();
+}
+
+void Reception::forget(const std::string& match_id) {
+    {
+        const std::lock_guard lock(forgotten_mutex_);
+        forgotten_.push_back(match_id);
+    }
+    dds_set_guardcondition(guard_.handle(), true);
+}
+
+void Reception::run() noexcept {
+    using Clock = std::chrono::steady_clock;
+    // Three chances within a lease.
+    const std::chrono::nanoseconds interval = std::chrono::nanoseconds(terms_.leadership.lease) / 4;
+    Clock::time_point next_assertion = Clock::now();
+    while (!stopping_) {
+        const std::chrono::nanoseconds patience =
+            std::max(std::chrono::nanoseconds(next_assertion - Clock::now()), std::chrono::nanoseconds(0));
+        const dds_return_t count =
+            dds_waitset_wait(waitset_.handle(), triggered_.data(), triggered_.size(), patience.count());
+        if (count > 0) take_triggered(static_cast<std::size_t>(count));
+        remove_forgotten();
+        if (Clock::now() >= next_assertion) {
+            assert_liveliness();
+            next_assertion = Clock::now() + interval;
+        }
+    }
+}
+
+void Reception::take_triggered(std::size_t count) {
+    bool match_infos = false;
+    for (std::size_t i = 0; i < std::min(count, triggered_.size()); ++i) {
+        const dds_attach_t tag = triggered_[i];
+        if (tag == attachment(&guard_tag)) {
+            dds_set_guardcondition(guard_.handle(), false);
+        } else if (tag == attachment(&match_info_tag)) {
+            match_infos = true;
+        } else {
+            const Source& source = *reinterpret_cast<const Source*>(tag);
+            (this->*source.take)(*source.match);
+        }
+    }
+    // Last, because it may end matches that are named above.
+    if (match_infos) take_match_infos();
+}
+
+void Reception::assert_liveliness() {
+    if (!receiver_->responsive(terms_.leadership.lease)) {
+        ++counters_.liveliness_withheld;
+        return;
+    }
+    for (const auto& [id, match] : matches_)
+        match->endpoints->assert_liveliness();
+}
+
+void Reception::take_match_infos() {
+    match_info_samples_.take(match_info_reader_, [this](const auto& sample, const auto& info) {
+        if (info.instance_state != DDS_ALIVE_INSTANCE_STATE) {
+            match_lost(sample.match_id, info.instance_state == DDS_NOT_ALIVE_DISPOSED_INSTANCE_STATE);
+        } else if (info.valid_data) {
+            match_found(sample, info);
+        }
+    });
+}
+
+void Reception::match_found(const camera_director_MatchInfo& sample, const dds_sample_info_t& info) {
+    director::MatchInfo message;
+    if (const auto defect = decode(sample, message)) {
+        return drop_log_.drop(Topic::match_info, *defect, sample.match_id);
+    }
+    if (!written_in(info, match_partition(message.match_id))) {
+        return drop_log_.drop(Topic::match_info, Defect::wrong_partition, sample.match_id);
+    }
+    ++counters_.of(Topic::match_info).accepted;
+    if (!receiver_->receive(message)) return;  // the director counts and tells it
+
+    const auto known = matches_.find(message.match_id);
+    if (known != matches_.end()) {
+        Match& match = *known->second;
+        match.info = std::move(message);
+        match.has_server = true;
+        match.forgotten = false;
+        const std::lock_guard lock(forgotten_mutex_);
+        std::erase(forgotten_, match.info.match_id);
+    } else if (const auto added = add_match(message); !added) {
+        ++counters_.endpoint_failures;
+        spdlog::error("match '{}' cannot be served: {}", message.match_id, added.error().message);
+        remove_match(message.match_id);
+        receiver_->match_over(message.match_id);
+    }
+}
+
+Result<void> Reception::add_match(const director::MatchInfo& info) {
+    auto endpoints = MatchEndpoints::open(participant_, info.match_id, terms_.leadership, terms_.director_id);
+    if (!endpoints) return tl::unexpected(endpoints.error());
+    auto& match = matches_[info.match_id];
+    match = std::make_unique<Match>();
+    match->info = info;
+    match->endpoints = std::move(*endpoints);
+    match->poses = {match.get(), &Reception::take_poses};
+    match->events = {match.get(), &Reception::take_events};
+    match->requests = {match.get(), &Reception::take_requests};
+    table_.add(match->endpoints);
+    counters_.matches = static_cast<std::uint32_t>(matches_.size());
+    // A match that is half watched is removed by the caller.
+    for (const auto& [reader, source] : {std::pair{match->endpoints->pose_reader(), &match->poses},
+                                         std::pair{match->endpoints->event_reader(), &match->events},
+                                         std::pair{match->endpoints->request_reader(), &match->requests}}) {
+        if (auto watched = watch(reader, source); !watched) return watched;
+    }
+    triggered_.resize(2 + 3 * matches_.size());
+    return {};
+}
+
+void Reception::remove_match(const std::string& match_id) {
+    table_.remove(match_id);
+    matches_.erase(match_id);
+    counters_.matches = static_cast<std::uint32_t>(matches_.size());
+}
+
+void Reception::match_lost(const std::string& match_id, bool over) {
+    const auto known = matches_.find(match_id);
+    if (known == matches_.end()) return;
+    Match& match = *known->second;
+    match.has_server = false;
+    if (match.forgotten) return remove_match(match_id);
+    if (over) {
+        receiver_->match_over(match_id);
+    } else {
+        receiver_->match_silent(match_id);
+    }
+}
+
+void Reception::remove_forgotten() {
+    std::vector<std::string> forgotten;
+    {
+        const std::lock_guard lock(forgotten_mutex_);
+        forgotten.swap(forgotten_);
+    }
+    for (const std::string& match_id : forgotten) {
+        const auto known = matches_.find(match_id);
+        if (known == matches_.end()) continue;
+        // A paused game server may send poses again without another MatchInfo.
+        if (known->second->has_server) {
+            known->second->forgotten = true;
+        } else {
+            remove_match(match_id);
+        }
+    }
+}
+
+// Introduces a match again that the director has forgotten. False: it was refused.
+bool Reception::known_again(Match& match) {
+    if (match.forgotten) match.forgotten = !receiver_->receive(match.info);
+    return !match.forgotten;
+}
+
+bool Reception::written_in(const dds_sample_info_t& info, const std::string& partition) const {
+    using Endpoint = std::unique_ptr<dds_builtintopic_endpoint_t, decltype(&dds_builtintopic_free_endpoint)>;
+    const Endpoint writer(dds_get_matched_publication_data(match_info_reader_, info.publication_handle),
+                          dds_builtintopic_free_endpoint);
+    if (!writer) return false;  // it has left
+    std::uint32_t count = 0;
+    char** names = nullptr;
+    if (!dds_qget_partition(writer->qos, &count, &names)) return false;
+    const bool written =
+        std::any_of(names, names + count, [&](const char* name) { return name == partition; });
+    for (std::uint32_t i = 0; i < count; ++i)
+        dds_free(names[i]);
+    dds_free(names);
+    return written;
+}
+
+void Reception::take_poses(Match& match) {
+    pose_samples_.take(match.endpoints->pose_reader(), [&](const auto& sample, const auto& info) {
+        if (!info.valid_data) return;
+        const std::string& match_id = match.info.match_id;
+        if (sample.match_id != match_id) {
+            return drop_log_.drop(Topic::pose_frame, Defect::wrong_partition, match_id);
+        }
+        if (const auto defect = decode(sample, pose_frame_)) {
+            return drop_log_.drop(Topic::pose_frame, *defect, match_id);
+        }
+        ++counters_.of(Topic::pose_frame).accepted;
+        if (known_again(match)) receiver_->receive(match_id, pose_frame_);
+    });
+}
+
+void Reception::take_events(Match& match) {
+    event_samples_.take(match.endpoints->event_reader(), [&](const auto& sample, const auto& info) {
+        if (!info.valid_data) return;
+        const std::string& match_id = match.info.match_id;
+        if (sample.match_id != match_id) {
+            return drop_log_.drop(Topic::match_event, Defect::wrong_partition, match_id);
+        }
+        if (const auto defect = decode(sample, match_event_)) {
+            return drop_log_.drop(Topic::match_event, *defect, match_id);
+        }
+        ++counters_.of(Topic::match_event).accepted;
+        if (known_again(match)) receiver_->receive(match_id, match_event_);
+    });
+}
+
+void Reception::take_requests(Match& match) {
+    request_samples_.take(match.endpoints->request_reader(), [&](const auto& sample, const auto& info) {
+        const std::string& match_id = match.info.match_id;
+        if (sample.match_id != match_id) {
+            return drop_log_.drop(Topic::observer_request, Defect::wrong_partition, match_id);
+        }
+        if (info.instance_state != DDS_ALIVE_INSTANCE_STATE) {
+            return receiver_->request_gone(match_id, sample.observer_id);
+        }
+        if (!info.valid_data) return;
+        if (const auto defect = decode(sample, observer_request_)) {
+            return drop_log_.drop(Topic::observer_request, *defect, match_id);
+        }
+        ++counters_.of(Topic::observer_request).accepted;
+        if (known_again(match)) receiver_->receive(observer_request_);
+    });
+}
+
+}  // namespace camdir::dds

@@ -1,0 +1,107 @@
+// The receiving half of the gateway: one thread that waits for samples, checks them and hands them on.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <unordered_map>
+#include <vector>
+
+#include "config/config.hpp"
+#include "dds/counters.hpp"
+#include "dds/drop_log.hpp"
+#include "dds/match_table.hpp"
+#include "dds/participant.hpp"
+#include "dds/take_buffer.hpp"
+#include "director/receiver.hpp"
+
+namespace camdir::dds {
+
+// A match is found by its MatchInfo in the configured partitions. From then on its partition is read, until
+// the director has forgotten it and its game server is gone. The thread also asserts the liveliness of the
+// camera writers while the receiver is responsive.
+class Reception {
+  public:
+    struct Terms {
+        Leadership leadership;
+        std::uint64_t director_id = 0;
+        std::vector<std::string> partitions;
+    };
+
+    // The references must outlive it.
+    Reception(const Participant& participant, Terms terms, MatchTable& table, Counters& counters);
+    ~Reception();  // stops
+
+    // Once.
+    [[nodiscard]] Result<void> open();
+    // Once, after open. `receiver` must live until `stop` returns.
+    void start(director::Receiver& receiver);
+    // Nothing more is handed on, liveliness is asserted no more.
+    void stop();
+    // The director has forgotten the match. Thread-safe, returns at once.
+    void forget(const std::string& match_id);
+
+  private:
+    struct Match;
+    // What the waitset names when a reader has samples.
+    struct Source {
+        Match* match;
+        void (Reception::*take)(Match&);
+    };
+    struct Match {
+        director::MatchInfo info;
+        MatchTable::Endpoints endpoints;
+        bool has_server = true;  // its MatchInfo is alive
+        bool forgotten = false;  // by the director; it is told again when something comes
+        Source poses, events, requests;
+    };
+
+    [[nodiscard]] Result<void> watch(dds_entity_t reader, const void* tag);
+    void run() noexcept;
+    void take_triggered(std::size_t count);
+    void assert_liveliness();
+
+    void take_match_infos();
+    void take_poses(Match& match);
+    void take_events(Match& match);
+    void take_requests(Match& match);
+
+    void match_found(const camera_director_MatchInfo& sample, const dds_sample_info_t& info);
+    void match_lost(const std::string& match_id, bool over);
+    [[nodiscard]] Result<void> add_match(const director::MatchInfo& info);
+    void remove_match(const std::string& match_id);
+    void remove_forgotten();
+    [[nodiscard]] bool known_again(Match& match);
+    [[nodiscard]] bool written_in(const dds_sample_info_t& info, const std::string& partition) const;
+
+    const Participant& participant_;
+    const Terms terms_;
+    MatchTable& table_;
+    Counters& counters_;
+    DropLog drop_log_{counters_};
+    director::Receiver* receiver_ = nullptr;
+
+    Entity subscriber_;  // of MatchInfo
+    dds_entity_t match_info_reader_ = 0;
+    Entity waitset_;
+    Entity guard_;
+    std::atomic<bool> stopping_{false};
+    std::mutex forgotten_mutex_;
+    std::vector<std::string> forgotten_;
+    std::thread thread_;
+
+    // From here on the thread's own.
+    std::unordered_map<std::string, std::unique_ptr<Match>> matches_;
+    std::vector<dds_attach_t> triggered_;
+    TakeBuffer<camera_director_MatchInfo> match_info_samples_;
+    TakeBuffer<camera_director_PoseFrame> pose_samples_;
+    TakeBuffer<camera_director_MatchEvent> event_samples_;
+    TakeBuffer<camera_director_ObserverRequest> request_samples_;
+    director::PoseFrame pose_frame_;
+    director::MatchEvent match_event_;
+    director::ObserverRequest observer_request_;
+};
+
+}  // namespace camdir::dds
