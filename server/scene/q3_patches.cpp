@@ -8,6 +8,8 @@ namespace camdir::scene::q3 {
 namespace {
 
 constexpr double max_deviation = 1.0;  // map units
+// What of it the bend along each direction may take; the rest is for twist.
+constexpr double curve_deviation = 0.4;
 
 // Biquadratic: spans of 3 x 3 control points that share their borders.
 class ControlGrid {
@@ -31,50 +33,33 @@ double second_difference(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
     return (a - 2.0 * b + c).norm();
 }
 
-// Bounds of the surface's second derivatives within each span of columns (u) or rows (v), each span
-// having the parameter interval [0, 1].
-struct Curvature {
-    std::vector<double> uu;  // one a span of columns
-    std::vector<double> vv;  // one a span of rows
-    double uv = 0.0;
-};
+// Steps for each span of control points along one direction. Chords of a quadratic curve, n to a span,
+// deviate from it by a quarter of its second difference over n^2.
+using Steps = std::vector<std::size_t>;
 
-Curvature curvature_of(const ControlGrid& grid) {
-    Curvature bound;
-    bound.uu.resize(grid.columns() / 2);
-    bound.vv.resize(grid.rows() / 2);
-    for (std::size_t row = 0; row < grid.rows(); ++row) {
-        for (std::size_t i = 0; i < bound.uu.size(); ++i) {
-            const double bend =
-                second_difference(grid.at(2 * i, row), grid.at(2 * i + 1, row), grid.at(2 * i + 2, row));
-            bound.uu[i] = std::max(bound.uu[i], 2.0 * bend);
-        }
-    }
-    for (std::size_t column = 0; column < grid.columns(); ++column) {
-        for (std::size_t j = 0; j < bound.vv.size(); ++j) {
-            const double bend = second_difference(grid.at(column, 2 * j), grid.at(column, 2 * j + 1),
-                                                  grid.at(column, 2 * j + 2));
-            bound.vv[j] = std::max(bound.vv[j], 2.0 * bend);
-        }
-    }
-    for (std::size_t row = 0; row + 1 < grid.rows(); ++row) {
-        for (std::size_t column = 0; column + 1 < grid.columns(); ++column) {
-            const Vec3d twist = grid.at(column, row) - grid.at(column + 1, row) - grid.at(column, row + 1) +
-                                grid.at(column + 1, row + 1);
-            bound.uv = std::max(bound.uv, 4.0 * twist.norm());
-        }
-    }
-    return bound;
+void raise(std::size_t& steps, double second_difference) {
+    const double needed = std::sqrt(second_difference / (4.0 * curve_deviation));
+    steps = std::max(steps, static_cast<std::size_t>(std::ceil(needed)));
 }
 
-// Linear interpolation over a grid of steps 1/n and 1/m deviates by at most (uu/n^2 + 2 uv/(n m) + vv/m^2) /
-// 8; each of the three terms gets a third of the allowed deviation.
-std::vector<std::size_t> steps_of(const std::vector<double>& along, double uv) {
-    std::vector<std::size_t> steps;
-    const double allowed = 8.0 / 3.0 * max_deviation;
-    for (const double curvature : along) {
-        const double needed = std::sqrt(std::max(curvature, 2.0 * uv) / allowed);
-        steps.push_back(static_cast<std::size_t>(std::max(1.0, std::ceil(needed))));
+Steps steps_across(const ControlGrid& grid) {
+    Steps steps(grid.columns() / 2, 1);
+    for (std::size_t row = 0; row < grid.rows(); ++row) {
+        for (std::size_t i = 0; i < steps.size(); ++i) {
+            raise(steps[i],
+                  second_difference(grid.at(2 * i, row), grid.at(2 * i + 1, row), grid.at(2 * i + 2, row)));
+        }
+    }
+    return steps;
+}
+
+Steps steps_down(const ControlGrid& grid) {
+    Steps steps(grid.rows() / 2, 1);
+    for (std::size_t column = 0; column < grid.columns(); ++column) {
+        for (std::size_t j = 0; j < steps.size(); ++j) {
+            raise(steps[j], second_difference(grid.at(column, 2 * j), grid.at(column, 2 * j + 1),
+                                              grid.at(column, 2 * j + 2)));
+        }
     }
     return steps;
 }
@@ -84,7 +69,7 @@ struct Parameter {
     double t;           // within the span
 };
 
-std::vector<Parameter> parameters_of(const std::vector<std::size_t>& steps) {
+std::vector<Parameter> parameters_of(const Steps& steps) {
     std::vector<Parameter> parameters;
     for (std::size_t span = 0; span < steps.size(); ++span) {
         for (std::size_t step = 0; step < steps[span]; ++step) {
@@ -111,17 +96,52 @@ Vec3d point_on(const ControlGrid& grid, const Parameter& u, const Parameter& v) 
     return point;
 }
 
+// How far `point` is from the plane of the triangle; 0 for a triangle without area.
+double height_over(const Vec3d& point, const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+    const Vec3d normal = (b - a).cross(c - a);
+    const double length = normal.norm();
+    return length > 0.0 ? std::abs((point - a).dot(normal)) / length : 0.0;
+}
+
+Parameter halfway(const Parameter& from, const Parameter& to) {
+    const double end = to.first == from.first ? to.t : 1.0;
+    return {from.first, (from.t + end) / 2.0};
+}
+
+// The largest height of the surface over the middle of a cell, where bend and twist both peak.
+double deviation_at_middles(const ControlGrid& grid, const std::vector<Parameter>& across,
+                            const std::vector<Parameter>& down, const Tessellation& cells) {
+    double largest = 0.0;
+    for (std::size_t row = 0; row + 1 < cells.rows; ++row) {
+        for (std::size_t column = 0; column + 1 < cells.columns; ++column) {
+            const Vec3d middle = point_on(grid, halfway(across[column], across[column + 1]),
+                                          halfway(down[row], down[row + 1]));
+            const auto& [a, b, c, d] = cells.corners(column, row);
+            largest = std::max({largest, height_over(middle, a, b, c), height_over(middle, a, c, d)});
+        }
+    }
+    return largest;
+}
+
+void double_all(Steps& steps) {
+    for (std::size_t& step : steps) {
+        step *= 2;
+    }
+}
+
 }  // namespace
+
+std::array<Vec3d, 4> Tessellation::corners(std::size_t column, std::size_t row) const {
+    const std::size_t first = row * columns + column;
+    return {points[first], points[first + 1], points[first + columns + 1], points[first + columns]};
+}
 
 std::vector<std::array<Vec3d, 3>> Tessellation::triangles() const {
     std::vector<std::array<Vec3d, 3>> triangles;
     triangles.reserve(triangle_count());
     for (std::size_t row = 0; row + 1 < rows; ++row) {
         for (std::size_t column = 0; column + 1 < columns; ++column) {
-            const Vec3d& a = points[row * columns + column];
-            const Vec3d& b = points[row * columns + column + 1];
-            const Vec3d& c = points[(row + 1) * columns + column + 1];
-            const Vec3d& d = points[(row + 1) * columns + column];
+            const auto& [a, b, c, d] = corners(column, row);
             triangles.push_back({a, b, c});
             triangles.push_back({a, c, d});
         }
@@ -131,20 +151,21 @@ std::vector<std::array<Vec3d, 3>> Tessellation::triangles() const {
 
 Result<Tessellation> tessellate(const Bsp& bsp, const Face& face, std::size_t max_triangles) {
     const ControlGrid grid(bsp, face);
-    const Curvature curvature = curvature_of(grid);
-    const std::vector<Parameter> across = parameters_of(steps_of(curvature.uu, curvature.uv));
-    const std::vector<Parameter> down = parameters_of(steps_of(curvature.vv, curvature.uv));
-    Tessellation tessellation{across.size(), down.size(), {}};
-    if (tessellation.triangle_count() > max_triangles)
-        return fail("patches need more than " + std::to_string(bsp.max_triangles()) +
-                    " triangles to be within a unit, which is the limit for a file of this size");
-    tessellation.points.reserve(across.size() * down.size());
-    for (const Parameter& v : down) {
-        for (const Parameter& u : across) {
-            tessellation.points.push_back(point_on(grid, u, v));
+    for (Steps u = steps_across(grid), v = steps_down(grid);; double_all(u), double_all(v)) {
+        const std::vector<Parameter> across = parameters_of(u);
+        const std::vector<Parameter> down = parameters_of(v);
+        Tessellation tessellation{across.size(), down.size(), {}};
+        if (tessellation.triangle_count() > max_triangles)
+            return fail("patches need more than " + std::to_string(bsp.max_triangles()) +
+                        " triangles to be within a unit, which is the limit for a file of this size");
+        tessellation.points.reserve(across.size() * down.size());
+        for (const Parameter& row : down) {
+            for (const Parameter& column : across) {
+                tessellation.points.push_back(point_on(grid, column, row));
+            }
         }
+        if (deviation_at_middles(grid, across, down, tessellation) <= max_deviation) return tessellation;
     }
-    return tessellation;
 }
 
 }  // namespace camdir::scene::q3

@@ -15,6 +15,8 @@ struct Tessellation {
     std::size_t rows;
     std::vector<Vec3d> points;  // row by row
 
+    // Of one cell, around it.
+    [[nodiscard]] std::array<Vec3d, 4> corners(std::size_t column, std::size_t row) const;
     [[nodiscard]] std::size_t triangle_count() const { return 2 * (columns - 1) * (rows - 1); }
     [[nodiscard]] std::vector<std::array<Vec3d, 3>> triangles() const;
 };
