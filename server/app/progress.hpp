@@ -1,0 +1,32 @@
+// How far a command is, for whoever watches it.
+#pragma once
+
+#include <cstdint>
+#include <mutex>
+#include <string>
+#include <string_view>
+
+namespace camdir::app {
+
+// One line on standard error that is rewritten in place; nothing when standard error is no terminal.
+// Thread-safe.
+class ProgressLine {
+  public:
+    ProgressLine();
+    ProgressLine(const ProgressLine&) = delete;
+    ProgressLine& operator=(const ProgressLine&) = delete;
+    ~ProgressLine() { clear(); }
+
+    // `total` 0 = unknown.
+    void show(std::string_view what, std::uint64_t done, std::uint64_t total);
+
+    // Before something else is printed.
+    void clear();
+
+  private:
+    const bool terminal_;
+    std::mutex mutex_;
+    std::string shown_;
+};
+
+}  // namespace camdir::app
