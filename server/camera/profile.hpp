@@ -7,14 +7,44 @@
 namespace camdir::camera {
 
 // Lengths are units of 0.0254 m and scale with the map's metres_per_unit; angles are degrees, as in JSON.
+// Weights multiply a term of the objective (section 3) and the individual move made for it (section 5.3).
 struct Profile {
-    float distance = 120.0F;  // d_opt
-    // ... weights and parameters of the six terms, the search and the cut
+    float distance = 120.0F;           // d_opt
+    float elevation = 0.0F;            // of the spot behind, above the player's line of view
+    float distance_tolerance = 60.0F;  // a deviation by this much costs 1
+    float angle_tolerance = 45.0F;     // likewise
+    float speed_tolerance = 400.0F;    // likewise, for changes of the camera's velocity
+
+    float weight_visibility = 1.0F;
+    float weight_distance = 1.0F;
+    float weight_angle = 1.0F;
+    float weight_inertia_distance = 1.0F;
+    float weight_inertia_angle = 1.0F;
+    float weight_safety = 1.0F;
+
+    float visibility_threshold = 1.0F;
+    float minimum_clearance = 4.5F;
+    float safe_speed = 4000.0F;  // w(v) = v / safe_speed
+    float swing = 75.0F;
+    float prediction = 0.15F;
+    float iterations = 2.0F;
+
+    float heading_smoothing = 0.06F;
+    float motion_smoothing = 0.07F;
+    float look_smoothing = 0.04F;
+    float turn_limit = 660.0F;
+    float step_limit = 55.0F;
+
+    float search_growth = 8.0F;
+    float search_time_limit = 1.5F;
+
+    float vertical_fov = 58.7F;
+    float framing_offset = 0.0F;
 };
 
 struct ProfileKey {
     const char* name;
-    const char* unit;
+    const char* unit;  // "units", "units/s", "degrees", "degrees/s", "s", "1/s", or "" for a plain number
     float minimum;
     float maximum;
     const char* help;
@@ -23,5 +53,10 @@ struct ProfileKey {
 
 // Every member of Profile once, in the order of the documentation.
 [[nodiscard]] std::span<const ProfileKey> profile_keys();
+
+// The same profile in the units of a map: lengths in map units, angles in radians.
+struct MapProfile : Profile {
+    MapProfile(const Profile& profile, float metres_per_unit);
+};
 
 }  // namespace camdir::camera

@@ -4,7 +4,9 @@
 #include <cstdint>
 
 #include "camera/camera.hpp"
+#include "camera/player.hpp"
 #include "camera/profile.hpp"
+#include "camera/view.hpp"
 #include "freespace/freespace.hpp"
 #include "freespace/roadmap.hpp"
 
@@ -12,8 +14,13 @@ namespace camdir::camera {
 
 // Everything that a shot remembers between two poses. A value: copy it to branch, replace it to restart.
 struct ShotState {
-    bool started = false;  // false: the next step begins with a cut
-    // ...
+    bool started = false;  // false: the next step with a pose begins with a cut
+    PlayerTrack player;
+    Vec3f position = Vec3f::Zero();
+    Vec3f velocity = Vec3f::Zero();
+    std::uint32_t slab = freespace::none;  // of the position
+    Look look;
+    float lost_for = 0.0F;  // seconds since the player was last seen
 };
 
 // Memory for the steps of any number of shots on one map, one after the other; one thread at a time.
@@ -25,11 +32,18 @@ class Scratch {
 
 // Moves the camera by one pose. `pose` is null when the player has none in this frame. `dt` is the time
 // since the shot's last step in seconds, by the game's clock; <= 0 or not finite counts as one frame of 60
-// Hz.
+// Hz, anything else is limited to 1 ms .. 250 ms.
 //
-// Guarantees: the camera stays in freespace and moves through freespace, except in a step flagged `cut`;
-// never a number that is not finite; the same arguments give the same result. Does not allocate, reads
-// no clock.
+// Guarantees: the camera stays in freespace and moves through freespace, except in a step flagged `cut`,
+// which lands in freespace; never a number that is not finite; the same arguments give the same result.
+// Does not allocate, reads no clock. Only a shot that has not had a usable pose yet, or a representation
+// without any freespace, has a camera outside (clearance <= 0).
+//
+//   no pose, or not a number   holds its place; target_absent | held
+//   first pose, discontinuity  cut to the best spot
+//   dead player                glides to a stop, keeps looking; held once it stands
+//   eye in no slab             follows the last free point on the way to the eye
+//   not seen                   searches along the roadmap, after profile.search_time_limit a cut
 [[nodiscard]] Camera step(const freespace::Freespace& freespace, const Profile& profile, const Pose* pose,
                           double dt, ShotState& state, Scratch& scratch);
 

@@ -1,0 +1,44 @@
+#include "camera/cut.hpp"
+
+#include <optional>
+
+#include "camera/reach.hpp"
+#include "camera/regain.hpp"
+#include "camera/spot.hpp"
+
+namespace camdir::camera {
+namespace {
+
+// The nearest corner of the slabs round the anchor that keeps the minimum clearance and sees the anchor.
+std::optional<Candidate> roadmap_spot(const freespace::Freespace& freespace, const MapProfile& profile,
+                                      const PlayerTrack& track) {
+    if (track.slab == freespace::none) return std::nullopt;
+    const freespace::Triangle& triangle = freespace.triangles()[track.slab];
+    std::optional<Candidate> nearest;
+    float least = 0.0F;
+    for (const std::uint32_t corner : {triangle.a, triangle.b, triangle.c}) {
+        const Vec3f position = freespace.vertices()[corner].position();
+        const float distance = (position - track.anchor).norm();
+        if (nearest && distance >= least) continue;
+        const std::optional<Candidate> candidate = look_up(freespace, track, position, track.slab);
+        if (!candidate || !acceptable(profile, *candidate)) continue;
+        nearest = candidate;
+        least = distance;
+    }
+    return nearest;
+}
+
+}  // namespace
+
+Candidate landing(const freespace::Freespace& freespace, const MapProfile& profile,
+                  const PlayerTrack& track) {
+    const Spot spot = spot_to_cut_to(freespace, profile, track);
+    if (const auto candidate = look_up(freespace, track, track.anchor + spot.offset, track.slab);
+        candidate && acceptable(profile, *candidate)) {
+        return *candidate;
+    }
+    if (const auto candidate = roadmap_spot(freespace, profile, track)) return *candidate;
+    return {track.anchor, track.slab, track.clearance, track.clearance};
+}
+
+}  // namespace camdir::camera

@@ -1,0 +1,17 @@
+// Where a cut lands.
+#pragma once
+
+#include "camera/objective.hpp"
+#include "camera/player.hpp"
+#include "camera/profile.hpp"
+#include "freespace/freespace.hpp"
+
+namespace camdir::camera {
+
+// The best spot now: the least costly one that sees the anchor, with the minimum clearance where there is
+// such a spot; else a place on the roadmap near the anchor that sees it; else the anchor itself, which is in
+// freespace if any place is.
+[[nodiscard]] Candidate landing(const freespace::Freespace& freespace, const MapProfile& profile,
+                                const PlayerTrack& track);
+
+}  // namespace camdir::camera

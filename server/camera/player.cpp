@@ -1,0 +1,132 @@
+#include "camera/player.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "camera/view.hpp"
+#include "freespace/distance.hpp"
+#include "freespace/visibility.hpp"
+
+namespace camdir::camera {
+namespace {
+
+constexpr float furthest = 1e7F;                // map units: no map reaches there
+constexpr float fastest = 1e4F;                 // map units/s: more is a jump
+constexpr float velocity_smoothing = 0.03F;     // s: two frames of 60 Hz
+constexpr float horizontal_persistence = 0.5F;  // s: how long players keep running
+constexpr float vertical_persistence = 0.15F;   // s: how long they keep rising or falling
+constexpr float inside_surface = 0.9F;          // share of a ball's radius that is surely inside its slab
+
+Vec3f view_direction(const Pose& pose) {
+    return pose.orientation.normalized() * Vec3f::UnitX();
+}
+
+Vec3f limited(const Vec3f& velocity) {
+    const float speed = velocity.norm();
+    if (!std::isfinite(speed)) return Vec3f::Zero();
+    return speed > fastest ? Vec3f(velocity * (fastest / speed)) : velocity;
+}
+
+float smoothing_share(float dt, float time_constant) {
+    return time_constant > 0.0F ? 1.0F - std::exp(-dt / time_constant) : 1.0F;
+}
+
+// `from` rotated towards `to` by `share` of the angle between them. Opposite directions turn horizontally
+// where they can.
+Vec3f rotated_towards(const Vec3f& from, const Vec3f& to, float share) {
+    const float angle = angle_between(from, to);
+    Vec3f axis = from.cross(to);
+    if (axis.squaredNorm() < 1e-12F) {
+        if (angle < 1.0F) return to;
+        axis =
+            std::abs(from.z()) < 0.9F ? Vec3f(from.cross(Vec3f::UnitZ()).cross(from)) : from.unitOrthogonal();
+    }
+    return (Eigen::AngleAxisf(angle * share, axis.normalized()) * from).normalized();
+}
+
+void settle(const freespace::Freespace& freespace, const Vec3f& anchor, PlayerTrack& track) {
+    const freespace::Distance found = freespace::distance(freespace, anchor, track.slab);
+    if (!found.covered()) return;
+    track.anchor = anchor;
+    track.slab = found.triangle;
+    track.clearance = found.value;
+}
+
+// The point of the representation's balls at its vertices that is nearest to `point`; `point` itself when
+// there is no ball.
+Vec3f nearest_free_point(const freespace::Freespace& freespace, const Vec3f& point) {
+    Vec3f nearest = point;
+    float least = std::numeric_limits<float>::infinity();
+    const auto vertices = freespace.vertices();
+    for (std::uint32_t i = 0; i < vertices.size(); ++i) {
+        const float radius = vertices[i].free_distance;
+        if (radius <= 0.0F || freespace.incident(i).empty()) continue;
+        const Vec3f offset = point - vertices[i].position();
+        const float gap = offset.norm() - radius;
+        if (gap >= least) continue;
+        least = gap;
+        const float reach = std::min(1.0F, inside_surface * radius / std::max(offset.norm(), 1e-6F));
+        nearest = vertices[i].position() + reach * offset;
+    }
+    return nearest;
+}
+
+}  // namespace
+
+bool usable(const Pose& pose) {
+    const float norm = pose.orientation.norm();
+    return pose.eye.allFinite() && pose.eye.cwiseAbs().maxCoeff() <= furthest && pose.velocity.allFinite() &&
+           std::isfinite(norm) && norm > 1e-3F;
+}
+
+void restart(const freespace::Freespace& freespace, const Pose& pose, PlayerTrack& track) {
+    track = PlayerTrack();
+    track.eye = pose.eye;
+    track.anchor = pose.eye;
+    track.velocity = limited(pose.velocity);
+    track.heading = view_direction(pose);
+    settle(freespace, pose.eye, track);
+    track.covered = track.slab != freespace::none;
+    if (!track.covered) settle(freespace, nearest_free_point(freespace, pose.eye), track);
+}
+
+void follow(const freespace::Freespace& freespace, const MapProfile& profile, const Pose& pose, float dt,
+            PlayerTrack& track) {
+    const Vec3f before = track.anchor;
+    const Vec3f velocity = limited((pose.eye - track.eye) / dt);
+    track.velocity += smoothing_share(dt, velocity_smoothing) * (velocity - track.velocity);
+    track.eye = pose.eye;
+    track.heading =
+        rotated_towards(track.heading, view_direction(pose), smoothing_share(dt, profile.heading_smoothing));
+
+    const freespace::Distance found = freespace::distance(freespace, pose.eye, track.slab);
+    track.covered = found.covered();
+    if (track.covered) {
+        track.anchor = pose.eye;
+        track.slab = found.triangle;
+        track.clearance = found.value;
+    } else {
+        const freespace::Sight way = freespace::sight(freespace, track.anchor, pose.eye, 0.0F, track.slab);
+        const Vec3f direction = (pose.eye - track.anchor).normalized();
+        settle(freespace, track.anchor + inside_surface * way.free_length * direction, track);
+    }
+    track.move = track.anchor - before;
+}
+
+Vec3f predicted_anchor(const freespace::Freespace& freespace, const MapProfile& profile,
+                       const PlayerTrack& track) {
+    const auto travel = [&](float persistence) {
+        return persistence * (1.0F - std::exp(-profile.prediction / persistence));
+    };
+    const Vec3f times(travel(horizontal_persistence), travel(horizontal_persistence),
+                      travel(vertical_persistence));
+    const Vec3f way = track.velocity.cwiseProduct(times);
+    const float length = way.norm();
+    if (!(length > 1e-3F)) return track.anchor;
+    const freespace::Sight free =
+        freespace::sight(freespace, track.anchor, track.anchor + way, 0.0F, track.slab);
+    return track.anchor + way * (inside_surface * std::min(free.free_length, length) / length);
+}
+
+}  // namespace camdir::camera

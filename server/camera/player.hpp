@@ -1,0 +1,38 @@
+// What a shot knows of its player from the poses so far.
+#pragma once
+
+#include "camera/camera.hpp"
+#include "camera/profile.hpp"
+#include "freespace/freespace.hpp"
+
+namespace camdir::camera {
+
+struct PlayerTrack {
+    Vec3f eye = Vec3f::Zero();
+    // Where the player is sought: the eye or, while no slab covers it, the last free point on the way to it.
+    Vec3f anchor = Vec3f::Zero();
+    Vec3f move = Vec3f::Zero();            // of the anchor in the last step
+    Vec3f velocity = Vec3f::Zero();        // of the eye, low-passed
+    Vec3f heading = Vec3f::UnitX();        // low-passed view direction, length 1
+    std::uint32_t slab = freespace::none;  // of the anchor
+    float clearance = 0.0F;                // free distance at the anchor
+    bool covered = false;                  // the anchor is the eye
+};
+
+// Finite position, velocity and rotation within 1e7 map units of the origin: everything else counts as no
+// pose.
+[[nodiscard]] bool usable(const Pose& pose);
+
+// Begins anew at `pose`: after a cut in the player's motion. An eye in no slab is sought at the nearest free
+// point of the representation.
+void restart(const freespace::Freespace& freespace, const Pose& pose, PlayerTrack& track);
+
+// Follows the player to `pose`, `dt` seconds later.
+void follow(const freespace::Freespace& freespace, const MapProfile& profile, const Pose& pose, float dt,
+            PlayerTrack& track);
+
+// Where the anchor will probably be after profile.prediction seconds, no further than free space goes.
+[[nodiscard]] Vec3f predicted_anchor(const freespace::Freespace& freespace, const MapProfile& profile,
+                                     const PlayerTrack& track);
+
+}  // namespace camdir::camera

@@ -1,0 +1,33 @@
+// Shortening a move into freespace (section 5.3): which places the camera can reach in one step.
+#pragma once
+
+#include <optional>
+
+#include "camera/objective.hpp"
+#include "camera/player.hpp"
+#include "camera/profile.hpp"
+#include "freespace/freespace.hpp"
+
+namespace camdir::camera {
+
+// Where a step starts.
+struct Start {
+    Vec3f position;
+    std::uint32_t slab;
+};
+
+// `target`, if the whole step to it is free.
+[[nodiscard]] std::optional<Candidate> reach(const freespace::Freespace& freespace, const PlayerTrack& track,
+                                             const Start& start, const Vec3f& target);
+
+// The same, and when the step leaves the freespace on its way the point half-way to where it leaves.
+[[nodiscard]] std::optional<Candidate> reach_shortened(const freespace::Freespace& freespace,
+                                                       const PlayerTrack& track, const Start& start,
+                                                       const Vec3f& target);
+
+// The candidate with its distances looked up; none when no slab covers it.
+[[nodiscard]] std::optional<Candidate> look_up(const freespace::Freespace& freespace,
+                                               const PlayerTrack& track, const Vec3f& position,
+                                               std::uint32_t near_slab);
+
+}  // namespace camdir::camera

@@ -1,0 +1,97 @@
+#include "camera/regain.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <numbers>
+
+#include "freespace/visibility.hpp"
+
+namespace camdir::camera {
+namespace {
+
+constexpr float radian = std::numbers::pi_v<float> / 180.0F;
+constexpr std::array swings = {0.0F,           -3.0F * radian,  3.0F * radian,
+                               -7.0F * radian, 7.0F * radian,   -14.0F * radian,
+                               14.0F * radian, -25.0F * radian, 25.0F * radian};
+constexpr std::array retreats = {0.1F, 0.25F, 0.5F, 0.75F, 1.0F};
+constexpr float inside_beam = 2.0F;  // units: how far before the end of a free beam a place lies
+
+// The least costly candidate so far. One with the minimum clearance beats any without.
+class Choice {
+  public:
+    Choice(const MapProfile& profile, const PlayerTrack& track, const Motion& motion)
+        : profile_(profile), track_(track), motion_(motion) {}
+
+    void consider(const std::optional<Candidate>& candidate) {
+        if (!candidate || !is_seen(profile_, *candidate)) return;
+        const bool roomy = candidate->clearance >= profile_.minimum_clearance;
+        const float cost = objective(profile_, track_, motion_, *candidate).total;
+        if (found_ && (roomy != roomy_ ? !roomy : cost >= cost_)) return;
+        found_ = true;
+        best_ = *candidate;
+        roomy_ = roomy;
+        cost_ = cost;
+    }
+    [[nodiscard]] std::optional<Candidate> best() const {
+        return found_ ? std::optional<Candidate>(best_) : std::nullopt;
+    }
+
+  private:
+    const MapProfile& profile_;
+    const PlayerTrack& track_;
+    const Motion& motion_;
+    bool found_ = false;
+    Candidate best_;
+    bool roomy_ = false;
+    float cost_ = 0.0F;
+};
+
+// `wanted` swung round the anchor by `angle` and pulled in to where the beam from the anchor is free.
+Vec3f swung(const freespace::Freespace& freespace, const MapProfile& profile, const PlayerTrack& track,
+            const Vec3f& wanted, float angle) {
+    const Vec3f arm = Eigen::AngleAxisf(angle, Vec3f::UnitZ()) * (wanted - track.anchor);
+    const float radius = std::min(profile.minimum_clearance, 0.9F * track.clearance);
+    const freespace::Sight beam =
+        freespace::sight(freespace, track.anchor, track.anchor + arm, radius, track.slab);
+    if (beam.clear) return track.anchor + arm;
+    return track.anchor + std::max(0.0F, beam.free_length - inside_beam) * arm.normalized();
+}
+
+}  // namespace
+
+bool is_seen(const MapProfile& profile, const Candidate& candidate) {
+    return candidate.sight_clearance > 0.0F && candidate.sight_clearance >= profile.visibility_threshold;
+}
+
+bool acceptable(const MapProfile& profile, const Candidate& candidate) {
+    return is_seen(profile, candidate) && candidate.clearance >= profile.minimum_clearance;
+}
+
+std::optional<Candidate> regain_sight(const freespace::Freespace& freespace, const MapProfile& profile,
+                                      const PlayerTrack& track, const Motion& motion, const Start& start,
+                                      const Vec3f& wanted) {
+    Choice choice(profile, track, motion);
+    const auto consider = [&](const Vec3f& target) {
+        const Vec3f place = within_step(start.position, target, profile.step_limit);
+        choice.consider(reach_shortened(freespace, track, start, place));
+    };
+    choice.consider(look_up(freespace, track, start.position, start.slab));
+    consider(start.position + track.move);
+    for (const float angle : swings) {
+        consider(swung(freespace, profile, track, wanted, angle));
+    }
+    const Vec3f old_line_of_sight = track.anchor - track.move - start.position;
+    for (const float share : retreats) {
+        consider(start.position + share * old_line_of_sight);
+    }
+    return choice.best();
+}
+
+Vec3f within_step(const Vec3f& start, const Vec3f& target, float limit) {
+    const Vec3f move = target - start;
+    const float length = move.norm();
+    return length > limit ? Vec3f(start + move * (limit / length)) : target;
+}
+
+}  // namespace camdir::camera

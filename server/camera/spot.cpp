@@ -1,0 +1,161 @@
+#include "camera/spot.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "camera/view.hpp"
+#include "freespace/visibility.hpp"
+
+namespace camdir::camera {
+namespace {
+
+constexpr float radian = std::numbers::pi_v<float> / 180.0F;
+constexpr float steepest = 80.0F * radian;
+constexpr float yaw_step = 15.0F * radian;
+constexpr int yaw_steps = 12;  // to each side
+constexpr std::array elevations = {0.0F * radian, 20.0F * radian, -20.0F * radian, 45.0F * radian};
+constexpr float inside_beam = 2.0F;  // units: how far before the end of a free beam a spot lies
+constexpr float turn_cost = 0.2F;    // of leaving the camera's direction, against angle's own
+
+float squared(float value) {
+    return value * value;
+}
+
+struct Candidate {
+    Vec3f direction;  // from the anchor
+    float cost;       // without the distance's: a lower bound
+};
+
+class Fan {
+  public:
+    Fan(const MapProfile& profile, const PlayerTrack& track, const Vec3f* towards_camera)
+        : profile_(profile), towards_camera_(towards_camera) {
+        const Look behind = look_along(-track.heading, 0.0F);
+        behind_ =
+            direction_of({behind.yaw, std::clamp(behind.pitch + profile.elevation, -steepest, steepest)});
+    }
+
+    void fill(float swing) {
+        const Look behind = look_along(behind_, 0.0F);
+        for (const float elevation : elevations) {
+            const float pitch = std::clamp(behind.pitch + elevation, -steepest, steepest);
+            for (int step = -yaw_steps; step < yaw_steps; ++step) {
+                const float yaw = static_cast<float>(step) * yaw_step;
+                add(direction_of({behind.yaw + yaw, pitch}), swing);
+            }
+        }
+        if (towards_camera_ != nullptr) add(*towards_camera_, swing);
+        std::sort(candidates_.begin(), candidates_.begin() + count_,
+                  [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
+    }
+
+    [[nodiscard]] Candidate behind() const { return {behind_, direction_cost(behind_)}; }
+    [[nodiscard]] const Candidate* begin() const { return candidates_.data(); }
+    [[nodiscard]] const Candidate* end() const { return candidates_.data() + count_; }
+
+  private:
+    [[nodiscard]] float direction_cost(const Vec3f& direction) const {
+        float cost =
+            profile_.weight_angle * squared(angle_between(direction, behind_) / profile_.angle_tolerance);
+        if (towards_camera_ != nullptr) {
+            const float turn = angle_between(direction, *towards_camera_) / profile_.angle_tolerance;
+            cost += turn_cost * profile_.weight_inertia_angle * squared(turn);
+        }
+        return cost;
+    }
+    void add(const Vec3f& direction, float swing) {
+        if (angle_between(direction, behind_) > swing) return;
+        candidates_[count_++] = {direction, direction_cost(direction)};
+    }
+
+    const MapProfile& profile_;
+    const Vec3f* towards_camera_;
+    Vec3f behind_;
+    std::array<Candidate, elevations.size() * 2 * yaw_steps + 1> candidates_;
+    std::size_t count_ = 0;
+};
+
+// A place that spots must be joined to by a free beam.
+struct Origin {
+    Vec3f position;
+    std::uint32_t slab;
+    float beam_radius;
+};
+
+class SpotSearch {
+  public:
+    SpotSearch(const freespace::Freespace& freespace, const MapProfile& profile, const PlayerTrack& track)
+        : freespace_(freespace), profile_(profile) {
+        const float radius = std::min(profile.minimum_clearance, 0.9F * track.clearance);
+        now_ = {track.anchor, track.slab, radius};
+    }
+    void foresee(const Vec3f& anchor) { later_ = Origin{anchor, now_.slab, now_.beam_radius}; }
+
+    void consider(const Candidate& candidate) {
+        float length = free_length(now_, candidate.direction);
+        float cost = candidate.cost + distance_cost(length);
+        if (cost >= best_.cost) return;
+        if (later_) {
+            const float later = free_length(*later_, candidate.direction);
+            if (later < length) {
+                cost = candidate.cost + distance_cost(later);
+                length = later;
+            }
+        }
+        if (cost < best_.cost) best_ = {candidate.direction * length, cost};
+    }
+
+    [[nodiscard]] const Spot& best() const { return best_; }
+
+  private:
+    [[nodiscard]] float free_length(const Origin& from, const Vec3f& direction) const {
+        const freespace::Sight beam =
+            freespace::sight(freespace_, from.position, from.position + profile_.distance * direction,
+                             from.beam_radius, from.slab);
+        return beam.clear ? profile_.distance : std::max(0.0F, beam.free_length - inside_beam);
+    }
+    [[nodiscard]] float distance_cost(float length) const {
+        return profile_.weight_distance * squared((profile_.distance - length) / profile_.distance_tolerance);
+    }
+
+    const freespace::Freespace& freespace_;
+    const MapProfile& profile_;
+    Origin now_;
+    std::optional<Origin> later_;
+    Spot best_{Vec3f::Zero(), std::numeric_limits<float>::infinity()};
+};
+
+void consider_all(const Fan& fan, SpotSearch& search) {
+    for (const Candidate& candidate : fan) {
+        if (candidate.cost >= search.best().cost) break;
+        search.consider(candidate);
+    }
+}
+
+}  // namespace
+
+Spot spot_to_move_to(const freespace::Freespace& freespace, const MapProfile& profile,
+                     const PlayerTrack& track, const Vec3f& camera) {
+    const Vec3f offset = camera - track.anchor;
+    const Vec3f towards_camera = offset.normalized();
+    Fan fan(profile, track, offset.norm() > 1.0F ? &towards_camera : nullptr);
+    SpotSearch search(freespace, profile, track);
+    search.foresee(predicted_anchor(freespace, profile, track));
+    fan.fill(profile.swing);
+    consider_all(fan, search);
+    return search.best();
+}
+
+Spot spot_to_cut_to(const freespace::Freespace& freespace, const MapProfile& profile,
+                    const PlayerTrack& track) {
+    Fan fan(profile, track, nullptr);
+    SpotSearch search(freespace, profile, track);
+    fan.fill(std::numbers::pi_v<float>);
+    consider_all(fan, search);
+    return search.best();
+}
+
+}  // namespace camdir::camera

@@ -1,0 +1,209 @@
+#include "camera/tracker.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "camera/cut.hpp"
+#include "camera/moves.hpp"
+#include "camera/objective.hpp"
+#include "camera/reach.hpp"
+#include "camera/regain.hpp"
+#include "camera/search.hpp"
+#include "camera/spot.hpp"
+
+namespace camdir::camera {
+namespace {
+
+constexpr float usual_frame = 1.0F / 60.0F;  // s
+constexpr float shortest_frame = 1e-3F;      // s
+constexpr float longest_frame = 0.25F;       // s
+constexpr float greatest_urgency = 1e6F;
+constexpr float at_rest = 1.0F;     // map units/s
+constexpr float at_the_eye = 1.0F;  // map units: nearer, there is no line of sight to look along
+constexpr float quarter_turn = std::numbers::pi_v<float> / 2.0F;
+
+float usable_frame(double dt) {
+    if (!std::isfinite(dt) || dt <= 0.0) return usual_frame;
+    return static_cast<float>(std::clamp<double>(dt, shortest_frame, longest_frame));
+}
+
+// One step of one shot.
+class Step {
+  public:
+    Step(const freespace::Freespace& freespace, const Profile& profile, double dt, ShotState& state,
+         Scratch& scratch)
+        : freespace_(freespace),
+          profile_(profile, freespace.metadata().metres_per_unit),
+          dt_(usable_frame(dt)),
+          state_(state),
+          player_(state.player),
+          scratch_(scratch) {}
+
+    Camera with_pose(const Pose& pose) {
+        if (!state_.started || pose.discontinuity) {
+            restart(freespace_, pose, player_);
+            return cut_to_player();
+        }
+        follow(freespace_, profile_, pose, dt_, player_);
+        if (!pose.alive) return come_to_rest();
+        if (state_.lost_for > profile_.search_time_limit && player_.covered) return cut_to_player();
+        if (state_.lost_for > 0.0F) return search();
+        return keep_in_sight();
+    }
+
+    Camera without_pose() {
+        if (!state_.started) wait_at_spawn_point();
+        return hold(target_absent);
+    }
+
+  private:
+    Camera keep_in_sight() {
+        const Spot spot = spot_to_move_to(freespace_, profile_, player_, state_.position);
+        Vec3f position = state_.position;
+        Vec3f wanted = position;
+        for (int i = 0; i < static_cast<int>(profile_.iterations); ++i) {
+            wanted =
+                within_reach(position + average_when_seen(profile_, moves(spot, position), speed(), dt_));
+            const auto reached = reach_shortened(freespace_, player_, start(), wanted);
+            if (!reached) break;
+            if (acceptable(profile_, *reached)) return move_to(*reached);
+            position = reached->position;
+        }
+        const auto seen = regain_sight(freespace_, profile_, player_, motion(), start(), wanted);
+        if (!seen) return search();
+        const Camera camera = move_to(*seen);
+        state_.velocity = player_.velocity;  // a rescue is no motion to go on with
+        return camera;
+    }
+
+    Camera search() {
+        const Spot spot = spot_to_move_to(freespace_, profile_, player_, state_.position);
+        Moves all = moves(spot, state_.position);
+        all.visibility = next_on_the_way(freespace_, player_, start(), scratch_.roadmap) - state_.position;
+        const float urgency = std::min(greatest_urgency, std::exp(profile_.search_growth * state_.lost_for));
+        const Vec3f wanted = within_reach(state_.position + average_when_lost(profile_, all, urgency, dt_));
+        const auto reached = reach_shortened(freespace_, player_, start(), wanted);
+        if (reached) return move_to(*reached);
+        state_.lost_for += dt_;
+        turn();
+        return hold(searching);
+    }
+
+    // A dead player: the camera glides on ever slower, then holds.
+    Camera come_to_rest() {
+        const Vec3f velocity = state_.velocity * std::exp(-dt_ / profile_.motion_smoothing);
+        if (velocity.norm() > at_rest) {
+            const Vec3f wanted = within_reach(state_.position + velocity * dt_);
+            const auto reached = reach(freespace_, player_, start(), wanted);
+            if (reached && reached->clearance >= profile_.minimum_clearance) return move_to(*reached);
+        }
+        turn();
+        return hold(0);
+    }
+
+    Camera cut_to_player() {
+        const Candidate spot = landing(freespace_, profile_, player_);
+        state_.started = true;
+        state_.position = spot.position;
+        state_.slab = spot.slab;
+        state_.velocity = player_.velocity;
+        state_.lost_for = 0.0F;
+        state_.look = wanted_look();
+        return frame(spot, standing(), cut);
+    }
+
+    Camera move_to(const Candidate& next) {
+        const Motion before = motion();
+        const bool lost = !is_seen(profile_, next);
+        state_.velocity = (next.position - state_.position) / dt_;
+        state_.position = next.position;
+        state_.slab = next.slab;
+        state_.lost_for = lost ? state_.lost_for + dt_ : 0.0F;
+        turn();
+        return frame(next, before, lost || out_of_reach() ? std::uint32_t{searching} : 0U);
+    }
+
+    Camera hold(std::uint32_t flags) {
+        state_.velocity = Vec3f::Zero();
+        const auto place = look_up(freespace_, player_, state_.position, state_.slab);
+        const Candidate uncovered{state_.position, freespace::none, 0.0F, 0.0F};
+        return frame(place ? *place : uncovered, standing(), flags | held);
+    }
+
+    // Before the first pose: at the map's first spawn point, looking as its players do.
+    void wait_at_spawn_point() {
+        if (freespace_.spawn_points().empty()) return;
+        const freespace::SpawnPoint& spawn = freespace_.spawn_points().front();
+        Pose pose;
+        pose.eye = spawn.eye;
+        restart(freespace_, pose, player_);
+        state_.position = player_.anchor;
+        state_.slab = player_.slab;
+        state_.look = {spawn.yaw, 0.0F};
+    }
+
+    [[nodiscard]] Camera frame(const Candidate& place, const Motion& before, std::uint32_t flags) const {
+        const bool visible = player_.covered && place.sight_clearance > 0.0F && (flags & target_absent) == 0;
+        Camera camera;
+        camera.position = place.position;
+        camera.orientation = orientation_of(state_.look);
+        camera.vertical_fov = profile_.vertical_fov;
+        camera.clearance = place.clearance;
+        camera.flags = flags | (visible ? std::uint32_t{target_visible} : 0U);
+        camera.objective = objective(profile_, player_, before, place);
+        return camera;
+    }
+
+    [[nodiscard]] Moves moves(const Spot& spot, const Vec3f& position) const {
+        Moves all;
+        all.spot = player_.anchor + spot.offset - position;
+        all.inertia = state_.velocity * dt_;
+        all.safety = move_to_safety(freespace_, position, state_.slab);
+        all.visibility = player_.move;
+        return all;
+    }
+
+    [[nodiscard]] Look wanted_look() const {
+        const Vec3f to_eye = player_.eye - state_.position;
+        Look look = look_along(to_eye.norm() > at_the_eye ? to_eye : player_.heading, state_.look.yaw);
+        look.pitch = std::clamp(look.pitch + profile_.framing_offset, -quarter_turn, quarter_turn);
+        return look;
+    }
+
+    void turn() {
+        const float share =
+            profile_.look_smoothing > 0.0F ? 1.0F - std::exp(-dt_ / profile_.look_smoothing) : 1.0F;
+        state_.look = turned(state_.look, wanted_look(), share, profile_.turn_limit * dt_);
+    }
+
+    // The eye is in no slab, and so far from the last free point on its way that this is no substitute.
+    [[nodiscard]] bool out_of_reach() const {
+        return !player_.covered && (player_.eye - player_.anchor).norm() > 0.5F * profile_.distance;
+    }
+
+    [[nodiscard]] Start start() const { return {state_.position, state_.slab}; }
+    [[nodiscard]] Motion motion() const { return {state_.position, state_.velocity, dt_}; }
+    [[nodiscard]] Motion standing() const { return {state_.position, Vec3f::Zero(), dt_}; }
+    [[nodiscard]] float speed() const { return state_.velocity.norm(); }
+    [[nodiscard]] Vec3f within_reach(const Vec3f& target) const {
+        return within_step(state_.position, target, profile_.step_limit);
+    }
+
+    const freespace::Freespace& freespace_;
+    const MapProfile profile_;
+    const float dt_;
+    ShotState& state_;
+    PlayerTrack& player_;
+    Scratch& scratch_;
+};
+
+}  // namespace
+
+Camera step(const freespace::Freespace& freespace, const Profile& profile, const Pose* pose, double dt,
+            ShotState& state, Scratch& scratch) {
+    Step one(freespace, profile, dt, state, scratch);
+    return pose != nullptr && usable(*pose) ? one.with_pose(*pose) : one.without_pose();
+}
+
+}  // namespace camdir::camera
