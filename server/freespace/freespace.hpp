@@ -66,11 +66,22 @@ struct Contents {
 
 struct IndexNode;
 
-// Immutable; all const members are thread-safe. Cheap to copy: copies share the storage.
+// The mesh as the file holds it.
+struct MeshView {
+    std::span<const Vertex> vertices;
+    std::span<const Triangle> triangles;
+    std::span<const std::uint32_t> incident_offsets;    // one a vertex and one more
+    std::span<const std::uint32_t> incident_triangles;  // of each vertex, ascending
+    std::span<const IndexNode> index;                   // [0] is the root; empty without triangles
+};
+
+// Immutable; all const members are thread-safe. Cheap to copy: copies share the storage, which lives as long
+// as one of them.
 class Freespace {
   public:
-    // Maps a MAP.vfs into memory and verifies it (magic, version, bounds of every reference, finite numbers,
-    // hash). Errors name the file and what is wrong: damaged, truncated, or written by a newer version.
+    // Maps a MAP.vfs into memory and verifies it (magic, version, size, hash, bounds of every reference,
+    // finite numbers). Errors name the file and what is wrong: damaged, truncated, or written by a newer
+    // version.
     [[nodiscard]] static Result<Freespace> open(const std::filesystem::path& path);
 
     // The same from bytes in memory, which are kept. `name` stands for the path in errors.
@@ -78,23 +89,35 @@ class Freespace {
 
     [[nodiscard]] const Metadata& metadata() const;
     [[nodiscard]] const Box3f& bounds() const;  // of the vertices
-    [[nodiscard]] std::span<const Vertex> vertices() const;
-    [[nodiscard]] std::span<const Triangle> triangles() const;
     [[nodiscard]] std::span<const SpawnPoint> spawn_points() const;
-    // Triangles that have `vertex` as a corner, ascending.
-    [[nodiscard]] std::span<const std::uint32_t> incident(std::uint32_t vertex) const;
-    [[nodiscard]] std::span<const IndexNode> index() const;
     // Bytes of the file that the representation was read from.
     [[nodiscard]] std::size_t byte_size() const;
 
+    [[nodiscard]] std::span<const Vertex> vertices() const { return mesh_.vertices; }
+    [[nodiscard]] std::span<const Triangle> triangles() const { return mesh_.triangles; }
+    // Triangles that have `vertex` as a corner, ascending.
+    [[nodiscard]] std::span<const std::uint32_t> incident(std::uint32_t vertex) const {
+        const std::uint32_t first = mesh_.incident_offsets[vertex];
+        return mesh_.incident_triangles.subspan(first, mesh_.incident_offsets[vertex + 1] - first);
+    }
+    [[nodiscard]] const MeshView& mesh() const { return mesh_; }
+
   private:
     struct Storage;
-    explicit Freespace(std::shared_ptr<const Storage> storage) : storage_(std::move(storage)) {}
+    explicit Freespace(std::shared_ptr<const Storage> storage);
+    static Result<Freespace> read(std::shared_ptr<Storage> storage, const std::string& name);
+
     std::shared_ptr<const Storage> storage_;
+    MeshView mesh_;  // into storage_
 };
 
-// The bytes of a MAP.vfs: adds incidence, query index and hash. The same contents give the same bytes.
-// Preconditions (asserted): indices in range, finite numbers.
+// The bytes of a MAP.vfs: adds incidence, query index and hash, and puts triangles and vertices in the order
+// of the index, so that what is near in space is near in memory. The same contents give the same bytes.
+// Preconditions (asserted): fewer than 2^28 triangles, indices in range, three different corners a triangle,
+// finite numbers within +-coordinate_limit.
 [[nodiscard]] std::vector<std::byte> encode(const Contents& contents);
+
+// Coordinates and free distances of a file are within +- this, so that no query overflows.
+inline constexpr float coordinate_limit = 1e8F;
 
 }  // namespace camdir::freespace

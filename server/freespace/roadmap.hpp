@@ -1,7 +1,9 @@
 // Shortest paths along the edges of V(S): the roadmap of the paper's section 5.3.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "freespace/freespace.hpp"
@@ -16,31 +18,49 @@ struct RoadmapPath {
 
 // A* over the edges of V(S) whose whole length lies in freespace (both ends have d_f > 0).
 // Owns the scratch memory of the search, so that repeated searches do not allocate. One thread at a time;
-// the freespace must outlive it.
+// keeps the freespace alive.
+//
+// Ends: the slab with the largest free distance at a point is convex and holds the point and each of its
+// corners with d_f > 0, so the segments to these corners lie in freespace. The path may enter and leave at
+// any of them, whichever makes it shortest. (The paper takes the one nearest to the other end, which may be a
+// detour.)
 class RoadmapSearch {
   public:
     explicit RoadmapSearch(const Freespace& freespace);
 
-    // From a covered point to a covered point. As in the paper, each end enters the roadmap at a vertex
-    // of a slab that contains it; both ends are joined to those vertices inside freespace. The result is
-    // valid until the next call.
+    // The shortest path from a covered point to a covered point; not found when a point is not covered or the
+    // roadmap does not join them. Ties go by the vertices' numbers. The result is valid until the next call.
     [[nodiscard]] const RoadmapPath& find(const Vec3f& from, const Vec3f& to);
 
   private:
     struct Label {
-        float cost;
-        std::uint32_t parent;
-        std::uint32_t round;  // labels of older rounds count as unset
-        bool closed;
+        float cost = 0.0F;  // from the start
+        std::uint32_t parent = none;
+        std::uint32_t round = 0;  // labels of older rounds count as unset
+        bool closed = false;
     };
     struct Open {
-        float estimate;
+        float estimate;  // of the whole path
         std::uint32_t vertex;
     };
+    // The corners through which a point joins the roadmap.
+    struct Gate {
+        std::array<std::uint32_t, 3> vertices;
+        std::uint32_t count = 0;
+
+        [[nodiscard]] std::span<const std::uint32_t> span() const { return {vertices.data(), count}; }
+    };
+
+    [[nodiscard]] Gate gate(const Vec3f& point) const;
+    void begin_round();
+    void reach(std::uint32_t vertex, std::uint32_t parent, float cost, const Vec3f& goal);
+    void expand(std::uint32_t vertex, const Vec3f& goal);
+    void trace(std::uint32_t last, float length);
 
     Freespace freespace_;
+    std::vector<std::uint32_t> component_;  // of each vertex with d_f > 0: what the roadmap joins
     std::vector<Label> labels_;
-    std::vector<Open> open_;
+    std::vector<Open> open_;  // a heap, the smallest estimate first
     std::uint32_t round_ = 0;
     RoadmapPath path_;
 };

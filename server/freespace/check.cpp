@@ -1,0 +1,107 @@
+#include "freespace/check.hpp"
+
+#include <cmath>
+
+#include "freespace/index.hpp"
+
+namespace camdir::freespace {
+namespace {
+
+std::string at(const char* what, std::size_t index, const char* flaw) {
+    return std::string(what) + " " + std::to_string(index) + " " + flaw;
+}
+
+// False for NaN and infinity too.
+bool within_limit(float value) {
+    return std::abs(value) <= coordinate_limit;
+}
+
+std::string flaw_of_vertices(std::span<const Vertex> vertices) {
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        const Vertex& v = vertices[i];
+        const bool sane =
+            within_limit(v.x) & within_limit(v.y) & within_limit(v.z) & within_limit(v.free_distance);
+        if (!sane) return at("vertex", i, "is not finite or out of range");
+    }
+    return {};
+}
+
+std::string flaw_of_triangles(std::span<const Triangle> triangles, std::size_t vertex_count) {
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        const auto [a, b, c] = triangles[i];
+        if (a >= vertex_count || b >= vertex_count || c >= vertex_count)
+            return at("triangle", i, "has a corner that does not exist");
+        if (a == b || b == c || c == a) return at("triangle", i, "has a corner twice");
+    }
+    return {};
+}
+
+std::string flaw_of_incidence(const MeshView& mesh) {
+    const auto offsets = mesh.incident_offsets;
+    const auto incident = mesh.incident_triangles;
+    if (offsets.size() != mesh.vertices.size() + 1 || offsets.front() != 0 ||
+        offsets.back() != incident.size() || incident.size() != 3 * mesh.triangles.size())
+        return "the incidence's size does not fit the mesh";
+    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+        if (offsets[v] > offsets[v + 1] || offsets[v + 1] > incident.size())
+            return at("vertex", v, "has incident triangles out of range");
+        for (std::uint32_t i = offsets[v]; i < offsets[v + 1]; ++i) {
+            if (incident[i] >= mesh.triangles.size())
+                return at("vertex", v, "has an incident triangle that does not exist");
+            if (i > offsets[v] && incident[i] <= incident[i - 1])
+                return at("vertex", v, "has incident triangles out of order");
+            const auto [a, b, c] = mesh.triangles[incident[i]];
+            if (a != v && b != v && c != v) return at("vertex", v, "is no corner of its incident triangle");
+        }
+    }
+    return {};
+}
+
+// Every node and every triangle must be reached exactly once. In breadth-first order that is a matter of
+// counting, and a level ends where the nodes counted at its beginning end.
+std::string flaw_of_index(const MeshView& mesh) {
+    const auto nodes = mesh.index;
+    if (nodes.empty() != mesh.triangles.empty()) return "the index's size does not fit the mesh";
+    std::size_t next_node = 1;
+    std::size_t next_triangle = 0;
+    std::size_t level_end = 0;
+    std::uint32_t depth = 0;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        if (i == level_end) {
+            if (++depth > index_depth_limit) return "the index is too deep";
+            level_end = next_node;
+        }
+        if (i >= next_node) return at("index node", i, "is not reached");
+        for (std::uint32_t k = 0; k < IndexNode::width; ++k) {
+            const IndexChild child(nodes[i].child[k]);
+            if (!child.is_leaf()) {
+                if (child.index() != next_node++ || child.index() >= nodes.size())
+                    return at("index node", i, "has a child out of order");
+                continue;
+            }
+            if (child.count() == 0) continue;
+            if (child.count() > IndexChild::leaf_capacity || child.first() != next_triangle)
+                return at("index node", i, "has a leaf out of order");
+            next_triangle += child.count();
+        }
+    }
+    if (next_triangle != mesh.triangles.size()) return "the index does not hold every triangle";
+    return {};
+}
+
+}  // namespace
+
+std::string find_mesh_flaw(std::span<const Vertex> vertices, std::span<const Triangle> triangles) {
+    std::string flaw = flaw_of_vertices(vertices);
+    if (flaw.empty()) flaw = flaw_of_triangles(triangles, vertices.size());
+    return flaw;
+}
+
+std::string find_flaw(const MeshView& mesh) {
+    std::string flaw = find_mesh_flaw(mesh.vertices, mesh.triangles);
+    if (flaw.empty()) flaw = flaw_of_incidence(mesh);
+    if (flaw.empty()) flaw = flaw_of_index(mesh);
+    return flaw;
+}
+
+}  // namespace camdir::freespace

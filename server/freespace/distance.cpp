@@ -1,0 +1,36 @@
+#include "freespace/distance.hpp"
+
+#include <cmath>
+
+#include "freespace/search.hpp"
+
+namespace camdir::freespace {
+namespace {
+
+Distance distance_at(const Freespace& freespace, const Vec3f& point, const SlabPoint& best) {
+    if (best.triangle == none) return {};
+    const Ball ball = ball_at(freespace.mesh(), best);
+    const double value = ball.radius - (point.cast<double>() - ball.centre).norm();
+    // One step down: the float must not exceed the double.
+    return {std::nextafter(static_cast<float>(value), -std::numeric_limits<float>::infinity()),
+            best.triangle};
+}
+
+}  // namespace
+
+Distance distance(const Freespace& freespace, const Vec3f& point, std::uint32_t previous) {
+    if (!point.allFinite()) return {};
+    SlabPoint best;
+    if (previous < freespace.triangles().size()) improve_by_ring(freespace, point, previous, best);
+    if (!(best.value > 0.0F)) improve_everywhere(freespace.mesh(), point, best);
+    return distance_at(freespace, point, best);
+}
+
+Distance distance_everywhere(const Freespace& freespace, const Vec3f& point) {
+    if (!point.allFinite()) return {};
+    SlabPoint best;
+    improve_everywhere(freespace.mesh(), point, best);
+    return distance_at(freespace, point, best);
+}
+
+}  // namespace camdir::freespace

@@ -1,0 +1,310 @@
+// MAP.vfs: encoding, opening, verification. The only file that knows FlatBuffers and xxHash.
+#include <xxhash.h>
+
+#include <cassert>
+#include <cmath>
+#include <cstring>
+#include <variant>
+
+#include "base/file.hpp"
+#include "freespace/check.hpp"
+#include "freespace/freespace.hpp"
+#include "freespace/index.hpp"
+#include "freespace_generated.h"
+
+namespace camdir::freespace {
+
+static_assert(sizeof(Vertex) == sizeof(wire::Vertex) && sizeof(Triangle) == sizeof(wire::Triangle) &&
+              sizeof(IndexNode) == sizeof(wire::IndexNode));
+
+namespace {
+
+constexpr std::uint32_t format_version = 1;
+constexpr flatbuffers::uoffset_t table_depth_limit = 4;
+constexpr flatbuffers::uoffset_t table_count_limit = 10'000;
+
+// ---- Writing ----
+
+std::vector<Vertex> reorder_vertices(const Contents& contents, std::span<const std::uint32_t> triangle_order,
+                                     std::vector<std::uint32_t>& new_number) {
+    std::vector<Vertex> vertices;
+    vertices.reserve(contents.vertices.size());
+    new_number.assign(contents.vertices.size(), none);
+    const auto append = [&](std::uint32_t v) {
+        if (new_number[v] != none) return;
+        new_number[v] = static_cast<std::uint32_t>(vertices.size());
+        vertices.push_back(contents.vertices[v]);
+    };
+    for (const std::uint32_t t : triangle_order) {
+        const auto [a, b, c] = contents.triangles[t];
+        for (const std::uint32_t corner : {a, b, c})
+            append(corner);
+    }
+    for (std::uint32_t v = 0; v < contents.vertices.size(); ++v)
+        append(v);
+    return vertices;
+}
+
+struct Incidence {
+    std::vector<std::uint32_t> offsets;
+    std::vector<std::uint32_t> triangles;
+};
+
+Incidence build_incidence(std::size_t vertex_count, std::span<const Triangle> triangles) {
+    Incidence incidence;
+    incidence.offsets.assign(vertex_count + 1, 0);
+    for (const auto& [a, b, c] : triangles)
+        for (const std::uint32_t corner : {a, b, c})
+            ++incidence.offsets[corner + 1];
+    for (std::size_t v = 0; v < vertex_count; ++v)
+        incidence.offsets[v + 1] += incidence.offsets[v];
+    std::vector<std::uint32_t> next(incidence.offsets.begin(), incidence.offsets.end() - 1);
+    incidence.triangles.resize(3 * triangles.size());
+    for (std::uint32_t t = 0; t < triangles.size(); ++t)
+        for (const std::uint32_t corner : {triangles[t].a, triangles[t].b, triangles[t].c})
+            incidence.triangles[next[corner]++] = t;
+    return incidence;
+}
+
+Box3f bounds_of(std::span<const Vertex> vertices) {
+    if (vertices.empty()) return {Vec3f::Zero(), Vec3f::Zero()};
+    Box3f bounds;
+    for (const Vertex& vertex : vertices)
+        bounds.extend(vertex.position());
+    return bounds;
+}
+
+wire::Point to_wire(const Vec3f& p) {
+    return {p.x(), p.y(), p.z()};
+}
+
+template <class Wire, class Element>
+auto copy_structs(flatbuffers::FlatBufferBuilder& builder, const std::vector<Element>& elements) {
+    return builder.CreateVectorOfStructs(reinterpret_cast<const Wire*>(elements.data()), elements.size());
+}
+
+auto copy_spawn_points(flatbuffers::FlatBufferBuilder& builder, std::span<const SpawnPoint> spawn_points) {
+    std::vector<wire::SpawnPoint> copies;
+    for (const SpawnPoint& spawn : spawn_points)
+        copies.emplace_back(to_wire(spawn.eye), spawn.yaw);
+    return builder.CreateVectorOfStructs(copies);
+}
+
+auto copy_counts(flatbuffers::FlatBufferBuilder& builder, std::span<const Count> counts) {
+    std::vector<flatbuffers::Offset<wire::Count>> copies;
+    for (const Count& count : counts)
+        copies.push_back(wire::CreateCount(builder, builder.CreateString(count.stage),
+                                           builder.CreateString(count.what), count.value));
+    return builder.CreateVector(copies);
+}
+
+flatbuffers::DetachedBuffer build_file(const Metadata& metadata, std::span<const SpawnPoint> spawn_points,
+                                       const std::vector<Vertex>& vertices,
+                                       const std::vector<Triangle>& triangles, const Index& index) {
+    flatbuffers::FlatBufferBuilder builder;
+    // A buffer is written back to front: the large arrays go last in the file, behind the root.
+    const auto wire_index = copy_structs<wire::IndexNode>(builder, index.nodes);
+    const Incidence incidence = build_incidence(vertices.size(), triangles);
+    const auto incident_triangles = builder.CreateVector(incidence.triangles);
+    const auto incident_offsets = builder.CreateVector(incidence.offsets);
+    const auto wire_triangles = copy_structs<wire::Triangle>(builder, triangles);
+    const auto wire_vertices = copy_structs<wire::Vertex>(builder, vertices);
+    const auto wire_spawn_points = copy_spawn_points(builder, spawn_points);
+    const auto counts = copy_counts(builder, metadata.counts);
+    const auto parameters = builder.CreateString(metadata.parameters);
+    const auto source_name = builder.CreateString(metadata.source_name);
+    const auto map_name = builder.CreateString(metadata.map_name);
+    const wire::Header header(format_version, 0, 0);
+    const Box3f box = bounds_of(vertices);
+    const wire::Box bounds(to_wire(box.min()), to_wire(box.max()));
+    const auto root = wire::CreateFreespace(builder, &header, map_name, source_name, metadata.source_hash,
+                                            metadata.metres_per_unit, metadata.d0, parameters, &bounds,
+                                            wire_vertices, wire_triangles, incident_offsets,
+                                            incident_triangles, wire_index, wire_spawn_points, counts);
+    wire::FinishFreespaceBuffer(builder, root);
+    return builder.Release();
+}
+
+// ---- The header ----
+
+// Where the content's hash lies in a file whose header is at `header`.
+std::size_t hash_position(std::span<const std::byte> file, const wire::Header& header) {
+    const auto* begin = reinterpret_cast<const std::byte*>(&header);
+    return static_cast<std::size_t>(begin - file.data()) + 2 * sizeof(std::uint64_t);
+}
+
+std::uint64_t hash_without(std::span<const std::byte> file, std::size_t position) {
+    const std::uint64_t zero = 0;
+    const auto rest = file.subspan(position + sizeof zero);
+    const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(), &XXH3_freeState);
+    XXH3_64bits_reset(state.get());
+    XXH3_64bits_update(state.get(), file.data(), position);
+    XXH3_64bits_update(state.get(), &zero, sizeof zero);
+    XXH3_64bits_update(state.get(), rest.data(), rest.size());
+    return XXH3_64bits_digest(state.get());
+}
+
+// Size and hash can be known only when everything else is written.
+void seal(std::span<std::byte> file) {
+    const wire::Header& blank = *wire::GetFreespace(file.data())->header();
+    const std::size_t position = hash_position(file, blank);
+    const std::uint64_t byte_size = file.size();
+    std::memcpy(file.data() + position - sizeof byte_size, &byte_size, sizeof byte_size);
+    const std::uint64_t hash = hash_without(file, position);
+    std::memcpy(file.data() + position, &hash, sizeof hash);
+}
+
+// What is wrong with the file as a whole, or empty; the parts may be read when this finds nothing.
+std::string find_file_flaw(std::span<const std::byte> file) {
+    const auto* data = reinterpret_cast<const std::uint8_t*>(file.data());
+    if (file.size() < 64 || !wire::FreespaceBufferHasIdentifier(data))
+        return std::string("is not a baked map: expected a file with the identifier ") +
+               wire::FreespaceIdentifier();
+    if (file.size() >= FLATBUFFERS_MAX_BUFFER_SIZE) return "is larger than 2 GiB";
+    flatbuffers::Verifier prologue(data, file.size(), table_depth_limit, table_count_limit);
+    if (!prologue.VerifyBuffer<wire::Prologue>(wire::FreespaceIdentifier()))
+        return "is damaged: its header is unreadable";
+    const wire::Header& header = *flatbuffers::GetRoot<wire::Prologue>(data)->header();
+    if (header.format_version() > format_version)
+        return "was written by a newer version: format " + std::to_string(header.format_version()) +
+               ", this program reads " + std::to_string(format_version);
+    if (header.format_version() != format_version)
+        return "is damaged: format " + std::to_string(header.format_version()) + " does not exist";
+    if (header.byte_size() != file.size())
+        return "is truncated or damaged: " + std::to_string(file.size()) + " bytes instead of " +
+               std::to_string(header.byte_size());
+    if (header.content_hash() != hash_without(file, hash_position(file, header)))
+        return "is damaged: its content does not have the hash that it was written with";
+    flatbuffers::Verifier whole(data, file.size(), table_depth_limit, table_count_limit);
+    if (!wire::VerifyFreespaceBuffer(whole)) return "is damaged: a part of it lies outside the file";
+    return {};
+}
+
+// ---- Reading ----
+
+template <class Element, class Wire>
+std::span<const Element> view(const flatbuffers::Vector<Wire>* vector) {
+    return {reinterpret_cast<const Element*>(vector->Data()), vector->size()};
+}
+
+MeshView view_mesh(const wire::Freespace& root) {
+    return {view<Vertex>(root.vertices()), view<Triangle>(root.triangles()),
+            view<std::uint32_t>(root.incident_offsets()), view<std::uint32_t>(root.incident_triangles()),
+            view<IndexNode>(root.index())};
+}
+
+Vec3f to_vector(const wire::Point& p) {
+    return {p.x(), p.y(), p.z()};
+}
+
+Metadata read_metadata(const wire::Freespace& root) {
+    Metadata metadata;
+    metadata.map_name = root.map_name()->str();
+    metadata.source_name = root.source_name()->str();
+    metadata.source_hash = root.source_hash();
+    metadata.metres_per_unit = root.metres_per_unit();
+    metadata.d0 = root.d0();
+    metadata.parameters = root.parameters()->str();
+    for (const wire::Count* count : *root.counts())
+        metadata.counts.push_back({count->stage()->str(), count->what()->str(), count->value()});
+    return metadata;
+}
+
+std::vector<SpawnPoint> read_spawn_points(const wire::Freespace& root) {
+    std::vector<SpawnPoint> spawn_points;
+    for (const wire::SpawnPoint* spawn : *root.spawn_points())
+        spawn_points.push_back({to_vector(spawn->eye()), spawn->yaw()});
+    return spawn_points;
+}
+
+std::string find_metadata_flaw(const Metadata& metadata, std::span<const SpawnPoint> spawn_points,
+                               const Box3f& bounds) {
+    const auto positive = [](float value) { return value > 0.0F && std::isfinite(value); };
+    if (!positive(metadata.metres_per_unit)) return "metres_per_unit is not a positive number";
+    if (!positive(metadata.d0)) return "d0 is not a positive number";
+    if (!bounds.min().allFinite() || !bounds.max().allFinite()) return "the bounds are not finite";
+    for (const SpawnPoint& spawn : spawn_points)
+        if (!spawn.eye.allFinite() || !std::isfinite(spawn.yaw)) return "a spawn point is not finite";
+    return {};
+}
+
+}  // namespace
+
+struct Freespace::Storage {
+    std::variant<MappedFile, Bytes> file;
+    Metadata metadata;
+    Box3f bounds;
+    std::vector<SpawnPoint> spawn_points;
+    MeshView mesh;  // into file
+
+    explicit Storage(std::variant<MappedFile, Bytes> source) : file(std::move(source)) {}
+
+    [[nodiscard]] std::span<const std::byte> bytes() const {
+        if (const auto* mapped = std::get_if<MappedFile>(&file)) return mapped->bytes();
+        return std::get<Bytes>(file);
+    }
+};
+
+Freespace::Freespace(std::shared_ptr<const Storage> storage)
+    : storage_(std::move(storage)), mesh_(storage_->mesh) {}
+
+Result<Freespace> Freespace::read(std::shared_ptr<Storage> storage, const std::string& name) {
+    const std::span<const std::byte> bytes = storage->bytes();
+    if (const std::string flaw = find_file_flaw(bytes); !flaw.empty()) return fail(name + ": " + flaw);
+    const wire::Freespace& root = *wire::GetFreespace(bytes.data());
+    storage->metadata = read_metadata(root);
+    storage->spawn_points = read_spawn_points(root);
+    storage->bounds = {to_vector(root.bounds()->min()), to_vector(root.bounds()->max())};
+    storage->mesh = view_mesh(root);
+    std::string flaw = find_metadata_flaw(storage->metadata, storage->spawn_points, storage->bounds);
+    if (flaw.empty()) flaw = find_flaw(storage->mesh);
+    if (!flaw.empty()) return fail(name + ": is damaged: " + flaw);
+    return Freespace(std::move(storage));
+}
+
+Result<Freespace> Freespace::open(const std::filesystem::path& path) {
+    auto file = MappedFile::open(path);
+    if (!file) return tl::unexpected(file.error());
+    return read(std::make_shared<Storage>(std::move(*file)), path.string());
+}
+
+Result<Freespace> Freespace::parse(std::vector<std::byte> bytes, const std::string& name) {
+    return read(std::make_shared<Storage>(std::move(bytes)), name);
+}
+
+const Metadata& Freespace::metadata() const {
+    return storage_->metadata;
+}
+
+const Box3f& Freespace::bounds() const {
+    return storage_->bounds;
+}
+
+std::span<const SpawnPoint> Freespace::spawn_points() const {
+    return storage_->spawn_points;
+}
+
+std::size_t Freespace::byte_size() const {
+    return storage_->bytes().size();
+}
+
+std::vector<std::byte> encode(const Contents& contents) {
+    assert(contents.triangles.size() < IndexChild::triangle_limit);
+    assert(find_mesh_flaw(contents.vertices, contents.triangles).empty());
+    const Index index = build_index(contents.vertices, contents.triangles);
+    std::vector<std::uint32_t> new_number;
+    const std::vector<Vertex> vertices = reorder_vertices(contents, index.triangle_order, new_number);
+    std::vector<Triangle> triangles;
+    triangles.reserve(contents.triangles.size());
+    for (const std::uint32_t t : index.triangle_order) {
+        const auto [a, b, c] = contents.triangles[t];
+        triangles.push_back({new_number[a], new_number[b], new_number[c]});
+    }
+    const auto buffer = build_file(contents.metadata, contents.spawn_points, vertices, triangles, index);
+    const auto built = std::as_bytes(std::span(buffer.data(), buffer.size()));
+    std::vector<std::byte> file(built.begin(), built.end());
+    seal(file);
+    return file;
+}
+
+}  // namespace camdir::freespace

@@ -1,0 +1,57 @@
+// The query index: a tree of boxes over the triangles, four children a node.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "freespace/freespace.hpp"
+
+namespace camdir::freespace {
+
+// A child is a subtree or a leaf of at most 4 consecutive triangles.
+class IndexChild {
+  public:
+    static constexpr std::uint32_t leaf_capacity = 4;
+    static constexpr std::uint32_t triangle_limit = 1U << 28U;
+
+    [[nodiscard]] static constexpr IndexChild node(std::uint32_t index) { return IndexChild(index); }
+    [[nodiscard]] static constexpr IndexChild leaf(std::uint32_t first, std::uint32_t count) {
+        return IndexChild(leaf_bit | (first << 3U) | count);
+    }
+    explicit constexpr IndexChild(std::uint32_t bits) : bits_(bits) {}
+
+    [[nodiscard]] constexpr std::uint32_t bits() const { return bits_; }
+    [[nodiscard]] constexpr bool is_leaf() const { return (bits_ & leaf_bit) != 0; }
+    [[nodiscard]] constexpr std::uint32_t index() const { return bits_; }
+    [[nodiscard]] constexpr std::uint32_t first() const { return (bits_ & ~leaf_bit) >> 3U; }
+    [[nodiscard]] constexpr std::uint32_t count() const { return bits_ & 7U; }
+
+  private:
+    static constexpr std::uint32_t leaf_bit = 1U << 31U;
+    std::uint32_t bits_;
+};
+
+// Four children side by side; as on disk. Nodes are in breadth-first order, and the leaves' triangles in the
+// order of the leaves. An unused child is a leaf of no triangles with max_radius = -infinity.
+struct IndexNode {
+    static constexpr std::uint32_t width = 4;
+
+    float min_x[width], min_y[width], min_z[width];
+    float max_x[width], max_y[width], max_z[width];
+    float max_radius[width];  // the largest free distance of a corner below
+    std::uint32_t child[width];
+};
+
+// The deepest tree that queries walk; a mesh of 2^28 triangles needs 15.
+inline constexpr std::uint32_t index_depth_limit = 24;
+
+struct Index {
+    std::vector<IndexNode> nodes;
+    std::vector<std::uint32_t> triangle_order;  // position in the index -> triangle of the input
+};
+
+// Splits at the median along the widest of x, y, z and free distance.
+[[nodiscard]] Index build_index(std::span<const Vertex> vertices, std::span<const Triangle> triangles);
+
+}  // namespace camdir::freespace

@@ -1,0 +1,125 @@
+#include "freespace/roadmap.hpp"
+
+#include <algorithm>
+
+#include "freespace/distance.hpp"
+
+namespace camdir::freespace {
+namespace {
+
+bool on_roadmap(const Vertex& vertex) {
+    return vertex.free_distance > 0.0F;
+}
+
+template <class Visit>
+void for_each_neighbour(const Freespace& freespace, std::uint32_t vertex, const Visit& visit) {
+    for (const std::uint32_t t : freespace.incident(vertex)) {
+        const auto [a, b, c] = freespace.triangles()[t];
+        for (const std::uint32_t corner : {a, b, c})
+            if (corner != vertex && on_roadmap(freespace.vertices()[corner])) visit(corner);
+    }
+}
+
+std::vector<std::uint32_t> find_components(const Freespace& freespace) {
+    const auto vertices = freespace.vertices();
+    std::vector<std::uint32_t> component(vertices.size(), none);
+    std::vector<std::uint32_t> pending;
+    for (std::uint32_t seed = 0; seed < vertices.size(); ++seed) {
+        if (component[seed] != none || !on_roadmap(vertices[seed])) continue;
+        component[seed] = seed;
+        pending.push_back(seed);
+        while (!pending.empty()) {
+            const std::uint32_t vertex = pending.back();
+            pending.pop_back();
+            for_each_neighbour(freespace, vertex, [&](std::uint32_t neighbour) {
+                if (component[neighbour] != none) return;
+                component[neighbour] = seed;
+                pending.push_back(neighbour);
+            });
+        }
+    }
+    return component;
+}
+
+// The heap's order: the smallest estimate on top, ties by number.
+constexpr auto later = [](const auto& a, const auto& b) {
+    return a.estimate != b.estimate ? a.estimate > b.estimate : a.vertex > b.vertex;
+};
+
+}  // namespace
+
+RoadmapSearch::RoadmapSearch(const Freespace& freespace)
+    : freespace_(freespace), component_(find_components(freespace)), labels_(freespace.vertices().size()) {}
+
+RoadmapSearch::Gate RoadmapSearch::gate(const Vec3f& point) const {
+    Gate gate;
+    const Distance slab = distance_everywhere(freespace_, point);
+    if (!slab.covered()) return gate;
+    const auto [a, b, c] = freespace_.triangles()[slab.triangle];
+    for (const std::uint32_t corner : {a, b, c})
+        if (on_roadmap(freespace_.vertices()[corner])) gate.vertices[gate.count++] = corner;
+    return gate;
+}
+
+// The positive corners of one slab are neighbours, so a gate is in one component.
+const RoadmapPath& RoadmapSearch::find(const Vec3f& from, const Vec3f& to) {
+    path_.found = false;
+    path_.length = 0.0F;
+    path_.vertices.clear();
+    const Gate start = gate(from);
+    const Gate goal = gate(to);
+    if (start.count == 0 || goal.count == 0) return path_;
+    if (component_[start.vertices[0]] != component_[goal.vertices[0]]) return path_;
+
+    begin_round();
+    for (const std::uint32_t vertex : start.span())
+        reach(vertex, none, (freespace_.vertices()[vertex].position() - from).norm(), to);
+    while (!open_.empty()) {
+        std::pop_heap(open_.begin(), open_.end(), later);
+        const auto [estimate, vertex] = open_.back();
+        open_.pop_back();
+        if (labels_[vertex].closed) continue;
+        labels_[vertex].closed = true;
+        // A goal's estimate is its cost and the straight way to the end: the length of the whole path.
+        if (std::ranges::find(goal.span(), vertex) != goal.span().end()) {
+            trace(vertex, estimate);
+            break;
+        }
+        expand(vertex, to);
+    }
+    return path_;
+}
+
+void RoadmapSearch::begin_round() {
+    open_.clear();
+    if (++round_ != 0) return;
+    std::fill(labels_.begin(), labels_.end(), Label{});
+    round_ = 1;
+}
+
+void RoadmapSearch::reach(std::uint32_t vertex, std::uint32_t parent, float cost, const Vec3f& goal) {
+    Label& label = labels_[vertex];
+    if (label.round == round_ && (label.closed || label.cost <= cost)) return;
+    label = {cost, parent, round_, false};
+    open_.push_back({cost + (freespace_.vertices()[vertex].position() - goal).norm(), vertex});
+    std::push_heap(open_.begin(), open_.end(), later);
+}
+
+void RoadmapSearch::expand(std::uint32_t vertex, const Vec3f& goal) {
+    const Vec3f position = freespace_.vertices()[vertex].position();
+    const float cost = labels_[vertex].cost;
+    for_each_neighbour(freespace_, vertex, [&](std::uint32_t neighbour) {
+        reach(neighbour, vertex, cost + (freespace_.vertices()[neighbour].position() - position).norm(),
+              goal);
+    });
+}
+
+void RoadmapSearch::trace(std::uint32_t last, float length) {
+    path_.found = true;
+    path_.length = length;
+    for (std::uint32_t vertex = last; vertex != none; vertex = labels_[vertex].parent)
+        path_.vertices.push_back(vertex);
+    std::reverse(path_.vertices.begin(), path_.vertices.end());
+}
+
+}  // namespace camdir::freespace

@@ -1,0 +1,70 @@
+#include "freespace/search.hpp"
+
+#include <array>
+
+#include "freespace/index.hpp"
+#include "freespace/lanes.hpp"
+
+namespace camdir::freespace {
+namespace {
+
+struct Candidate {
+    float bound = 0.0F;  // no slab below is better
+    IndexChild child = IndexChild::leaf(0, 0);
+};
+// Each level leaves at most three siblings behind.
+using Stack = std::array<Candidate, 3 * index_depth_limit + 1>;
+
+// What the children can reach at most: max_radius - |point - box|.
+Lanes bounds_of_children(const IndexNode& node, const Vec3f& point) {
+    const auto gap = [](const float* low, const float* high, float coordinate) {
+        const Lanes c = broadcast(coordinate);
+        return larger(larger(load(low) - c, c - load(high)), Lanes{});
+    };
+    const Lanes x = gap(node.min_x, node.max_x, point.x());
+    const Lanes y = gap(node.min_y, node.max_y, point.y());
+    const Lanes z = gap(node.min_z, node.max_z, point.z());
+    return load(node.max_radius) - square_root(x * x + y * y + z * z);
+}
+
+// Pushes the children that can beat `to_beat`, the most promising last; returns the new height.
+std::size_t push_children(const IndexNode& node, const Vec3f& point, float to_beat, Stack& stack,
+                          std::size_t height) {
+    const Lanes bounds = bounds_of_children(node, point);
+    const std::size_t base = height;
+    for (std::uint32_t k = 0; k < IndexNode::width; ++k) {
+        if (!(bounds[k] > to_beat)) continue;
+        std::size_t place = height++;
+        for (; place > base && stack[place - 1].bound > bounds[k]; --place)
+            stack[place] = stack[place - 1];
+        stack[place] = {bounds[k], IndexChild(node.child[k])};
+    }
+    return height;
+}
+
+}  // namespace
+
+void improve_by_ring(const Freespace& freespace, const Vec3f& point, std::uint32_t triangle,
+                     SlabPoint& best) {
+    const auto [a, b, c] = freespace.triangles()[triangle];
+    for (const std::uint32_t corner : {a, b, c})
+        improve(freespace.mesh(), point, freespace.incident(corner), best);
+}
+
+// Depth first.
+void improve_everywhere(const MeshView& mesh, const Vec3f& point, SlabPoint& best) {
+    if (mesh.index.empty()) return;
+    std::array<Candidate, 3 * index_depth_limit + 1> stack;
+    stack[0] = {std::numeric_limits<float>::infinity(), IndexChild::node(0)};
+    std::size_t height = 1;
+    while (height > 0) {
+        const Candidate top = stack[--height];
+        if (!(top.bound > best.value)) continue;
+        if (top.child.is_leaf())
+            improve_range(mesh, point, top.child.first(), top.child.count(), best);
+        else
+            height = push_children(mesh.index[top.child.index()], point, best.value, stack, height);
+    }
+}
+
+}  // namespace camdir::freespace
