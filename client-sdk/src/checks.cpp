@@ -1,0 +1,142 @@
+#include "checks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <set>
+
+#include "failure.hpp"
+
+namespace camdir::sdk {
+
+namespace {
+
+constexpr float pi = 3.14159265F;
+
+bool all_finite(const float* values, std::size_t count) {
+    return std::all_of(values, values + count, [](float value) { return std::isfinite(value); });
+}
+
+// count quaternions.
+bool all_unit(const float* quaternions, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+        double square = 0.0;
+        for (std::size_t k = 0; k < 4; ++k) {
+            square += double{quaternions[4 * i + k]} * double{quaternions[4 * i + k]};
+        }
+        // Written so that a NaN fails.
+        if (!(std::abs(std::sqrt(square) - 1.0) <= 1e-3)) return false;
+    }
+    return true;
+}
+
+bool has_control_character(const std::string& text) {
+    return std::any_of(text.begin(), text.end(),
+                       [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; });
+}
+
+void check_player(const cdir_player& player) {
+    require(player.id != CDIR_NO_PLAYER, "a player's id is CDIR_NO_PLAYER");
+    (void)checked_text("a player's name", player.name, 0, sizeof player.name - 1);
+    (void)checked_text("a player's class", player.player_class, 0, sizeof player.player_class - 1);
+}
+
+bool all_finite(const dds_sequence_float& sequence) {
+    return all_finite(sequence._buffer, sequence._length);
+}
+
+// Players' names, classes and teams come for all players or for none.
+template <class Sequence>
+bool is_parallel(const Sequence& sequence, std::uint32_t count) {
+    return sequence._length == 0 || sequence._length == count;
+}
+
+}  // namespace
+
+void require(bool condition, const char* text) {
+    if (!condition) throw Failure{CDIR_INVALID_ARGUMENT, text};
+}
+
+std::string checked_text(const char* field, const char* text, std::size_t least, std::size_t most) {
+    if (text == nullptr) throw Failure{CDIR_INVALID_ARGUMENT, std::string(field) + " is null"};
+    const std::size_t length = strnlen(text, most + 1);
+    if (length < least || length > most) {
+        throw Failure{CDIR_INVALID_ARGUMENT, std::string(field) + " must have " + std::to_string(least) +
+                                                 " to " + std::to_string(most) +
+                                                 " bytes before its zero byte"};
+    }
+    return {text, length};
+}
+
+std::string checked_match_id(const char* text) {
+    std::string id = checked_text("match_id", text, 1, 63);
+    require(id.find_first_of("/*?") == std::string::npos && !has_control_character(id),
+            "match_id must not contain '/', '*', '?' or control characters");
+    return id;
+}
+
+std::string checked_observer_id(const char* text) {
+    std::string id = checked_text("observer_id", text, 1, 63);
+    require(!has_control_character(id), "observer_id must not contain control characters");
+    return id;
+}
+
+void check(const cdir_match_info& info, std::span<const cdir_player> players) {
+    (void)checked_text("map_name", info.map_name, 1, sizeof info.map_name - 1);
+    require(std::isfinite(info.metres_per_unit) && info.metres_per_unit > 0.0F,
+            "metres_per_unit must be greater than 0");
+    require(std::isfinite(info.rate_hz) && info.rate_hz > 0.0F, "rate_hz must be greater than 0");
+    require(std::isfinite(info.spectator_delay_s) && info.spectator_delay_s >= 0.0F,
+            "spectator_delay_s must be 0 or greater");
+    std::set<std::uint32_t> ids;
+    for (const cdir_player& player : players) {
+        check_player(player);
+        require(ids.insert(player.id).second, "two players have the same id");
+    }
+}
+
+void check(const cdir_pose_frame& frame) {
+    const std::size_t n = frame.player_count;
+    require(n <= CDIR_MAX_PLAYERS, "player_count is greater than CDIR_MAX_PLAYERS");
+    if (n == 0) return;
+    require(frame.player_id != nullptr && frame.eye != nullptr && frame.orientation != nullptr &&
+                frame.flags != nullptr,
+            "player_id, eye, orientation or flags is null");
+    require(all_finite(frame.eye, 3 * n), "an eye position is not finite");
+    require(all_unit(frame.orientation, n), "an orientation is not of length 1");
+    require(frame.velocity == nullptr || all_finite(frame.velocity, 3 * n), "a velocity is not finite");
+}
+
+void check(const cdir_match_event& event) {
+    require(event.kind >= CDIR_EVENT_KILL && event.kind <= CDIR_EVENT_AWARD,
+            "an event's kind must be one of CDIR_EVENT_");
+    require(std::isfinite(event.value), "an event's value is not finite");
+}
+
+bool is_valid(const camera_director_MatchInfo& info, const std::string& match_id) {
+    const std::uint32_t n = info.player_id._length;
+    return info.match_id == match_id && n <= CDIR_MAX_PLAYERS && info.map_name != nullptr &&
+           std::strlen(info.map_name) < sizeof cdir_match_info::map_name &&
+           std::isfinite(info.metres_per_unit) && info.metres_per_unit > 0.0F &&
+           std::isfinite(info.rate_hz) && std::isfinite(info.spectator_delay_s) &&
+           is_parallel(info.player_name, n) && is_parallel(info.player_class, n) &&
+           is_parallel(info.player_team, n);
+}
+
+bool is_valid(const camera_director_CameraFrame& frame, const std::string& match_id) {
+    const std::uint32_t n = frame.camera_id._length;
+    const bool lengths = n <= CDIR_MAX_CAMERAS && frame.target._length == n &&
+                         frame.position._length == 3 * n && frame.orientation._length == 4 * n &&
+                         frame.vertical_fov._length == n && frame.clearance._length == n &&
+                         frame.flags._length == n;
+    return lengths && frame.match_id == match_id && all_finite(frame.position) &&
+           all_unit(frame.orientation._buffer, n) && all_finite(frame.clearance) &&
+           std::all_of(frame.vertical_fov._buffer, frame.vertical_fov._buffer + n,
+                       [](float fov) { return fov > 0.0F && fov < pi; });
+}
+
+bool is_valid(const camera_director_ObserverStatus& status) {
+    return status.state <= CDIR_SHOT_WAITING_FOR_PLAYER;
+}
+
+}  // namespace camdir::sdk

@@ -1,0 +1,51 @@
+// Owners of what Cyclone DDS hands out as plain numbers and pointers.
+#pragma once
+
+#include <dds/dds.h>
+
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "failure.hpp"
+
+namespace camdir::sdk {
+
+// what: "cannot create the reader of CameraFrame" and the like.
+[[noreturn]] inline void fail_dds(const std::string& what, dds_return_t code) {
+    throw Failure{CDIR_NETWORK, what + ": " + dds_strretcode(code)};
+}
+
+inline void check_dds(const std::string& what, dds_return_t code) {
+    if (code < 0) fail_dds(what, code);
+}
+
+// One DDS entity, deleted with its owner.
+class Entity {
+  public:
+    Entity() = default;
+    // Takes what a dds_create_ function returned; a negative number is a failure to do `what`.
+    Entity(const std::string& what, dds_entity_t created) : entity_(created) { check_dds(what, created); }
+    Entity(Entity&& other) noexcept : entity_(std::exchange(other.entity_, 0)) {}
+    Entity& operator=(Entity&& other) noexcept {
+        std::swap(entity_, other.entity_);
+        return *this;
+    }
+    Entity(const Entity&) = delete;
+    Entity& operator=(const Entity&) = delete;
+    ~Entity() {
+        if (entity_ > 0) dds_delete(entity_);
+    }
+
+    [[nodiscard]] dds_entity_t get() const { return entity_; }
+
+  private:
+    dds_entity_t entity_ = 0;
+};
+
+struct QosDeleter {
+    void operator()(dds_qos_t* qos) const { dds_delete_qos(qos); }
+};
+using Qos = std::unique_ptr<dds_qos_t, QosDeleter>;
+
+}  // namespace camdir::sdk

@@ -1,0 +1,40 @@
+// How calls fail inside the library, and the firewall that turns it into a status at the C boundary.
+#pragma once
+
+#include <camera_director/camera_director.h>
+
+#include <exception>
+#include <new>
+#include <string>
+
+namespace camdir::sdk {
+
+// Thrown by everything below the C functions; never leaves them.
+struct Failure {
+    cdir_status status;
+    std::string text;  // one line: what was wrong, and what was expected
+};
+
+// The text of cdir_last_error() of this thread; longer texts are cut.
+void set_last_error(const char* text) noexcept;
+[[nodiscard]] const char* last_error() noexcept;
+
+template <class Call>
+[[nodiscard]] cdir_status guarded(Call&& call) noexcept {
+    try {
+        return call();
+    } catch (const Failure& failure) {
+        set_last_error(failure.text.c_str());
+        return failure.status;
+    } catch (const std::bad_alloc&) {
+        set_last_error("out of memory");
+        return CDIR_OUT_OF_MEMORY;
+    } catch (const std::exception& error) {
+        set_last_error(error.what());
+    } catch (...) {
+        set_last_error("unknown exception");
+    }
+    return CDIR_INTERNAL;
+}
+
+}  // namespace camdir::sdk

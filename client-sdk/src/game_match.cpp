@@ -1,0 +1,167 @@
+#include "game_match.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <vector>
+
+#include "checks.hpp"
+#include "text.hpp"
+
+namespace camdir::sdk {
+
+namespace {
+
+std::int64_t realtime_ns() {
+    const auto now = std::chrono::system_clock::now().time_since_epoch();
+    return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
+}
+
+// Greater than that of any earlier process that chose by its clock too.
+std::uint64_t choose_epoch(std::uint64_t previous) {
+    return std::max(static_cast<std::uint64_t>(realtime_ns()), previous + 1);
+}
+
+// A sequence that borrows the caller's array for one write.
+template <class Sequence, class Element>
+void borrow(Sequence& sequence, const Element* elements, std::size_t count) {
+    sequence._buffer = const_cast<Element*>(elements);
+    sequence._length = sequence._maximum = static_cast<std::uint32_t>(count);
+    sequence._release = false;
+}
+
+// The four parallel arrays of MatchInfo.
+struct PlayerColumns {
+    explicit PlayerColumns(std::span<const cdir_player> players)
+        : names(players.size()), classes(players.size()) {
+        for (std::size_t i = 0; i < players.size(); ++i) {
+            ids.push_back(players[i].id);
+            teams.push_back(players[i].team);
+            copy_text(names[i].text, players[i].name);
+            copy_text(classes[i].text, players[i].player_class);
+        }
+    }
+
+    struct Name {
+        char text[sizeof cdir_player::name];
+    };
+    struct Class {
+        char text[sizeof cdir_player::player_class];
+    };
+    std::vector<std::uint32_t> ids;
+    std::vector<std::uint8_t> teams;
+    std::vector<Name> names;
+    std::vector<Class> classes;
+};
+
+void check_sent(const std::string& topic, dds_return_t code) {
+    if (code == DDS_RETCODE_TIMEOUT) throw Failure{CDIR_BUSY, topic + ": the send queue is full"};
+    check_dds(topic + ": cannot write", code);
+}
+
+}  // namespace
+
+GameMatch::GameMatch(std::shared_ptr<const Context> context, const cdir_match_info& info,
+                     std::span<const cdir_player> players)
+    : context_(std::move(context)), match_id_(checked_match_id(info.match_id)), info_(info) {
+    check(info, players);
+    if (info_.epoch == 0) info_.epoch = choose_epoch(0);
+    publisher_ = make_publisher(context_->participant(), match_id_);
+    info_writer_ = context_->topics().make_writer(publisher_.get(), Topic::match_info);
+    pose_writer_ = context_->topics().make_writer(publisher_.get(), Topic::pose_frame);
+    event_writer_ = context_->topics().make_writer(publisher_.get(), Topic::match_event);
+    announce(info_, players);
+}
+
+void GameMatch::update(const cdir_match_info& info, std::span<const cdir_player> players) {
+    check(info, players);
+    const std::lock_guard lock(mutex_);
+    const bool same = match_id_ == checked_match_id(info.match_id) &&
+                      std::strcmp(info_.map_name, info.map_name) == 0 && info_.map_hash == info.map_hash &&
+                      info_.metres_per_unit == info.metres_per_unit;
+    if (!same) throw Failure{CDIR_CONFLICT, "match_id, map or metres_per_unit changed: restart the match"};
+    cdir_match_info updated = info;
+    updated.epoch = info_.epoch;
+    announce(updated, players);
+    info_ = updated;
+}
+
+void GameMatch::restart(const cdir_match_info& info, std::span<const cdir_player> players) {
+    check(info, players);
+    const std::lock_guard lock(mutex_);
+    if (match_id_ != checked_match_id(info.match_id)) {
+        throw Failure{CDIR_CONFLICT, "match_id changed: close the match and open another"};
+    }
+    if (info.epoch != 0 && info.epoch <= info_.epoch) {
+        throw Failure{CDIR_CONFLICT, "the epoch must be greater than " + std::to_string(info_.epoch)};
+    }
+    cdir_match_info restarted = info;
+    if (restarted.epoch == 0) restarted.epoch = choose_epoch(info_.epoch);
+    announce(restarted, players);
+    info_ = restarted;
+    next_frame_number_ = 0;
+    last_frame_time_.reset();
+}
+
+void GameMatch::announce(cdir_match_info& info, std::span<const cdir_player> players) {
+    const PlayerColumns columns(players);
+    camera_director_MatchInfo sample{};
+    copy_text(sample.match_id, match_id_.c_str());
+    sample.epoch = info.epoch;
+    sample.map_name = info.map_name;
+    sample.map_hash = info.map_hash;
+    sample.metres_per_unit = info.metres_per_unit;
+    sample.rate_hz = info.rate_hz;
+    sample.spectator_delay_s = info.spectator_delay_s;
+    borrow(sample.player_id, columns.ids.data(), columns.ids.size());
+    borrow(sample.player_team, columns.teams.data(), columns.teams.size());
+    // An array of structs of one char array is an array of those char arrays.
+    borrow(sample.player_name, reinterpret_cast<const char(*)[64]>(columns.names.data()), players.size());
+    borrow(sample.player_class, reinterpret_cast<const char(*)[32]>(columns.classes.data()), players.size());
+    check_sent("MatchInfo", dds_write(info_writer_.get(), &sample));
+}
+
+void GameMatch::publish(const cdir_pose_frame& frame) {
+    check(frame);
+    const std::lock_guard lock(mutex_);
+    require(!last_frame_time_ || frame.frame_time >= *last_frame_time_,
+            "frame_time went back within the epoch: restart the match");
+    const std::size_t n = frame.player_count;
+    camera_director_PoseFrame sample{};
+    copy_text(sample.match_id, match_id_.c_str());
+    sample.epoch = info_.epoch;
+    sample.frame_number = next_frame_number_;
+    sample.frame_time = frame.frame_time;
+    sample.source_time = frame.source_time != 0 ? frame.source_time : realtime_ns();
+    borrow(sample.player_id, frame.player_id, n);
+    borrow(sample.eye, frame.eye, 3 * n);
+    borrow(sample.orientation, frame.orientation, 4 * n);
+    borrow(sample.velocity, frame.velocity, frame.velocity == nullptr ? 0 : 3 * n);
+    borrow(sample.flags, frame.flags, n);
+    check_sent("PoseFrame", dds_write(pose_writer_.get(), &sample));
+    ++next_frame_number_;
+    last_frame_time_ = frame.frame_time;
+}
+
+void GameMatch::publish(const cdir_match_event& event) {
+    check(event);
+    const std::lock_guard lock(mutex_);
+    camera_director_MatchEvent sample{};
+    copy_text(sample.match_id, match_id_.c_str());
+    sample.epoch = info_.epoch;
+    sample.frame_time = event.frame_time;
+    sample.kind = event.kind;
+    sample.actor = event.actor;
+    sample.subject = event.subject;
+    sample.value = event.value;
+    check_sent("MatchEvent", dds_write(event_writer_.get(), &sample));
+}
+
+std::uint32_t GameMatch::director_count() const {
+    dds_publication_matched_status_t matched{};
+    check_dds("PoseFrame: cannot count its readers",
+              dds_get_publication_matched_status(pose_writer_.get(), &matched));
+    return matched.current_count;
+}
+
+}  // namespace camdir::sdk

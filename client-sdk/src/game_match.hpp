@@ -1,0 +1,45 @@
+// A game server's side of a match.
+#pragma once
+
+#include <camera_director/camera_director.h>
+
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "context.hpp"
+
+namespace camdir::sdk {
+
+// Thread-safe: calls wait for each other. All throw Failure.
+class GameMatch {
+  public:
+    GameMatch(std::shared_ptr<const Context> context, const cdir_match_info& info,
+              std::span<const cdir_player> players);
+
+    [[nodiscard]] const Context& context() const { return *context_; }
+
+    void update(const cdir_match_info& info, std::span<const cdir_player> players);
+    void restart(const cdir_match_info& info, std::span<const cdir_player> players);
+    void publish(const cdir_pose_frame& frame);
+    void publish(const cdir_match_event& event);
+    [[nodiscard]] std::uint32_t director_count() const;
+
+  private:
+    void announce(cdir_match_info& info, std::span<const cdir_player> players);
+
+    std::shared_ptr<const Context> context_;
+    std::mutex mutex_;
+    std::string match_id_;
+    cdir_match_info info_;  // as announced, with the epoch in force
+    std::uint32_t next_frame_number_ = 0;
+    std::optional<std::int64_t> last_frame_time_;  // in this epoch
+    Entity publisher_;
+    Entity info_writer_;
+    Entity pose_writer_;
+    Entity event_writer_;
+};
+
+}  // namespace camdir::sdk

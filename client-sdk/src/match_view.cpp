@@ -1,0 +1,150 @@
+#include "match_view.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include "checks.hpp"
+#include "text.hpp"
+
+namespace camdir::sdk {
+
+namespace {
+
+cdir_player player_at(const camera_director_MatchInfo& info, std::uint32_t index) {
+    cdir_player player{};
+    player.id = info.player_id._buffer[index];
+    if (info.player_team._length > 0) player.team = info.player_team._buffer[index];
+    if (info.player_name._length > 0) copy_text(player.name, info.player_name._buffer[index]);
+    if (info.player_class._length > 0) copy_text(player.player_class, info.player_class._buffer[index]);
+    return player;
+}
+
+MatchView::Info info_from(const camera_director_MatchInfo& sample) {
+    MatchView::Info info{cdir_match_info_default(), {}};
+    copy_text(info.match.match_id, sample.match_id);
+    copy_text(info.match.map_name, sample.map_name);
+    info.match.epoch = sample.epoch;
+    info.match.map_hash = sample.map_hash;
+    info.match.metres_per_unit = sample.metres_per_unit;
+    info.match.rate_hz = sample.rate_hz;
+    info.match.spectator_delay_s = sample.spectator_delay_s;
+    for (std::uint32_t i = 0; i < sample.player_id._length; ++i) {
+        info.players.push_back(player_at(sample, i));
+    }
+    return info;
+}
+
+}  // namespace
+
+cdir_camera camera_at(const camera_director_CameraFrame& frame, std::uint32_t index) {
+    cdir_camera camera{};
+    camera.camera_id = frame.camera_id._buffer[index];
+    camera.target = frame.target._buffer[index];
+    std::copy_n(frame.position._buffer + 3 * index, 3, camera.position);
+    std::copy_n(frame.orientation._buffer + 4 * index, 4, camera.orientation);
+    camera.vertical_fov = frame.vertical_fov._buffer[index];
+    camera.clearance = frame.clearance._buffer[index];
+    camera.flags = frame.flags._buffer[index];
+    return camera;
+}
+
+MatchView::MatchView(std::string match_id, std::string observer_id, std::int64_t interpolation_delay)
+    : match_id_(std::move(match_id)), observer_id_(std::move(observer_id)), clock_(interpolation_delay) {}
+
+bool MatchView::enter_epoch(std::uint64_t epoch) {
+    if (epoch < epoch_) {
+        ++counters_.stale_epoch;
+        return false;
+    }
+    if (epoch > epoch_) {
+        epoch_ = epoch;
+        info_.reset();
+        status_.reset();
+        last_frame_.reset();
+        track_.clear();
+        clock_.clear();
+    }
+    return true;
+}
+
+void MatchView::accept(const camera_director_MatchInfo& info) {
+    if (!is_valid(info, match_id_)) {
+        ++counters_.invalid;
+    } else if (enter_epoch(info.epoch)) {
+        info_ = info_from(info);
+    }
+}
+
+void MatchView::accept(const camera_director_ObserverStatus& status) {
+    if (status.match_id != match_id_ || status.observer_id != observer_id_) return;  // another observer's
+    if (!is_valid(status)) {
+        ++counters_.invalid;
+        return;
+    }
+    if (!enter_epoch(status.epoch)) return;
+    if (status_ && status_->camera_id != status.camera_id) track_.interrupt();
+    status_ = cdir_shot_status_default();
+    status_->state = status.state;
+    status_->epoch = status.epoch;
+    status_->camera_id = status.camera_id;
+    copy_text(status_->reason, status.reason);
+}
+
+bool MatchView::accept(const camera_director_CameraFrame& frame, std::int64_t now) {
+    if (!is_valid(frame, match_id_)) {
+        ++counters_.invalid;
+        return false;
+    }
+    if (!enter_epoch(frame.epoch)) return false;
+    ++counters_.frames;
+    if (!follows_last(frame)) track_.interrupt();
+    last_frame_ = FrameOrigin{frame.director_id, frame.frame_number};
+    clock_.observe(frame.frame_time, now);
+    if (const std::optional<cdir_camera> camera = camera_of_shot(frame)) {
+        track_.add(frame.frame_time, *camera, (camera->flags & CDIR_CAMERA_CUT) == 0);
+    } else {
+        track_.interrupt();
+    }
+    return true;
+}
+
+// A cut may hide in frames that are missing, or that the old director did not come to write.
+bool MatchView::follows_last(const camera_director_CameraFrame& frame) {
+    if (!last_frame_) return false;
+    if (last_frame_->director_id != frame.director_id) {
+        ++counters_.hand_overs;
+        return false;
+    }
+    const std::uint32_t missing = frame.frame_number - last_frame_->frame_number - 1;
+    // Frames of one director do not overtake each other: a number that goes back is a restarted director.
+    if (frame.frame_number > last_frame_->frame_number) counters_.gaps += missing;
+    return missing == 0;
+}
+
+std::optional<cdir_camera> MatchView::camera_of_shot(const camera_director_CameraFrame& frame) const {
+    const bool answered =
+        status_ && (status_->state == CDIR_SHOT_ACCEPTED || status_->state == CDIR_SHOT_WAITING_FOR_PLAYER);
+    if (!requested_ || !answered) return std::nullopt;
+    const std::uint32_t* ids = frame.camera_id._buffer;
+    const std::uint32_t count = frame.camera_id._length;
+    const auto index = static_cast<std::uint32_t>(std::find(ids, ids + count, status_->camera_id) - ids);
+    if (index == count) return std::nullopt;
+    return camera_at(frame, index);
+}
+
+void MatchView::set_requested(bool requested) {
+    requested_ = requested;
+    if (!requested) {
+        status_.reset();
+        track_.clear();
+    }
+}
+
+cdir_shot_status MatchView::shot_status() const {
+    if (requested_ && status_) return *status_;
+    cdir_shot_status status = cdir_shot_status_default();
+    status.state = requested_ ? CDIR_SHOT_UNANSWERED : CDIR_SHOT_NOT_REQUESTED;
+    return status;
+}
+
+}  // namespace camdir::sdk

@@ -1,0 +1,69 @@
+// What an observer knows of a match from the samples it took. No DDS calls, no clock.
+#pragma once
+
+#include <camera_director.h>
+#include <camera_director/camera_director.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "camera_track.hpp"
+#include "display_clock.hpp"
+
+namespace camdir::sdk {
+
+// Each accept() checks its sample and drops it, counted, when it breaks the contract or its epoch is over. A
+// newer epoch forgets the cameras and the director's answer of the older one.
+class MatchView {
+  public:
+    MatchView(std::string match_id, std::string observer_id, std::int64_t interpolation_delay);
+
+    void accept(const camera_director_MatchInfo& info);
+    void match_gone() { info_.reset(); }
+    void accept(const camera_director_ObserverStatus& status);
+    void status_gone() { status_.reset(); }
+    // `now`: see DisplayClock. True when the frame was taken, not dropped.
+    bool accept(const camera_director_CameraFrame& frame, std::int64_t now);
+
+    void set_requested(bool requested);
+    [[nodiscard]] bool requested() const { return requested_; }
+
+    struct Info {
+        cdir_match_info match;
+        std::vector<cdir_player> players;
+    };
+    [[nodiscard]] const std::optional<Info>& info() const { return info_; }
+    [[nodiscard]] cdir_shot_status shot_status() const;
+    [[nodiscard]] const CameraTrack& track() const { return track_; }
+    [[nodiscard]] DisplayClock& clock() { return clock_; }
+    [[nodiscard]] const cdir_observer_counters& counters() const { return counters_; }
+
+  private:
+    // False when the sample is to be dropped.
+    [[nodiscard]] bool enter_epoch(std::uint64_t epoch);
+    [[nodiscard]] bool follows_last(const camera_director_CameraFrame& frame);
+    [[nodiscard]] std::optional<cdir_camera> camera_of_shot(const camera_director_CameraFrame& frame) const;
+
+    struct FrameOrigin {
+        std::uint64_t director_id;
+        std::uint32_t frame_number;
+    };
+
+    std::string match_id_;
+    std::string observer_id_;
+    bool requested_ = false;
+    std::uint64_t epoch_ = 0;
+    std::optional<Info> info_;
+    std::optional<cdir_shot_status> status_;
+    std::optional<FrameOrigin> last_frame_;  // of this epoch
+    CameraTrack track_;
+    DisplayClock clock_;
+    cdir_observer_counters counters_ = cdir_observer_counters_default();
+};
+
+// The i-th camera of a valid frame.
+[[nodiscard]] cdir_camera camera_at(const camera_director_CameraFrame& frame, std::uint32_t index);
+
+}  // namespace camdir::sdk

@@ -1,0 +1,65 @@
+#include "network.hpp"
+
+#include <arpa/inet.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "failure.hpp"
+
+namespace camdir::sdk {
+
+namespace {
+
+bool is_address_character(unsigned char c) {
+    return std::isalnum(c) != 0 || std::string(".:-_[]%@").find(static_cast<char>(c)) != std::string::npos;
+}
+
+void check_address(const std::string& field, const std::string& text) {
+    if (text.empty() || !std::all_of(text.begin(), text.end(), is_address_character)) {
+        throw Failure{CDIR_INVALID_ARGUMENT, field + ": '" + text + "' is neither a name nor an address"};
+    }
+}
+
+bool is_ip_address(const std::string& text) {
+    unsigned char bytes[sizeof(in6_addr)];
+    return inet_pton(AF_INET, text.c_str(), bytes) == 1 || inet_pton(AF_INET6, text.c_str(), bytes) == 1;
+}
+
+std::string interface_element(const std::string& name) {
+    if (name.empty()) return "<NetworkInterface autodetermine=\"true\"/>";
+    check_address("network_interface", name);
+    const char* attribute = is_ip_address(name) ? "address" : "name";
+    return std::string("<NetworkInterface ") + attribute + "=\"" + name + "\"/>";
+}
+
+std::string peer_elements(const std::string& directors) {
+    std::string elements;
+    std::size_t begin = 0;
+    while (begin <= directors.size()) {
+        const std::size_t end = std::min(directors.find(',', begin), directors.size());
+        std::string address = directors.substr(begin, end - begin);
+        std::erase(address, ' ');
+        check_address("directors", address);
+        elements += "<Peer Address=\"" + address + "\"/>";
+        begin = end + 1;
+    }
+    return elements;
+}
+
+}  // namespace
+
+std::string network_configuration(const cdir_context_options& options) {
+    if (options.cyclone_xml != nullptr) return options.cyclone_xml;
+    // MaxAutoParticipantIndex 0: a peer without a port is the participant of index 0 on that host, a
+    // director.
+    return "<CycloneDDS><Domain><General><Interfaces>" + interface_element(options.network_interface) +
+           "</Interfaces><AllowMulticast>false</AllowMulticast><MaxMessageSize>65500B</MaxMessageSize></"
+           "General>"
+           "<Discovery><ParticipantIndex>none</ParticipantIndex><MaxAutoParticipantIndex>0</"
+           "MaxAutoParticipantIndex>"
+           "<SPDPInterval>1s</SPDPInterval><Peers>" +
+           peer_elements(options.directors) + "</Peers></Discovery></Domain></CycloneDDS>";
+}
+
+}  // namespace camdir::sdk

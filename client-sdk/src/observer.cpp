@@ -1,0 +1,173 @@
+#include "observer.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "checks.hpp"
+#include "steady_clock.hpp"
+#include "text.hpp"
+
+namespace camdir::sdk {
+
+namespace {
+
+Entity condition_on(const Entity& reader) {
+    return Entity("cannot create a read condition", dds_create_readcondition(reader.get(), DDS_ANY_STATE));
+}
+
+template <std::size_t size>
+void set_text(char (&to)[size], const char* field, const char* text) {
+    copy_text(to, checked_text(field, text == nullptr ? "" : text, 0, size - 1).c_str());
+}
+
+camera_director_ObserverRequest key_of(const std::string& match_id, const std::string& observer_id) {
+    camera_director_ObserverRequest sample{};
+    copy_text(sample.match_id, match_id.c_str());
+    copy_text(sample.observer_id, observer_id.c_str());
+    return sample;
+}
+
+}  // namespace
+
+Observer::Observer(std::shared_ptr<const Context> context, const std::string& match_id,
+                   const std::string& observer_id, const cdir_observer_options& options)
+    : context_(std::move(context)),
+      match_id_(match_id),
+      observer_id_(observer_id),
+      view_(match_id, observer_id, options.interpolation_delay) {
+    const dds_entity_t participant = context_->participant();
+    const Topics& topics = context_->topics();
+    publisher_ = make_publisher(participant, match_id);
+    request_writer_ = topics.make_writer(publisher_.get(), Topic::observer_request);
+    subscriber_ = make_subscriber(participant, match_id);
+    info_reader_ = topics.make_reader(subscriber_.get(), Topic::match_info);
+    status_reader_ = topics.make_reader(subscriber_.get(), Topic::observer_status);
+    frame_reader_ = topics.make_reader(subscriber_.get(), Topic::camera_frame);
+    guard_ = Entity("cannot create a guard condition", dds_create_guardcondition(participant));
+    info_condition_ = condition_on(info_reader_);
+    status_condition_ = condition_on(status_reader_);
+    frame_condition_ = condition_on(frame_reader_);
+    waitset_ = Entity("cannot create a waitset", dds_create_waitset(participant));
+    for (const Entity* entity : {&guard_, &info_condition_, &status_condition_, &frame_condition_}) {
+        check_dds("cannot attach to a waitset", dds_waitset_attach(waitset_.get(), entity->get(), 0));
+    }
+}
+
+void Observer::request(const cdir_shot_request& request) {
+    camera_director_ObserverRequest sample = key_of(match_id_, observer_id_);
+    require(request.group_count <= CDIR_MAX_PLAYERS, "group_count is greater than CDIR_MAX_PLAYERS");
+    require(request.group_count == 0 || request.group != nullptr, "group is null");
+    sample.target = request.target;
+    sample.group._buffer = const_cast<std::uint32_t*>(request.group);
+    sample.group._length = sample.group._maximum = request.group_count;
+    set_text(sample.profile, "profile", request.profile);
+    set_text(sample.overrides, "overrides", request.overrides);
+    const std::lock_guard lock(mutex_);
+    check_dds("cannot write the request", dds_write(request_writer_.get(), &sample));
+    view_.set_requested(true);
+}
+
+void Observer::withdraw() {
+    const std::lock_guard lock(mutex_);
+    if (!view_.requested()) throw Failure{CDIR_CONFLICT, "there is no request to withdraw"};
+    const camera_director_ObserverRequest sample = key_of(match_id_, observer_id_);
+    check_dds("cannot withdraw the request", dds_unregister_instance(request_writer_.get(), &sample));
+    view_.set_requested(false);
+}
+
+cdir_status Observer::wait(std::int64_t timeout) {
+    {
+        const std::lock_guard lock(wait_mutex_);
+        if (ending_) return CDIR_INTERRUPTED;
+        ++waiters_;
+    }
+    const dds_return_t triggered =
+        dds_waitset_wait(waitset_.get(), nullptr, 0, timeout < 0 ? DDS_INFINITY : timeout);
+    const std::lock_guard lock(wait_mutex_);
+    const bool interrupted = interrupted_ || ending_;
+    if (--waiters_ == 0) {
+        if (interrupted_) dds_set_guardcondition(guard_.get(), false);
+        interrupted_ = false;
+        no_waiters_.notify_all();
+    }
+    if (interrupted) return CDIR_INTERRUPTED;
+    check_dds("cannot wait", triggered);
+    return triggered > 0 ? CDIR_OK : CDIR_TIMEOUT;
+}
+
+void Observer::interrupt() {
+    const std::lock_guard lock(wait_mutex_);
+    interrupted_ = true;
+    check_dds("cannot interrupt", dds_set_guardcondition(guard_.get(), true));
+}
+
+void Observer::end_waits() {
+    std::unique_lock lock(wait_mutex_);
+    ending_ = true;
+    dds_set_guardcondition(guard_.get(), true);
+    no_waiters_.wait(lock, [this] { return waiters_ == 0; });
+}
+
+std::uint32_t Observer::poll() {
+    const std::lock_guard lock(mutex_);
+    take_news();
+    std::uint32_t count = 0;
+    while (take_frame()) {
+        ++count;
+    }
+    return count;
+}
+
+bool Observer::next_frame(cdir_camera_frame& frame, std::span<cdir_camera> cameras) {
+    const std::lock_guard lock(mutex_);
+    take_news();
+    if (!take_frame()) return false;
+    frame.camera_count = frame_sample_->camera_id._length;
+    frame.epoch = frame_sample_->epoch;
+    frame.director_id = frame_sample_->director_id;
+    frame.frame_time = frame_sample_->frame_time;
+    frame.source_time = frame_sample_->source_time;
+    frame.write_time = frame_sample_->write_time;
+    frame.frame_number = frame_sample_->frame_number;
+    frame.pose_number = frame_sample_->pose_number;
+    const std::size_t count = std::min<std::size_t>(frame.camera_count, cameras.size());
+    for (std::uint32_t i = 0; i < count; ++i) {
+        cameras[i] = camera_at(*frame_sample_, i);
+    }
+    return true;
+}
+
+// The director's answer first, so that the frames after it find their camera.
+void Observer::take_news() {
+    for (Taken taken; (taken = info_sample_.take(info_reader_)) != Taken::nothing;) {
+        if (taken == Taken::data) {
+            view_.accept(*info_sample_);
+        } else {
+            view_.match_gone();
+        }
+    }
+    for (Taken taken; (taken = status_sample_.take(status_reader_)) != Taken::nothing;) {
+        if (taken == Taken::data) {
+            view_.accept(*status_sample_);
+        } else if (status_sample_->observer_id == observer_id_) {
+            view_.status_gone();
+        }
+    }
+}
+
+// The next frame that is not dropped. False when none waits.
+bool Observer::take_frame() {
+    for (Taken taken; (taken = frame_sample_.take(frame_reader_)) != Taken::nothing;) {
+        if (taken == Taken::data && view_.accept(*frame_sample_, steady_ns())) return true;
+    }
+    return false;
+}
+
+std::uint32_t Observer::director_count() const {
+    dds_subscription_matched_status_t matched{};
+    check_dds("CameraFrame: cannot count its writers",
+              dds_get_subscription_matched_status(frame_reader_.get(), &matched));
+    return matched.current_count;
+}
+
+}  // namespace camdir::sdk

@@ -1,0 +1,80 @@
+// An observer's side of a match: the readers, the request and the waiting.
+#pragma once
+
+#include <camera_director.h>
+#include <camera_director/camera_director.h>
+
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <string>
+
+#include "context.hpp"
+#include "match_view.hpp"
+#include "wire_sample.hpp"
+
+namespace camdir::sdk {
+
+// Thread-safe: calls wait for each other, except that wait() holds up none. All throw Failure.
+class Observer {
+  public:
+    Observer(std::shared_ptr<const Context> context, const std::string& match_id,
+             const std::string& observer_id, const cdir_observer_options& options);
+
+    [[nodiscard]] const Context& context() const { return *context_; }
+
+    void request(const cdir_shot_request& request);
+    void withdraw();
+
+    [[nodiscard]] cdir_status wait(std::int64_t timeout);
+    void interrupt();
+    // Ends all waits, now and later, and returns when none is in progress.
+    void end_waits();
+
+    [[nodiscard]] std::uint32_t poll();
+    // `cameras` is filled as far as it goes. False when no frame waits.
+    [[nodiscard]] bool next_frame(cdir_camera_frame& frame, std::span<cdir_camera> cameras);
+
+    // Calls read(MatchView&) while no sample comes in.
+    template <class Read>
+    auto with_view(Read&& read) {
+        const std::lock_guard lock(mutex_);
+        return read(view_);
+    }
+    [[nodiscard]] std::uint32_t director_count() const;
+
+  private:
+    void take_news();
+    [[nodiscard]] bool take_frame();
+
+    std::shared_ptr<const Context> context_;
+    std::string match_id_;
+    std::string observer_id_;
+
+    std::mutex mutex_;
+    MatchView view_;
+    WireSample<camera_director_MatchInfo> info_sample_{camera_director_MatchInfo_desc};
+    WireSample<camera_director_ObserverStatus> status_sample_{camera_director_ObserverStatus_desc};
+    WireSample<camera_director_CameraFrame> frame_sample_{camera_director_CameraFrame_desc};
+
+    Entity publisher_;
+    Entity request_writer_;
+    Entity subscriber_;
+    Entity info_reader_;
+    Entity status_reader_;
+    Entity frame_reader_;
+
+    std::mutex wait_mutex_;
+    std::condition_variable no_waiters_;
+    int waiters_ = 0;
+    bool interrupted_ = false;
+    bool ending_ = false;
+    Entity guard_;
+    Entity info_condition_;
+    Entity status_condition_;
+    Entity frame_condition_;
+    Entity waitset_;
+};
+
+}  // namespace camdir::sdk

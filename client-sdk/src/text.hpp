@@ -1,0 +1,17 @@
+// Copies into the fixed arrays of the C structs and of the wire's bounded strings.
+#pragma once
+
+#include <cstddef>
+#include <cstring>
+
+namespace camdir::sdk {
+
+// Ends with a zero byte; what does not fit is cut.
+template <std::size_t size>
+void copy_text(char (&to)[size], const char* from) {
+    const std::size_t length = strnlen(from, size - 1);
+    std::memcpy(to, from, length);
+    std::memset(to + length, 0, size - length);
+}
+
+}  // namespace camdir::sdk

@@ -1,0 +1,41 @@
+// A sample of the wire that is read into again and again.
+#pragma once
+
+#include <dds/dds.h>
+
+#include "entity.hpp"
+
+namespace camdir::sdk {
+
+enum class Taken { nothing, data, gone };  // gone: the instance has no writer any more; only its key is set
+
+// Its sequences keep their memory, so that taking stops allocating once they are as long as they get.
+template <class Wire>
+class WireSample {
+  public:
+    explicit WireSample(const dds_topic_descriptor_t& type) : type_(type) {}
+    WireSample(const WireSample&) = delete;
+    WireSample& operator=(const WireSample&) = delete;
+    ~WireSample() { dds_sample_free(&value_, &type_, DDS_FREE_CONTENTS); }
+
+    [[nodiscard]] Taken take(const Entity& reader) {
+        void* buffer = &value_;
+        dds_sample_info_t info{};
+        while (true) {
+            const dds_return_t count = dds_take(reader.get(), &buffer, &info, 1, 1);
+            check_dds("cannot read", count);
+            if (count == 0) return Taken::nothing;
+            if (info.valid_data) return Taken::data;
+            if (info.instance_state != DDS_IST_ALIVE) return Taken::gone;
+        }
+    }
+
+    [[nodiscard]] const Wire& operator*() const { return value_; }
+    [[nodiscard]] const Wire* operator->() const { return &value_; }
+
+  private:
+    const dds_topic_descriptor_t& type_;
+    Wire value_{};
+};
+
+}  // namespace camdir::sdk
