@@ -1,0 +1,180 @@
+#include "bake/bake.hpp"
+
+#include <tbb/task_arena.h>
+
+#include <array>
+#include <optional>
+#include <utility>
+
+#include "bake/clearance.hpp"
+#include "bake/crossing.hpp"
+#include "bake/delaunay.hpp"
+#include "bake/free_distance.hpp"
+#include "bake/inside.hpp"
+#include "bake/medial_mesh.hpp"
+#include "bake/obstacles.hpp"
+#include "bake/pack.hpp"
+#include "bake/sample.hpp"
+#include "bake/solids.hpp"
+#include "bake/stage.hpp"
+#include "bake/triangulate.hpp"
+#include "bake/voronoi.hpp"
+#include "bake/weld.hpp"
+
+namespace camdir::bake {
+namespace {
+
+// Lengths of the parameters and of the project's definitions are given for units of this many metres.
+constexpr double metres_of_nominal_unit = 0.0254;
+
+// What the stages hand to each other. A stage clears what nobody needs after it.
+class Bake {
+  public:
+    Bake(const scene::Scene& scene, double unit, double d0)
+        : scene_(scene), unit_(unit), d0_(d0), obstacles_(scene), solids_(scene) {}
+
+    Result<void> run(const ProgressSink& progress, const std::stop_token& stop);
+    [[nodiscard]] Baked take() && { return {std::move(contents_), std::move(reports_)}; }
+
+  private:
+    Result<void> sample(Stage& stage);
+    Result<void> weld(Stage& stage);
+    Result<void> delaunay(Stage& stage);
+    Result<void> voronoi(Stage& stage);
+    Result<void> triangulate(Stage& stage);
+    Result<void> clearance(Stage& stage);
+    Result<void> crossing(Stage& stage);
+    Result<void> inside(Stage& stage);
+    Result<void> certify(Stage& stage);
+    Result<void> pack(Stage& stage);
+
+    // Dropped samples must not break the sampling condition: sampling is finer by this distance.
+    [[nodiscard]] double weld_distance() const { return d0_ / 64.0; }
+
+    const scene::Scene& scene_;
+    double unit_;  // map units in a nominal unit
+    double d0_;    // map units
+    Obstacles obstacles_;
+    Solids solids_;
+    std::vector<Vec3d> samples_;
+    Delaunay delaunay_;
+    VoronoiFaces faces_;
+    MedialMesh mesh_;
+    std::vector<double> clearance_;
+    std::vector<float> free_distance_;
+    freespace::Contents contents_;
+    std::vector<StageReport> reports_;
+};
+
+// Moves the value of a stage's result to where the next stage finds it.
+template <class T>
+Result<void> keep(Result<T> result, T& place) {
+    if (!result) return tl::unexpected(std::move(result.error()));
+    place = std::move(*result);
+    return {};
+}
+
+Result<void> Bake::run(const ProgressSink& progress, const std::stop_token& stop) {
+    using Run = Result<void> (Bake::*)(Stage&);
+    constexpr std::array<std::pair<const char*, Run>, 10> stages{{
+        {"sample", &Bake::sample},
+        {"weld", &Bake::weld},
+        {"delaunay", &Bake::delaunay},
+        {"voronoi", &Bake::voronoi},
+        {"triangulate", &Bake::triangulate},
+        {"clearance", &Bake::clearance},
+        {"crossing", &Bake::crossing},
+        {"inside", &Bake::inside},
+        {"certify", &Bake::certify},
+        {"pack", &Bake::pack},
+    }};
+    for (const auto& [name, stage_of] : stages) {
+        Stage stage(name, progress, stop);
+        if (auto done = (this->*stage_of)(stage); !done) return done;
+        reports_.push_back(std::move(stage).finish());
+    }
+    return {};
+}
+
+Result<void> Bake::sample(Stage& stage) {
+    return keep(bake::sample(scene_, d0_ - weld_distance(), stage), samples_);
+}
+
+Result<void> Bake::weld(Stage& stage) {
+    return keep(bake::weld(std::move(samples_), weld_distance(), stage), samples_);
+}
+
+Result<void> Bake::delaunay(Stage& stage) {
+    if (samples_.size() < 4) return fail(scene_.source + ": the obstacles have fewer than 4 samples");
+    return keep(bake::delaunay(samples_, 2.0 * d0_, stage), delaunay_);
+}
+
+Result<void> Bake::voronoi(Stage& stage) {
+    auto done = keep(voronoi_faces(samples_, delaunay_, scene_.bounds, 0.01 * unit_, stage), faces_);
+    delaunay_ = {};
+    samples_ = {};
+    return done;
+}
+
+Result<void> Bake::triangulate(Stage& stage) {
+    auto done = keep(bake::triangulate(faces_, stage), mesh_);
+    faces_ = {};
+    return done;
+}
+
+Result<void> Bake::clearance(Stage& stage) {
+    return keep(clearances(mesh_, obstacles_, stage), clearance_);
+}
+
+Result<void> Bake::crossing(Stage& stage) {
+    return remove_crossing(mesh_, clearance_, obstacles_, stage);
+}
+
+Result<void> Bake::inside(Stage& stage) {
+    return keep_inside(mesh_, clearance_, scene_, solids_, stage);
+}
+
+Result<void> Bake::certify(Stage& stage) {
+    return keep(free_distances(mesh_, clearance_, obstacles_, 0.005 * unit_, stage), free_distance_);
+}
+
+Result<void> Bake::pack(Stage& stage) {
+    return keep(bake::pack(mesh_, free_distance_, scene_, stage), contents_);
+}
+
+freespace::Metadata describe(const scene::Scene& scene, const Parameters& parameters, double d0,
+                             const std::vector<StageReport>& reports) {
+    freespace::Metadata metadata;
+    metadata.map_name = scene.name;
+    metadata.source_name = scene.source;
+    metadata.source_hash = scene.source_hash;
+    metadata.metres_per_unit = static_cast<float>(scene.metres_per_unit);
+    metadata.d0 = static_cast<float>(d0);
+    metadata.parameters = "{\"d0\": " + std::to_string(parameters.d0) + "}";
+    for (const StageReport& report : reports)
+        metadata.counts.insert(metadata.counts.end(), report.counts.begin(), report.counts.end());
+    return metadata;
+}
+
+}  // namespace
+
+Result<Baked> bake(const scene::Scene& scene, const Parameters& parameters, const ProgressSink& progress,
+                   std::stop_token stop) {
+    if (!(parameters.d0 >= 2.0 && parameters.d0 <= 256.0))
+        return fail("d0 = " + std::to_string(parameters.d0) + ": expected a distance from 2 to 256 units");
+    if (scene.triangles.empty()) return fail(scene.source + ": the scene has no obstacles");
+
+    const double unit = metres_of_nominal_unit / scene.metres_per_unit;
+    const double d0 = parameters.d0 * unit;
+    const int threads =
+        parameters.threads > 0 ? static_cast<int>(parameters.threads) : tbb::task_arena::automatic;
+    return tbb::task_arena(threads).execute([&]() -> Result<Baked> {
+        Bake bake(scene, unit, d0);
+        if (auto done = bake.run(progress, stop); !done) return tl::unexpected(std::move(done.error()));
+        Baked baked = std::move(bake).take();
+        baked.contents.metadata = describe(scene, parameters, d0, baked.stages);
+        return baked;
+    });
+}
+
+}  // namespace camdir::bake

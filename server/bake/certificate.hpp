@@ -1,0 +1,57 @@
+// The certificate: how far a slab stays away from the obstacles. Exact, whatever the sampling was.
+#pragma once
+
+#include <array>
+#include <limits>
+
+#include "bake/obstacles.hpp"
+#include "bake/triangle.hpp"
+
+namespace camdir::bake {
+
+// The smallest of |m - q| - r(m) over the points m of the medial triangle (free distance r(m)) and the points
+// q of an obstacle: >= 0 exactly when no ball of the slab reaches into the obstacle.
+struct Margin {
+    double value = std::numeric_limits<double>::infinity();
+    std::array<double, 3> weights{};  // barycentric coordinates of the m where it is attained
+};
+
+// The slab S_f of one medial triangle: corners and free distances, which may be negative. "Tilted", because
+// the interpolated free distance makes its two sides incline towards each other. Immutable, thread-safe. No
+// function allocates.
+class Slab {
+  public:
+    Slab(const Triangle3d& corners, const std::array<double, 3>& free_distance);
+
+    // The margin towards one obstacle triangle. The triangle may be a segment or a point.
+    [[nodiscard]] Margin margin(const Triangle3d& obstacle) const;
+
+    // Lower bounds of the margin, cheap: a direction separates the slab from what lies beyond.
+    [[nodiscard]] double margin_at_least(const Box3d& box) const;
+    [[nodiscard]] double margin_at_least(const Triangle3d& obstacle) const;
+
+    // The largest value of a point's coordinate along `direction` (of length <= 1) over the slab.
+    [[nodiscard]] double reach(const Vec3d& direction) const;
+
+  private:
+    // The best m towards one point: the maximiser of r(m) - |m - q|. By the closed form on a tilted slab.
+    [[nodiscard]] Margin towards_point(const Vec3d& q) const;
+    [[nodiscard]] Margin from_edge_to_point(int edge, const Vec3d& q) const;
+    [[nodiscard]] Margin from_edge_to_edge(int edge, const Vec3d& a, const Vec3d& b) const;
+    [[nodiscard]] Margin from_corner(int corner, const Triangle3d& obstacle) const;
+    [[nodiscard]] Margin where_crossing(const Triangle3d& obstacle) const;
+    [[nodiscard]] Margin at(const std::array<double, 3>& weights, const Vec3d& q) const;
+
+    Triangle3d corners_;
+    std::array<double, 3> free_distance_;
+    Vec3d middle_;
+    Vec3d normal_;        // not of unit length
+    double area2_;        // squared length of normal_
+    Vec3d incline_;       // from the foot of a point at distance 1 above the triangle to the best m for it
+    bool steep_ = false;  // r grows faster than the distance: the best m is always on an edge
+};
+
+// The smallest margin towards any obstacle as far as it lies below `enough`; otherwise some value >= enough.
+[[nodiscard]] Margin margin(const Slab& slab, const Obstacles& obstacles, double enough);
+
+}  // namespace camdir::bake

@@ -1,0 +1,16 @@
+// True clearance at the vertices of the medial mesh.
+#pragma once
+
+#include <vector>
+
+#include "bake/medial_mesh.hpp"
+#include "bake/obstacles.hpp"
+#include "bake/stage.hpp"
+
+namespace camdir::bake {
+
+// Exact distance from each vertex to the nearest obstacle.
+[[nodiscard]] Result<std::vector<double>> clearances(const MedialMesh& mesh, const Obstacles& obstacles,
+                                                     Stage& stage);
+
+}  // namespace camdir::bake

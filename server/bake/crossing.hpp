@@ -1,0 +1,18 @@
+// Medial triangles that cross an obstacle. With exact arithmetic there would be none; the few there are come
+// from rounding, and no free distance could make them safe.
+#pragma once
+
+#include <vector>
+
+#include "bake/medial_mesh.hpp"
+#include "bake/obstacles.hpp"
+#include "bake/stage.hpp"
+
+namespace camdir::bake {
+
+// Removes every triangle that has a point in common with an obstacle, decided exactly. `clearance` is that
+// of the vertices.
+[[nodiscard]] Result<void> remove_crossing(MedialMesh& mesh, const std::vector<double>& clearance,
+                                           const Obstacles& obstacles, Stage& stage);
+
+}  // namespace camdir::bake

@@ -1,0 +1,32 @@
+// The Delaunay triangulation of the samples, as far as the Voronoi diagram needs it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "bake/stage.hpp"
+
+namespace camdir::bake {
+
+// Samples of one tetrahedron, ascending. Its circumcentre is a Voronoi vertex.
+using Cell = std::array<std::uint32_t, 4>;
+
+struct Delaunay {
+    std::vector<Cell> cells;  // ascending
+    // The cells around each long edge, in order: the corners of its Voronoi face. Starts with the smallest.
+    std::vector<std::uint64_t> ring_begin{0};
+    std::vector<std::uint32_t> ring_cells;
+
+    [[nodiscard]] std::size_t ring_count() const { return ring_begin.size() - 1; }
+    [[nodiscard]] std::span<const std::uint32_t> ring(std::size_t i) const {
+        return std::span(ring_cells).subspan(ring_begin[i], ring_begin[i + 1] - ring_begin[i]);
+    }
+};
+
+// Rings only for edges of length >= `min_length` whose Voronoi face is bounded. Exact, also for samples in
+// special position: the result depends on nothing but the samples. At least 4 samples, not all in one plane.
+[[nodiscard]] Result<Delaunay> delaunay(const std::vector<Vec3d>& samples, double min_length, Stage& stage);
+
+}  // namespace camdir::bake

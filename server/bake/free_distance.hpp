@@ -1,0 +1,21 @@
+// Free distances that are certified against the true obstacles: step 4 of the paper's section 4.2. Safety
+// does not depend on the sampling.
+#pragma once
+
+#include <vector>
+
+#include "bake/medial_mesh.hpp"
+#include "bake/obstacles.hpp"
+#include "bake/stage.hpp"
+
+namespace camdir::bake {
+
+// d_f of each vertex, rounded down to a float: at most its clearance, and such that no slab of the mesh
+// reaches into an obstacle. May be negative. No triangle may cross an obstacle. `tolerance` in map units
+// bounds what is given away to end the search for the worst violation.
+[[nodiscard]] Result<std::vector<float>> free_distances(const MedialMesh& mesh,
+                                                        const std::vector<double>& clearance,
+                                                        const Obstacles& obstacles, double tolerance,
+                                                        Stage& stage);
+
+}  // namespace camdir::bake

@@ -1,0 +1,89 @@
+#include "bake/inside.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "bake/disjoint_sets.hpp"
+
+namespace camdir::bake {
+namespace {
+
+DisjointSets connect(const MedialMesh& mesh) {
+    DisjointSets parts(mesh.vertices.size());
+    for (const auto& [a, b, c] : mesh.triangles) {
+        parts.unite(a, b);
+        parts.unite(b, c);
+    }
+    return parts;
+}
+
+// The parts of the spawn points, marked at their representatives.
+Result<std::vector<char>> parts_with_spawn_points(const MedialMesh& mesh,
+                                                  const std::vector<double>& clearance,
+                                                  const scene::Scene& scene, DisjointSets& parts,
+                                                  Stage& stage) {
+    std::vector<char> wanted(mesh.vertices.size());
+    std::size_t connected = 0;
+    for (const scene::SpawnPoint& spawn : scene.spawn_points) {
+        bool found = false;
+        for (const freespace::Triangle& t : mesh.triangles)
+            for (const std::uint32_t vertex : {t.a, t.b, t.c})
+                if ((mesh.position(vertex) - spawn.eye).squaredNorm() <
+                    clearance[vertex] * clearance[vertex]) {
+                    wanted[parts.find(vertex)] = 1;
+                    found = true;
+                }
+        connected += found;
+        if (!stage.advance(connected, scene.spawn_points.size())) return stage.interrupted();
+    }
+    stage.count("spawn points", static_cast<double>(scene.spawn_points.size()));
+    stage.count("connected spawn points", static_cast<double>(connected));
+    if (connected == 0)
+        return fail(scene.source + ": none of the " + std::to_string(scene.spawn_points.size()) +
+                    " spawn points has its eye in free space that is wide enough for this d0");
+    return wanted;
+}
+
+double area(const Triangle3d& t) {
+    return 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm();
+}
+
+std::vector<char> largest_part(const MedialMesh& mesh, DisjointSets& parts) {
+    std::map<std::uint32_t, double> areas;
+    for (const freespace::Triangle& t : mesh.triangles)
+        areas[parts.find(t.a)] += area(mesh.corners(t));
+    std::vector<char> wanted(mesh.vertices.size());
+    const auto largest = std::max_element(areas.begin(), areas.end(),
+                                          [](const auto& a, const auto& b) { return a.second < b.second; });
+    if (largest != areas.end()) wanted[largest->first] = 1;
+    return wanted;
+}
+
+}  // namespace
+
+Result<void> keep_inside(MedialMesh& mesh, const std::vector<double>& clearance, const scene::Scene& scene,
+                         const Solids& solids, Stage& stage) {
+    DisjointSets parts = connect(mesh);
+    Result<std::vector<char>> wanted = largest_part(mesh, parts);
+    if (!scene.spawn_points.empty()) wanted = parts_with_spawn_points(mesh, clearance, scene, parts, stage);
+    if (!wanted) return tl::unexpected(wanted.error());
+
+    std::vector<char> keep(mesh.triangles.size());
+    for (std::size_t i = 0; i < keep.size(); ++i)
+        keep[i] = (*wanted)[parts.find(mesh.triangles[i].a)];
+    keep_triangles(mesh, keep);
+    stage.count("inside triangles", static_cast<double>(mesh.triangles.size()));
+
+    keep.resize(mesh.triangles.size());
+    const bool done = stage.for_each(keep.size(), [&](std::uint64_t i) {
+        const auto& [a, b, c] = mesh.triangles[i];
+        keep[i] = !solids.contain(mesh.position(a)) && !solids.contain(mesh.position(b)) &&
+                  !solids.contain(mesh.position(c));
+    });
+    if (!done) return stage.interrupted();
+    keep_triangles(mesh, keep);
+    stage.count("triangles", static_cast<double>(mesh.triangles.size()));
+    return {};
+}
+
+}  // namespace camdir::bake

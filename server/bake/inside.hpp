@@ -1,0 +1,19 @@
+// What of the medial mesh is freespace that somebody can be in.
+#pragma once
+
+#include <vector>
+
+#include "bake/medial_mesh.hpp"
+#include "bake/solids.hpp"
+#include "bake/stage.hpp"
+
+namespace camdir::bake {
+
+// Keeps the parts of the mesh that are connected with a spawn point, over triangles that share a vertex; no
+// triangle may cross an obstacle. A spawn point's eye is connected to the vertices whose free ball holds it.
+// Without spawn points the part of the largest area stays. Also drops triangles with a corner in a solid.
+// `clearance` is that of the vertices. Fails when no spawn point is connected to the mesh.
+[[nodiscard]] Result<void> keep_inside(MedialMesh& mesh, const std::vector<double>& clearance,
+                                       const scene::Scene& scene, const Solids& solids, Stage& stage);
+
+}  // namespace camdir::bake

@@ -1,0 +1,26 @@
+// The medial mesh V(S) while it is being made: the paper's section 4.2.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "bake/triangle.hpp"
+#include "freespace/freespace.hpp"
+
+namespace camdir::bake {
+
+// Vertices are floats, because floats are what a freespace holds: everything from here on is exact for them.
+struct MedialMesh {
+    std::vector<Vec3f> vertices;
+    std::vector<freespace::Triangle> triangles;
+
+    [[nodiscard]] Vec3d position(std::uint32_t vertex) const { return vertices[vertex].cast<double>(); }
+    [[nodiscard]] Triangle3d corners(const freespace::Triangle& t) const {
+        return {position(t.a), position(t.b), position(t.c)};
+    }
+};
+
+// Removes the triangles with keep[i] == 0.
+void keep_triangles(MedialMesh& mesh, const std::vector<char>& keep);
+
+}  // namespace camdir::bake

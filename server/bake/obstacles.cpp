@@ -1,0 +1,39 @@
+#include "bake/obstacles.hpp"
+
+#include <cmath>
+
+namespace camdir::bake {
+namespace {
+
+Triangle3d triangle_of(const scene::Scene& scene, std::size_t index) {
+    const auto& corners = scene.triangles[index];
+    return {scene.vertices[corners[0]], scene.vertices[corners[1]], scene.vertices[corners[2]]};
+}
+
+std::vector<Box3d> boxes_of(const scene::Scene& scene) {
+    std::vector<Box3d> boxes(scene.triangles.size());
+    for (std::size_t i = 0; i < boxes.size(); ++i)
+        boxes[i] = box_of(triangle_of(scene, i));
+    return boxes;
+}
+
+}  // namespace
+
+Obstacles::Obstacles(const scene::Scene& scene) : tree_(boxes_of(scene)) {
+    triangles_.reserve(scene.triangles.size());
+    for (const std::uint32_t index : tree_.order())
+        triangles_.push_back(triangle_of(scene, index));
+}
+
+double Obstacles::distance(const Vec3d& point, double at_most) const {
+    double nearest2 = at_most * at_most;
+    tree_.visit_by([&](const Box3d& box) { return box.squaredExteriorDistance(point); },
+                   [&] { return nearest2; },
+                   [&](std::uint32_t position) {
+                       const Vec3d q = closest_point(triangles_[position], point);
+                       nearest2 = std::min(nearest2, (q - point).squaredNorm());
+                   });
+    return std::sqrt(nearest2);
+}
+
+}  // namespace camdir::bake

@@ -1,0 +1,31 @@
+// The scene's obstacle triangles under a spatial index.
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "bake/box_tree.hpp"
+#include "bake/triangle.hpp"
+#include "scene/scene.hpp"
+
+namespace camdir::bake {
+
+// Immutable after construction, thread-safe.
+class Obstacles {
+  public:
+    explicit Obstacles(const scene::Scene& scene);
+
+    // In the tree's order: positions handed out by tree() index them.
+    [[nodiscard]] const std::vector<Triangle3d>& triangles() const { return triangles_; }
+    [[nodiscard]] const BoxTree& tree() const { return tree_; }
+
+    // Exact distance to the nearest obstacle, or `at_most` when there is none nearer.
+    [[nodiscard]] double distance(const Vec3d& point,
+                                  double at_most = std::numeric_limits<double>::infinity()) const;
+
+  private:
+    BoxTree tree_;
+    std::vector<Triangle3d> triangles_;
+};
+
+}  // namespace camdir::bake

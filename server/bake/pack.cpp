@@ -1,0 +1,58 @@
+#include "bake/pack.hpp"
+
+#include <algorithm>
+
+#include "bake/certificate.hpp"
+
+namespace camdir::bake {
+namespace {
+
+bool covered(const Vec3d& point, const freespace::Contents& contents) {
+    const auto holds = [&](const freespace::Triangle& t) {
+        Triangle3d corners;
+        std::array<double, 3> free_distance;
+        const std::array<std::uint32_t, 3> ids{t.a, t.b, t.c};
+        for (int i = 0; i < 3; ++i) {
+            corners[i] = contents.vertices[ids[i]].position().cast<double>();
+            free_distance[i] = contents.vertices[ids[i]].free_distance;
+        }
+        const Slab slab(corners, free_distance);
+        const Triangle3d as_obstacle{point, point, point};
+        return slab.margin_at_least(as_obstacle) < 0.0 && slab.margin(as_obstacle).value < 0.0;
+    };
+    return std::any_of(contents.triangles.begin(), contents.triangles.end(), holds);
+}
+
+}  // namespace
+
+Result<freespace::Contents> pack(const MedialMesh& mesh, const std::vector<float>& free_distance,
+                                 const scene::Scene& scene, Stage& stage) {
+    freespace::Contents contents;
+    std::vector<std::uint32_t> new_index(mesh.vertices.size(), freespace::none);
+    const auto take = [&](std::uint32_t vertex) {
+        if (new_index[vertex] == freespace::none) {
+            new_index[vertex] = static_cast<std::uint32_t>(contents.vertices.size());
+            const Vec3f& p = mesh.vertices[vertex];
+            contents.vertices.push_back({p.x(), p.y(), p.z(), free_distance[vertex]});
+        }
+        return new_index[vertex];
+    };
+    for (const auto& [a, b, c] : mesh.triangles) {
+        if (std::max({free_distance[a], free_distance[b], free_distance[c]}) <= 0.0F) continue;
+        contents.triangles.push_back({take(a), take(b), take(c)});
+    }
+    if (contents.triangles.empty()) return fail(scene.source + ": no free space is left at this d0");
+
+    std::size_t covered_spawn_points = 0;
+    for (const scene::SpawnPoint& spawn : scene.spawn_points) {
+        if (!stage.advance(covered_spawn_points, scene.spawn_points.size())) return stage.interrupted();
+        contents.spawn_points.push_back({spawn.eye.cast<float>(), static_cast<float>(spawn.yaw)});
+        covered_spawn_points += covered(spawn.eye, contents);
+    }
+    stage.count("vertices", static_cast<double>(contents.vertices.size()));
+    stage.count("triangles", static_cast<double>(contents.triangles.size()));
+    stage.count("covered spawn points", static_cast<double>(covered_spawn_points));
+    return contents;
+}
+
+}  // namespace camdir::bake

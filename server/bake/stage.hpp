@@ -1,0 +1,66 @@
+// A running stage of the bake: how far it is, what it counted, and whether the user asked to stop.
+#pragma once
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "bake/bake.hpp"
+
+namespace camdir::bake {
+
+// Used from the thread that runs the stage; `for_each` spreads its body over the threads of the arena.
+class Stage {
+  public:
+    Stage(std::string name, const ProgressSink& sink, std::stop_token stop);
+
+    // Tells the progress, at most every 50 ms. False when the stage must end: return interrupted() then.
+    [[nodiscard]] bool advance(std::uint64_t done, std::uint64_t total);
+
+    // body(i) for every i < count, in any order and on any thread: it may write only what belongs to i.
+    // False when a stop was requested; some bodies did not run then.
+    template <class Body>
+    [[nodiscard]] bool for_each(std::uint64_t count, const Body& body);
+
+    // A number for the bake's report.
+    void count(std::string what, double value);
+
+    [[nodiscard]] tl::unexpected<Error> interrupted() const;
+    [[nodiscard]] StageReport finish() &&;
+
+  private:
+    using Clock = std::chrono::steady_clock;
+
+    std::string name_;
+    const ProgressSink& sink_;
+    std::stop_token stop_;
+    std::vector<freespace::Count> counts_;
+    Clock::time_point start_ = Clock::now();
+    Clock::time_point last_shown_{};
+};
+
+template <class Body>
+bool Stage::for_each(std::uint64_t count, const Body& body) {
+    // Slices, so that one thread tells the progress between them; grains, so that a stop is seen soon.
+    constexpr std::uint64_t slice = 16384;
+    constexpr std::uint64_t grain = 64;
+    for (std::uint64_t first = 0; first < count; first += slice) {
+        const std::uint64_t last = std::min(first + slice, count);
+        tbb::parallel_for(tbb::blocked_range<std::uint64_t>(first, last, grain),
+                          [&](const tbb::blocked_range<std::uint64_t>& range) {
+                              if (stop_.stop_requested()) return;
+                              for (std::uint64_t i = range.begin(); i != range.end(); ++i)
+                                  body(i);
+                          });
+        if (!advance(last, count)) return false;
+    }
+    return !stop_.stop_requested();
+}
+
+}  // namespace camdir::bake

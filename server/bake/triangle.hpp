@@ -1,0 +1,25 @@
+// Triangles in space, in double precision.
+#pragma once
+
+#include <array>
+
+#include "base/geometry.hpp"
+
+namespace camdir::bake {
+
+using Triangle3d = std::array<Vec3d, 3>;
+
+[[nodiscard]] inline Box3d box_of(const Triangle3d& triangle) {
+    Box3d box(triangle[0]);
+    box.extend(triangle[1]);
+    box.extend(triangle[2]);
+    return box;
+}
+
+// The point of the closed segment nearest to `p`. The segment may be a point.
+[[nodiscard]] Vec3d closest_point(const Vec3d& a, const Vec3d& b, const Vec3d& p);
+
+// The point of the closed triangle nearest to `p`. The triangle may be a segment or a point.
+[[nodiscard]] Vec3d closest_point(const Triangle3d& triangle, const Vec3d& p);
+
+}  // namespace camdir::bake

@@ -1,0 +1,85 @@
+#include "bake/weld.hpp"
+
+#include <tbb/parallel_sort.h>
+
+#include <cmath>
+#include <cstdint>
+#include <tuple>
+#include <unordered_map>
+
+namespace camdir::bake {
+namespace {
+
+using Cell = std::array<std::int64_t, 3>;
+
+struct CellHash {
+    std::size_t operator()(const Cell& cell) const {
+        std::uint64_t hash = 0;
+        for (const std::int64_t i : cell)
+            hash = (hash ^ static_cast<std::uint64_t>(i)) * 0x9e3779b97f4a7c15ULL + (hash >> 29);
+        return hash;
+    }
+};
+
+// The kept points, found by the cell of a grid of pitch `distance` that they lie in. Points in one cell
+// form a list through `next`.
+class Grid {
+  public:
+    explicit Grid(double distance) : distance_(distance) {}
+
+    [[nodiscard]] bool has_near(const Vec3d& point, const std::vector<Vec3d>& kept) const {
+        const Cell centre = cell_of(point);
+        for (std::int64_t x = -1; x <= 1; ++x)
+            for (std::int64_t y = -1; y <= 1; ++y)
+                for (std::int64_t z = -1; z <= 1; ++z) {
+                    const auto found = first_.find({centre[0] + x, centre[1] + y, centre[2] + z});
+                    if (found == first_.end()) continue;
+                    for (std::uint32_t i = found->second; i != end; i = next_[i])
+                        if ((kept[i] - point).squaredNorm() <= distance_ * distance_) return true;
+                }
+        return false;
+    }
+
+    // Points are added in the order of their indices.
+    void add(const Vec3d& point) {
+        const auto index = static_cast<std::uint32_t>(next_.size());
+        const auto [entry, is_new] = first_.try_emplace(cell_of(point), index);
+        next_.push_back(is_new ? end : entry->second);
+        entry->second = index;
+    }
+
+  private:
+    static constexpr std::uint32_t end = 0xffffffffU;
+
+    [[nodiscard]] Cell cell_of(const Vec3d& point) const {
+        return {static_cast<std::int64_t>(std::floor(point.x() / distance_)),
+                static_cast<std::int64_t>(std::floor(point.y() / distance_)),
+                static_cast<std::int64_t>(std::floor(point.z() / distance_))};
+    }
+
+    double distance_;
+    std::unordered_map<Cell, std::uint32_t, CellHash> first_;
+    std::vector<std::uint32_t> next_;
+};
+
+}  // namespace
+
+Result<std::vector<Vec3d>> weld(std::vector<Vec3d> samples, double distance, Stage& stage) {
+    tbb::parallel_sort(samples.begin(), samples.end(), [](const Vec3d& a, const Vec3d& b) {
+        return std::tuple(a.x(), a.y(), a.z()) < std::tuple(b.x(), b.y(), b.z());
+    });
+    samples.erase(std::unique(samples.begin(), samples.end()), samples.end());
+
+    Grid grid(distance);
+    std::vector<Vec3d> kept;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        if (i % 16384 == 0 && !stage.advance(i, samples.size())) return stage.interrupted();
+        if (grid.has_near(samples[i], kept)) continue;
+        grid.add(samples[i]);
+        kept.push_back(samples[i]);
+    }
+    stage.count("samples", static_cast<double>(kept.size()));
+    return kept;
+}
+
+}  // namespace camdir::bake
