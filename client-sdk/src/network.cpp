@@ -26,6 +26,10 @@ bool is_ip_address(const std::string& text) {
     return inet_pton(AF_INET, text.c_str(), bytes) == 1 || inet_pton(AF_INET6, text.c_str(), bytes) == 1;
 }
 
+std::string element(const std::string& name, const std::string& content) {
+    return "<" + name + ">" + content + "</" + name + ">";
+}
+
 std::string interface_element(const std::string& name) {
     if (name.empty()) return "<NetworkInterface autodetermine=\"true\"/>";
     check_address("network_interface", name);
@@ -51,15 +55,16 @@ std::string peer_elements(const std::string& directors) {
 
 std::string network_configuration(const cdir_context_options& options) {
     if (options.cyclone_xml != nullptr) return options.cyclone_xml;
-    // MaxAutoParticipantIndex 0: a peer without a port is the participant of index 0 on that host, a
-    // director.
-    return "<CycloneDDS><Domain><General><Interfaces>" + interface_element(options.network_interface) +
-           "</Interfaces><AllowMulticast>false</AllowMulticast><MaxMessageSize>65500B</MaxMessageSize></"
-           "General>"
-           "<Discovery><ParticipantIndex>none</ParticipantIndex><MaxAutoParticipantIndex>0</"
-           "MaxAutoParticipantIndex>"
-           "<SPDPInterval>1s</SPDPInterval><Peers>" +
-           peer_elements(options.directors) + "</Peers></Discovery></Domain></CycloneDDS>";
+    const std::string general = element("Interfaces", interface_element(options.network_interface)) +
+                                element("AllowMulticast", "false") + element("MaxMessageSize", "65500B");
+    // With index 0 as the highest, a peer without a port is the first participant of its host: a director.
+    const std::string discovery = element("ParticipantIndex", "none") +
+                                  element("MaxAutoParticipantIndex", "0") + element("SPDPInterval", "1s") +
+                                  element("Peers", peer_elements(options.directors));
+    const std::string internal = element("MaxSampleSize", "1MB");
+    return element("CycloneDDS",
+                   element("Domain", element("General", general) + element("Discovery", discovery) +
+                                         element("Internal", internal)));
 }
 
 }  // namespace camdir::sdk

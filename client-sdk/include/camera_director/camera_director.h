@@ -368,8 +368,7 @@ typedef struct cdir_shot_status {
 } cdir_shot_status;
 
 static inline cdir_shot_status cdir_shot_status_default(void) {
-    cdir_shot_status status = {
-        sizeof(cdir_shot_status), CDIR_SHOT_NOT_REQUESTED, 0u, 0u, 0u, {0}};
+    cdir_shot_status status = {sizeof(cdir_shot_status), CDIR_SHOT_NOT_REQUESTED, 0u, 0u, 0u, {0}};
     return status;
 }
 

@@ -1,0 +1,155 @@
+/*
+ * A game server's side: one player walks in a circle, and every server frame goes to the directors.
+ * Look at play() for what a game has to do; the rest is a command line.
+ */
+#define _GNU_SOURCE
+
+#include <getopt.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "connection.h"
+
+static const double two_pi = 6.283185307179586;
+
+struct walk {
+    double centre[3];
+    double radius; /* map units */
+    double speed;  /* map units a second */
+};
+
+/* The walker's eye at `seconds`: position, view along the path, velocity. */
+static void walk_at(const struct walk* walk, double seconds, float eye[3], float orientation[4],
+                    float velocity[3]) {
+    const double angle = fmod(walk->speed * seconds / walk->radius, two_pi);
+    const double heading = angle + two_pi / 4; /* along the circle, counter-clockwise from above */
+    eye[0] = (float)(walk->centre[0] + walk->radius * cos(angle));
+    eye[1] = (float)(walk->centre[1] + walk->radius * sin(angle));
+    eye[2] = (float)walk->centre[2];
+    orientation[0] = 0.0f; /* x y z w: a turn about the z axis */
+    orientation[1] = 0.0f;
+    orientation[2] = (float)sin(heading / 2);
+    orientation[3] = (float)cos(heading / 2);
+    velocity[0] = (float)(walk->speed * cos(heading));
+    velocity[1] = (float)(walk->speed * sin(heading));
+    velocity[2] = 0.0f;
+}
+
+/* Publishes frames until the time is over (0 = never) or the user stops. */
+static void play(cdir_match match, const struct walk* walk, double rate, double seconds) {
+    const int64_t start = monotonic_ns();
+    const int64_t period = (int64_t)(1e9 / rate);
+    uint32_t director_count = 0;
+    for (int64_t number = 0; !stop_requested; ++number) {
+        const int64_t frame_time = number * period; /* the game's own clock */
+        if (seconds > 0 && (double)frame_time > seconds * 1e9) break;
+
+        const uint32_t player_id = 1;
+        float eye[3];
+        float orientation[4];
+        float velocity[3];
+        walk_at(walk, (double)frame_time / 1e9, eye, orientation, velocity);
+        /* The first frame has no frame before it to come from. */
+        const uint32_t flags = number == 0 ? CDIR_POSE_ALIVE | CDIR_POSE_DISCONTINUITY : CDIR_POSE_ALIVE;
+
+        cdir_pose_frame frame = cdir_pose_frame_default();
+        frame.frame_time = frame_time;
+        frame.player_count = 1;
+        frame.player_id = &player_id;
+        frame.eye = eye;
+        frame.orientation = orientation;
+        frame.velocity = velocity;
+        frame.flags = &flags;
+        check("publishing poses", cdir_match_publish_poses(match, &frame));
+
+        uint32_t count = 0;
+        check("counting directors", cdir_match_director_count(match, &count));
+        if (count != director_count) fprintf(stderr, "directors: %u\n", (unsigned)count);
+        director_count = count;
+        sleep_until(start + (number + 1) * period);
+    }
+}
+
+static void print_usage(FILE* to) {
+    fprintf(to,
+            "Usage: example-game-server [options]\n"
+            "Publishes the poses of one walking player (id 1).\n\n"
+            "  --match ID            match id (default example)\n"
+            "  --map NAME            the map's name in the director's configuration (default oa_dm1)\n"
+            "  --centre X,Y,Z        of the circle, at eye height (default 0,0,64)\n"
+            "  --radius R            of the circle, map units (default 128)\n"
+            "  --rate HZ             frames a second (default 60)\n"
+            "  --seconds S           how long to play (default 0: until Ctrl-C)\n" CONNECTION_USAGE);
+}
+
+static void parse_centre(const char* text, double centre[3]) {
+    char rest;
+    if (sscanf(text, "%lf,%lf,%lf%c", &centre[0], &centre[1], &centre[2], &rest) != 3) {
+        fprintf(stderr, "--centre: expected X,Y,Z, not '%s'\n", text);
+        exit(EXIT_USAGE);
+    }
+}
+
+/* Too long a text is cut to what makes the library refuse it. */
+static void copy_text(char* to, size_t size, const char* from) {
+    const size_t length = strlen(from);
+    memcpy(to, from, length < size ? length : size);
+}
+
+int main(int argc, char** argv) {
+    static const struct option known[] = {{"match", required_argument, NULL, 0},
+                                          {"map", required_argument, NULL, 0},
+                                          {"centre", required_argument, NULL, 0},
+                                          {"radius", required_argument, NULL, 0},
+                                          {"rate", required_argument, NULL, 0},
+                                          {"seconds", required_argument, NULL, 0},
+                                          {"domain", required_argument, NULL, 0},
+                                          {"interface", required_argument, NULL, 0},
+                                          {"directors", required_argument, NULL, 0},
+                                          {"help", no_argument, NULL, 'h'},
+                                          {NULL, 0, NULL, 0}};
+
+    cdir_context_options options = cdir_context_options_default();
+    cdir_match_info info = cdir_match_info_default();
+    struct walk walk = {{0, 0, 64}, 128, 200};
+    double seconds = 0;
+    double rate = info.rate_hz;
+    const char* match_id = "example";
+    const char* map_name = "oa_dm1";
+    int code;
+    int index;
+    while ((code = getopt_long(argc, argv, "", known, &index)) != -1) {
+        if (code == 'h') {
+            print_usage(stdout);
+            return EXIT_SUCCESS;
+        }
+        if (code == '?') return EXIT_USAGE; /* getopt has said what */
+        const char* name = known[index].name;
+        if (connection_option(&options, name, optarg)) continue;
+        if (strcmp(name, "match") == 0) match_id = optarg;
+        if (strcmp(name, "map") == 0) map_name = optarg;
+        if (strcmp(name, "centre") == 0) parse_centre(optarg, walk.centre);
+        if (strcmp(name, "radius") == 0) walk.radius = number_option(name, optarg, 1, 1e6);
+        if (strcmp(name, "rate") == 0) rate = number_option(name, optarg, 1, 1000);
+        if (strcmp(name, "seconds") == 0) seconds = number_option(name, optarg, 0, 1e9);
+    }
+    if (optind < argc) {
+        fprintf(stderr, "unexpected argument '%s'\n", argv[optind]);
+        return EXIT_USAGE;
+    }
+
+    catch_signals();
+    copy_text(info.match_id, sizeof info.match_id, match_id);
+    copy_text(info.map_name, sizeof info.map_name, map_name);
+    info.rate_hz = (float)rate;
+    cdir_player walker = {1, 0, {0}, "walker", ""};
+    cdir_context context;
+    cdir_match match;
+    check("joining the domain", cdir_context_open(&options, &context));
+    check("opening the match", cdir_match_open(context, &info, &walker, 1, &match));
+    play(match, &walk, rate, seconds);
+    check("closing", cdir_context_close(context)); /* closes the match too */
+    return EXIT_SUCCESS;
+}

@@ -1,0 +1,168 @@
+/*
+ * An observer's side: requests a shot and prints its camera once a display frame, as CSV.
+ * Look at watch() for what a spectator's program has to do; the rest is a command line.
+ */
+#define _GNU_SOURCE
+
+#include <getopt.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "connection.h"
+
+static const char* state_name(uint32_t state) {
+    switch (state) {
+        case CDIR_SHOT_REFUSED:
+            return "refused";
+        case CDIR_SHOT_ACCEPTED:
+            return "accepted";
+        case CDIR_SHOT_WAITING_FOR_MAP:
+            return "waiting for the map";
+        case CDIR_SHOT_WAITING_FOR_PLAYER:
+            return "waiting for the player";
+        default:
+            return "no answer from a director";
+    }
+}
+
+/* Tells the user whenever the director's answer changes. */
+static void report_status(cdir_observer observer, uint32_t* last_state) {
+    cdir_shot_status status = cdir_shot_status_default();
+    check("reading the status", cdir_observer_shot_status(observer, &status));
+    if (status.state != *last_state) {
+        fprintf(stderr, "shot: %s%s%s\n", state_name(status.state), status.reason[0] ? ": " : "",
+                status.reason);
+    }
+    *last_state = status.state;
+}
+
+static void print_camera(const cdir_view* view) {
+    const cdir_camera* camera = &view->camera;
+    printf("%" PRId64 ",%" PRIu32 ",%.4f,%.4f,%.4f,%.7f,%.7f,%.7f,%.7f,%.5f,%.2f,%" PRIu32 ",%" PRIu32 "\n",
+           view->frame_time, camera->target, (double)camera->position[0], (double)camera->position[1],
+           (double)camera->position[2], (double)camera->orientation[0], (double)camera->orientation[1],
+           (double)camera->orientation[2], (double)camera->orientation[3], (double)camera->vertical_fov,
+           (double)camera->clearance, camera->flags, view->segment);
+}
+
+/* Prints the camera once a display frame, until the time is over (0 = never) or the user stops. Gives up when
+ * there is none after `patience` seconds. */
+static void watch(cdir_observer observer, double rate, double seconds, double patience) {
+    const int64_t start = monotonic_ns();
+    const int64_t period = (int64_t)(1e9 / rate);
+    uint32_t last_state = CDIR_SHOT_NOT_REQUESTED;
+    bool seen = false;
+    printf("frame_time,target,x,y,z,qx,qy,qz,qw,vertical_fov,clearance,flags,segment\n");
+    for (int64_t number = 0; !stop_requested; ++number) {
+        const double elapsed = (double)(number * period) / 1e9;
+        if (seconds > 0 && elapsed > seconds) break;
+
+        check("receiving", cdir_observer_poll(observer, NULL));
+        report_status(observer, &last_state);
+
+        /* A spectator's program would draw the scene from this camera now. */
+        int64_t display_time;
+        cdir_view view = cdir_view_default();
+        if (cdir_observer_display_time(observer, &display_time) == CDIR_OK &&
+            cdir_observer_camera_at(observer, display_time, &view) == CDIR_OK) {
+            print_camera(&view);
+            seen = true;
+        }
+        if (fflush(stdout) != 0) {
+            perror("standard output");
+            exit(EXIT_FAILURE);
+        }
+        if (!seen && elapsed > patience) {
+            fprintf(stderr,
+                    "no camera after %g s: is a director at --directors, and does it know the match and its "
+                    "map?\n",
+                    patience);
+            exit(EXIT_FAILURE);
+        }
+        sleep_until(start + (number + 1) * period);
+    }
+}
+
+static void report_counters(cdir_observer observer) {
+    cdir_observer_counters counters = cdir_observer_counters_default();
+    check("counting", cdir_observer_get_counters(observer, &counters));
+    fprintf(stderr,
+            "frames %" PRIu64 ", missing %" PRIu64 ", of an older epoch %" PRIu64 ", invalid %" PRIu64 "\n",
+            counters.frames, counters.gaps, counters.stale_epoch, counters.invalid);
+}
+
+static void print_usage(FILE* to) {
+    fprintf(to,
+            "Usage: example-observer [options]\n"
+            "Requests a shot and prints its camera once a display frame, as CSV.\n\n"
+            "  --match ID            match id (default example)\n"
+            "  --id ID               observer id, unique within the match (default example-observer)\n"
+            "  --target N            player id, or auto (default auto)\n"
+            "  --profile NAME        camera profile (default: the director's)\n"
+            "  --overrides JSON      changes to the profile, such as {\"distance\": 90}\n"
+            "  --rate HZ             display frames a second (default 60)\n"
+            "  --seconds S           how long to watch (default 0: until Ctrl-C)\n"
+            "  --patience S          how long to wait for the first camera (default 30)\n" CONNECTION_USAGE);
+}
+
+int main(int argc, char** argv) {
+    static const struct option known[] = {{"match", required_argument, NULL, 0},
+                                          {"id", required_argument, NULL, 0},
+                                          {"target", required_argument, NULL, 0},
+                                          {"profile", required_argument, NULL, 0},
+                                          {"overrides", required_argument, NULL, 0},
+                                          {"rate", required_argument, NULL, 0},
+                                          {"seconds", required_argument, NULL, 0},
+                                          {"patience", required_argument, NULL, 0},
+                                          {"domain", required_argument, NULL, 0},
+                                          {"interface", required_argument, NULL, 0},
+                                          {"directors", required_argument, NULL, 0},
+                                          {"help", no_argument, NULL, 'h'},
+                                          {NULL, 0, NULL, 0}};
+
+    cdir_context_options options = cdir_context_options_default();
+    cdir_shot_request request = cdir_shot_request_default();
+    double rate = 60;
+    double seconds = 0;
+    double patience = 30;
+    const char* match_id = "example";
+    const char* observer_id = "example-observer";
+    int code;
+    int index;
+    while ((code = getopt_long(argc, argv, "", known, &index)) != -1) {
+        if (code == 'h') {
+            print_usage(stdout);
+            return EXIT_SUCCESS;
+        }
+        if (code == '?') return EXIT_USAGE; /* getopt has said what */
+        const char* name = known[index].name;
+        if (connection_option(&options, name, optarg)) continue;
+        if (strcmp(name, "match") == 0) match_id = optarg;
+        if (strcmp(name, "id") == 0) observer_id = optarg;
+        if (strcmp(name, "profile") == 0) request.profile = optarg;
+        if (strcmp(name, "overrides") == 0) request.overrides = optarg;
+        if (strcmp(name, "rate") == 0) rate = number_option(name, optarg, 1, 1000);
+        if (strcmp(name, "seconds") == 0) seconds = number_option(name, optarg, 0, 1e9);
+        if (strcmp(name, "patience") == 0) patience = number_option(name, optarg, 0, 1e9);
+        if (strcmp(name, "target") == 0 && strcmp(optarg, "auto") != 0) {
+            request.target = (uint32_t)number_option(name, optarg, 0, 4294967294.0);
+        }
+    }
+    if (optind < argc) {
+        fprintf(stderr, "unexpected argument '%s'\n", argv[optind]);
+        return EXIT_USAGE;
+    }
+
+    catch_signals();
+    cdir_context context;
+    cdir_observer observer;
+    check("joining the domain", cdir_context_open(&options, &context));
+    check("opening the observer", cdir_observer_open(context, match_id, observer_id, NULL, &observer));
+    check("requesting the shot", cdir_observer_request(observer, &request));
+    watch(observer, rate, seconds, patience);
+    report_counters(observer);
+    check("closing", cdir_context_close(context)); /* closes the observer and withdraws the request too */
+    return EXIT_SUCCESS;
+}
