@@ -2,6 +2,7 @@
 // and the tests judge with it.
 #pragma once
 
+#include <limits>
 #include <memory>
 
 #include "base/geometry.hpp"
@@ -9,7 +10,8 @@
 
 namespace camdir::oracle {
 
-// Immutable after construction; all const members are thread-safe.
+// Immutable after construction; all const members are thread-safe. Points that are not finite are in no
+// free space: clearance -infinity, nothing clear, not reachable.
 class Oracle {
   public:
     explicit Oracle(const scene::Scene& scene);
@@ -18,21 +20,31 @@ class Oracle {
     ~Oracle();
 
     // Distance from `point` to the nearest obstacle triangle, map units; inside a solid brush the
-    // negative depth below the brush's surface.
-    [[nodiscard]] double clearance(const Vec3d& point) const;
+    // negative depth below the brush's surface (never positive there). Infinity when nothing is nearer than
+    // `limit`: a small limit makes the query cheaper.
+    [[nodiscard]] double clearance(const Vec3d& point,
+                                   double limit = std::numeric_limits<double>::infinity()) const;
 
-    // No obstacle triangle crosses or touches the closed segment.
+    // No obstacle triangle crosses or touches the closed segment. Exact up to the rounding of
+    // coordinates to float: what comes nearer than that counts as a touch.
     [[nodiscard]] bool segment_clear(const Vec3d& from, const Vec3d& to) const;
 
-    // Inside a brush, by the brushes' planes alone; always false for scenes without brushes.
+    // Inside a brush or on its surface, by the brushes' planes alone; always false for scenes without
+    // brushes.
     [[nodiscard]] bool in_solid(const Vec3d& point) const;
 
-    // In no solid, and joined to a spawn point by free space: not outside the sealed map.
+    // Neither a triangle nor a brush reaches into the ball. May be false for a ball that a brush's edge only
+    // comes near.
+    [[nodiscard]] bool ball_clear(const Vec3d& centre, double radius) const;
+
+    // In no solid, and joined to a spawn point by free space: not outside the sealed map. True is proved by
+    // a chain of overlapping free balls and free segments; false may be wrong for a point in a crack
+    // narrower than 8 units (of 0.0254 m). The first call explores the map and takes longer.
     [[nodiscard]] bool reachable(const Vec3d& point) const;
 
   private:
-    struct Impl;
-    std::unique_ptr<Impl> impl_;
+    struct Structures;
+    std::unique_ptr<Structures> structures_;
 };
 
 }  // namespace camdir::oracle

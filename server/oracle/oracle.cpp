@@ -1,0 +1,80 @@
+#include "oracle/oracle.hpp"
+
+#include <mutex>
+#include <optional>
+
+#include "oracle/reached_grid.hpp"
+#include "oracle/surfaces.hpp"
+#include "oracle/volumes.hpp"
+
+namespace camdir::oracle {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr int max_climbs = 32;
+
+}  // namespace
+
+struct Oracle::Structures {
+    explicit Structures(const scene::Scene& scene)
+        : device(make_device()),
+          surfaces(device.get(), scene),
+          volumes(device.get(), scene),
+          bounds(scene.bounds),
+          pitch(grid_pitch(scene)),
+          seeds(spawn_eyes(scene)) {}
+
+    Device device;
+    Surfaces surfaces;
+    Volumes volumes;
+    Box3d bounds;
+    double pitch;
+    std::vector<Vec3d> seeds;
+    std::once_flag explored;
+    std::optional<ReachedGrid> grid;
+};
+
+Oracle::Oracle(const scene::Scene& scene) : structures_(std::make_unique<Structures>(scene)) {}
+Oracle::Oracle(Oracle&&) noexcept = default;
+Oracle& Oracle::operator=(Oracle&&) noexcept = default;
+Oracle::~Oracle() = default;
+
+double Oracle::clearance(const Vec3d& point, double limit) const {
+    if (!point.allFinite()) return -infinity;
+    const double depth = structures_->volumes.depth(point);
+    return depth >= 0.0 ? -depth : structures_->surfaces.nearest(point, limit).distance;
+}
+
+bool Oracle::segment_clear(const Vec3d& from, const Vec3d& to) const {
+    return from.allFinite() && to.allFinite() && structures_->surfaces.segment_clear(from, to);
+}
+
+bool Oracle::in_solid(const Vec3d& point) const {
+    return structures_->volumes.depth(point) >= 0.0;
+}
+
+bool Oracle::ball_clear(const Vec3d& centre, double radius) const {
+    return centre.allFinite() && structures_->surfaces.nearest(centre, radius).distance == infinity &&
+           structures_->volumes.ball_clear(centre, radius);
+}
+
+// A point in a corner sees no centre of the grid: it climbs away from the nearest obstacle, each time
+// within its own free ball, until it does.
+bool Oracle::reachable(const Vec3d& point) const {
+    if (!point.allFinite() || in_solid(point)) return false;
+    std::call_once(structures_->explored, [&] {
+        // Neighbouring centres with more than half a pitch of clearance see each other.
+        structures_->grid.emplace(*this, structures_->bounds, structures_->seeds, structures_->pitch,
+                                  structures_->pitch / 2.0);
+    });
+    Vec3d place = point;
+    for (int climb = 0; climb < max_climbs; ++climb) {
+        if (structures_->grid->joined(place)) return true;
+        const Nearest nearest = structures_->surfaces.nearest(place, infinity);
+        if (nearest.distance == infinity || nearest.distance == 0.0) return false;
+        place += (place - nearest.point) * 0.5;
+    }
+    return false;
+}
+
+}  // namespace camdir::oracle

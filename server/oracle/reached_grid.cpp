@@ -1,0 +1,233 @@
+#include "oracle/reached_grid.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace camdir::oracle {
+namespace {
+
+using Cell = Eigen::Vector3i;
+constexpr int block_side = 8;
+
+int floor_div(int value) {
+    return (value - (value < 0 ? block_side - 1 : 0)) / block_side;
+}
+
+Cell block_of(const Cell& cell) {
+    return {floor_div(cell.x()), floor_div(cell.y()), floor_div(cell.z())};
+}
+
+// Offsets of cells whose centre may lie within `radius` cells of a point of the middle cell.
+std::vector<Cell> offsets_within(double radius) {
+    const int reach = static_cast<int>(std::ceil(radius));
+    std::vector<Cell> offsets;
+    for (int z = -reach; z <= reach; ++z) {
+        for (int y = -reach; y <= reach; ++y) {
+            for (int x = -reach; x <= reach; ++x) {
+                if (x * x + y * y + z * z <= radius * radius) offsets.emplace_back(x, y, z);
+            }
+        }
+    }
+    std::stable_sort(offsets.begin(), offsets.end(),
+                     [](const Cell& a, const Cell& b) { return a.squaredNorm() < b.squaredNorm(); });
+    return offsets;
+}
+
+}  // namespace
+
+double grid_pitch(const scene::Scene& scene) {
+    return 8.0 * 0.0254 / scene.metres_per_unit;
+}
+
+std::vector<Vec3d> spawn_eyes(const scene::Scene& scene) {
+    std::vector<Vec3d> eyes;
+    for (const scene::SpawnPoint& spawn : scene.spawn_points) {
+        eyes.push_back(spawn.eye);
+    }
+    return eyes;
+}
+
+std::size_t ReachedGrid::Hash::operator()(const Cell& cell) const {
+    std::uint64_t hash = 0;
+    for (const int coordinate : cell) {
+        hash = (hash ^ static_cast<std::uint32_t>(coordinate)) * 0x9e3779b97f4a7c15U;
+        hash ^= hash >> 32U;
+    }
+    return hash;
+}
+
+ReachedGrid::ReachedGrid(const Oracle& oracle, const Box3d& bounds, const std::vector<Vec3d>& seeds,
+                         double pitch, double min_clearance)
+    : oracle_(&oracle),
+      bounds_(bounds),
+      pitch_(pitch),
+      min_clearance_(min_clearance),
+      near_(offsets_within(3.0 * min_clearance / pitch + 2.0)) {
+    std::vector<Cell> frontier;
+    for (const Vec3d& point : seeds) {
+        seed(point, frontier);
+    }
+    flood(std::move(frontier));
+    summarise();
+}
+
+bool ReachedGrid::reached(const Vec3d& point) const {
+    return bounds_.contains(point) && reached(cell_of(point));
+}
+
+bool ReachedGrid::joined(const Vec3d& point) const {
+    if (!bounds_.contains(point) || oracle_->in_solid(point)) return false;
+    const Cell home = cell_of(point);
+    return std::any_of(near_.begin(), near_.end(), [&](const Cell& offset) {
+        const Cell cell = home + offset;
+        return reached(cell) && oracle_->segment_clear(point, centre_of(cell));
+    });
+}
+
+ReachedGrid::Cell ReachedGrid::cell_of(const Vec3d& point) const {
+    return ((point - bounds_.min()) / pitch_).array().floor().matrix().cast<int>();
+}
+
+Vec3d ReachedGrid::centre_of(const Cell& cell) const {
+    return bounds_.min() + pitch_ * (cell.cast<double>() + Vec3d::Constant(0.5));
+}
+
+bool ReachedGrid::is_inside(const Cell& cell) const {
+    return bounds_.contains(centre_of(cell));
+}
+
+bool ReachedGrid::reached(const Cell& cell) const {
+    const Cell block = block_of(cell);
+    const auto found = blocks_.find(block);
+    if (found == blocks_.end()) return false;
+    const Cell local = cell - block * block_side;
+    return (found->second.reached[static_cast<std::size_t>(local.z())] >> (8 * local.y() + local.x()) & 1U) !=
+           0;
+}
+
+ReachedGrid::Block& ReachedGrid::block_at(const Cell& block) {
+    const auto [found, is_new] = blocks_.try_emplace(block);
+    if (is_new) find_open(block * block_side, block_side, found->second.open);
+    return found->second;
+}
+
+// Octree over the cells of a block: one query settles all cells of a node that is wholly open or closed.
+void ReachedGrid::find_open(const Cell& first, int size, Slices& open) const {
+    const Vec3d middle =
+        bounds_.min() + pitch_ * (first.cast<double>() + Vec3d::Constant(static_cast<double>(size) / 2.0));
+    // Of the sphere around the cells' centres.
+    const double radius = pitch_ * (size - 1) / 2.0 * std::sqrt(3.0);
+    const double clearance = oracle_->clearance(middle, radius + min_clearance_);
+    const bool all_closed = clearance <= 0.0 ? clearance <= -radius : clearance <= min_clearance_ - radius;
+    if (all_closed) return;
+    const Cell last = first + Cell::Constant(size - 1);
+    const bool all_open = size == 1 || (clearance > radius + min_clearance_ &&
+                                        oracle_->ball_clear(middle, radius + min_clearance_));
+    if (all_open && is_inside(first) && is_inside(last)) {
+        const Cell local = first - block_of(first) * block_side;
+        const std::uint64_t row = ((std::uint64_t{1} << size) - 1) << local.x();
+        for (int z = local.z(); z < local.z() + size; ++z) {
+            for (int y = local.y(); y < local.y() + size; ++y) {
+                open[static_cast<std::size_t>(z)] |= row << (8 * y);
+            }
+        }
+        return;
+    }
+    if (size == 1) return;
+    const int half = size / 2;
+    for (int child = 0; child < 8; ++child) {
+        find_open(first + half * Cell(child & 1, child >> 1 & 1, child >> 2), half, open);
+    }
+}
+
+void ReachedGrid::seed(const Vec3d& point, std::vector<Cell>& frontier) {
+    if (!bounds_.contains(point) || oracle_->in_solid(point)) return;
+    for (const Cell& offset : near_) {
+        const Cell cell = cell_of(point) + offset;
+        if (!is_inside(cell)) continue;
+        const Cell block = block_of(cell);
+        const Cell local = cell - block * block_side;
+        const std::uint64_t bit = std::uint64_t{1} << (8 * local.y() + local.x());
+        const auto z = static_cast<std::size_t>(local.z());
+        Block& cells = block_at(block);
+        if ((cells.open[z] & ~cells.reached[z] & bit) == 0 || !oracle_->segment_clear(point, centre_of(cell)))
+            continue;
+        cells.reached[z] |= bit;
+        frontier.push_back(block);
+    }
+}
+
+void ReachedGrid::flood(std::vector<Cell> frontier) {
+    while (!frontier.empty()) {
+        const Cell block = frontier.back();
+        frontier.pop_back();
+        spread(block, frontier);
+    }
+}
+
+// Fills the block from its reached cells, then hands on to the neighbours what touches them.
+void ReachedGrid::spread(const Cell& block, std::vector<Cell>& frontier) {
+    constexpr std::uint64_t first_column = 0x0101010101010101U;
+    constexpr std::uint64_t last_column = first_column << 7U;
+    Block& cells = block_at(block);
+    Slices& reached = cells.reached;
+    for (bool changed = true; changed;) {
+        changed = false;
+        for (std::size_t z = 0; z < block_side; ++z) {
+            const std::uint64_t here = reached[z];
+            std::uint64_t grown =
+                here | here << 8U | here >> 8U | (here & ~last_column) << 1U | (here & ~first_column) >> 1U;
+            if (z > 0) grown |= reached[z - 1];
+            if (z + 1 < block_side) grown |= reached[z + 1];
+            grown &= cells.open[z];
+            changed = changed || grown != here;
+            reached[z] = grown;
+        }
+    }
+
+    Slices to_left{};
+    Slices to_right{};
+    Slices to_front{};
+    Slices to_back{};
+    for (std::size_t z = 0; z < block_side; ++z) {
+        to_left[z] = (reached[z] & first_column) << 7U;
+        to_right[z] = (reached[z] & last_column) >> 7U;
+        to_front[z] = reached[z] << 56U;
+        to_back[z] = reached[z] >> 56U;
+    }
+    const Slices down = {0, 0, 0, 0, 0, 0, 0, reached.front()};
+    const Slices up = {reached.back()};
+    const auto hand_on = [&](const Cell& direction, const Slices& arriving) {
+        if (arriving == Slices{} || !is_inside((block + direction) * block_side)) return;
+        Block& neighbour = block_at(block + direction);
+        bool is_new = false;
+        for (std::size_t z = 0; z < block_side; ++z) {
+            const std::uint64_t added = arriving[z] & neighbour.open[z] & ~neighbour.reached[z];
+            neighbour.reached[z] |= added;
+            is_new = is_new || added != 0;
+        }
+        if (is_new) frontier.push_back(block + direction);
+    };
+    hand_on({-1, 0, 0}, to_left);
+    hand_on({1, 0, 0}, to_right);
+    hand_on({0, -1, 0}, to_front);
+    hand_on({0, 1, 0}, to_back);
+    hand_on({0, 0, -1}, down);
+    hand_on({0, 0, 1}, up);
+}
+
+void ReachedGrid::summarise() {
+    for (const auto& [block, cells] : blocks_) {
+        for (int z = 0; z < block_side; ++z) {
+            const std::uint64_t slice = cells.reached[static_cast<std::size_t>(z)];
+            for (std::uint64_t rest = slice; rest != 0; rest &= rest - 1) {
+                const int bit = std::countr_zero(rest);
+                reached_box_.extend(centre_of(block * block_side + Cell(bit % 8, bit / 8, z)));
+            }
+            reached_count_ += static_cast<std::size_t>(std::popcount(slice));
+        }
+    }
+}
+
+}  // namespace camdir::oracle

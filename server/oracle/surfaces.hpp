@@ -1,0 +1,40 @@
+// The obstacles' triangles: nearest point and occlusion.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "oracle/embree_scene.hpp"
+#include "scene/scene.hpp"
+
+namespace camdir::oracle {
+
+// The point of the closed triangle that is nearest to `point`.
+[[nodiscard]] Vec3d closest_on_triangle(const Vec3d& point, const Vec3d& a, const Vec3d& b, const Vec3d& c);
+
+struct Nearest {
+    double distance;
+    Vec3d point;
+};
+
+class Surfaces {
+  public:
+    Surfaces(RTCDevice device, const scene::Scene& scene);
+
+    // Nearest obstacle point no further away than `limit`; else distance infinity. In double precision:
+    // Embree only finds the candidates.
+    [[nodiscard]] Nearest nearest(const Vec3d& point, double limit) const;
+
+    // Embree's watertight test, on vertices rounded to float; the segment is made longer at both ends by
+    // what that rounding may hide, so that a touch at an end counts.
+    [[nodiscard]] bool segment_clear(const Vec3d& from, const Vec3d& to) const;
+
+  private:
+    std::vector<Vec3d> vertices_;
+    std::vector<std::array<std::uint32_t, 3>> triangles_;
+    double rounding_ = 0.0;
+    EmbreeScene scene_;
+};
+
+}  // namespace camdir::oracle
