@@ -16,8 +16,9 @@ class Wire {
     virtual void publish(const ObserverStatus& status) = 0;
     // The observer is gone: its status is withdrawn.
     virtual void withdraw(const std::string& match_id, const std::string& observer_id) = 0;
-    // The match is forgotten (over, or silent for matches.forget_s, and without observers): what was made
-    // for it can go. Nothing more is published for it until it is received again.
+    // The match has neither game server nor observers: what was made for it can go. Nothing more is published
+    // for it until it is received again, and a Receiver::receive of its MatchInfo that returns after this
+    // call overrules it. Called while those wait, so it must not wait for them.
     virtual void forget(const std::string& match_id) = 0;
 };
 

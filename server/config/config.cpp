@@ -1,0 +1,195 @@
+#include "config/config.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "base/file.hpp"
+#include "config/json_text.hpp"
+#include "config/keys.hpp"
+#include "config/spelling.hpp"
+
+namespace camdir::config {
+namespace {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+constexpr std::size_t longest_profile_name = 31;  // ObserverRequest.profile
+
+// What is wrong with a file: every problem, in the order of the file.
+class Problems {
+  public:
+    void add(const std::string& pointer, const json& value, const std::string& expected) {
+        std::string shown = value.dump(-1, ' ', true, json::error_handler_t::replace);
+        if (shown.size() > longest_shown) shown = shown.substr(0, longest_shown) + "...";
+        add(pointer + ": " + shown + ": expected " + expected);
+    }
+    void add(std::string line) { lines_.push_back(std::move(line)); }
+
+    [[nodiscard]] bool none() const { return lines_.empty(); }
+    // Each line begins with `prefix`.
+    [[nodiscard]] std::string joined(const std::string& prefix, const std::string& separator) const {
+        std::string all;
+        for (const std::string& line : lines_)
+            all += (all.empty() ? "" : separator) + prefix + line;
+        return all;
+    }
+
+  private:
+    static constexpr std::size_t longest_shown = 60;
+    std::vector<std::string> lines_;
+};
+
+// RFC 6901.
+std::string escaped(const std::string& token) {
+    std::string result;
+    for (const char c : token) {
+        if (c == '~')
+            result += "~0";
+        else if (c == '/')
+            result += "~1";
+        else
+            result += c;
+    }
+    return result;
+}
+
+std::vector<std::string> names_in(const std::string& section) {
+    std::vector<std::string> names;
+    for (const Key& key : keys())
+        if (key.section == section) names.push_back(key.name);
+    return names;
+}
+
+const Key* find_key(const std::string& section, const std::string& name) {
+    const auto found = std::find_if(keys().begin(), keys().end(), [&](const Key& key) {
+        return key.section == section && key.name == name;
+    });
+    return found == keys().end() ? nullptr : &*found;
+}
+
+std::string unknown(const std::string& name, const std::vector<std::string>& known) {
+    const std::string near = nearest_spelling(name, known);
+    return "unknown key" + (near.empty() ? std::string() : ", did you mean \"" + near + "\"?");
+}
+
+void read_object(const std::string& section, const std::string& pointer, const json& object,
+                 const Target& target, Problems& problems) {
+    if (!object.is_object()) return problems.add(pointer, object, "an object");
+    for (const auto& [name, value] : object.items()) {
+        const std::string place = pointer + "/" + escaped(name);
+        const Key* key = find_key(section, name);
+        if (key == nullptr)
+            problems.add(place + ": " + unknown(name, names_in(section)));
+        else if (!assign(*key, value, target))
+            problems.add(place, value, expected(*key));
+    }
+    for (const Key& key : keys())
+        if (key.section == section && key.required && !object.contains(key.name))
+            problems.add(pointer + "/" + key.name + ": missing: expected " + expected(key));
+}
+
+void read_maps(const json& list, Config& config, Problems& problems) {
+    if (!list.is_array()) return problems.add("/maps", list, "a list of objects");
+    std::set<std::string> names;
+    std::set<std::string> files;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        const std::string pointer = "/maps/" + std::to_string(i);
+        Map map;
+        read_object("/maps/*", pointer, list[i], {nullptr, &map, nullptr}, problems);
+        if (!map.name.empty() && !names.insert(map.name).second)
+            problems.add(pointer + "/name", map.name, "a name that no other map has");
+        if (!map.file.empty() && !files.insert(map.file).second)
+            problems.add(pointer + "/file", map.file, "a file that no other map has");
+        config.maps.push_back(std::move(map));
+    }
+}
+
+void read_profiles(const json& object, Config& config, Problems& problems) {
+    if (!object.is_object()) return problems.add("/profiles", object, "an object of profiles by name");
+    for (const auto& [name, value] : object.items()) {
+        const std::string pointer = "/profiles/" + escaped(name);
+        if (name.empty() || name.size() > longest_profile_name)
+            problems.add(pointer, name, "a name of 1 to " + std::to_string(longest_profile_name) + " bytes");
+        read_object("/profiles/*", pointer, value, {nullptr, nullptr, &config.profiles[name]}, problems);
+    }
+}
+
+void read_section(const std::string& name, const json& value, Config& config, Problems& problems) {
+    const std::string pointer = "/" + name;
+    if (pointer == "/maps") return read_maps(value, config, problems);
+    if (pointer == "/profiles") return read_profiles(value, config, problems);
+    read_object(pointer, pointer, value, {&config, nullptr, nullptr}, problems);
+}
+
+void read_root(const json& root, Config& config, Problems& problems) {
+    if (!root.is_object()) return problems.add("", root, "an object");
+    std::vector<std::string> known;
+    for (const Section& section : sections())
+        known.push_back(section.pointer.substr(1));
+    for (const auto& [name, value] : root.items()) {
+        if (std::find(known.begin(), known.end(), name) != known.end())
+            read_section(name, value, config, problems);
+        else
+            problems.add("/" + escaped(name) + ": " + unknown(name, known));
+    }
+}
+
+void check_references(const Config& config, Problems& problems) {
+    if (!config.profiles.contains(config.matches.default_profile))
+        problems.add("/matches/default_profile", config.matches.default_profile, "the name of a profile");
+}
+
+void resolve_paths(Config& config, const fs::path& folder) {
+    for (Map& map : config.maps) {
+        map.file = (folder / map.file).string();
+        if (!map.source.empty()) map.source = (folder / map.source).string();
+    }
+}
+
+}  // namespace
+
+Result<Config> parse(const std::string& text, const std::string& name, const fs::path& folder) {
+    const auto root = parse_json(text);
+    if (!root) return fail(name + ": " + root.error().message);
+    Config config;
+    config.profiles["default"];
+    Problems problems;
+    read_root(*root, config, problems);
+    check_references(config, problems);
+    if (!problems.none()) return fail(problems.joined(name + ": ", "\n"));
+    resolve_paths(config, folder);
+    return config;
+}
+
+Result<Config> load(const fs::path& file) {
+    const auto bytes = read_file(file);
+    if (!bytes) return tl::unexpected(bytes.error());
+    return parse({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, file.string(),
+                 file.parent_path());
+}
+
+Result<camera::Profile> override_profile(const camera::Profile& base, const std::string& overrides) {
+    camera::Profile profile = base;
+    if (overrides.empty()) return profile;
+    const auto object = parse_json(overrides);
+    if (!object) return fail(object.error().message);
+    Problems problems;
+    read_object("/profiles/*", "", *object, {nullptr, nullptr, &profile}, problems);
+    if (!problems.none()) return fail(problems.joined("", "; "));
+    return profile;
+}
+
+std::vector<std::string> changes_for_restart(const Config& running, const Config& loaded) {
+    Config before = running;
+    Config after = loaded;
+    std::vector<std::string> changed;
+    for (const Key& key : keys()) {
+        if (key.reloads) continue;
+        if (value_of(key, {&before, nullptr, nullptr}) != value_of(key, {&after, nullptr, nullptr}))
+            changed.push_back(key.section + "/" + key.name);
+    }
+    return changed;
+}
+
+}  // namespace camdir::config

@@ -1,0 +1,117 @@
+// The schema and the reference page, from the table of keys.
+#include <charconv>
+
+#include "config/keys.hpp"
+
+namespace camdir::config {
+namespace {
+
+using ordered = nlohmann::ordered_json;
+
+std::string described(const Key& key) {
+    return key.unit.empty() ? key.help : key.help + " [" + key.unit + "]";
+}
+
+ordered key_schema(const Key& key) {
+    const std::string type = type_name(key);
+    ordered schema = {{"description", described(key)}};
+    if (type == "integer" || type == "number") {
+        schema["type"] = type;
+        schema["minimum"] = key.minimum;
+        schema["maximum"] = key.maximum;
+    } else if (type == "text") {
+        schema["type"] = "string";
+        if (key.minimum > 0) schema["minLength"] = static_cast<std::int64_t>(key.minimum);
+        if (!key.choices.empty()) schema["enum"] = key.choices;
+    } else if (type == "list of texts") {
+        schema["type"] = "array";
+        schema["items"] = {{"type", "string"}, {"minLength", 1}};
+        schema["minItems"] = static_cast<std::int64_t>(key.minimum);
+        schema["maxItems"] = static_cast<std::int64_t>(key.maximum);
+    } else {
+        schema["type"] = type;
+    }
+    if (!key.required) schema["default"] = ordered::parse(default_of(key).dump());
+    return schema;
+}
+
+ordered object_schema(const std::string& section) {
+    ordered properties = ordered::object();
+    ordered required = ordered::array();
+    for (const Key& key : keys()) {
+        if (key.section != section) continue;
+        properties[key.name] = key_schema(key);
+        if (key.required) required.push_back(key.name);
+    }
+    ordered schema = {{"type", "object"}, {"additionalProperties", false}, {"properties", properties}};
+    if (!required.empty()) schema["required"] = required;
+    return schema;
+}
+
+ordered section_schema(const Section& section) {
+    ordered schema = {{"description", section.help}};
+    if (section.pointer == "/maps") {
+        schema["type"] = "array";
+        schema["items"] = object_schema("/maps/*");
+    } else if (section.pointer == "/profiles") {
+        schema["type"] = "object";
+        schema["propertyNames"] = {{"minLength", 1}, {"maxLength", 31}};
+        schema["additionalProperties"] = object_schema("/profiles/*");
+    } else {
+        schema.update(object_schema(section.pointer));
+    }
+    return schema;
+}
+
+std::string range_cell(const Key& key) {
+    const std::string type = type_name(key);
+    if (!key.choices.empty()) {
+        std::string cell;
+        for (const std::string& choice : key.choices)
+            cell += (cell.empty() ? "`" : ", `") + choice + "`";
+        return cell;
+    }
+    if (type == "boolean") return "";
+    const auto end = [](double value) { return nlohmann::json(value).dump(); };
+    const bool whole = type != "number";
+    const auto text = [&](double value) {
+        return whole ? std::to_string(static_cast<std::int64_t>(value)) : end(value);
+    };
+    const std::string of = type == "text" ? " bytes" : type == "list of texts" ? " texts" : "";
+    return text(key.minimum) + " .. " + text(key.maximum) + of;
+}
+
+std::string row(const Key& key) {
+    const std::string initial = key.required ? "required" : "`" + default_of(key).dump() + "`";
+    return "| `" + key.name + "` | " + type_name(key) + " | " + initial + " | " + range_cell(key) + " | " +
+           key.unit + " | " + key.help + " |\n";
+}
+
+}  // namespace
+
+std::string schema() {
+    ordered properties = ordered::object();
+    for (const Section& section : sections())
+        properties[section.pointer.substr(1)] = section_schema(section);
+    const ordered schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"},
+                            {"title", "Configuration of camera-director serve"},
+                            {"type", "object"},
+                            {"additionalProperties", false},
+                            {"properties", properties}};
+    return schema.dump(2) + "\n";
+}
+
+std::string reference() {
+    std::string page;
+    for (const Section& section : sections()) {
+        const bool list = section.pointer == "/maps" || section.pointer == "/profiles";
+        page += "### `" + section.pointer.substr(1) + "`\n\n" + section.help + "\n\n";
+        page += "| key | type | default | range | unit | meaning |\n|---|---|---|---|---|---|\n";
+        for (const Key& key : keys())
+            if (key.section == section.pointer + (list ? "/*" : "")) page += row(key);
+        page += "\n";
+    }
+    return page;
+}
+
+}  // namespace camdir::config

@@ -1,0 +1,380 @@
+#include "config/keys.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <type_traits>
+
+namespace camdir::config {
+namespace {
+
+using nlohmann::json;
+
+constexpr double largest_id = 9007199254740991.0;  // what every JSON reader keeps exactly
+
+template <class Group, class T>
+Slot<T> in(Group Config::*group, T Group::*member) {
+    return [=](const Target& target) -> T& { return target.config->*group.*member; };
+}
+
+template <class T>
+Slot<T> in_map(T Map::*member) {
+    return [=](const Target& target) -> T& { return target.map->*member; };
+}
+
+Slot<float> in_profile(float camera::Profile::*member) {
+    return [=](const Target& target) -> float& { return target.profile->*member; };
+}
+
+void add_dds(std::vector<Key>& table) {
+    const std::string section = "/dds";
+    const auto slot = [](auto member) { return in(&Config::dds, member); };
+    table.push_back({section, "domain", slot(&Dds::domain), "DDS domain.", "", 0, 230});
+    table.push_back({section, "interface", slot(&Dds::interface),
+                     "Network interface, by name or address; empty: Cyclone DDS chooses.", "", 0, 255});
+    table.push_back({section, "multicast", slot(&Dds::multicast),
+                     "Whether the network carries multicast; without it only `peers` and those who know this "
+                     "director's address are found."});
+    table.push_back(
+        {section, "participant_index", slot(&Dds::participant_index),
+         "Fixes the ports, so that others can name this director as their peer. One process a host and "
+         "domain can have an index; -1: any free ports.",
+         "", -1, 119});
+    table.push_back({section, "port", slot(&Dds::port), "Base port of the domain's ports.", "", 1024, 60000});
+    table.push_back(
+        {section, "peers", slot(&Dds::peers),
+         "Addresses (`host` or `host:port`) asked by unicast, for example those of other directors.", "", 0,
+         64});
+    table.push_back({section, "partitions", slot(&Dds::partitions),
+                     "Patterns of the partitions in which matches are looked for.", "", 1, 64});
+    table.push_back({section, "director_id", slot(&Dds::director_id),
+                     "Told in every camera frame; 0: drawn at start.", "", 0, largest_id});
+    table.push_back(
+        {section, "strength", slot(&Dds::strength),
+         "Ownership strength: of several directors of one match, observers hear the strongest that is "
+         "alive. Give a standby less than its leader.",
+         "", 0, 2147483647});
+    table.push_back({section, "lease_ms", slot(&Dds::lease_ms),
+                     "A director that hangs or dies is replaced by its standby after this.", "ms", 20,
+                     60000});
+    table.push_back(
+        {section, "xml", slot(&Dds::xml),
+         "Cyclone DDS configuration (XML) in place of what interface, multicast, participant_index, port "
+         "and peers say; for security and tuning.",
+         "", 0, 65536});
+}
+
+void add_http(std::vector<Key>& table) {
+    const std::string section = "/http";
+    const auto slot = [](auto member) { return in(&Config::http, member); };
+    table.push_back(
+        {section, "enabled", slot(&Http::enabled), "Serves /healthz, /readyz, /metrics, /status."});
+    table.push_back({section, "address", slot(&Http::address), "Address to listen on.", "", 1, 255});
+    table.push_back(
+        {section, "port", slot(&Http::port), "Port; 0: any free one, told in the log.", "", 0, 65535});
+}
+
+void add_maps(std::vector<Key>& table) {
+    const std::string section = "/maps/*";
+    table.push_back({section,
+                     "name",
+                     in_map(&Map::name),
+                     "The name that game servers give in MatchInfo.",
+                     "",
+                     1,
+                     255,
+                     {},
+                     true,
+                     true});
+    table.push_back({section,
+                     "file",
+                     in_map(&Map::file),
+                     "The baked map, MAP.vfs. Relative paths start at the configuration's folder.",
+                     "",
+                     1,
+                     4095,
+                     {},
+                     true,
+                     true});
+    table.push_back(
+        {section,
+         "source",
+         in_map(&Map::source),
+         "The map, or `archive.pk3:maps/name.bsp`. When given, `file` is baked from it at start if it is "
+         "missing, damaged, or made from other bytes or another d0.",
+         "",
+         0,
+         4095,
+         {},
+         false,
+         true});
+    table.push_back({section,
+                     "d0",
+                     in_map(&Map::d0),
+                     "Sampling distance of that bake: openings narrower than about twice this are closed.",
+                     "0.0254 m",
+                     2,
+                     256,
+                     {},
+                     false,
+                     true});
+    table.push_back(
+        {section,
+         "strict",
+         in_map(&Map::strict),
+         "Refuses matches whose map file differs from the one that was baked, instead of warning.",
+         "",
+         0,
+         0,
+         {},
+         false,
+         true});
+}
+
+void add_profiles(std::vector<Key>& table) {
+    for (const camera::ProfileKey& key : camera::profile_keys())
+        table.push_back({"/profiles/*",
+                         key.name,
+                         in_profile(key.member),
+                         key.help,
+                         key.unit,
+                         key.minimum,
+                         key.maximum,
+                         {},
+                         false,
+                         true});
+}
+
+void add_matches(std::vector<Key>& table) {
+    const std::string section = "/matches";
+    const auto slot = [](auto member) { return in(&Config::matches, member); };
+    table.push_back({section,
+                     "default_profile",
+                     slot(&Matches::default_profile),
+                     "The profile of requests that name none.",
+                     "",
+                     1,
+                     31,
+                     {},
+                     false,
+                     true});
+    table.push_back({section,
+                     "silence_frames",
+                     slot(&Matches::silence_frames),
+                     "A match without poses for this many frames of its rate is silent: its cameras hold.",
+                     "frames",
+                     1,
+                     100000,
+                     {},
+                     false,
+                     true});
+    table.push_back({section,
+                     "forget_s",
+                     slot(&Matches::forget_s),
+                     "A match that is silent, or never had a game server, is forgotten after this.",
+                     "s",
+                     0,
+                     86400,
+                     {},
+                     false,
+                     true});
+    table.push_back({section,
+                     "automatic_hold_s",
+                     slot(&Matches::automatic_hold_s),
+                     "An automatic target is kept at least this long while he lives.",
+                     "s",
+                     0,
+                     600,
+                     {},
+                     false,
+                     true});
+    table.push_back(
+        {section,
+         "automatic_lead",
+         slot(&Matches::automatic_lead),
+         "How much more must have happened around another player before the automatic target changes.",
+         "kills",
+         0,
+         100,
+         {},
+         false,
+         true});
+    table.push_back({section,
+                     "automatic_half_life_s",
+                     slot(&Matches::automatic_half_life_s),
+                     "After this an event counts half for the automatic target.",
+                     "s",
+                     0.1,
+                     600,
+                     {},
+                     false,
+                     true});
+}
+
+void add_limits(std::vector<Key>& table) {
+    const std::string section = "/limits";
+    const auto slot = [](auto member) { return in(&Config::limits, member); };
+    table.push_back({section, "matches", slot(&Limits::matches), "Matches at once.", "", 1, 4096});
+    table.push_back(
+        {section, "players", slot(&Limits::players), "Players of a match that are tracked.", "", 1, 256});
+    table.push_back({section, "observers", slot(&Limits::observers), "Observers of a match.", "", 1, 65536});
+    table.push_back({section, "shots", slot(&Limits::shots), "Cameras of a match.", "", 1, 256});
+    table.push_back({section, "workers", slot(&Limits::workers), "Threads that move cameras; 0: one a core.",
+                     "", 0, 1024});
+}
+
+void add_log(std::vector<Key>& table) {
+    const std::string section = "/log";
+    const auto slot = [](auto member) { return in(&Config::log, member); };
+    table.push_back({section,
+                     "level",
+                     slot(&Log::level),
+                     "The least severe messages that are logged.",
+                     "",
+                     0,
+                     16,
+                     {"trace", "debug", "info", "warning", "error"},
+                     false,
+                     true});
+    table.push_back({section,
+                     "format",
+                     slot(&Log::format),
+                     "Text for people, or a JSON object a line.",
+                     "",
+                     0,
+                     16,
+                     {"text", "json"}});
+}
+
+bool in_range(const Key& key, double value) {
+    return value >= key.minimum && value <= key.maximum;
+}
+
+bool holds_text(const Key& key, const json& value) {
+    if (!value.is_string()) return false;
+    const auto& text = value.get_ref<const std::string&>();
+    if (text.find('\0') != std::string::npos) return false;
+    return key.choices.empty() ||
+           std::find(key.choices.begin(), key.choices.end(), text) != key.choices.end();
+}
+
+template <class T>
+bool fits(const Key& key, const json& value) {
+    if constexpr (std::is_same_v<T, bool>) {
+        return value.is_boolean();
+    } else if constexpr (std::is_same_v<T, std::int64_t>) {
+        return value.is_number_integer() && in_range(key, value.get<double>());
+    } else if constexpr (std::is_floating_point_v<T>) {
+        return value.is_number() && in_range(key, value.get<double>());
+    } else if constexpr (std::is_same_v<T, std::string>) {
+        return holds_text(key, value) && in_range(key, static_cast<double>(value.get_ref<const T&>().size()));
+    } else {
+        return value.is_array() && in_range(key, static_cast<double>(value.size())) &&
+               std::all_of(value.begin(), value.end(), [&](const json& entry) {
+                   return holds_text(key, entry) && !entry.get_ref<const std::string&>().empty();
+               });
+    }
+}
+
+std::string number(double value) {
+    std::array<char, 32> text{};
+    const auto end = std::to_chars(text.data(), text.data() + text.size(), value);
+    return {text.data(), end.ptr};
+}
+
+std::string range(const Key& key) {
+    return number(key.minimum) + " to " + number(key.maximum);
+}
+
+// The double that is written as shortly as the float: 0.1F becomes 0.1.
+double shortest(float value) {
+    std::array<char, 32> text{};
+    const auto end = std::to_chars(text.data(), text.data() + text.size(), value);
+    double result = 0.0;
+    std::from_chars(text.data(), end.ptr, result);
+    return result;
+}
+
+}  // namespace
+
+const std::vector<Section>& sections() {
+    static const std::vector<Section> list = {
+        {"/dds", "The network. Takes effect at a restart.", false},
+        {"/http", "Health, readiness, metrics and status. Takes effect at a restart.", false},
+        {"/maps", "A list: the maps that are served. Reloaded by SIGHUP.", true},
+        {"/profiles",
+         "By name: how a shot looks; observers ask for a profile by its name and may override its keys. "
+         "`default` always exists. Reloaded by SIGHUP.",
+         true},
+        {"/matches", "Life of matches, and the choice of automatic targets. Reloaded by SIGHUP.", true},
+        {"/limits", "What is more than this is refused. Takes effect at a restart.", false},
+        {"/log", "Written to standard error. `level` is reloaded by SIGHUP.", true}};
+    return list;
+}
+
+const std::vector<Key>& keys() {
+    static const std::vector<Key> table = [] {
+        std::vector<Key> all;
+        add_dds(all);
+        add_http(all);
+        add_maps(all);
+        add_profiles(all);
+        add_matches(all);
+        add_limits(all);
+        add_log(all);
+        return all;
+    }();
+    return table;
+}
+
+json value_of(const Key& key, const Target& target) {
+    return std::visit(
+        [&](const auto& slot) {
+            const auto& value = slot(target);
+            if constexpr (std::is_same_v<std::decay_t<decltype(value)>, float>)
+                return json(shortest(value));
+            else
+                return json(value);
+        },
+        key.slot);
+}
+
+json default_of(const Key& key) {
+    Config config;
+    Map map;
+    camera::Profile profile;
+    return value_of(key, {&config, &map, &profile});
+}
+
+bool assign(const Key& key, const json& value, const Target& target) {
+    return std::visit(
+        [&](const auto& slot) {
+            auto& out = slot(target);
+            using Value = std::decay_t<decltype(out)>;
+            if (!fits<Value>(key, value)) return false;
+            out = value.get<Value>();
+            return true;
+        },
+        key.slot);
+}
+
+std::string type_name(const Key& key) {
+    static constexpr std::array names = {"boolean", "integer", "number", "number", "text", "list of texts"};
+    return names[key.slot.index()];
+}
+
+std::string expected(const Key& key) {
+    const std::string type = type_name(key);
+    if (type == "boolean") return "true or false";
+    if (!key.choices.empty()) {
+        std::string list = "one of";
+        for (const std::string& choice : key.choices)
+            list += " \"" + choice + '"';
+        return list;
+    }
+    if (type == "text") return "a text of " + range(key) + " bytes";
+    if (type == "list of texts") return "a list of " + range(key) + " texts that are not empty";
+    return (type == "integer" ? "an integer from " : "a number from ") + range(key);
+}
+
+}  // namespace camdir::config

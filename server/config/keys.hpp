@@ -1,0 +1,66 @@
+// The one table of the configuration's keys.
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "config/config.hpp"
+
+namespace camdir::config {
+
+// What a key's value is written into: the file's section, the entry of a list, or the profile.
+struct Target {
+    Config* config = nullptr;
+    Map* map = nullptr;
+    camera::Profile* profile = nullptr;
+};
+
+template <class T>
+using Slot = std::function<T&(const Target&)>;
+
+struct Key {
+    std::string section;  // JSON pointer, "*" stands for any index or name: "/dds", "/maps/*", "/profiles/*"
+    std::string name;
+    std::variant<Slot<bool>, Slot<std::int64_t>, Slot<double>, Slot<float>, Slot<std::string>,
+                 Slot<std::vector<std::string>>>
+        slot;
+    std::string help;
+    std::string unit = {};
+    // Of a number its value, of a text its bytes, of a list its entries.
+    double minimum = std::numeric_limits<double>::lowest();
+    double maximum = std::numeric_limits<double>::max();
+    std::vector<std::string> choices = {};  // of a text
+    bool required = false;
+    bool reloads = false;  // takes effect on SIGHUP
+};
+
+// In the order of the documentation, a section's keys together.
+[[nodiscard]] const std::vector<Key>& keys();
+
+struct Section {
+    std::string pointer;
+    std::string help;
+    bool reloads;
+};
+[[nodiscard]] const std::vector<Section>& sections();
+
+// The value in `target` as JSON.
+[[nodiscard]] nlohmann::json value_of(const Key& key, const Target& target);
+
+// The value that a key has when it is left out.
+[[nodiscard]] nlohmann::json default_of(const Key& key);
+
+// Writes a JSON value into the target. False: not of the key's type or range, nothing is written.
+[[nodiscard]] bool assign(const Key& key, const nlohmann::json& value, const Target& target);
+
+// "an integer from 0 to 230"
+[[nodiscard]] std::string expected(const Key& key);
+
+// "boolean", "integer", "number", "text", "list of texts"
+[[nodiscard]] std::string type_name(const Key& key);
+
+}  // namespace camdir::config

@@ -1,0 +1,312 @@
+#include "director/director.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <condition_variable>
+#include <future>
+#include <shared_mutex>
+#include <unordered_map>
+
+#include "director/match.hpp"
+
+namespace camdir::director {
+namespace {
+
+constexpr std::chrono::milliseconds housekeeping_period{20};
+
+std::int64_t now_ns() {
+    return std::chrono::steady_clock::now().time_since_epoch() / std::chrono::nanoseconds(1);
+}
+
+std::size_t worker_count(const config::Limits& limits) {
+    if (limits.workers > 0) return static_cast<std::size_t>(limits.workers);
+    return std::max(1U, std::thread::hardware_concurrency());
+}
+
+// As many matches may wait for a game server as may have one.
+std::size_t most_matches(const config::Limits& limits) {
+    return 2 * static_cast<std::size_t>(limits.matches);
+}
+
+std::string too_many_matches(const config::Limits& limits) {
+    return std::to_string(limits.matches) + " matches run already";
+}
+
+}  // namespace
+
+struct Director::Impl {
+    struct Entry {
+        std::unique_ptr<Match> match;
+        bool served = false;  // has a game server
+    };
+
+    Impl(const config::Config& configuration, const MapLibrary& library, Wire& results);
+
+    // With the lock held, shared or alone.
+    Match* find(const std::string& match_id) const;
+    void post(Match& match, Control control);
+    std::size_t count(bool served) const;
+
+    // With the lock held alone.
+    Entry* find_or_add(const std::string& match_id);
+    void end(Entry& entry);
+
+    // False: no such match.
+    bool post_to(const std::string& match_id, Control control);
+    void keep_house(const std::stop_token& stop);
+    std::vector<std::string> notice_silence();
+    void end_lost_and_remove_deserted(const std::vector<std::string>& match_ids);
+    bool remove_deserted(const std::string& match_id, Match& match);
+
+    const MapLibrary& maps;
+    Wire& wire;
+    Counters unknown;  // what came for unknown matches
+
+    // Held alone while matches come and go and the configuration changes, else shared. Guards what follows.
+    mutable std::shared_mutex mutex;
+    std::shared_ptr<const config::Config> config;
+    Statistics removed;  // of matches that are gone
+    bool accepting = true;
+    WorkerPool pool;
+    std::unordered_map<std::string, Entry> matches;
+
+    std::condition_variable_any wake;
+    std::jthread housekeeper;
+};
+
+Director::Impl::Impl(const config::Config& configuration, const MapLibrary& library, Wire& results)
+    : maps(library),
+      wire(results),
+      config(std::make_shared<const config::Config>(configuration)),
+      pool(worker_count(config->limits), most_matches(config->limits)),
+      housekeeper([this](const std::stop_token& stop) { keep_house(stop); }) {}
+
+Match* Director::Impl::find(const std::string& match_id) const {
+    if (!accepting) return nullptr;
+    const auto found = matches.find(match_id);
+    return found == matches.end() ? nullptr : found->second.match.get();
+}
+
+void Director::Impl::post(Match& match, Control control) {
+    match.inbox().put(std::move(control));
+    pool.schedule(match);
+}
+
+bool Director::Impl::post_to(const std::string& match_id, Control control) {
+    const std::shared_lock lock(mutex);
+    Match* match = find(match_id);
+    if (match == nullptr) return false;
+    post(*match, std::move(control));
+    return true;
+}
+
+std::size_t Director::Impl::count(bool served) const {
+    return static_cast<std::size_t>(std::count_if(
+        matches.begin(), matches.end(), [&](const auto& match) { return match.second.served == served; }));
+}
+
+Director::Impl::Entry* Director::Impl::find_or_add(const std::string& match_id) {
+    if (const auto found = matches.find(match_id); found != matches.end()) return &found->second;
+    auto match = std::make_unique<Match>(match_id, config, maps, wire);
+    if (!pool.attach(*match)) return nullptr;
+    Entry& entry = matches[match_id];
+    entry.match = std::move(match);
+    return &entry;
+}
+
+void Director::Impl::end(Entry& entry) {
+    entry.served = false;
+    post(*entry.match, MatchEnded{});
+}
+
+void Director::Impl::keep_house(const std::stop_token& stop) {
+    std::mutex own;
+    std::unique_lock lock(own);
+    while (!stop.stop_requested()) {
+        wake.wait_for(lock, stop, housekeeping_period, [] { return false; });
+        const auto leaving = notice_silence();
+        if (!leaving.empty()) end_lost_and_remove_deserted(leaving);
+    }
+}
+
+// Returns the matches that have to go.
+std::vector<std::string> Director::Impl::notice_silence() {
+    std::vector<std::string> leaving;
+    const std::shared_lock lock(mutex);
+    const auto forget_ns = static_cast<std::int64_t>(config->matches.forget_s * 1e9);
+    const std::int64_t now = now_ns();
+    for (auto& [match_id, entry] : matches) {
+        if (entry.match->poses_missing(now)) post(*entry.match, PosesMissing{});
+        if (entry.match->deserted() || entry.match->server_gone_for(forget_ns, now))
+            leaving.push_back(match_id);
+    }
+    return leaving;
+}
+
+void Director::Impl::end_lost_and_remove_deserted(const std::vector<std::string>& match_ids) {
+    const std::unique_lock lock(mutex);
+    const auto forget_ns = static_cast<std::int64_t>(config->matches.forget_s * 1e9);
+    for (const std::string& match_id : match_ids) {
+        const auto found = matches.find(match_id);
+        if (found == matches.end()) continue;
+        Entry& entry = found->second;
+        if (entry.served && entry.match->server_gone_for(forget_ns, now_ns())) end(entry);
+        if (!entry.served && remove_deserted(match_id, *entry.match)) matches.erase(found);
+    }
+}
+
+// False: it is wanted again, or has yet to say so.
+bool Director::Impl::remove_deserted(const std::string& match_id, Match& match) {
+    if (!pool.settled(match) || !match.deserted()) return false;
+    pool.detach(match);
+    match.counters().add_to(removed);
+    wire.forget(match_id);
+    return true;
+}
+
+Director::Director(const config::Config& config, const MapLibrary& maps, Wire& wire)
+    : impl_(std::make_unique<Impl>(config, maps, wire)) {}
+
+Director::~Director() {
+    drain();
+}
+
+bool Director::receive(const MatchInfo& info) {
+    const std::unique_lock lock(impl_->mutex);
+    if (!impl_->accepting) return false;
+    const config::Limits& limits = impl_->config->limits;
+    Match* known = impl_->find(info.match_id);
+    const bool served = known != nullptr && impl_->matches[info.match_id].served;
+    Impl::Entry* entry = served || impl_->count(true) < static_cast<std::size_t>(limits.matches)
+                             ? impl_->find_or_add(info.match_id)
+                             : nullptr;
+    if (entry == nullptr) {
+        impl_->unknown.add(Counter::refused_matches);
+        spdlog::warn("match {}: refused: {}", info.match_id, too_many_matches(limits));
+        if (known != nullptr) impl_->post(*known, MatchRefused{too_many_matches(limits)});
+        return false;
+    }
+    entry->served = true;
+    impl_->post(*entry->match, info);
+    return true;
+}
+
+void Director::match_silent(const std::string& match_id) {
+    impl_->post_to(match_id, ServerLost{});
+}
+
+void Director::match_over(const std::string& match_id) {
+    const std::unique_lock lock(impl_->mutex);
+    if (impl_->find(match_id) != nullptr) impl_->end(impl_->matches[match_id]);
+}
+
+void Director::receive(const std::string& match_id, const PoseFrame& frame) {
+    const std::int64_t now = now_ns();
+    const std::shared_lock lock(impl_->mutex);
+    Match* match = impl_->find(match_id);
+    if (match == nullptr) return impl_->unknown.add(Counter::drop_unknown_match);
+    match->note_pose(now);
+    match->inbox().put(frame, now);
+    impl_->pool.schedule(*match);
+}
+
+void Director::receive(const std::string& match_id, const MatchEvent& event) {
+    if (!impl_->post_to(match_id, event)) impl_->unknown.add(Counter::drop_unknown_match);
+}
+
+void Director::receive(const ObserverRequest& request) {
+    if (impl_->post_to(request.match_id, request)) return;
+    const std::unique_lock lock(impl_->mutex);
+    if (!impl_->accepting) return;
+    const config::Limits& limits = impl_->config->limits;
+    Impl::Entry* entry = impl_->count(false) < static_cast<std::size_t>(limits.matches)
+                             ? impl_->find_or_add(request.match_id)
+                             : nullptr;
+    if (entry != nullptr) return impl_->post(*entry->match, request);
+    impl_->unknown.add(Counter::refused_requests);
+    impl_->wire.publish({request.match_id, request.observer_id, 0, RequestState::refused, 0,
+                         "no game server runs this match, and observers wait for too many others"});
+}
+
+void Director::request_gone(const std::string& match_id, const std::string& observer_id) {
+    impl_->post_to(match_id, RequestGone{observer_id});
+}
+
+void Director::maps_changed() {
+    const std::shared_lock lock(impl_->mutex);
+    if (!impl_->accepting) return;
+    for (auto& [match_id, entry] : impl_->matches)
+        impl_->post(*entry.match, MapsChanged{});
+}
+
+void Director::reconfigure(const config::Config& config) {
+    auto next = std::make_shared<config::Config>(config);
+    const std::unique_lock lock(impl_->mutex);
+    if (!impl_->accepting) return;
+    next->limits = impl_->config->limits;  // what was built for them is there already
+    impl_->config = std::move(next);
+    for (auto& [match_id, entry] : impl_->matches)
+        impl_->post(*entry.match, Reconfigured{impl_->config});
+}
+
+Statistics Director::statistics() const {
+    const std::shared_lock lock(impl_->mutex);
+    Statistics sum = impl_->removed;
+    impl_->unknown.add_to(sum);
+    for (const auto& [match_id, entry] : impl_->matches) {
+        entry.match->counters().add_to(sum);
+        entry.match->add_gauges(sum);
+    }
+    return sum;
+}
+
+View Director::view(std::chrono::milliseconds patience) const {
+    std::map<std::string, std::future<MatchView>> answers;
+    {
+        const std::shared_lock lock(impl_->mutex);
+        if (!impl_->accepting) return {};
+        for (auto& [match_id, entry] : impl_->matches) {
+            const auto answer = std::make_shared<std::promise<MatchView>>();
+            answers.emplace(match_id, answer->get_future());
+            impl_->post(*entry.match, ViewWanted{answer});
+        }
+    }
+    const auto deadline = std::chrono::steady_clock::now() + patience;
+    View view;
+    for (auto& [match_id, answer] : answers) {
+        MatchView& match = view.matches.emplace_back();
+        match.match_id = match_id;
+        if (answer.wait_until(deadline) != std::future_status::ready) continue;
+        try {
+            match = answer.get();
+        } catch (const std::future_error&) {
+            continue;  // the match's inbox was full
+        }
+    }
+    return view;
+}
+
+bool Director::responsive(std::chrono::milliseconds limit) const {
+    return impl_->pool.responsive(limit);
+}
+
+void Director::settle() {
+    const std::shared_lock lock(impl_->mutex);
+    for (const auto& [match_id, entry] : impl_->matches)
+        impl_->pool.settle(*entry.match);
+}
+
+void Director::drain() {
+    {
+        const std::unique_lock lock(impl_->mutex);
+        if (!impl_->accepting) return;
+        impl_->accepting = false;
+    }
+    impl_->housekeeper.request_stop();
+    impl_->housekeeper.join();
+    settle();
+    impl_->pool.stop();
+}
+
+}  // namespace camdir::director

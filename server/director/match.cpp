@@ -1,0 +1,242 @@
+#include "director/match.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <variant>
+
+namespace camdir::director {
+namespace {
+
+constexpr double usual_rate_hz = 30.0;  // of a game server that tells none
+constexpr std::size_t most_controls_besides_requests = 64;
+
+constexpr const char* no_server = "no game server runs this match";
+
+std::int64_t now_ns() {
+    return std::chrono::steady_clock::now().time_since_epoch() / std::chrono::nanoseconds(1);
+}
+
+std::string joined(const std::vector<std::string>& names) {
+    std::string list;
+    for (const std::string& name : names)
+        list += (list.empty() ? "" : ", ") + name;
+    return list.empty() ? "none" : list;
+}
+
+std::int64_t silence_after_ns(const MatchInfo& info, const config::Matches& rules) {
+    const double rate = std::isfinite(info.rate_hz) && info.rate_hz > 0.0F ? info.rate_hz : usual_rate_hz;
+    return static_cast<std::int64_t>(std::min(static_cast<double>(rules.silence_frames) / rate, 86400.0) *
+                                     1e9);
+}
+
+}  // namespace
+
+Match::Match(std::string match_id, std::shared_ptr<const config::Config> config, const MapLibrary& maps,
+             Wire& wire)
+    : match_id_(std::move(match_id)),
+      maps_(maps),
+      wire_(wire),
+      inbox_(2 * static_cast<std::size_t>(config->limits.observers) + most_controls_besides_requests,
+             counters_),
+      config_(std::move(config)),
+      no_map_(no_server),
+      requests_(match_id_, wire, counters_) {}
+
+void Match::turn() noexcept {
+    inbox_.take(content_);
+    for (Control& control : content_.controls)
+        std::visit([this](auto& message) { handle(message); }, control);
+    if (judge_needed_) judge();
+    if (content_.has_frame) answer(content_.frame, content_.received_ns);
+}
+
+void Match::handle(MatchInfo& info) {
+    counters_.add(Counter::match_infos);
+    if (info_ && info.epoch < info_->epoch) return counters_.add(Counter::drop_old_epoch);
+    const bool new_life = !info_ || info.epoch != info_->epoch || info.map_name != info_->map_name;
+    info_ = std::move(info);
+    refusal_.clear();
+    silence_ns_ = silence_after_ns(*info_, config_->matches);
+    if (new_life) begin_epoch();
+    if (liveness_ == Liveness::lost) liveness_ = Liveness::silent;
+    roster_.list(info_->players);
+    adopt_map();
+}
+
+void Match::begin_epoch() {
+    spdlog::info("match {}: epoch {} on map {}, {} Hz", match_id_, info_->epoch, info_->map_name,
+                 info_->rate_hz);
+    roster_.clear();
+    attention_.clear();
+    requests_.restart_shots();
+    any_frame_ = false;
+    gap_ = false;
+    next_camera_frame_ = 0;
+    last_pose_ns_ = now_ns();
+    liveness_ = Liveness::running;
+}
+
+void Match::handle(const ServerLost& /*lost*/) {
+    fall_silent(Liveness::lost);
+}
+
+void Match::handle(const PosesMissing& /*missing*/) {
+    if (poses_missing(now_ns())) fall_silent(Liveness::silent);
+}
+
+void Match::fall_silent(Liveness liveness) {
+    if (!info_ || liveness_ == liveness) return;
+    if (liveness_ == Liveness::running) {
+        counters_.add(Counter::silences);
+        spdlog::warn("match {}: its game server is silent", match_id_);
+    }
+    liveness_ = liveness;
+    any_frame_ = false;
+    gap_ = true;
+    judge_needed_ = true;
+}
+
+void Match::handle(const MatchEnded& /*ended*/) {
+    if (info_) spdlog::info("match {}: over", match_id_);
+    info_.reset();
+    refusal_.clear();
+    liveness_ = Liveness::none;
+    roster_.clear();
+    leave_map(no_server);
+}
+
+void Match::handle(const MatchRefused& refused) {
+    refusal_ = refused.reason;
+    judge_needed_ = true;
+}
+
+void Match::handle(const MatchEvent& event) {
+    if (!info_) return counters_.add(Counter::drop_unknown_match);
+    if (event.epoch != info_->epoch)
+        return counters_.add(event.epoch < info_->epoch ? Counter::drop_old_epoch
+                                                        : Counter::drop_early_epoch);
+    counters_.add(Counter::events);
+    attention_.take_in(event, config_->matches.automatic_half_life_s);
+}
+
+void Match::handle(const ObserverRequest& request) {
+    counters_.add(Counter::requests);
+    requests_.put(request, *config_, info_ ? info_->epoch : 0);
+    judge_needed_ = true;
+}
+
+void Match::handle(const RequestGone& gone) {
+    requests_.remove(gone.observer_id);
+    judge_needed_ = true;
+}
+
+void Match::handle(const MapsChanged& /*changed*/) {
+    if (info_) adopt_map();
+}
+
+void Match::handle(const Reconfigured& changed) {
+    config_ = changed.config;
+    if (info_) silence_ns_ = silence_after_ns(*info_, config_->matches);
+    requests_.resolve_again(*config_);
+    judge_needed_ = true;
+}
+
+void Match::adopt_map() {
+    judge_needed_ = true;
+    const std::string named = "map '" + info_->map_name + "'";
+    const auto entry = maps_.find(info_->map_name);
+    if (!entry) return leave_map(named + " is not configured; known: " + joined(maps_.names()));
+    if (!entry->freespace)
+        return leave_map(named + (entry->state == MapState::failed ? " failed: " : " is loading: ") +
+                         entry->reason);
+    check_map_hash(*entry);
+    no_map_.clear();
+    if (freespace_ && entry->generation == map_generation_) return;
+    freespace_ = entry->freespace;
+    map_generation_ = entry->generation;
+    scratch_ = std::make_unique<camera::Scratch>(*freespace_);
+    requests_.restart_shots();
+}
+
+void Match::check_map_hash(const MapEntry& entry) {
+    refusal_.clear();
+    const std::uint64_t baked = entry.freespace->metadata().source_hash;
+    if (info_->map_hash == 0 || baked == 0 || info_->map_hash == baked) return;
+    counters_.add(Counter::map_hash_mismatches);
+    spdlog::warn("match {}: its map file {} (xxh3 {:016x}) is not the one that was baked ({:016x})",
+                 match_id_, info_->map_name, info_->map_hash, baked);
+    if (entry.strict)
+        refusal_ = "the game server's map '" + info_->map_name + "' is not the one that was baked";
+}
+
+void Match::leave_map(std::string reason) {
+    no_map_ = std::move(reason);
+    freespace_.reset();
+    scratch_.reset();
+    requests_.restart_shots();
+    judge_needed_ = true;
+}
+
+void Match::judge() {
+    judge_needed_ = false;
+    const bool holds = liveness_ == Liveness::silent || liveness_ == Liveness::lost;
+    requests_.judge({*config_, roster_, info_ ? info_->epoch : 0, refusal_, no_map_,
+                     holds ? "the game server is silent: the camera holds" : ""});
+    observer_count_ = requests_.observers();
+    shot_count_ = requests_.shots().size();
+    deserted_.store(!info_ && requests_.observers() == 0, std::memory_order_release);
+}
+
+bool Match::poses_missing(std::int64_t now_ns) const {
+    return liveness_ == Liveness::running && now_ns - last_pose_ns_ > silence_ns_;
+}
+
+bool Match::server_gone_for(std::int64_t ns, std::int64_t now_ns) const {
+    return liveness_ == Liveness::lost && now_ns - last_pose_ns_ > ns;
+}
+
+void Match::add_gauges(Statistics& sum) const {
+    const Liveness liveness = liveness_;
+    sum.matches += liveness == Liveness::none ? 0 : 1;
+    sum.silent_matches += liveness == Liveness::silent || liveness == Liveness::lost ? 1 : 0;
+    sum.observers += observer_count_;
+    sum.shots += shot_count_;
+}
+
+std::string Match::state() const {
+    switch (liveness_.load()) {
+        case Liveness::none:
+            return "no game server";
+        case Liveness::lost:
+            return "game server lost";
+        case Liveness::silent:
+            return "silent";
+        case Liveness::running:
+            break;
+    }
+    return no_map_.empty() ? "running" : "waiting for map";
+}
+
+void Match::handle(const ViewWanted& wanted) {
+    if (judge_needed_) judge();
+    MatchView view;
+    view.match_id = match_id_;
+    view.answered = true;
+    view.state = state();
+    if (info_) {
+        view.epoch = info_->epoch;
+        view.map_name = info_->map_name;
+        view.rate_hz = info_->rate_hz;
+        view.spectator_delay_s = info_->spectator_delay_s;
+        view.players = info_->players.size();
+    }
+    view.last_pose_number = last_number_;
+    view.shots = requests_.shot_views();
+    view.observers = requests_.observer_views();
+    wanted.answer->set_value(std::move(view));
+}
+
+}  // namespace camdir::director

@@ -1,0 +1,213 @@
+#include "director/requests.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+
+#include "config/json_text.hpp"
+
+namespace camdir::director {
+namespace {
+
+constexpr std::size_t longest_reason = 255;  // ObserverStatus.reason
+
+// Cuts between characters of UTF-8.
+std::string shortened(std::string text) {
+    if (text.size() <= longest_reason) return text;
+    std::size_t end = longest_reason;
+    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0U) == 0x80U)
+        --end;
+    text.resize(end);
+    return text;
+}
+
+std::string quoted(const std::string& text) {
+    return "'" + text + "'";
+}
+
+std::string known_profiles(const config::Config& config) {
+    std::string list;
+    for (const auto& [name, profile] : config.profiles)
+        list += (list.empty() ? "" : ", ") + name;
+    return list;
+}
+
+// Equal for equal JSON, however it is written.
+std::string canonical(const std::string& overrides) {
+    const auto object = config::parse_json(overrides);
+    return !object || object->empty() ? std::string() : object->dump();
+}
+
+std::vector<std::uint32_t> sorted(std::vector<std::uint32_t> group) {
+    std::sort(group.begin(), group.end());
+    group.erase(std::unique(group.begin(), group.end()), group.end());
+    return group;
+}
+
+// Why the player of the key cannot be shown now; empty: he can.
+std::string missing_player(const ShotKey& key, const Roster& roster) {
+    if (key.target != no_player) {
+        const Presence presence = roster.presence(key.target);
+        if (presence == Presence::playing) return {};
+        return "player " + std::to_string(key.target) +
+               (presence == Presence::spectator ? " is a spectator" : " is not in the match");
+    }
+    if (key.group.empty()) return roster.anybody_playing() ? "" : "nobody plays";
+    const bool plays = std::any_of(key.group.begin(), key.group.end(), [&](std::uint32_t player) {
+        return roster.presence(player) == Presence::playing;
+    });
+    return plays ? "" : "nobody of the group plays";
+}
+
+}  // namespace
+
+void Requests::put(const ObserverRequest& request, const config::Config& config, std::uint64_t epoch) {
+    const auto found = observers_.find(request.observer_id);
+    if (found == observers_.end() && observers_.size() >= static_cast<std::size_t>(config.limits.observers)) {
+        counters_.add(Counter::refused_requests);
+        const std::string reason =
+            std::to_string(config.limits.observers) + " observers watch this match already";
+        return wire_.publish({match_id_, request.observer_id, epoch, RequestState::refused, 0, reason});
+    }
+    Observer& observer = found != observers_.end() ? found->second : observers_[request.observer_id];
+    observer.request = request;
+    resolve(observer, config);
+}
+
+void Requests::remove(const std::string& observer_id) {
+    observers_.erase(observer_id);
+    wire_.withdraw(match_id_, observer_id);
+}
+
+void Requests::resolve_again(const config::Config& config) {
+    for (auto& [id, observer] : observers_)
+        resolve(observer, config);
+}
+
+void Requests::resolve(Observer& observer, const config::Config& config) {
+    const ObserverRequest& request = observer.request;
+    const std::string& name = request.profile.empty() ? config.matches.default_profile : request.profile;
+    observer.key = {request.target, sorted(request.group), name, canonical(request.overrides)};
+    observer.fault.clear();
+    const auto base = config.profiles.find(name);
+    if (base == config.profiles.end()) {
+        observer.fault = "there is no profile " + quoted(name) + "; known: " + known_profiles(config);
+        return;
+    }
+    auto profile = config::override_profile(base->second, request.overrides);
+    if (!profile)
+        observer.fault = "overrides: " + profile.error().message;
+    else
+        observer.profile = *profile;
+}
+
+Requests::Verdict Requests::verdict(const Observer& observer, const Situation& situation) {
+    if (!observer.fault.empty()) return {RequestState::refused, 0, observer.fault};
+    if (!situation.refusal.empty()) return {RequestState::refused, 0, situation.refusal};
+    if (!situation.no_map.empty()) return {RequestState::waiting_for_map, 0, situation.no_map};
+    const std::string missing = missing_player(observer.key, situation.roster);
+    if (!missing.empty()) return {RequestState::waiting_for_player, 0, missing};
+    return {RequestState::accepted, 0, situation.remark};
+}
+
+void Requests::judge(const Situation& situation) {
+    std::vector<Verdict> verdicts;
+    for (Shot& shot : shots_)
+        shot.observers = 0;
+    for (const auto& [id, observer] : observers_) {
+        const Verdict& made = verdicts.emplace_back(verdict(observer, situation));
+        Shot* shot = made.state == RequestState::accepted ? find_shot(observer.key) : nullptr;
+        if (shot != nullptr) ++shot->observers;
+    }
+    std::erase_if(shots_, [](const Shot& shot) { return shot.observers == 0; });
+
+    for (Shot& shot : shots_)
+        shot.observers = 0;
+    auto made = verdicts.begin();
+    for (auto& [id, observer] : observers_) {
+        if (made->state == RequestState::accepted) seat(observer, situation.config.limits.shots, *made);
+        tell(observer, std::move(*made), situation.epoch);
+        ++made;
+    }
+}
+
+void Requests::seat(const Observer& observer, std::int64_t most_shots, Verdict& verdict) {
+    Shot* shot = find_shot(observer.key);
+    if (shot == nullptr) {
+        if (shots_.size() >= static_cast<std::size_t>(most_shots)) {
+            verdict = {RequestState::refused, 0,
+                       "this match has " + std::to_string(most_shots) + " cameras already"};
+            return;
+        }
+        shot = &add_shot(observer.key);
+    }
+    shot->profile = observer.profile;
+    ++shot->observers;
+    verdict.camera_id = shot->camera_id;
+}
+
+Shot* Requests::find_shot(const ShotKey& key) {
+    const auto found =
+        std::find_if(shots_.begin(), shots_.end(), [&](const Shot& shot) { return shot.key == key; });
+    return found == shots_.end() ? nullptr : &*found;
+}
+
+Shot& Requests::add_shot(const ShotKey& key) {
+    std::uint32_t id = camera_id_of(key);
+    const auto place_of = [&] {
+        return std::lower_bound(shots_.begin(), shots_.end(), id, [](const Shot& shot, std::uint32_t wanted) {
+            return shot.camera_id < wanted;
+        });
+    };
+    auto place = place_of();
+    while (id == 0 || (place != shots_.end() && place->camera_id == id)) {
+        ++id;
+        place = place_of();
+    }
+    Shot shot;
+    shot.key = key;
+    shot.camera_id = id;
+    return *shots_.insert(place, std::move(shot));
+}
+
+void Requests::tell(Observer& observer, Verdict verdict, std::uint64_t epoch) {
+    ObserverStatus status{match_id_,         observer.request.observer_id,        epoch, verdict.state,
+                          verdict.camera_id, shortened(std::move(verdict.reason))};
+    ObserverStatus& said = observer.status;
+    if (observer.told && said.epoch == status.epoch && said.state == status.state &&
+        said.camera_id == status.camera_id && said.reason == status.reason)
+        return;
+    if (status.state == RequestState::refused) {
+        counters_.add(Counter::refused_requests);
+        spdlog::info("match {}: observer {} is refused: {}", match_id_, status.observer_id, status.reason);
+    }
+    said = std::move(status);
+    observer.told = true;
+    wire_.publish(said);
+}
+
+void Requests::restart_shots() {
+    for (Shot& shot : shots_) {
+        shot.state = {};
+        shot.automatic = {};
+        shot.target = no_player;
+        shot.flags = 0;
+    }
+}
+
+std::vector<ShotView> Requests::shot_views() const {
+    std::vector<ShotView> views;
+    for (const Shot& shot : shots_)
+        views.push_back({shot.camera_id, shot.target, shot.key.target == no_player, shot.key.profile,
+                         shot.observers, shot.flags});
+    return views;
+}
+
+std::vector<ObserverView> Requests::observer_views() const {
+    std::vector<ObserverView> views;
+    for (const auto& [id, observer] : observers_)
+        views.push_back({id, observer.status.state, observer.status.camera_id, observer.status.reason});
+    return views;
+}
+
+}  // namespace camdir::director

@@ -1,0 +1,80 @@
+// The requests of a match's observers, what becomes of them, and the shots that they share.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "config/config.hpp"
+#include "director/counters.hpp"
+#include "director/roster.hpp"
+#include "director/shot.hpp"
+#include "director/wire.hpp"
+
+namespace camdir::director {
+
+// What requests are judged by.
+struct Situation {
+    const config::Config& config;
+    const Roster& roster;
+    std::uint64_t epoch = 0;
+    std::string refusal;  // why every request is refused; empty: they are not
+    std::string no_map;   // why there is no map; empty: there is one
+    std::string remark;   // told to those who are accepted
+};
+
+// One thread at a time.
+class Requests {
+  public:
+    Requests(std::string match_id, Wire& wire, Counters& counters)
+        : match_id_(std::move(match_id)), wire_(wire), counters_(counters) {}
+
+    // Keeps the request, to be judged. When limits.observers are kept already it is refused at once.
+    void put(const ObserverRequest& request, const config::Config& config, std::uint64_t epoch);
+    void remove(const std::string& observer_id);
+
+    // Profiles changed.
+    void resolve_again(const config::Config& config);
+
+    // Decides about every request, ends and begins shots accordingly, and publishes what changed. A shot that
+    // runs goes on while anybody wants it; when limits.shots are wanted by more, new ones are refused.
+    void judge(const Situation& situation);
+
+    // All shots begin anew, with a cut.
+    void restart_shots();
+
+    [[nodiscard]] std::vector<Shot>& shots() { return shots_; }  // by camera_id
+    [[nodiscard]] std::size_t observers() const { return observers_.size(); }
+    [[nodiscard]] std::vector<ShotView> shot_views() const;
+    [[nodiscard]] std::vector<ObserverView> observer_views() const;
+
+  private:
+    struct Observer {
+        ObserverRequest request;
+        ShotKey key;
+        camera::Profile profile;
+        std::string fault;  // why the request can never be served
+        ObserverStatus status;
+        bool told = false;  // status is published
+    };
+    struct Verdict {
+        RequestState state = RequestState::accepted;
+        std::uint32_t camera_id = 0;
+        std::string reason;
+    };
+
+    static void resolve(Observer& observer, const config::Config& config);
+    [[nodiscard]] static Verdict verdict(const Observer& observer, const Situation& situation);
+    void seat(const Observer& observer, std::int64_t most_shots, Verdict& verdict);
+    Shot* find_shot(const ShotKey& key);
+    Shot& add_shot(const ShotKey& key);
+    void tell(Observer& observer, Verdict verdict, std::uint64_t epoch);
+
+    const std::string match_id_;
+    Wire& wire_;
+    Counters& counters_;
+    std::map<std::string, Observer> observers_;
+    std::vector<Shot> shots_;
+};
+
+}  // namespace camdir::director

@@ -1,0 +1,93 @@
+#include "director/roster.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace camdir::director {
+namespace {
+
+constexpr std::size_t most_known = 2 * max_players;
+
+}  // namespace
+
+void Roster::clear() {
+    entries_.clear();
+    frames_ = 0;
+    changed_ = true;
+}
+
+const Roster::Entry* Roster::find(std::uint32_t player) const {
+    const auto place =
+        std::lower_bound(entries_.begin(), entries_.end(), player,
+                         [](const Entry& entry, std::uint32_t id) { return entry.player < id; });
+    return place != entries_.end() && place->player == player ? &*place : nullptr;
+}
+
+Roster::Entry* Roster::find_or_add(std::uint32_t player) {
+    const auto place =
+        std::lower_bound(entries_.begin(), entries_.end(), player,
+                         [](const Entry& entry, std::uint32_t id) { return entry.player < id; });
+    if (place != entries_.end() && place->player == player) return &*place;
+    if (entries_.size() >= most_known) return nullptr;
+    changed_ = true;
+    return &*entries_.insert(place, Entry{player, false, false, 0, nullptr});
+}
+
+void Roster::list(std::span<const Player> players) {
+    for (Entry& entry : entries_)
+        entry.listed = false;
+    for (const Player& player : players)
+        if (Entry* entry = find_or_add(player.id)) entry->listed = true;
+    changed_ = true;
+    // Who was listed and is no more has left the match.
+    std::erase_if(entries_, [&](const Entry& entry) { return !entry.listed && entry.pose == nullptr; });
+}
+
+std::uint64_t Roster::see(std::span<const PlayerPose> poses, std::int64_t patience) {
+    ++frames_;
+    for (Entry& entry : entries_)
+        entry.pose = nullptr;
+    std::uint64_t left_out = 0;
+    for (const PlayerPose& pose : poses) {
+        Entry* entry = find_or_add(pose.player_id);
+        if (entry == nullptr || entry->last_seen == frames_) {
+            ++left_out;
+            continue;
+        }
+        const bool spectator = (pose.flags & pose_spectator) != 0;
+        changed_ = changed_ || spectator != entry->spectator;
+        entry->spectator = spectator;
+        entry->last_seen = frames_;
+        entry->pose = &pose;
+    }
+    forget_absent(patience);
+    return left_out;
+}
+
+void Roster::forget_absent(std::int64_t patience) {
+    const auto absent = [&](const Entry& entry) {
+        return !entry.listed && frames_ - entry.last_seen > patience;
+    };
+    if (std::erase_if(entries_, absent) > 0) changed_ = true;
+}
+
+bool Roster::take_changed() {
+    return std::exchange(changed_, false);
+}
+
+Presence Roster::presence(std::uint32_t player) const {
+    const Entry* entry = find(player);
+    if (entry == nullptr) return Presence::unknown;
+    return entry->spectator ? Presence::spectator : Presence::playing;
+}
+
+bool Roster::anybody_playing() const {
+    return std::any_of(entries_.begin(), entries_.end(), [](const Entry& entry) { return !entry.spectator; });
+}
+
+const PlayerPose* Roster::pose(std::uint32_t player) const {
+    const Entry* entry = find(player);
+    return entry == nullptr || entry->spectator ? nullptr : entry->pose;
+}
+
+}  // namespace camdir::director

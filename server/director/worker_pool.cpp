@@ -1,0 +1,135 @@
+#include "director/worker_pool.hpp"
+
+#include <pthread.h>
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cerrno>
+#include <string>
+
+namespace camdir::director {
+namespace {
+
+constexpr std::size_t word_bits = 64;
+
+std::int64_t now_ns() {
+    return std::chrono::steady_clock::now().time_since_epoch() / std::chrono::nanoseconds(1);
+}
+
+}  // namespace
+
+// A POSIX semaphore: libstdc++ 12's std::counting_semaphore can miss a wake-up.
+WorkerPool::WorkerPool(std::size_t workers, std::size_t capacity)
+    : slots_(capacity, nullptr), ready_((capacity + word_bits - 1) / word_bits) {
+    assert(workers > 0 && capacity > 0);
+    [[maybe_unused]] const int failed = ::sem_init(&turns_, 0, 0);
+    assert(failed == 0);
+    for (std::size_t i = 0; i < workers; ++i) {
+        Worker& worker = *workers_.emplace_back(std::make_unique<Worker>());
+        worker.thread = std::thread([this, &worker] { work(worker); });
+        ::pthread_setname_np(worker.thread.native_handle(), ("worker-" + std::to_string(i)).c_str());
+    }
+}
+
+WorkerPool::~WorkerPool() {
+    stop();
+    ::sem_destroy(&turns_);
+}
+
+void WorkerPool::stop() {
+    if (stopping_.exchange(true)) return;
+    for (std::size_t i = 0; i < workers_.size(); ++i)
+        ::sem_post(&turns_);
+    for (const auto& worker : workers_)
+        worker->thread.join();
+}
+
+bool WorkerPool::attach(Strand& strand) {
+    const auto free = std::find(slots_.begin(), slots_.end(), nullptr);
+    if (free == slots_.end()) return false;
+    *free = &strand;
+    strand.slot_ = static_cast<std::size_t>(free - slots_.begin());
+    return true;
+}
+
+void WorkerPool::detach(Strand& strand) {
+    assert(settled(strand));
+    slots_[strand.slot_] = nullptr;
+}
+
+bool WorkerPool::settled(const Strand& strand) {
+    return strand.pending_.load(std::memory_order_acquire) == 0;
+}
+
+void WorkerPool::settle(const Strand& strand) {
+    while (!settled(strand))
+        std::this_thread::sleep_for(std::chrono::microseconds(100));
+}
+
+void WorkerPool::schedule(Strand& strand) {
+    if (strand.pending_.fetch_add(1, std::memory_order_acq_rel) == 0) mark_ready(strand.slot_);
+}
+
+void WorkerPool::mark_ready(std::size_t slot) {
+    ready_[slot / word_bits].fetch_or(std::uint64_t{1} << slot % word_bits, std::memory_order_release);
+    ::sem_post(&turns_);
+}
+
+void WorkerPool::work(Worker& worker) {
+    for (;;) {
+        while (::sem_wait(&turns_) != 0)
+            assert(errno == EINTR);
+        Strand* strand = claim();
+        if (strand == nullptr) return;
+        run(worker, *strand);
+    }
+}
+
+void WorkerPool::run(Worker& worker, Strand& strand) {
+    worker.turn_began_ns.store(now_ns(), std::memory_order_relaxed);
+    const std::size_t slot = strand.slot_;
+    const std::uint32_t seen = strand.pending_.load(std::memory_order_acquire);
+    strand.turn();
+    worker.turn_began_ns.store(0, std::memory_order_relaxed);
+    // Once nothing is pending the strand may be gone.
+    if (strand.pending_.fetch_sub(seen, std::memory_order_acq_rel) != seen) mark_ready(slot);
+}
+
+// Takes the first ready strand at or after next_, in a circle; null when stopping.
+Strand* WorkerPool::claim() {
+    for (;;) {
+        const std::size_t from = next_.load(std::memory_order_relaxed);
+        const std::size_t first = from / word_bits;
+        const std::uint64_t above = ~std::uint64_t{0} << from % word_bits;
+        if (Strand* strand = claim_in(first, above)) return strand;
+        for (std::size_t i = 1; i < ready_.size(); ++i)
+            if (Strand* strand = claim_in((first + i) % ready_.size(), ~std::uint64_t{0})) return strand;
+        if (Strand* strand = claim_in(first, ~above)) return strand;
+        if (stopping_.load()) return nullptr;
+    }
+}
+
+Strand* WorkerPool::claim_in(std::size_t word, std::uint64_t mask) {
+    std::uint64_t ready = ready_[word].load(std::memory_order_acquire);
+    while ((ready & mask) != 0) {
+        const auto bit = static_cast<std::size_t>(std::countr_zero(ready & mask));
+        const std::uint64_t claimed = std::uint64_t{1} << bit;
+        ready = ready_[word].fetch_and(~claimed, std::memory_order_acq_rel);
+        if ((ready & claimed) == 0) continue;  // another worker was faster
+        const std::size_t slot = word * word_bits + bit;
+        next_.store((slot + 1) % slots_.size(), std::memory_order_relaxed);
+        return slots_[slot];
+    }
+    return nullptr;
+}
+
+bool WorkerPool::responsive(std::chrono::nanoseconds limit) const {
+    const std::int64_t now = now_ns();
+    return std::all_of(workers_.begin(), workers_.end(), [&](const auto& worker) {
+        const std::int64_t began = worker->turn_began_ns.load(std::memory_order_relaxed);
+        return began == 0 || now - began <= limit.count();
+    });
+}
+
+}  // namespace camdir::director
