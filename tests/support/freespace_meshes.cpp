@@ -3,6 +3,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "freespace/distance.hpp"
+
 namespace camdir::test {
 namespace {
 
@@ -89,6 +91,13 @@ Contents random_contents(std::mt19937& random, int columns, int rows, int loose,
 Vec3f random_point(std::mt19937& random, const freespace::Freespace& freespace) {
     const Vec3f margin = Vec3f::Constant(20.0F);
     return uniform_point(random, freespace.bounds().min() - margin, freespace.bounds().max() + margin);
+}
+
+Vec3f covered_point(std::mt19937& random, const freespace::Freespace& freespace) {
+    while (true) {
+        const Vec3f point = random_point(random, freespace);
+        if (freespace::distance_everywhere(freespace, point).covered()) return point;
+    }
 }
 
 freespace::Freespace make_freespace(const Contents& contents) {

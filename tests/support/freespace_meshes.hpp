@@ -22,6 +22,9 @@ namespace camdir::test {
 // A point of the box that the slabs of `random_contents` fill, and somewhat around it.
 [[nodiscard]] Vec3f random_point(std::mt19937& random, const freespace::Freespace& freespace);
 
+// A point in some slab.
+[[nodiscard]] Vec3f covered_point(std::mt19937& random, const freespace::Freespace& freespace);
+
 // encode and parse; a failure throws.
 [[nodiscard]] freespace::Freespace make_freespace(const freespace::Contents& contents);
 

@@ -1,0 +1,167 @@
+#include "base/file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <filesystem>
+
+#include "freespace/freespace.hpp"
+#include "support/freespace_meshes.hpp"
+
+namespace camdir::freespace {
+namespace {
+
+using test::empty_contents;
+using test::make_freespace;
+using test::random_contents;
+using test::square_contents;
+using testing::HasSubstr;
+
+std::string error_of(Bytes bytes) {
+    const auto freespace = Freespace::parse(std::move(bytes), "some.vfs");
+    return freespace ? "" : freespace.error().message;
+}
+
+// The corners' numbers x y z r of every triangle, in an order that does not depend on how they are numbered.
+using Corner = std::array<float, 4>;
+std::vector<std::array<Corner, 3>> shapes(std::span<const Vertex> vertices,
+                                          std::span<const Triangle> triangles) {
+    const auto corner = [&](std::uint32_t v) {
+        return Corner{vertices[v].x, vertices[v].y, vertices[v].z, vertices[v].free_distance};
+    };
+    std::vector<std::array<Corner, 3>> shapes;
+    for (const auto& [a, b, c] : triangles)
+        shapes.push_back({corner(a), corner(b), corner(c)});
+    std::ranges::sort(shapes);
+    return shapes;
+}
+
+// Where the eight bytes of `value` lie in `bytes`.
+std::size_t position_of(const Bytes& bytes, std::uint64_t value) {
+    std::array<std::byte, sizeof value> pattern;
+    std::memcpy(pattern.data(), &value, sizeof value);
+    return static_cast<std::size_t>(std::ranges::search(bytes, pattern).begin() - bytes.begin());
+}
+
+TEST(File, KeepsEverything) {
+    std::mt19937 random(1);
+    const Contents contents = random_contents(random, 20, 15, 30);
+    const Freespace freespace = make_freespace(contents);
+    const Metadata& metadata = freespace.metadata();
+    EXPECT_EQ(metadata.map_name, contents.metadata.map_name);
+    EXPECT_EQ(metadata.source_name, contents.metadata.source_name);
+    EXPECT_EQ(metadata.source_hash, contents.metadata.source_hash);
+    EXPECT_EQ(metadata.metres_per_unit, contents.metadata.metres_per_unit);
+    EXPECT_EQ(metadata.d0, contents.metadata.d0);
+    EXPECT_EQ(metadata.parameters, contents.metadata.parameters);
+    ASSERT_EQ(metadata.counts.size(), 2U);
+    EXPECT_EQ(metadata.counts[1].stage, "voronoi");
+    EXPECT_EQ(metadata.counts[1].what, "vertices");
+    EXPECT_EQ(metadata.counts[1].value, 5678.0);
+    ASSERT_EQ(freespace.spawn_points().size(), 2U);
+    EXPECT_EQ(freespace.spawn_points()[1].eye, Vec3f(-4.0F, 5.0F, -6.0F));
+    EXPECT_EQ(freespace.spawn_points()[1].yaw, -1.5F);
+    EXPECT_EQ(freespace.vertices().size(), contents.vertices.size());
+    EXPECT_EQ(shapes(freespace.vertices(), freespace.triangles()),
+              shapes(contents.vertices, contents.triangles));
+    for (const Vertex& vertex : freespace.vertices())
+        EXPECT_TRUE(freespace.bounds().contains(vertex.position()));
+}
+
+TEST(File, IncidenceIsTheTrianglesOfEachVertex) {
+    std::mt19937 random(2);
+    const Freespace freespace = make_freespace(random_contents(random, 9, 7, 10));
+    for (std::uint32_t v = 0; v < freespace.vertices().size(); ++v) {
+        std::vector<std::uint32_t> expected;
+        for (std::uint32_t t = 0; t < freespace.triangles().size(); ++t) {
+            const auto [a, b, c] = freespace.triangles()[t];
+            if (a == v || b == v || c == v) expected.push_back(t);
+        }
+        EXPECT_THAT(freespace.incident(v), testing::ElementsAreArray(expected)) << "vertex " << v;
+    }
+}
+
+TEST(File, EqualContentsGiveEqualBytes) {
+    std::mt19937 one(5), other(5);
+    EXPECT_EQ(encode(random_contents(one, 20, 15, 30)), encode(random_contents(other, 20, 15, 30)));
+}
+
+TEST(File, MeshOfNothingIsAFileToo) {
+    const Freespace freespace = make_freespace(empty_contents());
+    EXPECT_TRUE(freespace.vertices().empty());
+    EXPECT_TRUE(freespace.triangles().empty());
+}
+
+TEST(File, UnusedVerticesStay) {
+    Contents contents = square_contents();
+    contents.vertices.insert(contents.vertices.begin(), {7, 7, 7, 7});
+    for (Triangle& triangle : contents.triangles)
+        triangle = {triangle.a + 1, triangle.b + 1, triangle.c + 1};
+    const Freespace freespace = make_freespace(contents);
+    EXPECT_EQ(freespace.vertices().size(), 5U);
+    EXPECT_EQ(freespace.vertices()[4].x, 7.0F);
+    EXPECT_TRUE(freespace.incident(4).empty());
+}
+
+TEST(File, IsMappedFromDiskAndOutlivesItsName) {
+    const auto path =
+        std::filesystem::temp_directory_path() / ("camdir-" + std::to_string(::getpid()) + ".vfs");
+    const Bytes bytes = encode(square_contents());
+    ASSERT_TRUE(write_file(path, bytes));
+    const auto freespace = Freespace::open(path);
+    std::filesystem::remove(path);
+    ASSERT_TRUE(freespace) << freespace.error().message;
+    EXPECT_EQ(freespace->byte_size(), bytes.size());
+    EXPECT_EQ(freespace->triangles().size(), 2U);
+    EXPECT_THAT(Freespace::open(path).error().message, HasSubstr(path.string() + ": cannot open"));
+}
+
+TEST(File, EveryFlippedByteIsRefused) {
+    const Bytes good = encode(square_contents());
+    std::mt19937 random(4);
+    for (std::size_t i = 0; i < good.size(); ++i) {
+        Bytes bad = good;
+        bad[i] ^= static_cast<std::byte>(1 + random() % 255);
+        EXPECT_THAT(error_of(bad), testing::StartsWith("some.vfs: ")) << "byte " << i;
+    }
+}
+
+TEST(File, EveryTruncationIsRefused) {
+    const Bytes good = encode(square_contents());
+    for (std::size_t size = 0; size < good.size(); ++size)
+        EXPECT_NE(error_of(Bytes(good.begin(), good.begin() + static_cast<std::ptrdiff_t>(size))), "")
+            << size;
+    Bytes cut(good.begin(), good.end() - 40);
+    EXPECT_THAT(error_of(cut), HasSubstr("is truncated"));
+    Bytes longer = good;
+    longer.resize(good.size() + 8);
+    EXPECT_NE(error_of(longer), "");
+}
+
+TEST(File, ErrorsSayWhatIsWrong) {
+    EXPECT_THAT(error_of({}), HasSubstr("is not a baked map"));
+    EXPECT_THAT(error_of(Bytes(1'000, std::byte{'x'})), HasSubstr("is not a baked map"));
+    const Bytes good = encode(square_contents());
+    Bytes newer = good;
+    newer[position_of(good, good.size()) - 8] = std::byte{2};
+    EXPECT_THAT(error_of(newer), HasSubstr("was written by a newer version: format 2, this program reads 1"));
+    Bytes damaged = good;
+    damaged.back() ^= std::byte{1};
+    EXPECT_THAT(error_of(damaged), HasSubstr("is damaged"));
+}
+
+TEST(FileDeathTest, ContentsThatBreakTheirPromisesAreABug) {
+    Contents out_of_range = square_contents();
+    out_of_range.triangles.push_back({0, 1, 4});
+    EXPECT_DEATH(static_cast<void>(encode(out_of_range)), "find_mesh_flaw");
+    Contents not_finite = square_contents();
+    not_finite.vertices[0].free_distance = NAN;
+    EXPECT_DEATH(static_cast<void>(encode(not_finite)), "find_mesh_flaw");
+}
+
+}  // namespace
+}  // namespace camdir::freespace

@@ -1,0 +1,130 @@
+#include "freespace/visibility.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "freespace/distance.hpp"
+#include "support/freespace_meshes.hpp"
+#include "support/freespace_twins.hpp"
+
+namespace camdir::freespace {
+namespace {
+
+using test::covered_point;
+using test::make_freespace;
+using test::random_contents;
+using test::sampled_clearance;
+using test::square_contents;
+
+TEST(Sight, AlongASquare) {
+    const Freespace freespace = make_freespace(square_contents());
+    const Sight clear = sight(freespace, {-20, 50, 5}, {120, 50, 5});
+    EXPECT_TRUE(clear.clear);
+    EXPECT_FLOAT_EQ(clear.free_length, 140.0F);
+    EXPECT_GT(clear.clearance, 0.0F);
+    EXPECT_LE(clear.clearance, 40.0F - std::hypot(20.0F, 5.0F)) << "that of its ends";
+    EXPECT_NE(clear.triangle, none);
+}
+
+TEST(Sight, LeavesTheSquareWhereItsSlabsEnd) {
+    const Freespace freespace = make_freespace(square_contents());
+    const Sight blocked = sight(freespace, {50, 50, 0}, {50, 50, 100});
+    EXPECT_FALSE(blocked.clear);
+    EXPECT_NEAR(blocked.free_length, 40.0F, 1e-3F);
+    const Sight beam = sight(freespace, {50, 50, 0}, {50, 50, 100}, 15.0F);
+    EXPECT_FALSE(beam.clear);
+    EXPECT_NEAR(beam.free_length, 25.0F, 1e-3F);
+}
+
+TEST(Sight, OfAPointIsItsCoverage) {
+    const Freespace freespace = make_freespace(square_contents());
+    EXPECT_TRUE(sight(freespace, {50, 50, 30}, {50, 50, 30}).clear);
+    EXPECT_FALSE(sight(freespace, {50, 50, 30}, {50, 50, 30}, 11.0F).clear);
+    EXPECT_FALSE(sight(freespace, {50, 50, 41}, {50, 50, 41}).clear);
+}
+
+TEST(Sight, StrangeInputIsBlocked) {
+    const Freespace freespace = make_freespace(square_contents());
+    const Vec3f inside(50, 50, 0);
+    for (const float strange : {NAN, INFINITY, -INFINITY}) {
+        for (const Sight& seen :
+             {sight(freespace, inside, {50, strange, 0}), sight(freespace, {strange, 50, 0}, inside),
+              sight(freespace, inside, inside, std::abs(strange))}) {
+            EXPECT_FALSE(seen.clear);
+            EXPECT_EQ(seen.free_length, 0.0F);
+        }
+    }
+    EXPECT_FALSE(sight(freespace, inside, {50, 3e38F, 0}).clear);
+    EXPECT_TRUE(sight(freespace, inside, {60, 50, 0}, 0.0F, 12345).clear) << "a slab of another map";
+    EXPECT_FALSE(sight(make_freespace(test::empty_contents()), inside, inside).clear);
+}
+
+// What a sight promises: `free_length` of the segment has at least `clearance`, which is at least the radius.
+void expect_safe(const Freespace& freespace, const Sight& seen, const Vec3f& from, const Vec3f& to,
+                 float radius) {
+    if (seen.triangle == none) return;
+    const Vec3d start = from.cast<double>();
+    const Vec3d span = to.cast<double>() - start;
+    const double share = seen.clear ? 1.0 : seen.free_length / span.norm();
+    const double exact = sampled_clearance(freespace, start, start + share * span, 8.0);
+    EXPECT_LE(seen.clearance, exact + 1e-6 * (1.0 + freespace.bounds().diagonal().norm()));
+    if (!seen.clear) return;
+    EXPECT_GT(seen.clearance, 0.0F);
+    EXPECT_GE(seen.clearance, radius * (1.0F - 1e-6F));
+}
+
+TEST(Sight, IsNeverWrongOverRandomMeshes) {
+    int clear = 0;
+    for (unsigned seed = 1; seed <= 6; ++seed) {
+        SCOPED_TRACE(testing::Message() << "seed " << seed);
+        std::mt19937 random(seed);
+        const Freespace freespace = make_freespace(random_contents(random, 8, 8, 25));
+        for (int i = 0; i < 16; ++i) {
+            const Vec3f from = covered_point(random, freespace);
+            const Vec3f to = covered_point(random, freespace);
+            const float radius = i % 2 == 0 ? 0.0F : 4.0F;
+            const Sight seen = sight(freespace, from, to, radius);
+            expect_safe(freespace, seen, from, to, radius);
+            clear += seen.clear ? 1 : 0;
+        }
+    }
+    EXPECT_GT(clear, 10) << "the meshes must let something be seen";
+}
+
+TEST(Sight, SeesWhatTheSlabsCover) {
+    std::mt19937 random(11);
+    const Freespace freespace = make_freespace(random_contents(random, 14, 14, 0));
+    int visible = 0;
+    int missed = 0;
+    while (visible < 150) {
+        const Vec3f from = covered_point(random, freespace);
+        const Vec3f to = covered_point(random, freespace);
+        double smallest = 1.0;
+        for (int k = 0; k <= 64 && smallest > 0.5; ++k) {
+            const Vec3f between = from + (to - from) * static_cast<float>(k) / 64.0F;
+            smallest = std::min<double>(smallest, distance_everywhere(freespace, between).value);
+        }
+        if (smallest <= 0.5) continue;
+        ++visible;
+        missed += sight(freespace, from, to).clear ? 0 : 1;
+    }
+    EXPECT_EQ(missed, 0) << "of " << visible;
+}
+
+TEST(Sight, DoesNotDependOnWhereTheOriginIs) {
+    const Vec3f far(1 << 20, -(1 << 20), 1 << 18);
+    Contents contents = square_contents();
+    const Freespace near = make_freespace(contents);
+    for (Vertex& vertex : contents.vertices)
+        vertex = {vertex.x + far.x(), vertex.y + far.y(), vertex.z + far.z(), vertex.free_distance};
+    const Freespace moved = make_freespace(contents);
+    const Sight here = sight(near, {-20, 50, 5}, {120, 50, 5});
+    const Sight there = sight(moved, Vec3f(-20, 50, 5) + far, Vec3f(120, 50, 5) + far);
+    EXPECT_EQ(here.clear, there.clear);
+    EXPECT_NEAR(here.clearance, there.clearance, 0.5F);
+}
+
+}  // namespace
+}  // namespace camdir::freespace
