@@ -1,0 +1,71 @@
+// CameraFrame samples as a director writes them, and any way they can be broken.
+#pragma once
+
+#include <camera_director.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace camdir::test {
+
+// Owns the arrays of a sample. A new one is a valid frame without cameras.
+struct CameraFrameArrays {
+    std::string match_id;
+    std::uint64_t epoch = 1;
+    std::uint32_t frame_number = 0;
+    std::uint32_t pose_number = 0;
+    std::int64_t frame_time = 0;
+    std::int64_t source_time = 0;
+    std::int64_t write_time = 0;
+    std::uint64_t director_id = 1;
+    std::vector<std::uint32_t> camera_id = {};
+    std::vector<std::uint32_t> target = {};
+    std::vector<float> position = {};
+    std::vector<float> orientation = {};
+    std::vector<float> vertical_fov = {};
+    std::vector<float> clearance = {};
+    std::vector<std::uint32_t> flags = {};
+
+    // Looks along the x axis.
+    void add_camera(std::uint32_t id, float x, std::uint32_t camera_flags = 0) {
+        camera_id.push_back(id);
+        target.push_back(100 + id);
+        position.insert(position.end(), {x, 2.0F, 3.0F});
+        orientation.insert(orientation.end(), {0.0F, 0.0F, 0.0F, 1.0F});
+        vertical_fov.push_back(1.0F);
+        clearance.push_back(8.0F);
+        flags.push_back(camera_flags);
+    }
+
+    // Borrows the arrays: valid as long as this object is unchanged.
+    [[nodiscard]] camera_director_CameraFrame sample() {
+        camera_director_CameraFrame sample{};
+        match_id.copy(sample.match_id, sizeof sample.match_id - 1);
+        sample.epoch = epoch;
+        sample.frame_number = frame_number;
+        sample.pose_number = pose_number;
+        sample.frame_time = frame_time;
+        sample.source_time = source_time;
+        sample.write_time = write_time;
+        sample.director_id = director_id;
+        borrow(sample.camera_id, camera_id);
+        borrow(sample.target, target);
+        borrow(sample.position, position);
+        borrow(sample.orientation, orientation);
+        borrow(sample.vertical_fov, vertical_fov);
+        borrow(sample.clearance, clearance);
+        borrow(sample.flags, flags);
+        return sample;
+    }
+
+  private:
+    template <class Sequence, class Element>
+    static void borrow(Sequence& sequence, std::vector<Element>& elements) {
+        sequence._buffer = elements.data();
+        sequence._length = sequence._maximum = static_cast<std::uint32_t>(elements.size());
+        sequence._release = false;
+    }
+};
+
+}  // namespace camdir::test

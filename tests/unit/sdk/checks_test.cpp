@@ -1,0 +1,124 @@
+#include "checks.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "failure.hpp"
+
+namespace camdir::sdk {
+namespace {
+
+constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+TEST(Checks, MatchIdIsOneToSixtyThreeBytesOfAPartitionsName) {
+    EXPECT_EQ(checked_match_id("a"), "a");
+    EXPECT_EQ(checked_match_id(std::string(63, 'x').c_str()), std::string(63, 'x'));
+    EXPECT_EQ(checked_match_id("Pokal \xc3\xbc 7"), "Pokal \xc3\xbc 7");
+    for (const std::string& wrong :
+         {std::string(), std::string(64, 'x'), std::string("a/b"), std::string("*"), std::string("a?"),
+          std::string("a\nb"), std::string("a\x7f")}) {
+        EXPECT_THROW((void)checked_match_id(wrong.c_str()), Failure) << wrong;
+    }
+    EXPECT_THROW((void)checked_match_id(nullptr), Failure);
+}
+
+TEST(Checks, ObserverIdMayHoldMoreThanAMatchId) {
+    EXPECT_EQ(checked_observer_id("anna/2?"), "anna/2?");
+    EXPECT_THROW((void)checked_observer_id("a\tb"), Failure);
+    EXPECT_THROW((void)checked_observer_id(""), Failure);
+}
+
+TEST(Checks, TextWithoutItsZeroByteIsNotReadBeyondItsEnd) {
+    const std::vector<char> endless(8, 'x');  // the address sanitizer sees a ninth byte being read
+    EXPECT_THROW((void)checked_text("name", endless.data(), 0, 7), Failure);
+}
+
+cdir_match_info valid_info() {
+    cdir_match_info info = cdir_match_info_default();
+    std::string("cup").copy(info.match_id, 63);
+    std::string("oa_dm1").copy(info.map_name, 255);
+    return info;
+}
+
+TEST(Checks, MatchInfoWithImpossibleNumbersIsRefused) {
+    EXPECT_NO_THROW(check(valid_info(), {}));
+    const std::vector<std::function<void(cdir_match_info&)>> defects = {
+        [](auto& info) { info.map_name[0] = '\0'; },
+        [](auto& info) { std::fill(std::begin(info.map_name), std::end(info.map_name), 'x'); },
+        [](auto& info) { info.metres_per_unit = 0.0F; },
+        [](auto& info) { info.metres_per_unit = nan; },
+        [](auto& info) { info.rate_hz = -1.0F; },
+        [](auto& info) { info.rate_hz = infinity; },
+        [](auto& info) { info.spectator_delay_s = -0.5F; },
+    };
+    for (std::size_t i = 0; i < defects.size(); ++i) {
+        cdir_match_info info = valid_info();
+        defects[i](info);
+        EXPECT_THROW(check(info, {}), Failure) << "defect " << i;
+    }
+}
+
+TEST(Checks, PlayersAreDistinctAndNamed) {
+    std::vector<cdir_player> players(2);
+    players[0].id = 3;
+    players[1].id = 4;
+    EXPECT_NO_THROW(check(valid_info(), players));
+    players[1].id = 3;
+    EXPECT_THROW(check(valid_info(), players), Failure);
+    players[1].id = CDIR_NO_PLAYER;
+    EXPECT_THROW(check(valid_info(), players), Failure);
+    players[1].id = 4;
+    std::fill(std::begin(players[1].player_class), std::end(players[1].player_class), 'x');
+    EXPECT_THROW(check(valid_info(), players), Failure);
+}
+
+TEST(Checks, PoseFrameIsFiniteAndItsOrientationsAreUnit) {
+    const std::uint32_t ids[2] = {1, 2};
+    const std::uint32_t flags[2] = {1, 1};
+    float eye[6] = {};
+    float orientation[8] = {0, 0, 0, 1, 0.6F, 0, 0.8F, 0};
+    float velocity[6] = {};
+    cdir_pose_frame frame = cdir_pose_frame_default();
+    frame.player_count = 2;
+    frame.player_id = ids;
+    frame.eye = eye;
+    frame.orientation = orientation;
+    frame.velocity = velocity;
+    frame.flags = flags;
+    EXPECT_NO_THROW(check(frame));
+    for (float* number : {&eye[0], &eye[5], &orientation[2], &orientation[7], &velocity[0], &velocity[5]}) {
+        for (const float wrong : {nan, infinity, -infinity}) {
+            const float right = *number;
+            *number = wrong;
+            EXPECT_THROW(check(frame), Failure);
+            *number = right;
+        }
+    }
+    orientation[3] = 1.0005F;
+    EXPECT_NO_THROW(check(frame));
+    orientation[3] = 0.998F;
+    EXPECT_THROW(check(frame), Failure);
+    orientation[3] = 1.0F;
+    for (const void** array :
+         {reinterpret_cast<const void**>(&frame.player_id), reinterpret_cast<const void**>(&frame.eye),
+          reinterpret_cast<const void**>(&frame.orientation), reinterpret_cast<const void**>(&frame.flags)}) {
+        const void* right = *array;
+        *array = nullptr;
+        EXPECT_THROW(check(frame), Failure);
+        *array = right;
+    }
+    frame.velocity = nullptr;
+    EXPECT_NO_THROW(check(frame));
+    frame.player_count = CDIR_MAX_PLAYERS + 1;
+    EXPECT_THROW(check(frame), Failure);
+    EXPECT_NO_THROW(check(cdir_pose_frame_default())) << "a frame without players needs no arrays";
+}
+
+}  // namespace
+}  // namespace camdir::sdk

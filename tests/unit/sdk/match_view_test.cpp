@@ -1,0 +1,231 @@
+#include "match_view.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "support/camera_frames.hpp"
+
+namespace camdir::sdk {
+namespace {
+
+using test::CameraFrameArrays;
+
+constexpr std::int64_t ms = 1'000'000;
+
+CameraFrameArrays frame_of(std::uint64_t epoch, std::uint32_t number) {
+    CameraFrameArrays frame{.match_id = "cup"};
+    frame.epoch = epoch;
+    frame.frame_number = number;
+    frame.frame_time = number * 16 * ms;
+    return frame;
+}
+
+camera_director_ObserverStatus status_of(std::uint64_t epoch, std::uint32_t camera_id,
+                                         const std::string& observer = "anna") {
+    camera_director_ObserverStatus status{};
+    std::string("cup").copy(status.match_id, 63);
+    observer.copy(status.observer_id, 63);
+    status.epoch = epoch;
+    status.state = CDIR_SHOT_ACCEPTED;
+    status.camera_id = camera_id;
+    return status;
+}
+
+class MatchViewTest : public testing::Test {
+  protected:
+    bool accept(CameraFrameArrays frame) { return view_.accept(frame.sample(), frame.frame_time); }
+
+    // A frame with the shot's camera at x.
+    bool accept(std::uint64_t epoch, std::uint32_t number, float x, std::uint32_t flags = 0,
+                std::uint64_t director_id = 1) {
+        CameraFrameArrays frame = frame_of(epoch, number);
+        frame.director_id = director_id;
+        frame.add_camera(4, -1.0F);
+        frame.add_camera(5, x, flags);
+        return accept(frame);
+    }
+
+    void answer(std::uint64_t epoch, std::uint32_t camera_id) {
+        view_.set_requested(true);
+        view_.accept(status_of(epoch, camera_id));
+    }
+
+    [[nodiscard]] std::uint32_t segment() const { return view_.track().newest()->segment; }
+
+    MatchView view_{"cup", "anna", 50 * ms};
+};
+
+TEST_F(MatchViewTest, CameraOfTheShotIsFoundByTheDirectorsAnswer) {
+    EXPECT_TRUE(accept(1, 0, 10.0F));
+    EXPECT_FALSE(view_.track().newest()) << "nothing was requested";
+    answer(1, 5);
+    EXPECT_TRUE(accept(1, 1, 11.0F));
+    EXPECT_EQ(view_.track().newest()->camera.position[0], 11.0F);
+    EXPECT_EQ(view_.track().newest()->camera.target, 105U);
+}
+
+TEST_F(MatchViewTest, AnswersToOtherObserversAreNotMine) {
+    view_.set_requested(true);
+    view_.accept(status_of(1, 5, "bert"));
+    EXPECT_EQ(view_.shot_status().state, static_cast<std::uint32_t>(CDIR_SHOT_UNANSWERED));
+    EXPECT_EQ(view_.counters().invalid, 0U);
+}
+
+TEST_F(MatchViewTest, StatusGoesFromNotRequestedToAnsweredAndBack) {
+    EXPECT_EQ(view_.shot_status().state, static_cast<std::uint32_t>(CDIR_SHOT_NOT_REQUESTED));
+    view_.set_requested(true);
+    EXPECT_EQ(view_.shot_status().state, static_cast<std::uint32_t>(CDIR_SHOT_UNANSWERED));
+    camera_director_ObserverStatus refused = status_of(1, 0);
+    refused.state = CDIR_SHOT_REFUSED;
+    std::string("no such profile").copy(refused.reason, 255);
+    view_.accept(refused);
+    EXPECT_EQ(view_.shot_status().state, static_cast<std::uint32_t>(CDIR_SHOT_REFUSED));
+    EXPECT_STREQ(view_.shot_status().reason, "no such profile");
+    view_.status_gone();
+    EXPECT_EQ(view_.shot_status().state, static_cast<std::uint32_t>(CDIR_SHOT_UNANSWERED));
+    view_.set_requested(false);
+    EXPECT_EQ(view_.shot_status().state, static_cast<std::uint32_t>(CDIR_SHOT_NOT_REQUESTED));
+}
+
+TEST_F(MatchViewTest, OlderEpochsAreDroppedAndCounted) {
+    answer(3, 5);
+    EXPECT_TRUE(accept(3, 7, 1.0F));
+    EXPECT_FALSE(accept(2, 8, 2.0F));
+    view_.accept(status_of(2, 4));
+    camera_director_MatchInfo info{};
+    std::string("cup").copy(info.match_id, 63);
+    std::string map = "oa_dm1";
+    info.map_name = map.data();
+    info.metres_per_unit = 1.0F;
+    info.epoch = 2;
+    view_.accept(info);
+    EXPECT_EQ(view_.counters().stale_epoch, 3U);
+    EXPECT_EQ(view_.counters().invalid, 0U);
+    EXPECT_EQ(view_.track().newest()->camera.position[0], 1.0F);
+    EXPECT_EQ(view_.shot_status().camera_id, 5U);
+    EXPECT_FALSE(view_.info());
+}
+
+TEST_F(MatchViewTest, NewEpochForgetsTheOldOne) {
+    answer(1, 5);
+    EXPECT_TRUE(accept(1, 1000, 1.0F));
+    EXPECT_TRUE(accept(2, 0, 2.0F));
+    EXPECT_FALSE(view_.track().newest()) << "camera 5 of epoch 1 is another than camera 5 of epoch 2";
+    EXPECT_EQ(view_.shot_status().state, static_cast<std::uint32_t>(CDIR_SHOT_UNANSWERED));
+    EXPECT_EQ(view_.counters().gaps, 0U);
+    answer(2, 5);
+    EXPECT_TRUE(accept(2, 1, 3.0F));
+    EXPECT_EQ(view_.track().newest()->camera.position[0], 3.0F)
+        << "an earlier frame_time is new in a new epoch";
+}
+
+TEST_F(MatchViewTest, MissingFramesAreCountedAndNotInterpolatedAcross) {
+    answer(1, 5);
+    accept(1, 10, 1.0F);
+    accept(1, 11, 2.0F);
+    const std::uint32_t before = segment();
+    accept(1, 15, 3.0F);
+    EXPECT_EQ(view_.counters().gaps, 3U);
+    EXPECT_EQ(view_.counters().frames, 3U);
+    EXPECT_NE(segment(), before);
+    EXPECT_EQ(view_.track().at(13 * 16 * ms)->camera.position[0], 2.0F);
+}
+
+TEST_F(MatchViewTest, FrameNumbersWrapWithoutAGap) {
+    answer(1, 5);
+    CameraFrameArrays last = frame_of(1, std::numeric_limits<std::uint32_t>::max());
+    last.frame_time = 1;
+    last.add_camera(5, 1.0F);
+    accept(last);
+    const std::uint32_t before = segment();
+    accept(1, 0, 2.0F);
+    EXPECT_EQ(view_.counters().gaps, 0U);
+    accept(1, 1, 2.0F);
+    EXPECT_EQ(segment(), before);
+}
+
+TEST_F(MatchViewTest, AnotherDirectorIsAHandOverAndNoGap) {
+    answer(1, 5);
+    accept(1, 100, 1.0F, 0, 1);
+    const std::uint32_t before = segment();
+    accept(1, 900, 2.0F, 0, 2);
+    EXPECT_EQ(view_.counters().hand_overs, 1U);
+    EXPECT_EQ(view_.counters().gaps, 0U);
+    EXPECT_NE(segment(), before) << "the first director's last frames may have held a cut";
+}
+
+TEST_F(MatchViewTest, CutAbsenceAndAnotherCameraBeginASegment) {
+    answer(1, 5);
+    accept(1, 0, 1.0F);
+    const std::uint32_t first = segment();
+    accept(1, 1, 2.0F, CDIR_CAMERA_CUT);
+    EXPECT_EQ(segment(), first + 1);
+    accept(frame_of(1, 2));  // without the camera
+    accept(1, 3, 3.0F);
+    EXPECT_EQ(segment(), first + 2);
+    view_.accept(status_of(1, 4));
+    accept(1, 4, 4.0F);
+    EXPECT_EQ(segment(), first + 3);
+    EXPECT_EQ(view_.track().newest()->camera.camera_id, 4U);
+}
+
+TEST_F(MatchViewTest, FramesThatBreakTheContractAreDroppedAndCounted) {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const float infinity = std::numeric_limits<float>::infinity();
+    const std::vector<std::function<void(CameraFrameArrays&)>> defects = {
+        [](auto& frame) { frame.match_id = "another"; },
+        [](auto& frame) { frame.camera_id.push_back(9); },
+        [](auto& frame) { frame.target.clear(); },
+        [](auto& frame) { frame.position.pop_back(); },
+        [](auto& frame) { frame.orientation.push_back(0.0F); },
+        [](auto& frame) { frame.vertical_fov.clear(); },
+        [](auto& frame) { frame.clearance.clear(); },
+        [](auto& frame) { frame.flags.clear(); },
+        [=](auto& frame) { frame.position[1] = nan; },
+        [=](auto& frame) { frame.position[2] = infinity; },
+        [=](auto& frame) { frame.orientation[0] = nan; },
+        [](auto& frame) { frame.orientation[3] = 1.002F; },
+        [](auto& frame) { frame.orientation[3] = 0.0F; },
+        [=](auto& frame) { frame.clearance[0] = nan; },
+        [=](auto& frame) { frame.vertical_fov[0] = nan; },
+        [](auto& frame) { frame.vertical_fov[0] = 0.0F; },
+        [](auto& frame) { frame.vertical_fov[0] = 3.2F; },
+        [](auto& frame) {
+            for (std::uint32_t id = 10; id < 10 + CDIR_MAX_CAMERAS; ++id) {
+                frame.add_camera(id, 0.0F);
+            }
+        },
+    };
+    answer(1, 5);
+    ASSERT_TRUE(accept(1, 0, 1.0F));
+    for (std::size_t i = 0; i < defects.size(); ++i) {
+        CameraFrameArrays frame = frame_of(1, 1);
+        frame.add_camera(5, 2.0F);
+        defects[i](frame);
+        EXPECT_FALSE(accept(frame)) << "defect " << i;
+        EXPECT_EQ(view_.counters().invalid, i + 1) << "defect " << i;
+    }
+    EXPECT_EQ(view_.counters().frames, 1U);
+    EXPECT_EQ(view_.track().newest()->camera.position[0], 1.0F);
+    CameraFrameArrays full = frame_of(1, 1);
+    for (std::uint32_t id = 0; id < CDIR_MAX_CAMERAS; ++id) {
+        full.add_camera(id, 0.0F);
+    }
+    EXPECT_TRUE(accept(full)) << "as many cameras as are allowed";
+}
+
+TEST_F(MatchViewTest, UnknownStateIsInvalid) {
+    view_.set_requested(true);
+    camera_director_ObserverStatus status = status_of(1, 5);
+    status.state = 4;
+    view_.accept(status);
+    EXPECT_EQ(view_.counters().invalid, 1U);
+    EXPECT_EQ(view_.shot_status().state, static_cast<std::uint32_t>(CDIR_SHOT_UNANSWERED));
+}
+
+}  // namespace
+}  // namespace camdir::sdk
