@@ -14,10 +14,6 @@ int floor_div(int value) {
     return (value - (value < 0 ? block_side - 1 : 0)) / block_side;
 }
 
-Cell block_of(const Cell& cell) {
-    return {floor_div(cell.x()), floor_div(cell.y()), floor_div(cell.z())};
-}
-
 // Offsets of cells whose centre may lie within `radius` cells of a point of the middle cell.
 std::vector<Cell> offsets_within(double radius) {
     const int reach = static_cast<int>(std::ceil(radius));
@@ -57,13 +53,21 @@ std::size_t ReachedGrid::Hash::operator()(const Cell& cell) const {
     return hash;
 }
 
+ReachedGrid::Place::Place(const Cell& cell)
+    : block(floor_div(cell.x()), floor_div(cell.y()), floor_div(cell.z())) {
+    const Cell local = cell - block * block_side;
+    slice = static_cast<std::size_t>(local.z());
+    bit = std::uint64_t{1} << (8 * local.y() + local.x());
+}
+
 ReachedGrid::ReachedGrid(const Oracle& oracle, const Box3d& bounds, const std::vector<Vec3d>& seeds,
                          double pitch, double min_clearance)
     : oracle_(&oracle),
       bounds_(bounds),
       pitch_(pitch),
       min_clearance_(min_clearance),
-      near_(offsets_within(3.0 * min_clearance / pitch + 2.0)) {
+      sight_(3.0 * min_clearance + 2.0 * pitch),
+      near_(offsets_within(sight_ / pitch)) {
     std::vector<Cell> frontier;
     for (const Vec3d& point : seeds) {
         seed(point, frontier);
@@ -77,12 +81,31 @@ bool ReachedGrid::reached(const Vec3d& point) const {
 }
 
 bool ReachedGrid::joined(const Vec3d& point) const {
-    if (!bounds_.contains(point) || oracle_->in_solid(point)) return false;
+    if (!joined_box_.contains(point) || oracle_->in_solid(point)) return false;
     const Cell home = cell_of(point);
-    return std::any_of(near_.begin(), near_.end(), [&](const Cell& offset) {
+    const auto sees = [&](const Cell& offset) {
         const Cell cell = home + offset;
         return reached(cell) && oracle_->segment_clear(point, centre_of(cell));
-    });
+    };
+    const auto farther = near_.begin() + 27;  // after the cell and those around it
+    return std::any_of(near_.begin(), farther, sees) ||
+           (has_blocks_near(home) && std::any_of(farther, near_.end(), sees));
+}
+
+// Spares points far outside the search through all of near_.
+bool ReachedGrid::has_blocks_near(const Cell& cell) const {
+    const Cell reach = Cell::Constant(static_cast<int>(std::ceil(sight_ / pitch_)));
+    const Cell low = Place(cell - reach).block;
+    const Cell high = Place(cell + reach).block;
+    for (int z = low.z(); z <= high.z(); ++z) {
+        for (int y = low.y(); y <= high.y(); ++y) {
+            for (int x = low.x(); x <= high.x(); ++x) {
+                const auto found = blocks_.find(Cell(x, y, z));
+                if (found != blocks_.end() && found->second.reached != Slices{}) return true;
+            }
+        }
+    }
+    return false;
 }
 
 ReachedGrid::Cell ReachedGrid::cell_of(const Vec3d& point) const {
@@ -98,12 +121,9 @@ bool ReachedGrid::is_inside(const Cell& cell) const {
 }
 
 bool ReachedGrid::reached(const Cell& cell) const {
-    const Cell block = block_of(cell);
-    const auto found = blocks_.find(block);
-    if (found == blocks_.end()) return false;
-    const Cell local = cell - block * block_side;
-    return (found->second.reached[static_cast<std::size_t>(local.z())] >> (8 * local.y() + local.x()) & 1U) !=
-           0;
+    const Place place(cell);
+    const auto found = blocks_.find(place.block);
+    return found != blocks_.end() && (found->second.reached[place.slice] & place.bit) != 0;
 }
 
 ReachedGrid::Block& ReachedGrid::block_at(const Cell& block) {
@@ -125,11 +145,11 @@ void ReachedGrid::find_open(const Cell& first, int size, Slices& open) const {
     const bool all_open = size == 1 || (clearance > radius + min_clearance_ &&
                                         oracle_->ball_clear(middle, radius + min_clearance_));
     if (all_open && is_inside(first) && is_inside(last)) {
-        const Cell local = first - block_of(first) * block_side;
-        const std::uint64_t row = ((std::uint64_t{1} << size) - 1) << local.x();
-        for (int z = local.z(); z < local.z() + size; ++z) {
-            for (int y = local.y(); y < local.y() + size; ++y) {
-                open[static_cast<std::size_t>(z)] |= row << (8 * y);
+        const Place corner(first);
+        const std::uint64_t row = ((std::uint64_t{1} << size) - 1) * corner.bit;
+        for (std::size_t z = 0; z < static_cast<std::size_t>(size); ++z) {
+            for (int y = 0; y < size; ++y) {
+                open[corner.slice + z] |= row << (8 * y);
             }
         }
         return;
@@ -146,15 +166,12 @@ void ReachedGrid::seed(const Vec3d& point, std::vector<Cell>& frontier) {
     for (const Cell& offset : near_) {
         const Cell cell = cell_of(point) + offset;
         if (!is_inside(cell)) continue;
-        const Cell block = block_of(cell);
-        const Cell local = cell - block * block_side;
-        const std::uint64_t bit = std::uint64_t{1} << (8 * local.y() + local.x());
-        const auto z = static_cast<std::size_t>(local.z());
-        Block& cells = block_at(block);
-        if ((cells.open[z] & ~cells.reached[z] & bit) == 0 || !oracle_->segment_clear(point, centre_of(cell)))
-            continue;
-        cells.reached[z] |= bit;
-        frontier.push_back(block);
+        const Place place(cell);
+        Block& block = block_at(place.block);
+        const std::uint64_t open = block.open[place.slice] & ~block.reached[place.slice];
+        if ((open & place.bit) == 0 || !oracle_->segment_clear(point, centre_of(cell))) continue;
+        block.reached[place.slice] |= place.bit;
+        frontier.push_back(place.block);
     }
 }
 
@@ -223,11 +240,14 @@ void ReachedGrid::summarise() {
             const std::uint64_t slice = cells.reached[static_cast<std::size_t>(z)];
             for (std::uint64_t rest = slice; rest != 0; rest &= rest - 1) {
                 const int bit = std::countr_zero(rest);
-                reached_box_.extend(centre_of(block * block_side + Cell(bit % 8, bit / 8, z)));
+                joined_box_.extend(centre_of(block * block_side + Cell(bit % 8, bit / 8, z)));
             }
             reached_count_ += static_cast<std::size_t>(std::popcount(slice));
         }
     }
+    if (reached_count_ == 0) return;
+    const Vec3d margin = Vec3d::Constant(sight_ + pitch_);
+    joined_box_ = Box3d(joined_box_.min() - margin, joined_box_.max() + margin).intersection(bounds_);
 }
 
 }  // namespace camdir::oracle

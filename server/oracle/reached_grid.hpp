@@ -32,8 +32,8 @@ class ReachedGrid {
     // 3 min_clearance + 2 pitch of it.
     [[nodiscard]] bool joined(const Vec3d& point) const;
 
-    // The box that holds every reached centre; empty when there is none.
-    [[nodiscard]] const Box3d& reached_box() const { return reached_box_; }
+    // Holds every point for which joined() may be true; empty when nothing was reached.
+    [[nodiscard]] const Box3d& joined_box() const { return joined_box_; }
     [[nodiscard]] std::size_t reached_count() const { return reached_count_; }
 
   private:
@@ -44,11 +44,19 @@ class ReachedGrid {
         Slices open{};     // enough clearance
         Slices reached{};  // subset of open
     };
+    // A cell within its block.
+    struct Place {
+        explicit Place(const Cell& cell);
+        Cell block;
+        std::size_t slice;
+        std::uint64_t bit;
+    };
 
     [[nodiscard]] Cell cell_of(const Vec3d& point) const;
     [[nodiscard]] Vec3d centre_of(const Cell& cell) const;
     [[nodiscard]] bool is_inside(const Cell& cell) const;
     [[nodiscard]] bool reached(const Cell& cell) const;
+    [[nodiscard]] bool has_blocks_near(const Cell& cell) const;
     [[nodiscard]] Block& block_at(const Cell& block);
     void find_open(const Cell& first, int size, Slices& open) const;
     void flood(std::vector<Cell> frontier);
@@ -60,12 +68,13 @@ class ReachedGrid {
     Box3d bounds_;
     double pitch_;
     double min_clearance_;
-    std::vector<Cell> near_;  // offsets that joined() tries, nearest first
+    double sight_;            // how far away joined() looks for a centre
+    std::vector<Cell> near_;  // offsets of the cells that may lie so near, nearest first
     struct Hash {
         std::size_t operator()(const Cell& cell) const;
     };
     std::unordered_map<Cell, Block, Hash> blocks_;
-    Box3d reached_box_;
+    Box3d joined_box_;
     std::size_t reached_count_ = 0;
 };
 

@@ -1,0 +1,168 @@
+#include "evaluation/verify_balls.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "evaluation/chunks.hpp"
+
+namespace camdir::evaluation {
+namespace {
+
+struct Ball {
+    Vec3d centre;
+    double radius;
+};
+
+Ball ball_at(const freespace::Vertex& vertex) {
+    return {vertex.position().cast<double>(), vertex.free_distance};
+}
+
+// The ball of the slab's point with these barycentric weights.
+Ball ball_on(const freespace::Freespace& freespace, std::size_t triangle, double wa, double wb, double wc) {
+    const freespace::Triangle& corners = freespace.triangles()[triangle];
+    const Ball a = ball_at(freespace.vertices()[corners.a]);
+    const Ball b = ball_at(freespace.vertices()[corners.b]);
+    const Ball c = ball_at(freespace.vertices()[corners.c]);
+    return {wa * a.centre + wb * b.centre + wc * c.centre, wa * a.radius + wb * b.radius + wc * c.radius};
+}
+
+// Uniform over the triangle's area.
+Ball random_ball_on(const freespace::Freespace& freespace, std::size_t triangle, ChunkRandom& random) {
+    const double root = std::sqrt(random.uniform());
+    const double along = random.uniform();
+    return ball_on(freespace, triangle, 1.0 - root, root * (1.0 - along), root * along);
+}
+
+std::vector<double> summed_areas(const freespace::Freespace& freespace) {
+    std::vector<double> sums;
+    sums.reserve(freespace.triangles().size());
+    double sum = 0.0;
+    for (const freespace::Triangle& triangle : freespace.triangles()) {
+        const Vec3d a = ball_at(freespace.vertices()[triangle.a]).centre;
+        const Vec3d b = ball_at(freespace.vertices()[triangle.b]).centre;
+        const Vec3d c = ball_at(freespace.vertices()[triangle.c]).centre;
+        sum += (b - a).cross(c - a).norm() / 2.0;
+        sums.push_back(sum);
+    }
+    return sums;
+}
+
+using Edge = std::pair<std::uint32_t, std::uint32_t>;
+
+std::vector<Edge> edges_of(const freespace::Freespace& freespace) {
+    std::vector<Edge> edges;
+    edges.reserve(3 * freespace.triangles().size());
+    for (const auto& [a, b, c] : freespace.triangles()) {
+        edges.push_back(std::minmax(a, b));
+        edges.push_back(std::minmax(b, c));
+        edges.push_back(std::minmax(c, a));
+    }
+    std::sort(edges.begin(), edges.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    return edges;
+}
+
+void count_fault(Fault fault, const UnsafeBall& ball, BallCounts& counts) {
+    const auto kind = static_cast<std::size_t>(fault);
+    ++counts.unsafe[kind];
+    if (!counts.deepest[kind] || ball.excess > counts.deepest[kind]->excess) counts.deepest[kind] = ball;
+}
+
+void test_ball(const Ball& ball, const oracle::Oracle& oracle, double tolerance, BallCounts& counts) {
+    if (ball.radius <= 0.0) {
+        ++counts.skipped;
+        return;
+    }
+    ++counts.tested;
+    const double clearance = oracle.clearance(ball.centre, ball.radius);
+    if (oracle.in_solid(ball.centre))
+        count_fault(Fault::centre_in_solid, {ball.centre, ball.radius, -clearance}, counts);
+    else if (clearance < ball.radius - tolerance)
+        count_fault(Fault::surface_inside, {ball.centre, ball.radius, ball.radius - clearance}, counts);
+    else if (!oracle.reachable(ball.centre))
+        count_fault(Fault::centre_unreachable, {ball.centre, ball.radius, 0.0}, counts);
+}
+
+void add(const BallCounts& more, BallCounts& counts) {
+    counts.tested += more.tested;
+    counts.skipped += more.skipped;
+    for (std::size_t kind = 0; kind < counts.unsafe.size(); ++kind) {
+        counts.unsafe[kind] += more.unsafe[kind];
+        const bool deeper = more.deepest[kind] && (!counts.deepest[kind] ||
+                                                   more.deepest[kind]->excess > counts.deepest[kind]->excess);
+        if (deeper) counts.deepest[kind] = more.deepest[kind];
+    }
+}
+
+class BallTest {
+  public:
+    BallTest(const oracle::Oracle& oracle, double tolerance, std::uint64_t seed,
+             const VerificationProgress& progress, const std::stop_token& stop)
+        : oracle_(oracle), tolerance_(tolerance), seed_(seed), progress_(progress), stop_(stop) {}
+
+    // Tests make(i, random) for i < count. Stages with different names of a run draw independently.
+    template <class Make>
+    [[nodiscard]] BallCounts run(std::string_view stage, std::uint32_t purpose, std::uint64_t count,
+                                 const Make& make) const {
+        const auto test_chunk = [&](std::uint64_t chunk) {
+            ChunkRandom random(seed_, purpose, chunk);
+            BallCounts counts;
+            const std::uint64_t end = std::min(count, (chunk + 1) * chunk_size);
+            for (std::uint64_t i = chunk * chunk_size; i < end; ++i) {
+                test_ball(make(i, random), oracle_, tolerance_, counts);
+            }
+            return counts;
+        };
+        const std::uint64_t chunks = (count + chunk_size - 1) / chunk_size;
+        const auto outcomes = run_chunks<BallCounts>(
+            0, chunks, stop_, test_chunk, [&](std::uint64_t done) { progress_(stage, done, chunks); });
+        BallCounts sum;
+        for (const BallCounts& counts : outcomes) {
+            add(counts, sum);
+        }
+        return sum;
+    }
+
+  private:
+    const oracle::Oracle& oracle_;
+    double tolerance_;
+    std::uint64_t seed_;
+    const VerificationProgress& progress_;
+    const std::stop_token& stop_;
+};
+
+}  // namespace
+
+void verify_balls(const freespace::Freespace& freespace, const oracle::Oracle& oracle, double tolerance,
+                  const VerificationParameters& parameters, const VerificationProgress& progress,
+                  const std::stop_token& stop, Verification& result) {
+    const auto vertices = freespace.vertices();
+    const std::size_t triangle_count = freespace.triangles().size();
+    const std::vector<double> areas = summed_areas(freespace);
+    const std::vector<Edge> edges = edges_of(freespace);
+    const std::uint64_t by_area = triangle_count == 0 ? 0 : parameters.balls / 2;
+    const std::uint64_t by_triangle = triangle_count == 0 ? 0 : parameters.balls - by_area;
+    const BallTest test(oracle, tolerance, parameters.seed, progress, stop);
+
+    result.by_area = test.run("balls by area", 1, by_area, [&](std::uint64_t, ChunkRandom& random) {
+        const auto chosen = std::upper_bound(areas.begin(), areas.end(), random.uniform() * areas.back());
+        const auto triangle = std::min(static_cast<std::size_t>(chosen - areas.begin()), triangle_count - 1);
+        return random_ball_on(freespace, triangle, random);
+    });
+    result.by_triangle =
+        test.run("balls by triangle", 2, by_triangle, [&](std::uint64_t, ChunkRandom& random) {
+            return random_ball_on(freespace, random.below(triangle_count), random);
+        });
+    result.at_vertices = test.run("balls at vertices", 3, vertices.size(),
+                                  [&](std::uint64_t i, ChunkRandom&) { return ball_at(vertices[i]); });
+    result.at_edges = test.run("balls at edges", 4, edges.size(), [&](std::uint64_t i, ChunkRandom&) {
+        const Ball a = ball_at(vertices[edges[i].first]);
+        const Ball b = ball_at(vertices[edges[i].second]);
+        return Ball{(a.centre + b.centre) / 2.0, (a.radius + b.radius) / 2.0};
+    });
+}
+
+}  // namespace camdir::evaluation
