@@ -1,0 +1,103 @@
+// A director as the wire sees it, written against the DDS library itself: reads what the SDK sends and writes
+// what a test wants the SDK to receive.
+#pragma once
+
+#include <camera_director.h>
+#include <dds/dds.h>
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "support/camera_frames.hpp"
+
+namespace camdir::test {
+
+// Waits until the condition holds; false after a generous time without.
+inline bool eventually(const std::function<bool()>& condition) {
+    for (int i = 0; i < 15'000; ++i) {
+        if (condition()) return true;
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    return false;
+}
+
+struct ReceivedPoses {
+    std::string match_id;
+    std::uint64_t epoch;
+    std::uint32_t frame_number;
+    std::int64_t frame_time;
+    std::int64_t source_time;
+    std::vector<std::uint32_t> player_id;
+    std::vector<float> eye;
+    std::vector<float> orientation;
+    std::vector<float> velocity;
+    std::vector<std::uint32_t> flags;
+};
+
+struct ReceivedInfo {
+    std::uint64_t epoch;
+    std::string map_name;
+    std::uint64_t map_hash;
+    float metres_per_unit;
+    float rate_hz;
+    float spectator_delay_s;
+    std::vector<std::uint32_t> player_id;
+    std::vector<std::string> player_name;
+    std::vector<std::string> player_class;
+    std::vector<std::uint8_t> player_team;
+};
+
+struct ReceivedRequest {
+    std::string observer_id;
+    std::uint32_t target;
+    std::vector<std::uint32_t> group;
+    std::string profile;
+    std::string overrides;
+};
+
+class FakeDirector {
+  public:
+    // In a domain that a context of this process has open; destroy it before the context.
+    FakeDirector(std::uint32_t domain, const std::string& match_id, std::int32_t strength = 0);
+    ~FakeDirector();
+    FakeDirector(const FakeDirector&) = delete;
+    FakeDirector& operator=(const FakeDirector&) = delete;
+
+    [[nodiscard]] std::optional<ReceivedPoses> take_poses();
+    [[nodiscard]] std::optional<ReceivedInfo> take_info();
+    [[nodiscard]] std::optional<camera_director_MatchEvent> take_event();
+    [[nodiscard]] std::optional<ReceivedRequest> take_request();
+    // Takes what waits, then: no live writer of the instance is left.
+    [[nodiscard]] bool info_is_gone() { return is_gone(info_reader_); }
+    [[nodiscard]] bool request_is_gone() { return is_gone(request_reader_); }
+
+    void write(CameraFrameArrays& frame);
+    void write_status(const std::string& observer_id, std::uint64_t epoch, std::uint32_t state,
+                      std::uint32_t camera_id, const std::string& reason = {});
+    // Observers that read the cameras.
+    [[nodiscard]] std::uint32_t observer_count() const;
+
+    // What the writer of a topic that is read here offers; the caller deletes nothing.
+    void with_offered_qos(const char* topic, const std::function<void(const dds_qos_t*)>& look) const;
+
+  private:
+    [[nodiscard]] dds_entity_t topic(const dds_topic_descriptor_t& type, const char* name);
+    [[nodiscard]] bool is_gone(dds_entity_t reader);
+
+    std::string match_id_;
+    dds_entity_t participant_;
+    dds_entity_t info_reader_;
+    dds_entity_t pose_reader_;
+    dds_entity_t event_reader_;
+    dds_entity_t request_reader_;
+    dds_entity_t camera_writer_;
+    dds_entity_t status_writer_;
+};
+
+}  // namespace camdir::test

@@ -1,0 +1,240 @@
+// A game server's side against raw DDS readers.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <camera_director/camera_director.hpp>
+
+#include "domains.hpp"
+#include "fake_director.hpp"
+
+namespace camdir::test {
+namespace {
+
+namespace cd = camera_director;
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+class GameServer : public testing::Test {
+  protected:
+    // Every case has a match of its own: cases run beside each other in one domain.
+    const std::string match_id_ = testing::UnitTest::GetInstance()->current_test_info()->name();
+    cd::Context context_{{.domain = shared_domain}};
+
+    [[nodiscard]] cd::MatchInfo info() const {
+        return {.match_id = match_id_,
+                .map_name = "oa_dm1",
+                .metres_per_unit = 0.5F,
+                .rate_hz = 20.0F,
+                .spectator_delay_s = 10.0F,
+                .map_hash = 0xfedcba9876543210U,
+                .players = {{7, "anna", "medic", 1}, {300, "b\xc3\xa4rt", "", 2}}};
+    }
+
+    [[nodiscard]] static cd::PoseFrame one_player(std::int64_t frame_time) {
+        static const std::uint32_t id = 7;
+        static const std::uint32_t flags = CDIR_POSE_ALIVE;
+        static const float eye[3] = {1.0F, 2.0F, 3.0F};
+        static const float orientation[4] = {0.0F, 0.0F, 0.6F, 0.8F};
+        return {.frame_time = frame_time,
+                .player_id = {&id, 1},
+                .eye = eye,
+                .orientation = orientation,
+                .flags = {&flags, 1}};
+    }
+};
+
+TEST_F(GameServer, PosesArriveAsTheyWerePublished) {
+    cd::MatchInfo match_info = info();
+    match_info.epoch = 9;
+    cd::Match match(context_, match_info);
+    FakeDirector director(shared_domain, match_id_);
+    ASSERT_TRUE(eventually([&] { return match.director_count() == 1; }));
+
+    const std::uint32_t ids[2] = {7, 300};
+    const std::uint32_t flags[2] = {CDIR_POSE_ALIVE, CDIR_POSE_DISCONTINUITY | CDIR_POSE_SPECTATOR};
+    const float eye[6] = {1, 2, 3, -4, 5e6F, 6};
+    const float orientation[8] = {0, 0, 0, 1, 0.6F, 0, 0.8F, 0};
+    const float velocity[6] = {9, 8, 7, 6, 5, 4};
+    match.publish(cd::PoseFrame{.frame_time = 50'000'000,
+                                .source_time = 12345,
+                                .player_id = ids,
+                                .eye = eye,
+                                .orientation = orientation,
+                                .velocity = velocity,
+                                .flags = flags});
+    std::optional<ReceivedPoses> poses;
+    ASSERT_TRUE(eventually([&] { return (poses = director.take_poses()).has_value(); }));
+    EXPECT_EQ(poses->match_id, match_id_);
+    EXPECT_EQ(poses->epoch, 9U);
+    EXPECT_EQ(poses->frame_number, 0U);
+    EXPECT_EQ(poses->frame_time, 50'000'000);
+    EXPECT_EQ(poses->source_time, 12345);
+    EXPECT_THAT(poses->player_id, ElementsAre(7, 300));
+    EXPECT_THAT(poses->eye, testing::ElementsAreArray(eye));
+    EXPECT_THAT(poses->orientation, testing::ElementsAreArray(orientation));
+    EXPECT_THAT(poses->velocity, testing::ElementsAreArray(velocity));
+    EXPECT_THAT(poses->flags, testing::ElementsAreArray(flags));
+
+    const auto before = std::chrono::system_clock::now().time_since_epoch();
+    match.publish(one_player(50'000'000));
+    ASSERT_TRUE(eventually([&] { return (poses = director.take_poses()).has_value(); }));
+    EXPECT_EQ(poses->frame_number, 1U);
+    EXPECT_THAT(poses->velocity, IsEmpty());
+    EXPECT_GE(poses->source_time, std::chrono::nanoseconds(before).count()) << "filled in by the library";
+
+    match.publish(cd::PoseFrame{.frame_time = 50'000'001});
+    ASSERT_TRUE(eventually([&] { return (poses = director.take_poses()).has_value(); }));
+    EXPECT_THAT(poses->player_id, IsEmpty());
+}
+
+TEST_F(GameServer, RefusedFrameIsNotCounted) {
+    cd::Match match(context_, info());
+    FakeDirector director(shared_domain, match_id_);
+    ASSERT_TRUE(eventually([&] { return match.director_count() == 1; }));
+    match.publish(one_player(100));
+    EXPECT_THROW(match.publish(one_player(99)), cd::Error) << "the game's clock went back";
+    match.publish(one_player(101));
+    std::optional<ReceivedPoses> poses;
+    ASSERT_TRUE(eventually([&] {
+        if (auto taken = director.take_poses()) poses = taken;
+        return poses && poses->frame_time == 101;
+    }));
+    EXPECT_EQ(poses->frame_number, 1U);
+}
+
+TEST_F(GameServer, LateDirectorLearnsOfTheMatchAndItsEnd) {
+    std::optional<cd::Match> match(std::in_place, context_, info());
+    FakeDirector director(shared_domain, match_id_);
+    std::optional<ReceivedInfo> received;
+    ASSERT_TRUE(eventually([&] { return (received = director.take_info()).has_value(); }));
+    EXPECT_EQ(received->map_name, "oa_dm1");
+    EXPECT_EQ(received->map_hash, 0xfedcba9876543210U);
+    EXPECT_EQ(received->metres_per_unit, 0.5F);
+    EXPECT_EQ(received->rate_hz, 20.0F);
+    EXPECT_EQ(received->spectator_delay_s, 10.0F);
+    EXPECT_THAT(received->player_id, ElementsAre(7, 300));
+    EXPECT_THAT(received->player_name, ElementsAre("anna", "b\xc3\xa4rt"));
+    EXPECT_THAT(received->player_class, ElementsAre("medic", ""));
+    EXPECT_THAT(received->player_team, ElementsAre(1, 2));
+    EXPECT_FALSE(director.info_is_gone());
+    match.reset();
+    EXPECT_TRUE(eventually([&] { return director.info_is_gone(); }));
+}
+
+TEST_F(GameServer, UpdateKeepsTheEpochAndRestartBeginsAnother) {
+    cd::Match match(context_, info());
+    FakeDirector director(shared_domain, match_id_);
+    ASSERT_TRUE(eventually([&] { return match.director_count() == 1; }));
+    std::optional<ReceivedInfo> first;
+    ASSERT_TRUE(eventually([&] { return (first = director.take_info()).has_value(); }));
+    match.publish(one_player(1000));
+
+    cd::MatchInfo changed = info();
+    changed.players.push_back({8, "carl", "", 1});
+    match.update(changed);
+    std::optional<ReceivedInfo> second;
+    ASSERT_TRUE(eventually([&] { return (second = director.take_info()).has_value(); }));
+    EXPECT_EQ(second->epoch, first->epoch);
+    EXPECT_THAT(second->player_id, ElementsAre(7, 300, 8));
+
+    changed.map_name = "oa_dm3";
+    EXPECT_THROW(match.update(changed), cd::Error) << "another map needs a restart";
+    match.restart(changed);
+    std::optional<ReceivedInfo> third;
+    ASSERT_TRUE(eventually([&] { return (third = director.take_info()).has_value(); }));
+    EXPECT_GT(third->epoch, first->epoch);
+    EXPECT_EQ(third->map_name, "oa_dm3");
+
+    while (director.take_poses()) {
+    }
+    match.publish(one_player(10));  // the game's clock starts anew with the epoch
+    std::optional<ReceivedPoses> poses;
+    ASSERT_TRUE(eventually([&] { return (poses = director.take_poses()).has_value(); }));
+    EXPECT_EQ(poses->epoch, third->epoch);
+    EXPECT_EQ(poses->frame_number, 0U);
+
+    changed.epoch = third->epoch;
+    EXPECT_THROW(match.restart(changed), cd::Error) << "an epoch is used once";
+}
+
+TEST_F(GameServer, EpochOfALaterProcessIsGreater) {
+    const auto epoch = [&] {
+        cd::Match match(context_, info());
+        FakeDirector director(shared_domain, match_id_);
+        std::optional<ReceivedInfo> received;
+        EXPECT_TRUE(eventually([&] { return (received = director.take_info()).has_value(); }));
+        return received ? received->epoch : 0;
+    };
+    const std::uint64_t first = epoch();
+    EXPECT_LT(first, epoch());
+}
+
+TEST_F(GameServer, EventsAllArriveInOrder) {
+    cd::Match match(context_, info());
+    FakeDirector director(shared_domain, match_id_);
+    ASSERT_TRUE(eventually([&] { return match.director_count() == 1; }));
+    // The writer of events is matched with the one of poses, but by itself.
+    ASSERT_TRUE(eventually([&] {
+        match.publish(cd::MatchEvent{.kind = CDIR_EVENT_AWARD});
+        return director.take_event().has_value();
+    }));
+    while (director.take_event()) {
+    }
+    for (std::uint32_t i = 0; i < 200; ++i) {
+        match.publish(cd::MatchEvent{
+            .kind = CDIR_EVENT_KILL, .frame_time = i, .actor = i, .subject = i + 1, .value = 0.5F});
+    }
+    for (std::uint32_t i = 0; i < 200; ++i) {
+        std::optional<camera_director_MatchEvent> event;
+        ASSERT_TRUE(eventually([&] { return (event = director.take_event()).has_value(); }));
+        EXPECT_EQ(event->frame_time, i);
+        EXPECT_EQ(event->kind, 1U);
+        EXPECT_EQ(event->actor, i);
+        EXPECT_EQ(event->subject, i + 1);
+        EXPECT_EQ(event->value, 0.5F);
+    }
+}
+
+TEST_F(GameServer, WritersOfferTheContractsQualityOfService) {
+    cd::Match match(context_, info());
+    cd::Observer observer(context_, match_id_, "anna");
+    FakeDirector director(shared_domain, match_id_);
+    int looked = 0;
+    const auto expect = [&](const char* topic, dds_reliability_kind_t reliability,
+                            dds_durability_kind_t durability, dds_history_kind_t history, std::int32_t depth,
+                            dds_duration_t lease) {
+        director.with_offered_qos(topic, [&](const dds_qos_t* qos) {
+            ++looked;
+            dds_reliability_kind_t offered_reliability{};
+            dds_durability_kind_t offered_durability{};
+            dds_history_kind_t offered_history{};
+            std::int32_t offered_depth = 0;
+            dds_liveliness_kind_t offered_liveliness{};
+            dds_duration_t offered_lease = 0;
+            dds_qget_reliability(qos, &offered_reliability, nullptr);
+            dds_qget_durability(qos, &offered_durability);
+            dds_qget_history(qos, &offered_history, &offered_depth);
+            dds_qget_liveliness(qos, &offered_liveliness, &offered_lease);
+            EXPECT_EQ(offered_reliability, reliability) << topic;
+            EXPECT_EQ(offered_durability, durability) << topic;
+            EXPECT_EQ(offered_history, history) << topic;
+            EXPECT_TRUE(depth == 0 || offered_depth == depth) << topic;
+            EXPECT_EQ(offered_liveliness, DDS_LIVELINESS_AUTOMATIC) << topic;
+            EXPECT_EQ(offered_lease, lease) << topic;
+        });
+    };
+    ASSERT_TRUE(eventually([&] { return match.director_count() == 1 && director.take_info(); }));
+    observer.request({});
+    ASSERT_TRUE(eventually([&] { return director.take_request().has_value(); }));
+    expect("MatchInfo", DDS_RELIABILITY_RELIABLE, DDS_DURABILITY_TRANSIENT_LOCAL, DDS_HISTORY_KEEP_LAST, 1,
+           DDS_SECS(2));
+    expect("PoseFrame", DDS_RELIABILITY_BEST_EFFORT, DDS_DURABILITY_VOLATILE, DDS_HISTORY_KEEP_LAST, 1,
+           DDS_INFINITY);
+    expect("MatchEvent", DDS_RELIABILITY_RELIABLE, DDS_DURABILITY_VOLATILE, DDS_HISTORY_KEEP_ALL, 0,
+           DDS_INFINITY);
+    expect("ObserverRequest", DDS_RELIABILITY_RELIABLE, DDS_DURABILITY_TRANSIENT_LOCAL, DDS_HISTORY_KEEP_LAST,
+           1, DDS_SECS(10));
+    EXPECT_EQ(looked, 4);
+}
+
+}  // namespace
+}  // namespace camdir::test

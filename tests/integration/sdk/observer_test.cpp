@@ -1,0 +1,340 @@
+// An observer's side against raw DDS writers.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <camera_director/camera_director.hpp>
+
+#include <array>
+#include <future>
+
+#include "domains.hpp"
+#include "fake_director.hpp"
+
+namespace camdir::test {
+namespace {
+
+namespace cd = camera_director;
+using testing::ElementsAre;
+
+constexpr std::int64_t ms = 1'000'000;
+
+class Spectator : public testing::Test {
+  protected:
+    void SetUp() override {
+        ASSERT_TRUE(eventually(
+            [&] { return director_.observer_count() == 1 && observer_.counters().directors == 1; }));
+    }
+
+    // Camera 3 is another shot's; camera 4 is the observer's, at x.
+    [[nodiscard]] CameraFrameArrays frame(std::uint64_t epoch, std::uint32_t number, float x,
+                                          std::uint32_t flags = 0) const {
+        CameraFrameArrays frame{.match_id = match_id_};
+        frame.epoch = epoch;
+        frame.frame_number = number;
+        frame.pose_number = 2 * number;
+        frame.frame_time = number * 16 * ms;
+        frame.source_time = 5;
+        frame.write_time = 6;
+        frame.director_id = 77;
+        frame.add_camera(3, -1.0F);
+        frame.add_camera(4, x, flags);
+        return frame;
+    }
+
+    void write(std::uint64_t epoch, std::uint32_t number, float x, std::uint32_t flags = 0) {
+        CameraFrameArrays arrays = frame(epoch, number, x, flags);
+        director_.write(arrays);
+    }
+
+    // Polls until the observer has seen so many frames in all.
+    [[nodiscard]] bool sees(std::uint64_t frames) {
+        return eventually([&] {
+            observer_.poll();
+            return observer_.counters().frames == frames;
+        });
+    }
+
+    void have_shot_accepted(std::uint64_t epoch) {
+        observer_.request({.target = 104});
+        ASSERT_TRUE(eventually([&] { return director_.take_request().has_value(); }));
+        director_.write_status("anna", epoch, CDIR_SHOT_ACCEPTED, 4);
+        ASSERT_TRUE(eventually([&] {
+            observer_.poll();
+            return observer_.shot_status().state == CDIR_SHOT_ACCEPTED;
+        }));
+    }
+
+    const std::string match_id_ = testing::UnitTest::GetInstance()->current_test_info()->name();
+    cd::Context context_{{.domain = shared_domain}};
+    FakeDirector director_{shared_domain, match_id_};
+    cd::Observer observer_{context_, match_id_, "anna"};
+};
+
+TEST_F(Spectator, RequestArrivesWithAllItSays) {
+    observer_.request(
+        {.target = 9, .group = {1, 9, 4}, .profile = "shoulder", .overrides = R"({"distance": 90})"});
+    std::optional<ReceivedRequest> request;
+    ASSERT_TRUE(eventually([&] { return (request = director_.take_request()).has_value(); }));
+    EXPECT_EQ(request->observer_id, "anna");
+    EXPECT_EQ(request->target, 9U);
+    EXPECT_THAT(request->group, ElementsAre(1, 9, 4));
+    EXPECT_EQ(request->profile, "shoulder");
+    EXPECT_EQ(request->overrides, R"({"distance": 90})");
+
+    observer_.request({});
+    ASSERT_TRUE(eventually([&] { return (request = director_.take_request()).has_value(); }));
+    EXPECT_EQ(request->target, CDIR_CHOOSE_TARGET);
+    EXPECT_THAT(request->group, testing::IsEmpty());
+
+    EXPECT_FALSE(director_.request_is_gone());
+    observer_.withdraw();
+    EXPECT_TRUE(eventually([&] { return director_.request_is_gone(); }));
+    EXPECT_THROW(observer_.withdraw(), cd::Error);
+}
+
+TEST_F(Spectator, RequestDiesWithItsObserver) {
+    std::optional<cd::Observer> other(std::in_place, context_, match_id_, "bert");
+    other->request({.target = 1});
+    ASSERT_TRUE(eventually([&] { return director_.take_request().has_value(); }));
+    other.reset();
+    EXPECT_TRUE(eventually([&] { return director_.request_is_gone(); }));
+}
+
+TEST_F(Spectator, AnswersAndCamerasArrive) {
+    EXPECT_EQ(observer_.shot_status().state, static_cast<std::uint32_t>(CDIR_SHOT_NOT_REQUESTED));
+    observer_.request({.target = 104});
+    EXPECT_EQ(observer_.shot_status().state, static_cast<std::uint32_t>(CDIR_SHOT_UNANSWERED));
+    director_.write_status("anna", 1, CDIR_SHOT_WAITING_FOR_PLAYER, 4, "no pose of player 104");
+    ASSERT_EQ(observer_.wait(std::chrono::seconds(30)), cd::Waited::arrived);
+    observer_.poll();
+    EXPECT_EQ(observer_.shot_status().state, static_cast<std::uint32_t>(CDIR_SHOT_WAITING_FOR_PLAYER));
+    EXPECT_STREQ(observer_.shot_status().reason, "no pose of player 104");
+    EXPECT_FALSE(observer_.newest_camera());
+
+    write(1, 0, 10.0F, CDIR_CAMERA_CUT | CDIR_CAMERA_TARGET_VISIBLE);
+    write(1, 1, 14.0F, CDIR_CAMERA_TARGET_VISIBLE);
+    ASSERT_TRUE(sees(2));
+    const std::optional<cd::View> newest = observer_.newest_camera();
+    ASSERT_TRUE(newest);
+    EXPECT_EQ(newest->frame_time, 16 * ms);
+    EXPECT_EQ(newest->camera.camera_id, 4U);
+    EXPECT_EQ(newest->camera.target, 104U);
+    EXPECT_EQ(newest->camera.position[0], 14.0F);
+    EXPECT_EQ(newest->camera.flags, static_cast<std::uint32_t>(CDIR_CAMERA_TARGET_VISIBLE));
+    EXPECT_FLOAT_EQ(observer_.camera_at(4 * ms)->camera.position[0], 11.0F);
+    EXPECT_EQ(observer_.camera_at(20 * ms)->late, 4 * ms);
+    const auto time = observer_.display_time();
+    ASSERT_TRUE(time);
+    EXPECT_LE(*time, 16 * ms);
+}
+
+TEST_F(Spectator, BroadcasterTakesEveryFrameWithAllCameras) {
+    for (std::uint32_t i = 0; i < 5; ++i) {
+        write(1, i, static_cast<float>(i));
+    }
+    std::array<cd::Camera, 8> cameras{};
+    for (std::uint32_t i = 0; i < 5; ++i) {
+        std::optional<cd::CameraFrame> taken;
+        ASSERT_TRUE(eventually([&] { return (taken = observer_.next_frame(cameras)).has_value(); }));
+        EXPECT_EQ(taken->frame_number, i);
+        EXPECT_EQ(taken->pose_number, 2 * i);
+        EXPECT_EQ(taken->epoch, 1U);
+        EXPECT_EQ(taken->director_id, 77U);
+        EXPECT_EQ(taken->frame_time, i * 16 * ms);
+        EXPECT_EQ(taken->source_time, 5);
+        EXPECT_EQ(taken->write_time, 6);
+        ASSERT_EQ(taken->camera_count, 2U);
+        EXPECT_EQ(cameras[0].camera_id, 3U);
+        EXPECT_EQ(cameras[1].camera_id, 4U);
+        EXPECT_THAT(cameras[1].position, ElementsAre(static_cast<float>(i), 2.0F, 3.0F));
+        EXPECT_THAT(cameras[1].orientation, ElementsAre(0.0F, 0.0F, 0.0F, 1.0F));
+        EXPECT_EQ(cameras[1].vertical_fov, 1.0F);
+        EXPECT_EQ(cameras[1].clearance, 8.0F);
+    }
+    EXPECT_FALSE(observer_.next_frame(cameras));
+
+    write(1, 5, 1.0F);
+    cdir_camera first{};
+    cdir_camera untouched{};
+    cdir_camera_frame header = cdir_camera_frame_default();
+    std::array<cdir_camera, 2> pair = {first, untouched};
+    cdir_observer raw{};
+    ASSERT_EQ(cdir_observer_open(context_.handle(), match_id_.c_str(), "raw", nullptr, &raw), CDIR_OK);
+    ASSERT_TRUE(eventually([&] { return director_.observer_count() == 2; }));
+    write(1, 6, 1.0F);
+    cdir_status status = CDIR_NO_DATA;
+    ASSERT_TRUE(eventually([&] {
+        status = cdir_observer_next_frame(raw, &header, pair.data(), 1);
+        return status != CDIR_NO_DATA;
+    }));
+    EXPECT_EQ(status, CDIR_TRUNCATED);
+    EXPECT_EQ(header.camera_count, 2U);
+    EXPECT_EQ(pair[0].camera_id, 3U);
+    EXPECT_EQ(pair[1].camera_id, 0U) << "written beyond the capacity";
+    EXPECT_EQ(cdir_observer_close(raw), CDIR_OK);
+}
+
+TEST_F(Spectator, FramesThatAreTooManyToKeepAreCountedAsGaps) {
+    have_shot_accepted(1);
+    write(1, 0, 0.0F);
+    ASSERT_TRUE(sees(1));
+    for (std::uint32_t i = 1; i <= 40; ++i) {
+        write(1, i, static_cast<float>(i));
+    }
+    ASSERT_TRUE(eventually([&] {
+        observer_.poll();
+        return observer_.newest_camera()->camera.position[0] == 40.0F;
+    }));
+    EXPECT_EQ(observer_.counters().frames, 33U);
+    EXPECT_EQ(observer_.counters().gaps, 8U);
+    EXPECT_EQ(observer_.camera_at(5 * 16 * ms)->camera.position[0], 0.0F) << "a cut may hide in the gap";
+}
+
+TEST_F(Spectator, OlderEpochsAreDropped) {
+    have_shot_accepted(2);
+    write(2, 5, 1.0F);
+    ASSERT_TRUE(sees(1));
+    write(1, 6, 2.0F);
+    director_.write_status("anna", 1, CDIR_SHOT_REFUSED, 0);
+    write(2, 6, 3.0F);
+    ASSERT_TRUE(sees(2));
+    ASSERT_TRUE(eventually([&] {
+        observer_.poll();
+        return observer_.counters().stale_epoch == 2;
+    }));
+    EXPECT_EQ(observer_.newest_camera()->camera.position[0], 3.0F);
+    EXPECT_EQ(observer_.shot_status().state, static_cast<std::uint32_t>(CDIR_SHOT_ACCEPTED));
+    write(3, 0, 4.0F);
+    ASSERT_TRUE(sees(3));
+    EXPECT_FALSE(observer_.newest_camera()) << "the answer of epoch 2 names no camera of epoch 3";
+}
+
+TEST_F(Spectator, BrokenFrameIsDroppedAndCounted) {
+    have_shot_accepted(1);
+    CameraFrameArrays broken = frame(1, 0, 1.0F);
+    broken.position.pop_back();
+    director_.write(broken);
+    write(1, 1, 2.0F);
+    ASSERT_TRUE(sees(1));
+    EXPECT_EQ(observer_.counters().invalid, 1U);
+    EXPECT_EQ(observer_.newest_camera()->camera.position[0], 2.0F);
+}
+
+TEST_F(Spectator, OnlyTheStrongestDirectorIsHeard) {
+    have_shot_accepted(1);
+    FakeDirector leader(shared_domain, match_id_, 100);
+    ASSERT_TRUE(
+        eventually([&] { return leader.observer_count() == 1 && observer_.counters().directors == 2; }));
+    CameraFrameArrays led = frame(1, 0, 50.0F);
+    led.director_id = 78;
+    leader.write(led);
+    ASSERT_TRUE(sees(1));
+    write(1, 0, 1.0F);
+    led.frame_number = 1;
+    led.frame_time += 16 * ms;
+    leader.write(led);
+    ASSERT_TRUE(sees(2));
+    EXPECT_EQ(observer_.newest_camera()->camera.position[0], 50.0F);
+    EXPECT_EQ(observer_.counters().hand_overs, 0U);
+}
+
+TEST_F(Spectator, StandbyIsHeardWhenTheLeaderIsGone) {
+    have_shot_accepted(1);
+    std::optional<FakeDirector> leader(std::in_place, shared_domain, match_id_, 100);
+    ASSERT_TRUE(
+        eventually([&] { return leader->observer_count() == 1 && observer_.counters().directors == 2; }));
+    CameraFrameArrays led = frame(1, 0, 50.0F);
+    led.director_id = 78;
+    leader->write(led);
+    ASSERT_TRUE(sees(1));
+    leader.reset();
+    ASSERT_TRUE(eventually([&] { return observer_.counters().directors == 1; }));
+    write(1, 1, 51.0F);
+    ASSERT_TRUE(sees(2));
+    EXPECT_EQ(observer_.counters().hand_overs, 1U);
+    EXPECT_EQ(observer_.counters().gaps, 0U);
+}
+
+TEST_F(Spectator, MatchAndPlayersAreKnownUntilTheMatchEnds) {
+    EXPECT_FALSE(observer_.match_info());
+    std::optional<cd::Match> match(
+        std::in_place, context_,
+        cd::MatchInfo{
+            .match_id = match_id_, .map_name = "oa_dm1", .players = {{1, "anna", "medic", 3}, {2, "bert"}}});
+    ASSERT_TRUE(eventually([&] {
+        observer_.poll();
+        return observer_.match_info().has_value();
+    }));
+    const cd::MatchInfo info = *observer_.match_info();
+    EXPECT_EQ(info.match_id, match_id_);
+    EXPECT_EQ(info.map_name, "oa_dm1");
+    EXPECT_EQ(info.rate_hz, 60.0F);
+    ASSERT_EQ(info.players.size(), 2U);
+    EXPECT_EQ(info.players[0].name, "anna");
+    EXPECT_EQ(info.players[0].player_class, "medic");
+    EXPECT_EQ(info.players[0].team, 3U);
+    EXPECT_EQ(info.players[1].id, 2U);
+    match.reset();
+    EXPECT_TRUE(eventually([&] {
+        observer_.poll();
+        return !observer_.match_info();
+    }));
+}
+
+TEST_F(Spectator, WaitEndsByTimeByInterruptAndByClose) {
+    EXPECT_EQ(observer_.wait(std::chrono::nanoseconds(0)), cd::Waited::timeout);
+    EXPECT_EQ(observer_.wait(std::chrono::milliseconds(20)), cd::Waited::timeout);
+    observer_.interrupt();
+    EXPECT_EQ(observer_.wait(std::chrono::seconds(-1)), cd::Waited::interrupted);
+    EXPECT_EQ(observer_.wait(std::chrono::nanoseconds(0)), cd::Waited::timeout)
+        << "one interrupt ends one wait";
+
+    auto waiting = std::async(std::launch::async, [&] { return observer_.wait(std::chrono::seconds(-1)); });
+    observer_.interrupt();
+    EXPECT_EQ(waiting.get(), cd::Waited::interrupted);
+
+    cdir_observer raw{};
+    ASSERT_EQ(cdir_observer_open(context_.handle(), match_id_.c_str(), "raw", nullptr, &raw), CDIR_OK);
+    std::promise<void> started;
+    auto closed_under = std::async(std::launch::async, [&] {
+        started.set_value();
+        return cdir_observer_wait(raw, -1);
+    });
+    started.get_future().wait();
+    EXPECT_EQ(cdir_observer_close(raw), CDIR_OK);
+    const cdir_status status = closed_under.get();
+    EXPECT_TRUE(status == CDIR_INTERRUPTED || status == CDIR_INVALID_HANDLE) << cdir_status_name(status);
+}
+
+TEST_F(Spectator, CallsFromManyThreadsDoNotDisturbEachOther) {
+    have_shot_accepted(1);
+    std::atomic<bool> stop{false};
+    std::vector<std::future<void>> threads;
+    for (int i = 0; i < 4; ++i) {
+        threads.push_back(std::async(std::launch::async, [&, i] {
+            const std::string own_id = "thread-" + std::to_string(i);
+            while (!stop) {
+                observer_.poll();
+                (void)observer_.newest_camera();
+                (void)observer_.display_time();
+                (void)observer_.wait(std::chrono::milliseconds(1));
+                const cd::Observer own(context_, match_id_, own_id);
+            }
+        }));
+    }
+    for (std::uint32_t i = 0; i < 100; ++i) {
+        write(1, i, static_cast<float>(i));
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    EXPECT_TRUE(eventually([&] {
+        const auto newest = observer_.newest_camera();
+        return newest && newest->camera.position[0] == 99.0F;
+    }));
+    stop = true;
+    for (auto& thread : threads) {
+        thread.get();
+    }
+    EXPECT_EQ(observer_.counters().frames + observer_.counters().gaps, 100U);
+}
+
+}  // namespace
+}  // namespace camdir::test
