@@ -20,7 +20,7 @@ std::optional<Candidate> roadmap_spot(const freespace::Freespace& freespace, con
         const Vec3f position = freespace.vertices()[corner].position();
         const float distance = (position - track.anchor).norm();
         if (nearest && distance >= least) continue;
-        const std::optional<Candidate> candidate = look_up(freespace, track, position, track.slab);
+        const std::optional<Candidate> candidate = look_up(freespace, profile, track, position, track.slab);
         if (!candidate || !acceptable(profile, *candidate)) continue;
         nearest = candidate;
         least = distance;
@@ -33,7 +33,7 @@ std::optional<Candidate> roadmap_spot(const freespace::Freespace& freespace, con
 Candidate landing(const freespace::Freespace& freespace, const MapProfile& profile,
                   const PlayerTrack& track) {
     const Spot spot = spot_to_cut_to(freespace, profile, track);
-    if (const auto candidate = look_up(freespace, track, track.anchor + spot.offset, track.slab);
+    if (const auto candidate = look_up(freespace, profile, track, track.anchor + spot.offset, track.slab);
         candidate && acceptable(profile, *candidate)) {
         return *candidate;
     }

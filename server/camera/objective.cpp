@@ -18,9 +18,7 @@ float squared(float value) {
 // 1/gamma of the paper, with the smallest clearance along the line of sight for gamma, in shares of what a
 // camera keeps anyway: 1 for a sight line as free as that or freer.
 float visibility(const MapProfile& profile, float sight_clearance) {
-    if (sight_clearance <= 0.0F || sight_clearance < profile.visibility_threshold) {
-        return unseen;
-    }
+    if (sight_clearance <= 0.0F) return unseen;
     const float wanted = std::max(profile.minimum_clearance, profile.visibility_threshold);
     return std::pow(std::max(1.0F, wanted / sight_clearance), profile.weight_visibility);
 }

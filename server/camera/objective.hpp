@@ -11,8 +11,9 @@ namespace camdir::camera {
 struct Candidate {
     Vec3f position = Vec3f::Zero();
     std::uint32_t slab = freespace::none;
-    float clearance = 0.0F;        // free distance at the position
-    float sight_clearance = 0.0F;  // smallest clearance on the line of sight to the anchor; <= 0: not seen
+    float clearance = 0.0F;  // free distance at the position
+    // Lower bound of the clearance along the line of sight to the anchor; 0: the player is not seen.
+    float sight_clearance = 0.0F;
 };
 
 // How the camera came to where it is.

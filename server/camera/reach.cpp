@@ -1,31 +1,57 @@
 #include "camera/reach.hpp"
 
+#include <algorithm>
+
 #include "freespace/distance.hpp"
 #include "freespace/visibility.hpp"
 
 namespace camdir::camera {
+namespace {
 
-std::optional<Candidate> reach(const freespace::Freespace& freespace, const PlayerTrack& track,
-                               const Start& start, const Vec3f& target) {
+constexpr float inside_ball = 0.9F;  // share of a ball's radius in which a beam surely starts
+
+// A beam knows the clearance around a line of sight far better than a line does: the widest beam that matters
+// first, then the narrowest that counts.
+float sight_clearance(const freespace::Freespace& freespace, const MapProfile& profile,
+                      const PlayerTrack& track, const Vec3f& position, std::uint32_t slab) {
+    const float wide = beam_radius(profile, track);
+    if (freespace::sight(freespace, position, track.anchor, wide, slab).clear) {
+        return wide;
+    }
+    const float narrow = std::min(profile.visibility_threshold, wide);
+    const freespace::Sight line = freespace::sight(freespace, position, track.anchor, narrow, slab);
+    return line.clear ? std::max(line.clearance, narrow) : 0.0F;
+}
+
+}  // namespace
+
+float beam_radius(const MapProfile& profile, const PlayerTrack& track) {
+    const float wanted = std::max(profile.minimum_clearance, profile.visibility_threshold);
+    return std::min(wanted, inside_ball * track.clearance);
+}
+
+std::optional<Candidate> reach(const freespace::Freespace& freespace, const MapProfile& profile,
+                               const PlayerTrack& track, const Start& start, const Vec3f& target) {
     const freespace::Sight way = freespace::sight(freespace, start.position, target, 0.0F, start.slab);
     if (!way.clear) return std::nullopt;
-    return look_up(freespace, track, target, way.triangle);
+    return look_up(freespace, profile, track, target, way.triangle);
 }
 
-std::optional<Candidate> reach_shortened(const freespace::Freespace& freespace, const PlayerTrack& track,
-                                         const Start& start, const Vec3f& target) {
+std::optional<Candidate> reach_shortened(const freespace::Freespace& freespace, const MapProfile& profile,
+                                         const PlayerTrack& track, const Start& start, const Vec3f& target) {
     const freespace::Sight way = freespace::sight(freespace, start.position, target, 0.0F, start.slab);
-    if (way.clear) return look_up(freespace, track, target, way.triangle);
+    if (way.clear) return look_up(freespace, profile, track, target, way.triangle);
     const Vec3f direction = (target - start.position).normalized();
-    return reach(freespace, track, start, start.position + 0.5F * way.free_length * direction);
+    return reach(freespace, profile, track, start, start.position + 0.5F * way.free_length * direction);
 }
 
-std::optional<Candidate> look_up(const freespace::Freespace& freespace, const PlayerTrack& track,
-                                 const Vec3f& position, std::uint32_t near_slab) {
-    const freespace::Distance free = freespace::distance(freespace, position, near_slab);
+std::optional<Candidate> look_up(const freespace::Freespace& freespace, const MapProfile& profile,
+                                 const PlayerTrack& track, const Vec3f& position, std::uint32_t near_slab) {
+    freespace::Distance free = freespace::distance(freespace, position, near_slab);
     if (!free.covered()) return std::nullopt;
-    const freespace::Sight line = freespace::sight(freespace, position, track.anchor, 0.0F, free.triangle);
-    return Candidate{position, free.triangle, free.value, line.clear ? line.clearance : 0.0F};
+    if (free.value < profile.minimum_clearance) free = freespace::distance_everywhere(freespace, position);
+    return Candidate{position, free.triangle, free.value,
+                     sight_clearance(freespace, profile, track, position, free.triangle)};
 }
 
 }  // namespace camdir::camera

@@ -10,6 +10,10 @@
 
 namespace camdir::camera {
 
+// The radius of the beams that the camera wants between itself and the player: what it keeps from obstacles
+// anyway, but no more than the player has.
+[[nodiscard]] float beam_radius(const MapProfile& profile, const PlayerTrack& track);
+
 // Where a step starts.
 struct Start {
     Vec3f position;
@@ -17,17 +21,18 @@ struct Start {
 };
 
 // `target`, if the whole step to it is free.
-[[nodiscard]] std::optional<Candidate> reach(const freespace::Freespace& freespace, const PlayerTrack& track,
-                                             const Start& start, const Vec3f& target);
+[[nodiscard]] std::optional<Candidate> reach(const freespace::Freespace& freespace, const MapProfile& profile,
+                                             const PlayerTrack& track, const Start& start,
+                                             const Vec3f& target);
 
 // The same, and when the step leaves the freespace on its way the point half-way to where it leaves.
 [[nodiscard]] std::optional<Candidate> reach_shortened(const freespace::Freespace& freespace,
-                                                       const PlayerTrack& track, const Start& start,
-                                                       const Vec3f& target);
+                                                       const MapProfile& profile, const PlayerTrack& track,
+                                                       const Start& start, const Vec3f& target);
 
 // The candidate with its distances looked up; none when no slab covers it.
 [[nodiscard]] std::optional<Candidate> look_up(const freespace::Freespace& freespace,
-                                               const PlayerTrack& track, const Vec3f& position,
-                                               std::uint32_t near_slab);
+                                               const MapProfile& profile, const PlayerTrack& track,
+                                               const Vec3f& position, std::uint32_t near_slab);
 
 }  // namespace camdir::camera

@@ -24,7 +24,7 @@ class Choice {
         : profile_(profile), track_(track), motion_(motion) {}
 
     void consider(const std::optional<Candidate>& candidate) {
-        if (!candidate || !is_seen(profile_, *candidate)) return;
+        if (!candidate || !is_seen(*candidate)) return;
         const bool roomy = candidate->clearance >= profile_.minimum_clearance;
         const float cost = objective(profile_, track_, motion_, *candidate).total;
         if (found_ && (roomy != roomy_ ? !roomy : cost >= cost_)) return;
@@ -51,21 +51,20 @@ class Choice {
 Vec3f swung(const freespace::Freespace& freespace, const MapProfile& profile, const PlayerTrack& track,
             const Vec3f& wanted, float angle) {
     const Vec3f arm = Eigen::AngleAxisf(angle, Vec3f::UnitZ()) * (wanted - track.anchor);
-    const float radius = std::min(profile.minimum_clearance, 0.9F * track.clearance);
-    const freespace::Sight beam =
-        freespace::sight(freespace, track.anchor, track.anchor + arm, radius, track.slab);
+    const freespace::Sight beam = freespace::sight(freespace, track.anchor, track.anchor + arm,
+                                                   beam_radius(profile, track), track.slab);
     if (beam.clear) return track.anchor + arm;
     return track.anchor + std::max(0.0F, beam.free_length - inside_beam) * arm.normalized();
 }
 
 }  // namespace
 
-bool is_seen(const MapProfile& profile, const Candidate& candidate) {
-    return candidate.sight_clearance > 0.0F && candidate.sight_clearance >= profile.visibility_threshold;
+bool is_seen(const Candidate& candidate) {
+    return candidate.sight_clearance > 0.0F;
 }
 
 bool acceptable(const MapProfile& profile, const Candidate& candidate) {
-    return is_seen(profile, candidate) && candidate.clearance >= profile.minimum_clearance;
+    return is_seen(candidate) && candidate.clearance >= profile.minimum_clearance;
 }
 
 std::optional<Candidate> regain_sight(const freespace::Freespace& freespace, const MapProfile& profile,
@@ -74,9 +73,9 @@ std::optional<Candidate> regain_sight(const freespace::Freespace& freespace, con
     Choice choice(profile, track, motion);
     const auto consider = [&](const Vec3f& target) {
         const Vec3f place = within_step(start.position, target, profile.step_limit);
-        choice.consider(reach_shortened(freespace, track, start, place));
+        choice.consider(reach_shortened(freespace, profile, track, start, place));
     };
-    choice.consider(look_up(freespace, track, start.position, start.slab));
+    choice.consider(look_up(freespace, profile, track, start.position, start.slab));
     consider(start.position + track.move);
     for (const float angle : swings) {
         consider(swung(freespace, profile, track, wanted, angle));

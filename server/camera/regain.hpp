@@ -9,8 +9,7 @@
 
 namespace camdir::camera {
 
-// The line of sight has the profile's threshold of clearance.
-[[nodiscard]] bool is_seen(const MapProfile& profile, const Candidate& candidate);
+[[nodiscard]] bool is_seen(const Candidate& candidate);
 
 // The camera can be there without breaking a promise of the profile: seen through the threshold's clearance,
 // and the minimum clearance kept.

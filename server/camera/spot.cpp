@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 
+#include "camera/reach.hpp"
 #include "camera/view.hpp"
 #include "freespace/visibility.hpp"
 
@@ -89,8 +90,7 @@ class SpotSearch {
   public:
     SpotSearch(const freespace::Freespace& freespace, const MapProfile& profile, const PlayerTrack& track)
         : freespace_(freespace), profile_(profile) {
-        const float radius = std::min(profile.minimum_clearance, 0.9F * track.clearance);
-        now_ = {track.anchor, track.slab, radius};
+        now_ = {track.anchor, track.slab, beam_radius(profile, track)};
     }
     void foresee(const Vec3f& anchor) { later_ = Origin{anchor, now_.slab, now_.beam_radius}; }
 

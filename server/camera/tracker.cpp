@@ -65,7 +65,7 @@ class Step {
         for (int i = 0; i < static_cast<int>(profile_.iterations); ++i) {
             wanted =
                 within_reach(position + average_when_seen(profile_, moves(spot, position), speed(), dt_));
-            const auto reached = reach_shortened(freespace_, player_, start(), wanted);
+            const auto reached = reach_shortened(freespace_, profile_, player_, start(), wanted);
             if (!reached) break;
             if (acceptable(profile_, *reached)) return move_to(*reached);
             position = reached->position;
@@ -83,7 +83,7 @@ class Step {
         all.visibility = next_on_the_way(freespace_, player_, start(), scratch_.roadmap) - state_.position;
         const float urgency = std::min(greatest_urgency, std::exp(profile_.search_growth * state_.lost_for));
         const Vec3f wanted = within_reach(state_.position + average_when_lost(profile_, all, urgency, dt_));
-        const auto reached = reach_shortened(freespace_, player_, start(), wanted);
+        const auto reached = reach_shortened(freespace_, profile_, player_, start(), wanted);
         if (reached) return move_to(*reached);
         state_.lost_for += dt_;
         turn();
@@ -95,7 +95,7 @@ class Step {
         const Vec3f velocity = state_.velocity * std::exp(-dt_ / profile_.motion_smoothing);
         if (velocity.norm() > at_rest) {
             const Vec3f wanted = within_reach(state_.position + velocity * dt_);
-            const auto reached = reach(freespace_, player_, start(), wanted);
+            const auto reached = reach(freespace_, profile_, player_, start(), wanted);
             if (reached && reached->clearance >= profile_.minimum_clearance) return move_to(*reached);
         }
         turn();
@@ -115,7 +115,7 @@ class Step {
 
     Camera move_to(const Candidate& next) {
         const Motion before = motion();
-        const bool lost = !is_seen(profile_, next);
+        const bool lost = !is_seen(next);
         state_.velocity = (next.position - state_.position) / dt_;
         state_.position = next.position;
         state_.slab = next.slab;
@@ -126,7 +126,7 @@ class Step {
 
     Camera hold(std::uint32_t flags) {
         state_.velocity = Vec3f::Zero();
-        const auto place = look_up(freespace_, player_, state_.position, state_.slab);
+        const auto place = look_up(freespace_, profile_, player_, state_.position, state_.slab);
         const Candidate uncovered{state_.position, freespace::none, 0.0F, 0.0F};
         return frame(place ? *place : uncovered, standing(), flags | held);
     }
