@@ -1,0 +1,30 @@
+#!/usr/bin/env bash
+# Installs the client library to a new prefix, and builds and runs programs against it as its users would: the examples
+# with CMake's find_package, a C and a C++ program with pkg-config.
+set -euo pipefail
+cmake=$1 build_tree=$2 cc=$3 cxx=$4 sanitize=$5
+sources=$(cd "$(dirname "$0")/consumer" && pwd)
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+prefix=$work/prefix
+sanitize_flags=()
+[ -z "$sanitize" ] || sanitize_flags=("-fsanitize=$sanitize")
+
+"$cmake" --install "$build_tree" --component client-sdk --prefix "$work/first" >/dev/null
+mv "$work/first" "$prefix"   # an installed tree may be moved
+
+"$cmake" -S "$prefix/share/doc/camera-director/examples" -B "$work/examples" -DCMAKE_PREFIX_PATH="$prefix" \
+    -DCMAKE_C_COMPILER="$cc" -DCMAKE_C_FLAGS="${sanitize_flags[*]}" >/dev/null
+"$cmake" --build "$work/examples" >/dev/null
+"$work/examples/example-game-server" --domain 83 --seconds 0.2
+"$work/examples/example-observer" --domain 83 --seconds 0.2
+
+export PKG_CONFIG_PATH=$prefix/lib/pkgconfig:$prefix/lib64/pkgconfig
+read -ra flags <<<"$(pkg-config --cflags --libs camera-director-client)"
+warnings=(-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror)
+"$cc" -std=c11 "${warnings[@]}" "${sanitize_flags[@]}" "$sources/consumer.c" -o "$work/consumer-c" "${flags[@]}" -pthread
+"$cxx" -std=c++20 "${warnings[@]}" "${sanitize_flags[@]}" "$sources/consumer.cpp" -o "$work/consumer-cxx" "${flags[@]}" -pthread
+library_dir=$(dirname "$(find "$prefix" -name libcamera-director-client.so)")
+for program in consumer-c consumer-cxx; do
+    LD_LIBRARY_PATH=$library_dir "$work/$program"
+done

@@ -1,0 +1,180 @@
+// The example programs as processes of their own, and a director at its well-known port: the network settings
+// that the SDK uses by default.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "child_process.hpp"
+#include "domains.hpp"
+#include "fake_director.hpp"
+
+namespace camdir::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+const std::string game_server = std::string(CAMDIR_BIN_DIR) + "/example-game-server";
+const std::string observer = std::string(CAMDIR_BIN_DIR) + "/example-observer";
+
+// Joins a domain as its participant 0.
+class DirectorsDomain {
+  public:
+    DirectorsDomain() {
+        const char* xml =
+            "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"lo\"/></Interfaces>"
+            "<AllowMulticast>false</AllowMulticast></General><Discovery><ParticipantIndex>0</"
+            "ParticipantIndex>"
+            "</Discovery></Domain></CycloneDDS>";
+        for (number_ = first_director_domain; number_ <= last_director_domain; ++number_) {
+            domain_ = dds_create_domain(number_, xml);
+            // Another test's director has the port already: the next domain.
+            if (domain_ > 0) return;
+        }
+    }
+    DirectorsDomain(const DirectorsDomain&) = delete;
+    DirectorsDomain& operator=(const DirectorsDomain&) = delete;
+    ~DirectorsDomain() { dds_delete(DDS_CYCLONEDDS_HANDLE); }
+
+    [[nodiscard]] bool joined() const { return domain_ > 0; }
+    [[nodiscard]] std::uint32_t number() const { return number_; }
+    [[nodiscard]] std::string text() const { return std::to_string(number_); }
+
+  private:
+    std::uint32_t number_ = 0;
+    dds_entity_t domain_ = 0;
+};
+
+class Examples : public testing::Test {
+  protected:
+    void SetUp() override { ASSERT_TRUE(domain_.joined()) << "every domain is taken"; }
+
+    DirectorsDomain domain_;
+};
+
+// Answers each pose with a camera 50 units above the player's eye.
+void direct(FakeDirector& director, const ReceivedPoses& poses, std::uint32_t number) {
+    CameraFrameArrays frame{.match_id = poses.match_id};
+    frame.epoch = poses.epoch;
+    frame.frame_number = number;
+    frame.pose_number = poses.frame_number;
+    frame.frame_time = poses.frame_time;
+    frame.source_time = poses.source_time;
+    frame.add_camera(6, poses.eye[0], 2);
+    frame.position[1] = poses.eye[1];
+    frame.position[2] = poses.eye[2] + 50.0F;
+    director.write(frame);
+}
+
+struct Line {
+    std::int64_t frame_time;
+    double x;
+    double y;
+    double z;
+};
+
+std::vector<Line> lines_of(const std::string& csv) {
+    std::istringstream stream(csv);
+    std::string text;
+    std::getline(stream, text);
+    EXPECT_THAT(text, StartsWith("frame_time,target,x,y,z,"));
+    std::vector<Line> lines;
+    while (std::getline(stream, text)) {
+        Line line{};
+        unsigned target = 0;
+        EXPECT_EQ(std::sscanf(text.c_str(), "%ld,%u,%lf,%lf,%lf,", &line.frame_time, &target, &line.x,
+                              &line.y, &line.z),
+                  5)
+            << text;
+        lines.push_back(line);
+    }
+    return lines;
+}
+
+TEST_F(Examples, ObserverPrintsTheDirectorsCameraOfTheWalkingPlayer) {
+    FakeDirector director(domain_.number(), "example");
+    ChildProcess server({game_server, "--domain", domain_.text(), "--radius", "100", "--centre", "10,20,30"});
+    ChildProcess watcher({observer, "--domain", domain_.text(), "--target", "1", "--profile", "chase"});
+
+    std::optional<ReceivedRequest> request;
+    ASSERT_TRUE(eventually([&] { return (request = director.take_request()).has_value(); }))
+        << watcher.errors();
+    EXPECT_EQ(request->target, 1U);
+    EXPECT_EQ(request->profile, "chase");
+    EXPECT_EQ(request->observer_id, "example-observer");
+
+    std::uint32_t number = 0;
+    ASSERT_TRUE(eventually([&] {
+        while (const auto poses = director.take_poses()) {
+            if (number == 0) director.write_status("example-observer", poses->epoch, 1, 6);
+            direct(director, *poses, number++);
+        }
+        return lines_of(watcher.output()).size() >= 60;
+    })) << server.errors()
+        << watcher.errors();
+
+    server.send_signal(SIGINT);
+    watcher.send_signal(SIGTERM);
+    EXPECT_EQ(server.wait(), 0) << server.errors();
+    EXPECT_EQ(watcher.wait(), 0) << watcher.errors();
+    EXPECT_THAT(server.errors(), HasSubstr("directors: 1"));
+    EXPECT_THAT(watcher.errors(), HasSubstr("shot: accepted"));
+    EXPECT_THAT(watcher.errors(), HasSubstr("invalid 0"));
+    std::int64_t last_time = 0;
+    for (const Line& line : lines_of(watcher.output())) {
+        EXPECT_GE(line.frame_time, last_time);
+        last_time = line.frame_time;
+        EXPECT_NEAR(std::hypot(line.x - 10.0, line.y - 20.0), 100.0, 1.0) << "interpolated along the circle";
+        EXPECT_NEAR(line.z, 80.0, 1e-3);
+    }
+}
+
+TEST_F(Examples, GameServerThatIsKilledIsNoticed) {
+    FakeDirector director(domain_.number(), "example");
+    ChildProcess server({game_server, "--domain", domain_.text()});
+    ASSERT_TRUE(eventually([&] { return director.take_info().has_value(); })) << server.errors();
+    server.send_signal(SIGKILL);
+    EXPECT_EQ(server.wait(), -SIGKILL);
+    EXPECT_TRUE(eventually([&] { return director.info_is_gone(); }));
+}
+
+TEST_F(Examples, ObserverGivesUpWithoutADirector) {
+    ChildProcess watcher({observer, "--domain", domain_.text(), "--patience", "0.2"});
+    EXPECT_EQ(watcher.wait(), 1);
+    EXPECT_THAT(watcher.errors(), HasSubstr("no camera after 0.2 s"));
+}
+
+TEST(ExamplesCommandLine, HelpIsPrintedAndBadUsageIsRefused) {
+    for (const std::string& program : {game_server, observer}) {
+        ChildProcess help({program, "--help"});
+        EXPECT_EQ(help.wait(), 0);
+        EXPECT_THAT(help.output(), HasSubstr("--directors LIST"));
+        for (const std::vector<std::string>& wrong : {std::vector<std::string>{"--nonsense"},
+                                                      {"--domain"},
+                                                      {"--domain", "x"},
+                                                      {"--domain", "233"},
+                                                      {"--rate", "0"},
+                                                      {"--rate", "nan"},
+                                                      {"surplus"}}) {
+            std::vector<std::string> command = {program};
+            command.insert(command.end(), wrong.begin(), wrong.end());
+            ChildProcess child(command);
+            EXPECT_EQ(child.wait(), 2) << wrong[0];
+            EXPECT_NE(child.errors(), "") << wrong[0];
+            EXPECT_EQ(child.output(), "") << wrong[0];
+        }
+    }
+    ChildProcess bad_match({game_server, "--match", "a/b"});
+    EXPECT_EQ(bad_match.wait(), 1);
+    EXPECT_THAT(bad_match.errors(), HasSubstr("match_id"));
+    ChildProcess long_match({game_server, "--match", std::string(500, 'x')});
+    EXPECT_EQ(long_match.wait(), 1);
+    EXPECT_THAT(long_match.errors(), HasSubstr("match_id"));
+}
+
+}  // namespace
+}  // namespace camdir::test
