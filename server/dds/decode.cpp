@@ -74,7 +74,7 @@ std::optional<Defect> check(const camera_director_MatchInfo& sample) {
 bool valid_match_id(std::string_view match_id) {
     return !match_id.empty() && std::none_of(match_id.begin(), match_id.end(), [](char c) {
         return static_cast<unsigned char>(c) < 0x20 || c == 0x7f ||
-               std::string_view("*?[]").find(c) != std::string_view::npos;
+               std::string_view("*?/").find(c) != std::string_view::npos;
     });
 }
 

@@ -24,7 +24,7 @@ namespace camdir::dds {
 [[nodiscard]] std::optional<Defect> decode(const camera_director_ObserverRequest& sample,
                                            director::ObserverRequest& message);
 
-// Can name a partition: not empty, no control characters, none of the pattern characters * ? [ ].
+// Can name a partition: not empty, no control characters, none of / * ?.
 [[nodiscard]] bool valid_match_id(std::string_view match_id);
 
 }  // namespace camdir::dds

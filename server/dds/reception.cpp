@@ -82,6 +82,7 @@ void Reception::stop() {
     stopping_ = true;
     dds_set_guardcondition(guard_.handle(), true);
     thread_.join();
+    matches_.clear();
 }
 
 void Reception::forget(const std::string& match_id) {

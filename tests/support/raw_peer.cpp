@@ -1,0 +1,245 @@
+#include "support/raw_peer.hpp"
+
+#include <cstring>
+#include <stdexcept>
+
+namespace camdir::test {
+namespace {
+
+void check(dds_return_t code, const char* doing) {
+    if (code < 0) throw std::runtime_error(std::string(doing) + ": " + dds_strretcode(code));
+}
+
+template <class Sequence, class Value>
+void point(Sequence& sequence, std::vector<Value>& values) {
+    sequence._buffer = values.data();
+    sequence._length = sequence._maximum = static_cast<std::uint32_t>(values.size());
+}
+
+template <std::size_t Size>
+void copy(char (&to)[Size], const std::string& from) {
+    if (from.size() >= Size) throw std::runtime_error("too long for the wire: " + from);
+    std::memcpy(to, from.c_str(), from.size() + 1);
+}
+
+dds_qos_t* reliable() {
+    dds_qos_t* qos = dds_create_qos();
+    dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, DDS_MSECS(100));
+    return qos;
+}
+
+dds_qos_t* newest_for_late_comers() {
+    dds_qos_t* qos = reliable();
+    dds_qset_durability(qos, DDS_DURABILITY_TRANSIENT_LOCAL);
+    dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, 1);
+    return qos;
+}
+
+dds_qos_t* match_info_qos() {
+    dds_qos_t* qos = newest_for_late_comers();
+    dds_qset_liveliness(qos, DDS_LIVELINESS_AUTOMATIC, DDS_SECS(2));
+    return qos;
+}
+
+dds_qos_t* pose_frame_qos() {
+    dds_qos_t* qos = dds_create_qos();
+    dds_qset_reliability(qos, DDS_RELIABILITY_BEST_EFFORT, 0);
+    dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, 1);
+    return qos;
+}
+
+dds_qos_t* match_event_qos() {
+    dds_qos_t* qos = reliable();
+    dds_qset_history(qos, DDS_HISTORY_KEEP_ALL, 0);
+    dds_qset_resource_limits(qos, 256, DDS_LENGTH_UNLIMITED, 256);
+    return qos;
+}
+
+dds_qos_t* observer_request_qos() {
+    dds_qos_t* qos = newest_for_late_comers();
+    dds_qset_liveliness(qos, DDS_LIVELINESS_AUTOMATIC, DDS_SECS(10));
+    return qos;
+}
+
+dds_qos_t* camera_frame_qos() {
+    dds_qos_t* qos = reliable();
+    dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, 32);
+    dds_qset_ownership(qos, DDS_OWNERSHIP_EXCLUSIVE);
+    dds_qset_liveliness(qos, DDS_LIVELINESS_MANUAL_BY_TOPIC, DDS_INFINITY);
+    return qos;
+}
+
+dds_qos_t* observer_status_qos() {
+    dds_qos_t* qos = newest_for_late_comers();
+    dds_qset_ownership(qos, DDS_OWNERSHIP_EXCLUSIVE);
+    return qos;
+}
+
+constexpr const char* loopback_xml =
+    "<CycloneDDS><Domain Id=\"any\"><General><Interfaces><NetworkInterface name=\"lo\"/></Interfaces>"
+    "<AllowMulticast>false</AllowMulticast><MaxMessageSize>65500B</MaxMessageSize></General>"
+    "<Discovery><ParticipantIndex>none</ParticipantIndex><SPDPInterval>1s</SPDPInterval>"
+    "<Peers><Peer address=\"127.0.0.1\"/></Peers></Discovery></Domain></CycloneDDS>";
+
+RawPeer::CameraFrame copied(const camera_director_CameraFrame& sample) {
+    RawPeer::CameraFrame frame{sample.match_id,     sample.epoch,       sample.director_id,
+                               sample.frame_number, sample.pose_number, sample.frame_time,
+                               sample.source_time,  sample.write_time,  {}};
+    const std::uint32_t count = sample.camera_id._length;
+    if (sample.target._length != count || sample.position._length != 3 * count ||
+        sample.orientation._length != 4 * count || sample.vertical_fov._length != count ||
+        sample.clearance._length != count || sample.flags._length != count) {
+        throw std::runtime_error("a CameraFrame whose arrays disagree");
+    }
+    for (std::uint32_t i = 0; i < count; ++i) {
+        RawPeer::Camera camera{};
+        camera.id = sample.camera_id._buffer[i];
+        camera.target = sample.target._buffer[i];
+        camera.flags = sample.flags._buffer[i];
+        std::memcpy(camera.position, &sample.position._buffer[3 * i], sizeof camera.position);
+        std::memcpy(camera.orientation, &sample.orientation._buffer[4 * i], sizeof camera.orientation);
+        camera.vertical_fov = sample.vertical_fov._buffer[i];
+        camera.clearance = sample.clearance._buffer[i];
+        frame.cameras.push_back(camera);
+    }
+    return frame;
+}
+
+}  // namespace
+
+RawPeer::RawPeer(std::uint32_t domain, const std::string& match_id, std::string partition)
+    : partition_(partition.empty() ? "match/" + match_id : std::move(partition)) {
+    const dds_entity_t created = dds_create_domain(domain, loopback_xml);
+    if (created != DDS_RETCODE_PRECONDITION_NOT_MET) check(created, "joining the domain");
+    participant_ = dds_create_participant(domain, nullptr, nullptr);
+    check(participant_, "creating a participant");
+    match_info_ = add_writer(camera_director_MatchInfo_desc, "MatchInfo", match_info_qos());
+    pose_frame_ = add_writer(camera_director_PoseFrame_desc, "PoseFrame", pose_frame_qos());
+    match_event_ = add_writer(camera_director_MatchEvent_desc, "MatchEvent", match_event_qos());
+    observer_request_ =
+        add_writer(camera_director_ObserverRequest_desc, "ObserverRequest", observer_request_qos());
+    camera_frame_ = add_reader(camera_director_CameraFrame_desc, "CameraFrame", camera_frame_qos());
+    observer_status_ =
+        add_reader(camera_director_ObserverStatus_desc, "ObserverStatus", observer_status_qos());
+}
+
+RawPeer::~RawPeer() {
+    dds_delete(participant_);
+}
+
+dds_entity_t RawPeer::add_writer(const dds_topic_descriptor_t& type, const char* topic, dds_qos_t* qos) {
+    dds_qset_partition1(qos, partition_.c_str());
+    const dds_entity_t handle = dds_create_topic(participant_, &type, topic, nullptr, nullptr);
+    check(handle, "creating a topic");
+    const dds_entity_t writer = dds_create_writer(participant_, handle, qos, nullptr);
+    dds_delete_qos(qos);
+    check(writer, "creating a writer");
+    return writer;
+}
+
+dds_entity_t RawPeer::add_reader(const dds_topic_descriptor_t& type, const char* topic, dds_qos_t* qos) {
+    dds_qset_partition1(qos, partition_.c_str());
+    const dds_entity_t handle = dds_create_topic(participant_, &type, topic, nullptr, nullptr);
+    check(handle, "creating a topic");
+    const dds_entity_t reader = dds_create_reader(participant_, handle, qos, nullptr);
+    dds_delete_qos(qos);
+    check(reader, "creating a reader");
+    return reader;
+}
+
+void RawPeer::write(const camera_director_MatchInfo& sample) {
+    check(dds_write(match_info_, &sample), "writing a MatchInfo");
+}
+void RawPeer::write(const camera_director_PoseFrame& sample) {
+    check(dds_write(pose_frame_, &sample), "writing a PoseFrame");
+}
+void RawPeer::write(const camera_director_MatchEvent& sample) {
+    check(dds_write(match_event_, &sample), "writing a MatchEvent");
+}
+void RawPeer::write(const camera_director_ObserverRequest& sample) {
+    check(dds_write(observer_request_, &sample), "writing an ObserverRequest");
+}
+void RawPeer::dispose(const camera_director_MatchInfo& key) {
+    check(dds_dispose(match_info_, &key), "disposing of a MatchInfo");
+}
+void RawPeer::dispose(const camera_director_ObserverRequest& key) {
+    check(dds_dispose(observer_request_, &key), "disposing of an ObserverRequest");
+}
+
+std::vector<RawPeer::CameraFrame> RawPeer::take_cameras() {
+    std::vector<CameraFrame> frames;
+    void* samples[32] = {};
+    dds_sample_info_t infos[32];
+    const dds_return_t count = dds_take(camera_frame_, samples, infos, 32, 32);
+    check(count, "taking CameraFrames");
+    for (dds_return_t i = 0; i < count; ++i) {
+        if (!infos[i].valid_data) continue;
+        frames.push_back(copied(*static_cast<const camera_director_CameraFrame*>(samples[i])));
+    }
+    if (count > 0) dds_return_loan(camera_frame_, samples, count);
+    return frames;
+}
+
+const std::map<std::string, camera_director_ObserverStatus>& RawPeer::statuses() {
+    camera_director_ObserverStatus sample{};
+    void* samples[] = {&sample};
+    dds_sample_info_t info;
+    while (dds_take(observer_status_, samples, &info, 1, 1) > 0) {
+        if (info.instance_state != DDS_ALIVE_INSTANCE_STATE) {
+            statuses_.erase(sample.observer_id);
+        } else if (info.valid_data) {
+            statuses_[sample.observer_id] = sample;
+        }
+    }
+    return statuses_;
+}
+
+std::uint32_t RawPeer::directors() {
+    dds_subscription_matched_status_t status{};
+    check(dds_get_subscription_matched_status(camera_frame_, &status), "counting directors");
+    return status.current_count;
+}
+
+camera_director_MatchInfo raw_match_info(const std::string& match_id, std::uint64_t epoch) {
+    static char map_name[] = "test_map";
+    camera_director_MatchInfo sample{};
+    copy(sample.match_id, match_id);
+    sample.epoch = epoch;
+    sample.map_name = map_name;
+    sample.metres_per_unit = 0.0254F;
+    sample.rate_hz = 60.0F;
+    return sample;
+}
+
+camera_director_ObserverRequest raw_request(const std::string& match_id, const std::string& observer_id,
+                                            std::uint32_t target) {
+    camera_director_ObserverRequest sample{};
+    copy(sample.match_id, match_id);
+    copy(sample.observer_id, observer_id);
+    sample.target = target;
+    return sample;
+}
+
+RawPoseFrame::RawPoseFrame(const std::string& match_id, std::uint64_t epoch, std::uint32_t frame_number,
+                           std::uint32_t count)
+    : flags(count, 1), eye(3 * count, 0.0F), velocity(3 * count, 0.0F) {
+    copy(sample_.match_id, match_id);
+    sample_.epoch = epoch;
+    sample_.frame_number = frame_number;
+    sample_.frame_time = std::int64_t{16'000'000} * frame_number;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        player_id.push_back(i);
+        orientation.insert(orientation.end(), {0.0F, 0.0F, 0.0F, 1.0F});
+    }
+}
+
+const camera_director_PoseFrame& RawPoseFrame::sample() {
+    point(sample_.player_id, player_id);
+    point(sample_.eye, eye);
+    point(sample_.orientation, orientation);
+    point(sample_.velocity, velocity);
+    point(sample_.flags, flags);
+    return sample_;
+}
+
+}  // namespace camdir::test

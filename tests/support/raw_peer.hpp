@@ -1,0 +1,85 @@
+// A game server or observer that speaks to the wire directly: it can say what the SDK refuses to say.
+#pragma once
+
+#include <camera_director.h>
+#include <dds/dds.h>
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace camdir::test {
+
+// One participant with endpoints in one match's partition, with the contract's QoS written out once more: a
+// twin of the server's and of the SDK's. Throws when DDS refuses.
+class RawPeer {
+  public:
+    // Joins the domain as the process already has it, or on loopback by unicast. `partition` is
+    // match/<match_id> unless given.
+    RawPeer(std::uint32_t domain, const std::string& match_id, std::string partition = "");
+    ~RawPeer();
+    RawPeer(const RawPeer&) = delete;
+    RawPeer& operator=(const RawPeer&) = delete;
+
+    void write(const camera_director_MatchInfo& sample);
+    void write(const camera_director_PoseFrame& sample);
+    void write(const camera_director_MatchEvent& sample);
+    void write(const camera_director_ObserverRequest& sample);
+    void dispose(const camera_director_MatchInfo& key);
+    void dispose(const camera_director_ObserverRequest& key);
+
+    struct Camera {
+        std::uint32_t id, target, flags;
+        float position[3], orientation[4];
+        float vertical_fov, clearance;
+    };
+    struct CameraFrame {
+        std::string match_id;
+        std::uint64_t epoch, director_id;
+        std::uint32_t frame_number, pose_number;
+        std::int64_t frame_time, source_time, write_time;
+        std::vector<Camera> cameras;
+    };
+    // Frames since the last call, in order.
+    [[nodiscard]] std::vector<CameraFrame> take_cameras();
+
+    // The newest status of every observer that has one.
+    [[nodiscard]] const std::map<std::string, camera_director_ObserverStatus>& statuses();
+
+    // Writers of the director that the camera reader is matched with.
+    [[nodiscard]] std::uint32_t directors();
+
+  private:
+    dds_entity_t add_writer(const dds_topic_descriptor_t& type, const char* topic, dds_qos_t* qos);
+    dds_entity_t add_reader(const dds_topic_descriptor_t& type, const char* topic, dds_qos_t* qos);
+
+    dds_entity_t participant_ = 0;
+    std::string partition_;
+    dds_entity_t match_info_ = 0, pose_frame_ = 0, match_event_ = 0, observer_request_ = 0;
+    dds_entity_t camera_frame_ = 0, observer_status_ = 0;
+    std::map<std::string, camera_director_ObserverStatus> statuses_;
+};
+
+// Samples that the contract accepts, without players and group.
+[[nodiscard]] camera_director_MatchInfo raw_match_info(const std::string& match_id, std::uint64_t epoch);
+[[nodiscard]] camera_director_ObserverRequest raw_request(const std::string& match_id,
+                                                          const std::string& observer_id,
+                                                          std::uint32_t target);
+
+// A pose frame of `count` living players at the origin, in memory of its own.
+class RawPoseFrame {
+  public:
+    RawPoseFrame(const std::string& match_id, std::uint64_t epoch, std::uint32_t frame_number,
+                 std::uint32_t count);
+
+    // The vectors may be changed at will: `sample` points at them as they are then.
+    std::vector<std::uint32_t> player_id, flags;
+    std::vector<float> eye, orientation, velocity;
+    [[nodiscard]] const camera_director_PoseFrame& sample();
+
+  private:
+    camera_director_PoseFrame sample_{};
+};
+
+}  // namespace camdir::test

@@ -1,0 +1,94 @@
+#include "dds/encode.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <random>
+
+namespace camdir::dds {
+namespace {
+
+director::CameraFrame random_frame(std::size_t count, std::uint32_t seed) {
+    std::mt19937 random(seed);
+    std::normal_distribution<float> normal;
+    director::CameraFrame frame;
+    frame.epoch = random();
+    frame.frame_number = static_cast<std::uint32_t>(random());
+    frame.pose_number = static_cast<std::uint32_t>(random());
+    frame.frame_time = random();
+    frame.source_time = -static_cast<std::int64_t>(random());
+    for (std::size_t i = 0; i < count; ++i) {
+        director::ShotCamera camera;
+        camera.camera_id = static_cast<std::uint32_t>(random());
+        camera.target = static_cast<std::uint32_t>(random());
+        camera.position = {normal(random), normal(random), normal(random)};
+        camera.orientation = Quatf(normal(random), normal(random), normal(random), normal(random));
+        camera.vertical_fov = normal(random);
+        camera.clearance = normal(random);
+        camera.flags = static_cast<std::uint32_t>(random());
+        frame.cameras.push_back(camera);
+    }
+    return frame;
+}
+
+RC_GTEST_PROP(EncodeCameraFrame, EveryNumberIsWhereTheContractSays, (std::uint32_t seed)) {
+    CameraFrameEncoder encoder("cup-7", 42);
+    // The second frame must not show anything of the first.
+    for (int round = 0; round < 2; ++round) {
+        const auto count = *rc::gen::inRange<std::size_t>(0, 257);
+        const director::CameraFrame frame = random_frame(count, seed + static_cast<std::uint32_t>(round));
+        const camera_director_CameraFrame& sample = encoder.encode(frame, 99);
+        RC_ASSERT(std::string(sample.match_id) == "cup-7");
+        RC_ASSERT(sample.director_id == 42U);
+        RC_ASSERT(sample.write_time == 99);
+        RC_ASSERT(sample.epoch == frame.epoch);
+        RC_ASSERT(sample.frame_number == frame.frame_number);
+        RC_ASSERT(sample.pose_number == frame.pose_number);
+        RC_ASSERT(sample.frame_time == frame.frame_time);
+        RC_ASSERT(sample.source_time == frame.source_time);
+        RC_ASSERT(sample.camera_id._length == count && sample.target._length == count);
+        RC_ASSERT(sample.position._length == 3 * count && sample.orientation._length == 4 * count);
+        RC_ASSERT(sample.vertical_fov._length == count && sample.clearance._length == count);
+        RC_ASSERT(sample.flags._length == count);
+        for (std::size_t i = 0; i < count; ++i) {
+            const director::ShotCamera& camera = frame.cameras[i];
+            RC_ASSERT(sample.camera_id._buffer[i] == camera.camera_id);
+            RC_ASSERT(sample.target._buffer[i] == camera.target);
+            RC_ASSERT(sample.position._buffer[3 * i + 1] == camera.position.y());
+            RC_ASSERT(sample.orientation._buffer[4 * i] == camera.orientation.x());
+            RC_ASSERT(sample.orientation._buffer[4 * i + 3] == camera.orientation.w());
+            RC_ASSERT(sample.vertical_fov._buffer[i] == camera.vertical_fov);
+            RC_ASSERT(sample.clearance._buffer[i] == camera.clearance);
+            RC_ASSERT(sample.flags._buffer[i] == camera.flags);
+        }
+    }
+}
+
+TEST(EncodeCameraFrame, UsesTheSameMemoryForEveryFrame) {
+    CameraFrameEncoder encoder("m", 1);
+    const float* const before = encoder.encode(random_frame(3, 1), 0).position._buffer;
+    const camera_director_CameraFrame& after = encoder.encode(random_frame(256, 2), 0);
+    EXPECT_EQ(after.position._buffer, before);
+    EXPECT_FALSE(after.position._release) << "DDS must not free it";
+}
+
+TEST(EncodeObserverStatus, CutsTextsBetweenCharacters) {
+    director::ObserverStatus status;
+    status.match_id = "m";
+    status.observer_id = "anna";
+    status.epoch = 5;
+    status.state = director::RequestState::waiting_for_player;
+    status.camera_id = 8;
+    status.reason = std::string(254, 'x') + "ä";  // two bytes, and only one fits
+    camera_director_ObserverStatus sample = encode(status);
+    EXPECT_STREQ(sample.observer_id, "anna");
+    EXPECT_EQ(sample.epoch, 5U);
+    EXPECT_EQ(sample.state, 3U);
+    EXPECT_EQ(sample.camera_id, 8U);
+    EXPECT_EQ(std::string(sample.reason), std::string(254, 'x'));
+    status.reason = std::string(253, 'x') + "ä";
+    EXPECT_EQ(std::string(encode(status).reason), status.reason);
+}
+
+}  // namespace
+}  // namespace camdir::dds

@@ -1,0 +1,339 @@
+#include "dds/gateway.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <mutex>
+#include <set>
+#include <sstream>
+
+#include "support/eventually.hpp"
+#include "support/raw_peer.hpp"
+#include "support/test_domain.hpp"
+
+namespace camdir::dds {
+namespace {
+
+using test::eventually;
+using test::RawPeer;
+using test::RawPoseFrame;
+
+// Writes down, one word a call, what the gateway hands on.
+class Recorder final : public director::Receiver {
+  public:
+    bool receive(const director::MatchInfo& info) override {
+        note("info " + info.match_id + " " + std::to_string(info.epoch));
+        return accepts;
+    }
+    void match_silent(const std::string& match_id) override { note("silent " + match_id); }
+    void match_over(const std::string& match_id) override { note("over " + match_id); }
+    void receive(const std::string& match_id, const director::PoseFrame& frame) override {
+        note("pose " + match_id + " " + std::to_string(frame.frame_number));
+    }
+    void receive(const std::string& match_id, const director::MatchEvent& event) override {
+        note("event " + match_id + " " + std::to_string(event.kind));
+    }
+    void receive(const director::ObserverRequest& request) override {
+        note("request " + request.observer_id + " " + std::to_string(request.target));
+    }
+    void request_gone(const std::string& /*match_id*/, const std::string& observer_id) override {
+        note("gone " + observer_id);
+    }
+    bool responsive(std::chrono::milliseconds /*limit*/) const override { return answers; }
+
+    [[nodiscard]] bool has(const std::string& line) const { return count(line) > 0; }
+    [[nodiscard]] std::ptrdiff_t count(const std::string& line) const {
+        const std::lock_guard lock(mutex_);
+        return std::count(lines_.begin(), lines_.end(), line);
+    }
+    [[nodiscard]] std::vector<std::string> lines() const {
+        const std::lock_guard lock(mutex_);
+        return lines_;
+    }
+
+    std::atomic<bool> accepts{true};
+    std::atomic<bool> answers{true};
+
+  private:
+    void note(std::string line) {
+        const std::lock_guard lock(mutex_);
+        lines_.push_back(std::move(line));
+    }
+    mutable std::mutex mutex_;
+    std::vector<std::string> lines_;
+};
+
+class GatewayTest : public testing::Test {
+  protected:
+    void SetUp() override {
+        config_.domain = domain_.id();
+        config_.director_id = 77;
+        auto gateway = Gateway::open(config_);
+        ASSERT_TRUE(gateway) << gateway.error().message;
+        gateway_ = std::move(*gateway);
+        gateway_->start(recorder_);
+    }
+    void TearDown() override {
+        // The gateway's end takes all of DDS in the process with it.
+        peers_.clear();
+        gateway_.reset();
+    }
+
+    RawPeer& peer(const std::string& match_id, const std::string& partition = "") {
+        return *peers_.emplace_back(std::make_unique<RawPeer>(domain_.id(), match_id, partition));
+    }
+    // A peer whose match the gateway has found, with all endpoints matched.
+    RawPeer& game(const std::string& match_id, std::uint64_t epoch = 1) {
+        RawPeer& raw = peer(match_id);
+        raw.write(test::raw_match_info(match_id, epoch));
+        EXPECT_TRUE(eventually([&] { return raw.directors() == 1; })) << "the match was not found";
+        return raw;
+    }
+    std::uint64_t dropped(Topic topic, Defect defect) {
+        return gateway_->counters().of(topic).dropped[static_cast<std::size_t>(defect)];
+    }
+    // Best effort: sends until it has arrived.
+    bool arrives(RawPeer& raw, RawPoseFrame& frame, const std::string& line) {
+        return eventually([&] {
+            raw.write(frame.sample());
+            return recorder_.has(line);
+        });
+    }
+
+    test::TestDomain domain_;
+    config::Dds config_;
+    Recorder recorder_;
+    std::unique_ptr<Gateway> gateway_;
+    std::vector<std::unique_ptr<RawPeer>> peers_;
+};
+
+director::CameraFrame one_camera(std::uint32_t frame_number) {
+    director::CameraFrame frame;
+    frame.epoch = 1;
+    frame.frame_number = frame_number;
+    frame.cameras.emplace_back();
+    frame.cameras.back().camera_id = 9;
+    frame.cameras.back().position = {1.0F, 2.0F, 3.0F};
+    return frame;
+}
+
+TEST_F(GatewayTest, HandsOnWhatAMatchSays) {
+    RawPeer& raw = game("cup");
+    EXPECT_TRUE(recorder_.has("info cup 1"));
+
+    RawPoseFrame frame("cup", 1, 5, 8);
+    EXPECT_TRUE(arrives(raw, frame, "pose cup 5"));
+    camera_director_MatchEvent event{};
+    std::snprintf(event.match_id, sizeof event.match_id, "cup");
+    event.kind = 2;
+    raw.write(event);
+    EXPECT_TRUE(eventually([&] { return recorder_.has("event cup 2"); }));
+    raw.write(test::raw_request("cup", "anna", 3));
+    EXPECT_TRUE(eventually([&] { return recorder_.has("request anna 3"); }));
+    raw.write(test::raw_request("cup", "anna", 4));
+    EXPECT_TRUE(eventually([&] { return recorder_.has("request anna 4"); }));
+    raw.dispose(test::raw_request("cup", "anna", 4));
+    EXPECT_TRUE(eventually([&] { return recorder_.has("gone anna"); }));
+
+    raw.write(test::raw_match_info("cup", 2));
+    EXPECT_TRUE(eventually([&] { return recorder_.has("info cup 2"); }));
+    EXPECT_EQ(gateway_->counters().matches, 1U);
+}
+
+TEST_F(GatewayTest, WritesCamerasAndStatuses) {
+    RawPeer& raw = game("cup");
+    gateway_->publish("cup", one_camera(0));
+    std::vector<RawPeer::CameraFrame> frames;
+    ASSERT_TRUE(eventually([&] { return !(frames = raw.take_cameras()).empty(); }));
+    EXPECT_EQ(frames[0].match_id, "cup");
+    EXPECT_EQ(frames[0].director_id, 77U);
+    EXPECT_GT(frames[0].write_time, 0);
+    ASSERT_EQ(frames[0].cameras.size(), 1U);
+    EXPECT_EQ(frames[0].cameras[0].id, 9U);
+    EXPECT_EQ(frames[0].cameras[0].position[2], 3.0F);
+
+    director::ObserverStatus status;
+    status.match_id = "cup";
+    status.observer_id = "anna";
+    status.state = director::RequestState::waiting_for_map;
+    status.reason = "the map is being baked";
+    gateway_->publish(status);
+    ASSERT_TRUE(eventually([&] { return raw.statuses().count("anna") == 1; }));
+    EXPECT_EQ(raw.statuses().at("anna").state, 2U);
+    EXPECT_STREQ(raw.statuses().at("anna").reason, "the map is being baked");
+    gateway_->withdraw("cup", "anna");
+    EXPECT_TRUE(eventually([&] { return raw.statuses().empty(); }));
+
+    gateway_->publish("nobody's match", one_camera(0));
+    EXPECT_EQ(gateway_->counters().camera_frames_written, 1U);
+    EXPECT_EQ(gateway_->counters().write_failures, 0U);
+}
+
+TEST_F(GatewayTest, AReaderThatSleepsLosesNothingWithin32Frames) {
+    RawPeer& raw = game("cup");
+    for (std::uint32_t i = 0; i < 32; ++i)
+        gateway_->publish("cup", one_camera(i));
+    std::vector<RawPeer::CameraFrame> frames;
+    ASSERT_TRUE(eventually([&] {
+        for (auto& frame : raw.take_cameras())
+            frames.push_back(frame);
+        return frames.size() >= 32;
+    }));
+    for (std::uint32_t i = 0; i < 32; ++i)
+        EXPECT_EQ(frames[i].frame_number, i);
+}
+
+TEST_F(GatewayTest, LateObserversSeeStatusesButNoOldCameras) {
+    game("cup");
+    gateway_->publish("cup", one_camera(0));
+    for (int i = 0; i < 256; ++i) {
+        director::ObserverStatus status;
+        status.match_id = "cup";
+        status.observer_id = std::to_string(i);
+        gateway_->publish(status);
+    }
+    RawPeer& late = peer("cup");
+    EXPECT_TRUE(eventually([&] { return late.statuses().size() == 256; }));
+    EXPECT_TRUE(late.take_cameras().empty());
+}
+
+TEST_F(GatewayTest, RequestsOfBeforeTheMatchAreReceived) {
+    RawPeer& observer = peer("cup");
+    for (std::uint32_t i = 0; i < 256; ++i) {
+        observer.write(test::raw_request("cup", "early " + std::to_string(i), i));
+    }
+    game("cup");
+    EXPECT_TRUE(eventually([&] {
+        for (std::uint32_t i = 0; i < 256; ++i) {
+            if (!recorder_.has("request early " + std::to_string(i) + " " + std::to_string(i))) return false;
+        }
+        return true;
+    }));
+}
+
+TEST_F(GatewayTest, MalformedSamplesAreCountedByReasonAndNotHandedOn) {
+    RawPeer& raw = game("cup");
+    const auto refused = [&](RawPoseFrame& frame, Defect defect) {
+        return eventually([&] {
+            raw.write(frame.sample());
+            return dropped(Topic::pose_frame, defect) > 0;
+        });
+    };
+    RawPoseFrame lengths("cup", 1, 100, 4);
+    lengths.eye.pop_back();
+    EXPECT_TRUE(refused(lengths, Defect::array_length));
+    RawPoseFrame crowd("cup", 1, 101, 300);
+    EXPECT_TRUE(refused(crowd, Defect::too_many));
+    RawPoseFrame infinite("cup", 1, 102, 4);
+    infinite.velocity[3] = std::numeric_limits<float>::infinity();
+    EXPECT_TRUE(refused(infinite, Defect::not_finite));
+    RawPoseFrame twisted("cup", 1, 103, 4);
+    twisted.orientation[1] = 0.5F;
+    EXPECT_TRUE(refused(twisted, Defect::not_unit));
+    RawPoseFrame foreign("another match", 1, 104, 4);
+    EXPECT_TRUE(refused(foreign, Defect::wrong_partition));
+
+    RawPoseFrame good("cup", 1, 105, 4);
+    EXPECT_TRUE(arrives(raw, good, "pose cup 105"));
+    for (std::uint32_t frame = 100; frame < 105; ++frame) {
+        EXPECT_FALSE(recorder_.has("pose cup " + std::to_string(frame)));
+    }
+}
+
+TEST_F(GatewayTest, AMatchInfoCountsOnlyInItsOwnPartition) {
+    RawPeer& impostor = peer("evil");
+    impostor.write(test::raw_match_info("cup", 99));
+    EXPECT_TRUE(eventually([&] { return dropped(Topic::match_info, Defect::wrong_partition) > 0; }));
+    RawPeer& pattern = peer("tab\t");
+    pattern.write(test::raw_match_info("tab\t", 1));
+    EXPECT_TRUE(eventually([&] { return dropped(Topic::match_info, Defect::bad_match_id) > 0; }));
+    EXPECT_TRUE(recorder_.lines().empty());
+}
+
+TEST_F(GatewayTest, DisposingEndsAMatchAndForgettingItRemovesItsEndpoints) {
+    RawPeer& raw = game("cup");
+    raw.dispose(test::raw_match_info("cup", 1));
+    ASSERT_TRUE(eventually([&] { return recorder_.has("over cup"); }));
+    EXPECT_EQ(raw.directors(), 1U) << "observers still wait";
+    gateway_->forget("cup");
+    EXPECT_TRUE(eventually([&] { return raw.directors() == 0; }));
+    EXPECT_EQ(gateway_->counters().matches, 0U);
+
+    raw.write(test::raw_match_info("cup", 2));
+    EXPECT_TRUE(eventually([&] { return recorder_.has("info cup 2") && raw.directors() == 1; }));
+}
+
+TEST_F(GatewayTest, AForgottenMatchWhoseServerIsOnlyPausedComesBackWithItsPoses) {
+    RawPeer& raw = game("cup");
+    gateway_->forget("cup");
+    RawPoseFrame frame("cup", 1, 7, 1);
+    ASSERT_TRUE(eventually([&] {
+        raw.write(frame.sample());
+        return recorder_.count("info cup 1") == 2;
+    }));
+    EXPECT_TRUE(arrives(raw, frame, "pose cup 7"));
+}
+
+TEST_F(GatewayTest, ARefusedMatchGetsNoEndpointsUntilItIsAccepted) {
+    recorder_.accepts = false;
+    RawPeer& raw = peer("cup");
+    raw.write(test::raw_match_info("cup", 1));
+    ASSERT_TRUE(eventually([&] { return recorder_.has("info cup 1"); }));
+    EXPECT_EQ(gateway_->counters().matches, 0U);
+    recorder_.accepts = true;
+    raw.write(test::raw_match_info("cup", 1));
+    EXPECT_TRUE(eventually([&] { return raw.directors() == 1; }));
+}
+
+TEST_F(GatewayTest, ADirectorThatHangsStopsSayingThatItLives) {
+    game("cup");
+    EXPECT_EQ(gateway_->counters().liveliness_withheld, 0U);
+    recorder_.answers = false;
+    EXPECT_TRUE(eventually([&] { return gateway_->counters().liveliness_withheld > 2; }));
+}
+
+TEST_F(GatewayTest, ClosingGivesTheMatchesUpAndNothingIsReceivedAfterStopping) {
+    RawPeer& raw = game("cup");
+    gateway_->publish("cup", one_camera(0));
+    director::ObserverStatus status;
+    status.match_id = "cup";
+    status.observer_id = "anna";
+    gateway_->publish(status);
+    ASSERT_TRUE(eventually([&] { return raw.statuses().size() == 1; }));
+
+    gateway_->stop_receiving();
+    const auto before = recorder_.lines();
+    raw.write(test::raw_match_info("cup", 2));
+    gateway_->publish("cup", one_camera(1));
+    std::size_t frames = 0;
+    EXPECT_TRUE(eventually([&] { return (frames += raw.take_cameras().size()) == 2; }));
+    gateway_->close();
+    EXPECT_TRUE(eventually([&] { return raw.directors() == 0; }));
+    EXPECT_TRUE(eventually([&] { return raw.statuses().empty(); }, std::chrono::seconds(5)));
+    EXPECT_EQ(recorder_.lines(), before);
+}
+
+TEST_F(GatewayTest, ManyMatchesComeAndGoAtOnce) {
+    constexpr int matches = 40;
+    std::vector<RawPeer*> raws;
+    for (int i = 0; i < matches; ++i)
+        raws.push_back(&game("m" + std::to_string(i)));
+    EXPECT_EQ(gateway_->counters().matches, 40U);
+    for (int i = 0; i < matches; ++i) {
+        const std::string id = "m" + std::to_string(i);
+        RawPoseFrame frame(id, 1, 1, 8);
+        EXPECT_TRUE(arrives(*raws[static_cast<std::size_t>(i)], frame, "pose " + id + " 1"));
+    }
+    for (int i = 0; i < matches; ++i) {
+        const std::string id = "m" + std::to_string(i);
+        raws[static_cast<std::size_t>(i)]->dispose(test::raw_match_info(id, 1));
+        ASSERT_TRUE(eventually([&] { return recorder_.has("over " + id); }));
+        gateway_->forget(id);
+    }
+    EXPECT_TRUE(eventually([&] { return gateway_->counters().matches == 0U; }));
+}
+
+}  // namespace
+}  // namespace camdir::dds

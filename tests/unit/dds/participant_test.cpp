@@ -1,0 +1,74 @@
+#include "dds/participant.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/test_domain.hpp"
+
+namespace camdir::dds {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(DomainXml, SaysWhatTheConfigurationSays) {
+    config::Dds config;
+    config.interface = "eth<1>&\"x\"";
+    config.multicast = true;
+    config.participant_index = 3;
+    config.port = 8000;
+    config.peers = {"10.0.0.5", "10.0.0.6:7412"};
+    const std::string xml = domain_xml(config);
+    EXPECT_THAT(xml, HasSubstr("<NetworkInterface name=\"eth&lt;1&gt;&amp;&quot;x&quot;\"/>"));
+    EXPECT_THAT(xml, HasSubstr("<AllowMulticast>true<"));
+    EXPECT_THAT(xml, HasSubstr("<ParticipantIndex>3<"));
+    EXPECT_THAT(xml, HasSubstr("<Base>8000<"));
+    EXPECT_THAT(xml, HasSubstr("<Peer address=\"10.0.0.5\"/><Peer address=\"10.0.0.6:7412\"/>"));
+    config.participant_index = -1;
+    EXPECT_THAT(domain_xml(config), HasSubstr("<ParticipantIndex>none<"));
+}
+
+TEST(DomainXml, GivesWayToTheOperatorsOwn) {
+    config::Dds config;
+    config.xml = "<CycloneDDS/>";
+    EXPECT_EQ(domain_xml(config), "<CycloneDDS/>");
+}
+
+TEST(Participant, CycloneAcceptsTheDefaultConfiguration) {
+    const test::TestDomain domain;
+    config::Dds config;
+    config.domain = domain.id();
+    config.peers = {"127.0.0.1"};
+    for (int round = 0; round < 2; ++round) {
+        const auto participant = Participant::open(config);
+        ASSERT_TRUE(participant) << participant.error().message;
+        EXPECT_GT(participant->handle(), 0);
+        EXPECT_GT(participant->topic(Topic::observer_status), 0);
+    }
+}
+
+TEST(Participant, IgnoresTheEnvironmentsConfiguration) {
+    const test::TestDomain domain;
+    ASSERT_EQ(::setenv("CYCLONEDDS_URI", "<CycloneDDS><NoSuchElement/></CycloneDDS>", 1), 0);
+    config::Dds config;
+    config.domain = domain.id();
+    const auto participant = Participant::open(config);
+    EXPECT_TRUE(participant) << participant.error().message;
+    ::unsetenv("CYCLONEDDS_URI");
+}
+
+TEST(Participant, NamesWhatItCouldNotJoin) {
+    const test::TestDomain domain;
+    config::Dds config;
+    config.domain = domain.id();
+    config.interface = "no-such-interface";
+    const auto participant = Participant::open(config);
+    ASSERT_FALSE(participant);
+    EXPECT_THAT(participant.error().message, HasSubstr("DDS domain " + std::to_string(domain.id())));
+    EXPECT_THAT(participant.error().message, HasSubstr("no-such-interface"));
+
+    config.xml = "<CycloneDDS><Domain><NoSuchElement/></Domain></CycloneDDS>";
+    EXPECT_FALSE(Participant::open(config));
+}
+
+}  // namespace
+}  // namespace camdir::dds
