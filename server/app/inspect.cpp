@@ -1,0 +1,114 @@
+// camera-director inspect: what is in a MAP.vfs.
+#include <iomanip>
+#include <iostream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "app/commands.hpp"
+#include "base/file.hpp"
+#include "freespace/freespace.hpp"
+
+namespace camdir::app {
+namespace {
+
+using freespace::Freespace;
+using nlohmann::ordered_json;
+
+std::string hexadecimal(std::uint64_t hash) {
+    std::ostringstream text;
+    text << std::hex << std::setw(16) << std::setfill('0') << hash;
+    return text.str();
+}
+
+std::string triple(const Vec3f& p) {
+    std::ostringstream text;
+    text << p.x() << ' ' << p.y() << ' ' << p.z();
+    return text.str();
+}
+
+ordered_json array(const Vec3f& p) {
+    return {p.x(), p.y(), p.z()};
+}
+
+void print_row(const std::string& name, const std::string& value) {
+    std::cerr << std::left << std::setw(18) << name << value << '\n';
+}
+
+template <class Number>
+std::string number(Number value) {
+    std::ostringstream text;
+    text << std::setprecision(std::numeric_limits<Number>::digits10) << value;
+    return text.str();
+}
+
+void print_table(const Freespace& freespace) {
+    const freespace::Metadata& metadata = freespace.metadata();
+    print_row("map", metadata.map_name);
+    print_row("source", metadata.source_name);
+    print_row("source hash", hexadecimal(metadata.source_hash));
+    print_row("metres per unit", number(metadata.metres_per_unit));
+    print_row("d0", number(metadata.d0));
+    print_row("parameters", metadata.parameters);
+    print_row("vertices", number(freespace.vertices().size()));
+    print_row("triangles", number(freespace.triangles().size()));
+    print_row("bytes", number(freespace.byte_size()));
+    print_row("bounds", triple(freespace.bounds().min()) + " .. " + triple(freespace.bounds().max()));
+    for (const freespace::SpawnPoint& spawn : freespace.spawn_points())
+        print_row("spawn point", triple(spawn.eye) + ", yaw " + number(spawn.yaw));
+    for (const freespace::Count& count : metadata.counts)
+        print_row("bake: " + count.stage, number(count.value) + " " + count.what);
+}
+
+ordered_json to_json(const Freespace& freespace) {
+    const freespace::Metadata& metadata = freespace.metadata();
+    ordered_json spawn_points = ordered_json::array();
+    for (const freespace::SpawnPoint& spawn : freespace.spawn_points())
+        spawn_points.push_back({{"eye", array(spawn.eye)}, {"yaw", spawn.yaw}});
+    ordered_json counts = ordered_json::array();
+    for (const freespace::Count& count : metadata.counts)
+        counts.push_back({{"stage", count.stage}, {"what", count.what}, {"value", count.value}});
+    // The parameters are JSON that the baker wrote; another baker's are kept as text.
+    ordered_json parameters = ordered_json::parse(metadata.parameters, nullptr, false);
+    if (parameters.is_discarded()) parameters = metadata.parameters;
+    return {{"map_name", metadata.map_name},
+            {"source_name", metadata.source_name},
+            {"source_hash", hexadecimal(metadata.source_hash)},
+            {"metres_per_unit", metadata.metres_per_unit},
+            {"d0", metadata.d0},
+            {"parameters", parameters},
+            {"vertices", freespace.vertices().size()},
+            {"triangles", freespace.triangles().size()},
+            {"bytes", freespace.byte_size()},
+            {"bounds", {{"min", array(freespace.bounds().min())}, {"max", array(freespace.bounds().max())}}},
+            {"spawn_points", spawn_points},
+            {"counts", counts}};
+}
+
+int inspect(const std::string& file, const std::string& json) {
+    const auto freespace = Freespace::open(file);
+    if (!freespace) return report(freespace.error());
+    print_table(*freespace);
+    if (json.empty()) return exit_done;
+    // Names in a file are bytes of any kind; JSON is UTF-8.
+    const std::string text =
+        to_json(*freespace).dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+    const auto written = write_file(json, text);
+    return written ? exit_done : report(written.error());
+}
+
+}  // namespace
+
+void add_inspect(CLI::App& root, Run& run) {
+    struct Options {
+        std::string file, json;
+    };
+    const auto options = std::make_shared<Options>();
+    CLI::App* command = root.add_subcommand("inspect", "Show what a baked map holds.");
+    command->add_option("FILE.vfs", options->file, "Baked map")->required();
+    command->add_option("--json", options->json,
+                        "Write the same as JSON to this file, - for standard output");
+    command->callback([options, &run] { run = [options] { return inspect(options->file, options->json); }; });
+}
+
+}  // namespace camdir::app
