@@ -37,6 +37,8 @@ bool has_control_character(const std::string& text) {
 
 void check_player(const cdir_player& player) {
     require(player.id != CDIR_NO_PLAYER, "a player's id is CDIR_NO_PLAYER");
+    require(std::count(std::begin(player.reserved), std::end(player.reserved), 0) == 3,
+            "a player's reserved bytes are not 0");
     (void)checked_text("a player's name", player.name, 0, sizeof player.name - 1);
     (void)checked_text("a player's class", player.player_class, 0, sizeof player.player_class - 1);
 }
@@ -111,6 +113,7 @@ void check(const cdir_match_event& event) {
     require(event.kind >= CDIR_EVENT_KILL && event.kind <= CDIR_EVENT_AWARD,
             "an event's kind must be one of CDIR_EVENT_");
     require(std::isfinite(event.value), "an event's value is not finite");
+    require(event.reserved == 0, "event.reserved is not 0");
 }
 
 bool is_valid(const camera_director_MatchInfo& info, const std::string& match_id) {

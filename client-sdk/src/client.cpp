@@ -218,6 +218,7 @@ cdir_status cdir_observer_open(cdir_context context, const char* match_id, const
         check_struct("options", &chosen);
         require(chosen.interpolation_delay >= 0 && chosen.interpolation_delay <= 10'000'000'000,
                 "interpolation_delay must be 0 to 10 s");
+        require(chosen.reserved == 0, "options.reserved is not 0");
         require(observer != nullptr, "observer is null");
         observer->id = handles().observers.insert(std::make_shared<Observer>(
             find(context), checked_match_id(match_id), checked_observer_id(observer_id), chosen));

@@ -17,9 +17,10 @@ std::int64_t realtime_ns() {
     return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
 }
 
-// Greater than that of any earlier process that chose by its clock too.
+// Greater than that of any earlier process that chose by its clock too. Microseconds, so that a double holds
+// it.
 std::uint64_t choose_epoch(std::uint64_t previous) {
-    return std::max(static_cast<std::uint64_t>(realtime_ns()), previous + 1);
+    return std::max(static_cast<std::uint64_t>(realtime_ns() / 1000), previous + 1);
 }
 
 // A sequence that borrows the caller's array for one write.

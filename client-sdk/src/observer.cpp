@@ -55,6 +55,7 @@ Observer::Observer(std::shared_ptr<const Context> context, const std::string& ma
 
 void Observer::request(const cdir_shot_request& request) {
     camera_director_ObserverRequest sample = key_of(match_id_, observer_id_);
+    require(request.reserved == 0, "request.reserved is not 0");
     require(request.group_count <= CDIR_MAX_PLAYERS, "group_count is greater than CDIR_MAX_PLAYERS");
     require(request.group_count == 0 || request.group != nullptr, "group is null");
     sample.target = request.target;

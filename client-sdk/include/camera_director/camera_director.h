@@ -34,9 +34,9 @@
  * was never initialised is refused. Fields named reserved must be 0. Strings are UTF-8 and end with a
  * zero byte. Everything that is passed in is copied or used up before the call returns.
  *
- * Threads. Every function may be called from every thread at any time. Calls on one handle, or on handles
- * of one another, wait for each other; calls on different matches and observers do not. Only
- * cdir_observer_wait() waits for the network, and it holds up no other call meanwhile.
+ * Threads. Every function may be called from every thread at any time. Calls on one match or observer wait
+ * for each other; calls on different ones do not. Only cdir_observer_wait() waits for the network, and it
+ * holds up no other call meanwhile; opening and closing take milliseconds.
  * Do not call from a signal handler, nor in a child process after fork().
  */
 #ifndef CAMERA_DIRECTOR_CAMERA_DIRECTOR_H
