@@ -11,6 +11,7 @@ int main(int argc, char** argv) {
     root.set_version_flag("--version", CAMERA_DIRECTOR_VERSION);
     root.require_subcommand(1);
     Run run;
+    add_bake(root, run);
     add_inspect(root, run);
     add_export(root, run);
     add_verify(root, run);

@@ -1,6 +1,7 @@
 // How far a command is, for whoever watches it.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <mutex>
 #include <string>
@@ -8,8 +9,8 @@
 
 namespace camdir::app {
 
-// One line on standard error that is rewritten in place; nothing when standard error is no terminal.
-// Thread-safe.
+// One line on standard error that is rewritten in place: what is done, a bar, the seconds since the line was
+// made. Nothing when standard error is no terminal. Thread-safe.
 class ProgressLine {
   public:
     ProgressLine();
@@ -25,6 +26,7 @@ class ProgressLine {
 
   private:
     const bool terminal_;
+    const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
     std::mutex mutex_;
     std::string shown_;
 };

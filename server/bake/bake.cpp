@@ -33,7 +33,7 @@ class Bake {
     Bake(const scene::Scene& scene, double unit, double d0)
         : scene_(scene), unit_(unit), d0_(d0), obstacles_(scene), solids_(scene) {}
 
-    Result<void> run(const ProgressSink& progress, const std::stop_token& stop);
+    Result<void> run(const ProgressSink& progress, const std::stop_token& stop, const ReportSink& finished);
     [[nodiscard]] Baked take() && { return {std::move(contents_), std::move(reports_)}; }
 
   private:
@@ -74,7 +74,8 @@ Result<void> keep(Result<T> result, T& place) {
     return {};
 }
 
-Result<void> Bake::run(const ProgressSink& progress, const std::stop_token& stop) {
+Result<void> Bake::run(const ProgressSink& progress, const std::stop_token& stop,
+                       const ReportSink& finished) {
     using Run = Result<void> (Bake::*)(Stage&);
     constexpr std::array<std::pair<const char*, Run>, 10> stages{{
         {"sample", &Bake::sample},
@@ -92,6 +93,7 @@ Result<void> Bake::run(const ProgressSink& progress, const std::stop_token& stop
         Stage stage(name, progress, stop);
         if (auto done = (this->*stage_of)(stage); !done) return done;
         reports_.push_back(std::move(stage).finish());
+        if (finished) finished(reports_.back());
     }
     return {};
 }
@@ -159,8 +161,8 @@ freespace::Metadata describe(const scene::Scene& scene, const Parameters& parame
 }  // namespace
 
 Result<Baked> bake(const scene::Scene& scene, const Parameters& parameters, const ProgressSink& progress,
-                   std::stop_token stop) {
-    if (!(parameters.d0 >= 2.0 && parameters.d0 <= 256.0))
+                   std::stop_token stop, const ReportSink& finished) {
+    if (!(parameters.d0 >= min_d0 && parameters.d0 <= max_d0))
         return fail("d0 = " + std::to_string(parameters.d0) + ": expected a distance from 2 to 256 units");
     if (scene.triangles.empty()) return fail(scene.source + ": the scene has no obstacles");
 
@@ -170,7 +172,8 @@ Result<Baked> bake(const scene::Scene& scene, const Parameters& parameters, cons
         parameters.threads > 0 ? static_cast<int>(parameters.threads) : tbb::task_arena::automatic;
     return tbb::task_arena(threads).execute([&]() -> Result<Baked> {
         Bake bake(scene, unit, d0);
-        if (auto done = bake.run(progress, stop); !done) return tl::unexpected(std::move(done.error()));
+        if (auto done = bake.run(progress, stop, finished); !done)
+            return tl::unexpected(std::move(done.error()));
         Baked baked = std::move(bake).take();
         baked.contents.metadata = describe(scene, parameters, d0, baked.stages);
         return baked;

@@ -14,8 +14,11 @@
 
 namespace camdir::bake {
 
+inline constexpr double min_d0 = 2.0;
+inline constexpr double max_d0 = 256.0;
+
 struct Parameters {
-    double d0 = 16.0;      // sampling distance in units of 0.0254 m: sets which openings exist. 2 .. 256
+    double d0 = 16.0;  // sampling distance in units of 0.0254 m: sets which openings exist. min_d0 .. max_d0
     unsigned threads = 0;  // 0 = one a core. Never changes the result
 };
 
@@ -32,15 +35,18 @@ struct StageReport {
     double seconds;
     std::vector<freespace::Count> counts;
 };
+using ReportSink = std::function<void(const StageReport&)>;
 
 struct Baked {
     freespace::Contents contents;
     std::vector<StageReport> stages;
 };
 
-// Runs all stages. Fails with ErrorCode::interrupted soon after `stop` is requested, and with `failed`
-// when the scene has no obstacles, no spawn point in free space, or too many samples for memory.
+// Runs all stages; tells `finished` about each when it is done. Fails with ErrorCode::interrupted soon after
+// `stop` is requested, and with `failed` when the scene has no obstacles, no spawn point in free space, or
+// too many samples for memory.
 [[nodiscard]] Result<Baked> bake(const scene::Scene& scene, const Parameters& parameters,
-                                 const ProgressSink& progress, std::stop_token stop);
+                                 const ProgressSink& progress, std::stop_token stop,
+                                 const ReportSink& finished = {});
 
 }  // namespace camdir::bake
