@@ -1,4 +1,4 @@
-#include "child_process.hpp"
+#include "support/child_process.hpp"
 
 #include <fcntl.h>
 #include <spawn.h>
@@ -10,6 +10,8 @@
 #include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
+
+#include "support/eventually.hpp"
 
 extern char** environ;
 
@@ -70,6 +72,16 @@ void ChildProcess::send_signal(int number) const {
 int ChildProcess::wait() {
     int status = 0;
     waitpid(pid_, &status, 0);
+    return ended(status);
+}
+
+std::optional<int> ChildProcess::wait_for(std::chrono::milliseconds limit) {
+    int status = 0;
+    if (!eventually([&] { return waitpid(pid_, &status, WNOHANG) == pid_; }, limit)) return std::nullopt;
+    return ended(status);
+}
+
+int ChildProcess::ended(int status) {
     pid_ = -1;
     return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
 }

@@ -3,6 +3,8 @@
 
 #include <sys/types.h>
 
+#include <chrono>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,11 +21,15 @@ class ChildProcess {
     void send_signal(int number) const;
     // Waits for its end. The exit code, or minus the signal's number.
     int wait();
+    // Waits at most `limit`; nothing when it runs on.
+    std::optional<int> wait_for(std::chrono::milliseconds limit);
 
     [[nodiscard]] std::string output() const;  // so far
     [[nodiscard]] std::string errors() const;
 
   private:
+    int ended(int status);
+
     int output_;
     int errors_;
     pid_t pid_ = -1;

@@ -1,0 +1,109 @@
+#include "load.hpp"
+
+#include <camera_director/camera_director.hpp>
+#include <chrono>
+#include <cmath>
+#include <condition_variable>
+#include <iostream>
+#include <mutex>
+
+namespace camdir::soak {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+std::vector<camera_director::Match> open_matches(const camera_director::Context& context, const Load& load,
+                                                 std::uint32_t player_count) {
+    std::vector<camera_director::Match> matches;
+    for (std::size_t i = 0; i < load.matches.size(); ++i) {
+        camera_director::MatchInfo info;
+        info.match_id = load.match_prefix + "-" + std::to_string(i);
+        info.map_name = load.map_name;
+        info.map_hash = load.map_hash;
+        info.metres_per_unit = load.metres_per_unit;
+        info.rate_hz = static_cast<float>(load.rate_hz);
+        info.spectator_delay_s = static_cast<float>(load.delay_s);
+        for (std::uint32_t player = 0; player < player_count; ++player) {
+            info.players.push_back({.id = player, .name = "player " + std::to_string(player)});
+        }
+        matches.emplace_back(context, info);
+    }
+    return matches;
+}
+
+void publish(camera_director::Match& match, const PoseArrays& poses, std::int64_t frame_time) {
+    match.publish({.frame_time = frame_time,
+                   .player_id = poses.player_id,
+                   .eye = poses.eye,
+                   .orientation = poses.orientation,
+                   .velocity = poses.velocity,
+                   .flags = poses.flags});
+}
+
+// Sleeps; false when a stop was requested.
+bool sleep_until(Clock::time_point when, const std::stop_token& stop) {
+    std::mutex mutex;
+    std::condition_variable_any changed;
+    std::unique_lock lock(mutex);
+    changed.wait_until(lock, stop, when, [] { return false; });
+    return !stop.stop_requested();
+}
+
+}  // namespace
+
+void Network::add_options(CLI::App& app) {
+    app.add_option("--domain", domain, "DDS domain")->check(CLI::Range(0, 230))->capture_default_str();
+    app.add_option("--interface", interface, "Network interface")->capture_default_str();
+    app.add_option("--directors", directors, "Directors' addresses, separated by commas")
+        ->capture_default_str();
+}
+
+void PoseArrays::clear() {
+    player_id.clear();
+    flags.clear();
+    eye.clear();
+    orientation.clear();
+    velocity.clear();
+}
+
+void PoseArrays::add(std::uint32_t id, const Vec3f& at, const Quatf& looking, const Vec3f& moving,
+                     std::uint32_t pose_flags) {
+    player_id.push_back(id);
+    flags.push_back(pose_flags);
+    eye.insert(eye.end(), at.begin(), at.end());
+    orientation.insert(orientation.end(), {looking.x(), looking.y(), looking.z(), looking.w()});
+    velocity.insert(velocity.end(), moving.begin(), moving.end());
+}
+
+int run(const Load& load, std::uint32_t player_count, const std::stop_token& stop) {
+    const camera_director::Context context({.domain = load.network.domain,
+                                            .network_interface = load.network.interface,
+                                            .directors = load.network.directors});
+    std::vector<camera_director::Match> matches = open_matches(context, load, player_count);
+
+    const std::chrono::duration<double> interval(1.0 / load.rate_hz);
+    const double game_interval_ns = 1e9 * load.speed / load.rate_hz;
+    const Clock::time_point start = Clock::now();
+    std::uint64_t late = 0;
+    PoseArrays poses;
+    std::uint64_t frame = 0;
+    for (;; ++frame) {
+        const auto due = start + std::chrono::duration_cast<Clock::duration>(frame * interval);
+        if (load.seconds > 0.0 && due - start >= std::chrono::duration<double>(load.seconds)) break;
+        if (!sleep_until(due, stop)) break;
+        if (Clock::now() - due > interval) ++late;
+        const auto frame_time = std::llround(static_cast<double>(frame) * game_interval_ns);
+        for (std::size_t i = 0; i < matches.size(); ++i) {
+            poses.clear();
+            load.matches[i](frame, poses);
+            publish(matches[i], poses, frame_time);
+        }
+    }
+
+    const double took = std::chrono::duration<double>(Clock::now() - start).count();
+    std::cout << "matches " << matches.size() << "\nframes " << frame * matches.size() << "\nseconds " << took
+              << "\nrate_hz " << static_cast<double>(frame) / took << "\nlate_ticks " << late << '\n';
+    return late * 100 > frame ? 1 : 0;
+}
+
+}  // namespace camdir::soak

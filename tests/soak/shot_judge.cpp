@@ -1,0 +1,75 @@
+#include "shot_judge.hpp"
+
+namespace camdir::soak {
+namespace {
+
+Vec3d position_of(const camera_director::Camera& camera) {
+    return Eigen::Map<const Vec3f>(camera.position).cast<double>();
+}
+
+}  // namespace
+
+void Findings::add(const Findings& other) {
+    for (const auto member : {&Findings::frames, &Findings::cameras, &Findings::gaps, &Findings::disorder,
+                              &Findings::hand_overs, &Findings::epochs, &Findings::invalid, &Findings::cuts,
+                              &Findings::visible, &Findings::searching, &Findings::absent, &Findings::held,
+                              &Findings::in_obstacle, &Findings::through_geometry, &Findings::jumps}) {
+        this->*member += other.*member;
+    }
+    latency.add(other.latency);
+}
+
+void ShotJudge::judge(const camera_director::CameraFrame& frame, const camera_director::Camera* own,
+                      std::int64_t received) {
+    ++findings_.frames;
+    findings_.latency.add(static_cast<double>(received - frame.source_time) * 1e-9);
+    const bool consecutive = follows(frame);
+    if (own != nullptr) {
+        judge_camera(*own);
+        const bool comparable = consecutive && previous_->own && previous_->own->camera_id == own->camera_id;
+        if (comparable && (own->flags & CDIR_CAMERA_CUT) == 0) {
+            judge_step(position_of(*previous_->own), position_of(*own));
+        }
+    }
+    previous_ = {frame, own != nullptr ? std::optional(*own) : std::nullopt};
+}
+
+// Counts what lies between the frames; true when nothing does.
+bool ShotJudge::follows(const camera_director::CameraFrame& frame) {
+    if (!previous_) return false;
+    const camera_director::CameraFrame& before = previous_->frame;
+    if (frame.epoch != before.epoch) {
+        ++findings_.epochs;
+        return false;
+    }
+    if (frame.director_id != before.director_id) {
+        ++findings_.hand_overs;
+        return false;
+    }
+    if (frame.frame_number <= before.frame_number) {
+        ++findings_.disorder;
+        return false;
+    }
+    findings_.gaps += frame.frame_number - before.frame_number - 1;
+    return frame.frame_number == before.frame_number + 1;
+}
+
+void ShotJudge::judge_camera(const camera_director::Camera& camera) {
+    ++findings_.cameras;
+    const auto has = [&](std::uint32_t flag) { return (camera.flags & flag) != 0 ? 1U : 0U; };
+    findings_.cuts += has(CDIR_CAMERA_CUT);
+    findings_.visible += has(CDIR_CAMERA_TARGET_VISIBLE);
+    findings_.searching += has(CDIR_CAMERA_SEARCHING);
+    findings_.absent += has(CDIR_CAMERA_TARGET_ABSENT);
+    findings_.held += has(CDIR_CAMERA_HELD);
+    if (oracle_ != nullptr && oracle_->clearance(position_of(camera)) < limits_.clearance) {
+        ++findings_.in_obstacle;
+    }
+}
+
+void ShotJudge::judge_step(const Vec3d& from, const Vec3d& to) {
+    if ((to - from).norm() > limits_.step) ++findings_.jumps;
+    if (oracle_ != nullptr && !oracle_->segment_clear(from, to)) ++findings_.through_geometry;
+}
+
+}  // namespace camdir::soak

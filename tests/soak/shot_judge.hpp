@@ -1,0 +1,65 @@
+// What a probe finds out about the cameras that one observer receives.
+#pragma once
+
+#include <camera_director/camera_director.hpp>
+#include <cstdint>
+#include <optional>
+
+#include "base/geometry.hpp"
+#include "latencies.hpp"
+#include "oracle/oracle.hpp"
+
+namespace camdir::soak {
+
+struct Findings {
+    std::uint64_t frames = 0;    // camera frames of the match that arrived
+    std::uint64_t cameras = 0;   // of them, those with the observer's own camera
+    std::uint64_t gaps = 0;      // frames missing between, by frame_number
+    std::uint64_t disorder = 0;  // frames that are not newer than the one before
+    std::uint64_t hand_overs = 0;
+    std::uint64_t epochs = 0;
+    std::uint64_t invalid = 0;  // samples that the SDK refused
+    // Of the observer's camera:
+    std::uint64_t cuts = 0, visible = 0, searching = 0, absent = 0, held = 0;
+    std::uint64_t in_obstacle = 0;       // inside a solid, or nearer to an obstacle than the near limit
+    std::uint64_t through_geometry = 0;  // an undeclared step that crosses an obstacle
+    std::uint64_t jumps = 0;             // an undeclared step longer than the limit
+    Latencies latency;                   // from the sampling of the poses to the arrival of their cameras
+
+    void add(const Findings& other);
+};
+
+struct Limits {
+    double step = 64.0;      // map units between consecutive frames
+    double clearance = 0.0;  // map units; cameras nearer to an obstacle than this are in it
+};
+
+// One thread at a time. `oracle`, which may be null, must outlive it.
+class ShotJudge {
+  public:
+    ShotJudge(const oracle::Oracle* oracle, const Limits& limits) : oracle_(oracle), limits_(limits) {}
+
+    // `own` is the observer's camera in the frame, if it has one. `received` is CLOCK_REALTIME, ns.
+    void judge(const camera_director::CameraFrame& frame, const camera_director::Camera* own,
+               std::int64_t received);
+
+    [[nodiscard]] Findings& findings() { return findings_; }
+    [[nodiscard]] const Findings& findings() const { return findings_; }
+
+  private:
+    struct Previous {
+        camera_director::CameraFrame frame;
+        std::optional<camera_director::Camera> own;
+    };
+
+    [[nodiscard]] bool follows(const camera_director::CameraFrame& frame);
+    void judge_camera(const camera_director::Camera& camera);
+    void judge_step(const Vec3d& from, const Vec3d& to);
+
+    const oracle::Oracle* oracle_;
+    Limits limits_;
+    Findings findings_;
+    std::optional<Previous> previous_;
+};
+
+}  // namespace camdir::soak

@@ -1,0 +1,131 @@
+#!/usr/bin/env bash
+# Runs a director under load, checks every camera that comes out, and whether its memory stays level.
+#
+#     soak.sh [--seconds N | --hours N] [--matches 4] [--players 8] [--observers 8] [--rate 60] [--trace FILE]
+#             [--map MAP] [--map-name NAME] [--bin FOLDER] [--work FOLDER] [--json FILE] [--max-growth-mib 4]
+#
+# Players walk the map's roadmap, or replay --trace. MAP is a file or archive.pk3:member; without it oa_dm1 of
+# Debian's openarena-081-maps is taken. The baked map stays in the work folder for the next run.
+# Memory is level when the median of its last quarter is at most --max-growth-mib above that of its second.
+# Exit codes: 0 all checks held, 1 one did not, 2 bad usage, 77 no map.
+set -euo pipefail
+
+here=$(cd "$(dirname "$0")" && pwd)
+bin=$here/../../build/release/bin
+work=${TMPDIR:-/tmp}/camera-director-soak
+seconds=60 matches=4 players=8 observers=8 rate=60 trace= json= growth=4 map_name=oa_dm1
+map=/usr/share/games/openarena/baseoa/pak1-maps.pk3:maps/oa_dm1.bsp
+
+while [ $# -gt 0 ]; do
+    [ $# -ge 2 ] || { echo "soak.sh: $1 needs a value" >&2; exit 2; }
+    case "$1" in
+        --seconds) seconds=$2 ;;
+        --hours) seconds=$((3600 * $2)) ;;
+        --matches) matches=$2 ;;
+        --players) players=$2 ;;
+        --observers) observers=$2 ;;
+        --rate) rate=$2 ;;
+        --trace) trace=$2 ;;
+        --map) map=$2 ;;
+        --map-name) map_name=$2 ;;
+        --bin) bin=$2 ;;
+        --work) work=$2 ;;
+        --json) json=$2 ;;
+        --max-growth-mib) growth=$2 ;;
+        *) echo "soak.sh: unknown option '$1'" >&2; exit 2 ;;
+    esac
+    shift 2
+done
+[ -e "${map%%:*}" ] || { echo "soak.sh: skipped: no map ${map%%:*} (package openarena-081-maps)" >&2; exit 77; }
+mkdir -p "$work"
+
+# A domain that no test and no other soak run holds; the lock lives as long as this script.
+locks=${TMPDIR:-/tmp}/camera-director-test-domains
+mkdir -p "$locks"
+for domain in $(shuf -i 1-80); do
+    exec 9>"$locks/$domain"
+    flock -n 9 && break
+    domain=
+done
+[ -n "$domain" ] || { echo "soak.sh: every test domain is taken" >&2; exit 1; }
+
+started=()
+finish() {
+    for pid in "${started[@]}"; do kill "$pid" 2>/dev/null || true; done
+    for pid in "${started[@]}"; do wait "$pid" 2>/dev/null || true; done
+}
+trap finish EXIT
+
+cat >"$work/soak.json" <<CONFIG
+{
+  "dds": {"domain": $domain},
+  "http": {"enabled": false},
+  "maps": [{"name": "$map_name", "file": "$map_name.vfs"}],
+  "log": {"level": "warning"}
+}
+CONFIG
+[ -s "$work/$map_name.vfs" ] || "$bin/camera-director" bake "$map" -o "$work/$map_name.vfs"
+
+"$bin/camera-director" serve --config "$work/soak.json" 9>&- &
+server=$!
+started+=("$server")
+network=(--domain "$domain" --match-prefix soak)
+if [ -n "$trace" ]; then
+    "$bin/pose-replay" "$trace" "${network[@]}" --map-name "$map_name" --copies "$matches" --rate "$rate" \
+        9>&- >"$work/players.txt" &
+else
+    "$bin/synthetic-players" "$work/$map_name.vfs" "${network[@]}" --map-name "$map_name" --matches "$matches" \
+        --players "$players" --rate "$rate" 9>&- >"$work/players.txt" &
+fi
+game=$!
+started+=("$game")
+"$bin/observer-probe" "${network[@]}" --matches "$matches" --observers "$observers" --map "$map" \
+    --seconds "$seconds" --json "$work/probe.json" 9>&- &
+probe=$!
+started+=("$probe")
+
+# Resident kilobytes and processor ticks of the server, once a second or 1000 times in all.
+pause=$(awk -v s="$seconds" 'BEGIN { print s > 1000 ? s / 1000 : 1 }')
+sample() {
+    awk '/^VmRSS/ { rss = $2 } END { printf "%s ", rss }' "/proc/$server/status"
+    awk '{ print $14 + $15 }' "/proc/$server/stat"
+}
+: >"$work/samples.txt"
+while kill -0 "$probe" 2>/dev/null; do
+    kill -0 "$server" 2>/dev/null || { echo "soak.sh: the server has ended" >&2; exit 1; }
+    kill -0 "$game" 2>/dev/null || { echo "soak.sh: the game server has ended" >&2; exit 1; }
+    sample >>"$work/samples.txt"
+    sleep "$pause"
+done
+probed=0
+wait "$probe" || probed=$?
+kill -TERM "$server"
+served=0
+wait "$server" || served=$?
+kill -TERM "$game"
+played=0
+wait "$game" || played=$?
+
+median_of() { sort -n | awk '{ v[NR] = $1 } END { print NR ? v[int((NR + 1) / 2)] : 0 }'; }
+count=$(wc -l <"$work/samples.txt")
+early=$(awk -v n="$count" 'NR > n / 4 && NR <= n / 2 { print $1 }' "$work/samples.txt" | median_of)
+last=$(awk -v n="$count" 'NR > 3 * n / 4 { print $1 }' "$work/samples.txt" | median_of)
+cores=$(awk -v s="$pause" -v hz="$(getconf CLK_TCK)" \
+    'NR == 1 { first = $2 } { last = $2 } END { print NR > 1 ? (last - first) / hz / (s * (NR - 1)) : 0 }' \
+    "$work/samples.txt")
+level=$(awk -v a="$early" -v b="$last" -v most="$growth" 'BEGIN { print b - a <= 1024 * most ? "true" : "false" }')
+
+result=$(cat <<RESULT
+{
+  "matches": $matches, "players": $players, "observers": $observers, "rate_hz": $rate, "seconds": $seconds,
+  "memory_kib": {"second_quarter": $early, "last_quarter": $last, "level": $level},
+  "server_cores": $cores,
+  "exit_codes": {"server": $served, "players": $played, "probe": $probed},
+  "probe": $(cat "$work/probe.json")
+}
+RESULT
+)
+[ -z "$json" ] || printf '%s\n' "$result" >"$json"
+printf '%s\n' "$result"
+[ "$level" = true ] || echo "soak.sh: the server's memory grew from $early to $last KiB" >&2
+[ "$probed" = 0 ] && [ "$served" = 0 ] && [ "$level" = true ]
