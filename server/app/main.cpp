@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
     add_inspect(root, run);
     add_export(root, run);
     add_verify(root, run);
+    add_evaluate(root, run);
 
     try {
         root.parse(argc, argv);

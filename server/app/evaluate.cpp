@@ -1,0 +1,185 @@
+// camera-director evaluate: the cameras of a recorded match, judged against its map.
+#include <algorithm>
+#include <iostream>
+#include <memory>
+#include <optional>
+
+#include "app/commands.hpp"
+#include "app/interrupt.hpp"
+#include "app/progress.hpp"
+#include "base/file.hpp"
+#include "config/config.hpp"
+#include "evaluation/metrics.hpp"
+#include "evaluation/peers.hpp"
+#include "evaluation/recording.hpp"
+#include "evaluation/report.hpp"
+#include "evaluation/resample.hpp"
+#include "evaluation/statistics.hpp"
+#include "freespace/freespace.hpp"
+#include "oracle/oracle.hpp"
+#include "scene/load.hpp"
+
+namespace camdir::app {
+namespace {
+
+constexpr const char* tracker = "tracker";
+
+struct Options {
+    std::string freespace;
+    std::string map;
+    std::string trace;
+    std::string camera = tracker;
+    std::string judge;
+    std::string profile = "default";
+    std::string config;
+    std::string cameras;
+    std::string terms;
+    std::string json;
+    double output_hz = 0.0;  // 0 = the trace's own frames
+
+    [[nodiscard]] bool tracks() const { return judge.empty() && camera == tracker; }
+};
+
+void check_usage(const Options& options) {
+    if (options.tracks() && options.freespace.empty())
+        throw CLI::RequiredError("FILE.vfs, or --camera with another camera than the tracker, or --judge");
+    if (!options.tracks() && !options.terms.empty())
+        throw CLI::ValidationError("--terms", "only the tracker has an objective");
+    const auto outputs = {options.cameras, options.terms, options.json};
+    if (std::count(outputs.begin(), outputs.end(), "-") > 1)
+        throw CLI::ValidationError("only one of --cameras, --terms and --json can be standard output");
+}
+
+Result<evaluation::Trace> read_trace(const Options& options) {
+    auto trace = evaluation::read_trace(options.trace);
+    if (!trace || options.output_hz == 0.0) return trace;
+    auto resampled = evaluation::resample(*trace, options.output_hz);
+    if (!resampled) return fail(options.trace + ": " + resampled.error().message);
+    return resampled;
+}
+
+Result<camera::Profile> find_profile(const Options& options) {
+    if (options.config.empty()) return camera::Profile{};
+    const auto config = config::load(options.config);
+    if (!config) return tl::unexpected(config.error());
+    const auto found = config->profiles.find(options.profile);
+    if (found != config->profiles.end()) return found->second;
+    std::string names;
+    for (const auto& [name, profile] : config->profiles)
+        names += " " + name;
+    return fail(options.config + ": /profiles has no \"" + options.profile + "\"; it has" + names);
+}
+
+Result<evaluation::Recording> run_tracker(const Options& options, const evaluation::Trace& trace,
+                                          std::uint64_t map_hash, ProgressLine& line,
+                                          const std::stop_token& stop) {
+    const auto profile = find_profile(options);
+    if (!profile) return tl::unexpected(profile.error());
+    const auto freespace = freespace::Freespace::open(options.freespace);
+    if (!freespace) return tl::unexpected(freespace.error());
+    if (freespace->metadata().source_hash != map_hash) {
+        line.clear();
+        std::cerr << "camera-director: warning: " << options.freespace << " was baked from another file than "
+                  << options.map << '\n';
+    }
+    const auto show = [&](std::uint64_t done, std::uint64_t total) { line.show("tracking", done, total); };
+    return evaluation::record(*freespace, *profile, trace, show, stop);
+}
+
+// The cameras to judge; those that are not the tracker's have neither terms nor times.
+Result<evaluation::Recording> make_cameras(const Options& options, const evaluation::Trace& trace,
+                                           const scene::Scene& scene, ProgressLine& line,
+                                           const std::stop_token& stop) {
+    if (options.tracks()) return run_tracker(options, trace, scene.source_hash, line, stop);
+    evaluation::Recording recording;
+    if (options.judge.empty()) {
+        const auto peer = evaluation::find_peer(options.camera);
+        recording.cameras = evaluation::follow(*peer, trace, scene.metres_per_unit);
+        return recording;
+    }
+    auto cameras = evaluation::read_cameras(options.judge, trace);
+    if (!cameras) return tl::unexpected(cameras.error());
+    recording.cameras = std::move(*cameras);
+    return recording;
+}
+
+void print(const Options& options, const evaluation::Trace& trace, const evaluation::Metrics& metrics,
+           const evaluation::Recording& recording) {
+    std::cerr << options.trace << ": " << trace.players.size() << " players, " << trace.frames.size()
+              << " frames\n"
+              << evaluation::to_table(metrics);
+    if (recording.step_nanoseconds.empty()) return;
+    std::cerr << "cost             median "
+              << std::llround(evaluation::percentile(recording.step_nanoseconds, 0.5)) << "  p99 "
+              << std::llround(evaluation::percentile(recording.step_nanoseconds, 0.99)) << " ns an update\n";
+}
+
+Result<void> write_results(const Options& options, const evaluation::Trace& trace,
+                           const evaluation::Metrics& metrics, const evaluation::Recording& recording) {
+    Result<void> written;
+    if (written && !options.cameras.empty())
+        written = write_file(options.cameras, evaluation::format_cameras(trace, recording.cameras));
+    if (written && !options.terms.empty())
+        written = write_file(options.terms, evaluation::format_terms(trace, recording));
+    if (written && !options.json.empty()) written = write_file(options.json, evaluation::to_json(metrics));
+    return written;
+}
+
+Result<void> evaluate(const Options& options) {
+    const Interruption interruption;
+    ProgressLine line;
+    line.show("reading " + options.trace, 0, 0);
+    const auto trace = read_trace(options);
+    if (!trace) return tl::unexpected(trace.error());
+    line.show("reading " + options.map, 0, 0);
+    const auto scene = scene::load(options.map);
+    if (!scene) return tl::unexpected(scene.error());
+    const auto recording = make_cameras(options, *trace, *scene, line, interruption.token());
+    if (!recording) return tl::unexpected(recording.error());
+    line.show("judging", 0, 0);
+    const oracle::Oracle oracle(*scene);
+    const auto metrics =
+        evaluation::measure(oracle, scene->metres_per_unit, *trace, recording->cameras, interruption.token());
+    if (!metrics) return tl::unexpected(metrics.error());
+    line.clear();
+    print(options, *trace, *metrics, *recording);
+    return write_results(options, *trace, *metrics, *recording);
+}
+
+}  // namespace
+
+void add_evaluate(CLI::App& root, Run& run) {
+    auto options = std::make_shared<Options>();
+    CLI::App* command =
+        root.add_subcommand("evaluate", "Run cameras over a recorded match and judge them against its map.");
+    command->add_option("FILE.vfs", options->freespace, "The map's baked freespace; what the tracker sees");
+    command->add_option("--map", options->map, "The source map: a file, or archive.pk3:maps/name.bsp")
+        ->required();
+    command->add_option("--trace", options->trace, "The recorded match, CSV or CSV.gz")->required();
+    auto* config = command->add_option("--config", options->config, "Configuration that has the profile");
+    command->add_option("--profile", options->profile, "The tracker's profile")
+        ->capture_default_str()
+        ->needs(config);
+    auto* camera =
+        command->add_option("--camera", options->camera, "tracker, or a camera to compare with: eye, rigid")
+            ->capture_default_str()
+            ->check(CLI::IsMember({tracker, "eye", "rigid"}));
+    command->add_option("--judge", options->judge, "Judge these cameras (as --cameras writes them) instead")
+        ->excludes(camera);
+    command
+        ->add_option("--output-hz", options->output_hz,
+                     "Step and judge so often a second, poses interpolated; default: at the trace's frames")
+        ->check(CLI::Range(1.0, 1000.0));
+    command->add_option("--cameras", options->cameras, "Write the cameras, CSV; - = standard output");
+    command->add_option("--terms", options->terms, "Write the tracker's objective terms, CSV");
+    command->add_option("--json", options->json, "Write the metrics, JSON; - = standard output");
+    command->callback([options, &run] {
+        check_usage(*options);
+        run = [options] {
+            const auto done = evaluate(*options);
+            return done ? exit_done : report(done.error());
+        };
+    });
+}
+
+}  // namespace camdir::app

@@ -1,0 +1,65 @@
+// How good a camera was, judged against the source map and never against a VFS-rep.
+//
+// A counted frame: the player is alive and more than 500 ms after a respawn or teleport. All players are
+// pooled; rates are per minute of a living player. Lengths below are units of 0.0254 m and scale with the
+// map's metres_per_unit; d_opt = 120, P = the camera's position, e = the eye, f = the player's view
+// direction.
+#pragma once
+
+#include <limits>
+#include <span>
+#include <stop_token>
+
+#include "evaluation/camera_path.hpp"
+#include "evaluation/trace.hpp"
+#include "oracle/oracle.hpp"
+
+namespace camdir::evaluation {
+
+inline constexpr double unmeasured = std::numeric_limits<double>::quiet_NaN();
+
+struct Spread {
+    double rms = unmeasured;
+    double p95 = unmeasured;
+    double p99 = unmeasured;
+};
+
+// Shares are per cent, lengths map units, angles degrees. NaN where there was nothing to measure.
+struct Metrics {
+    // Of counted frames.
+    double good = unmeasured;  // P-e clear, e in frame, clearance >= 4, abs(|e-P| - d_opt) <= d_opt/2,
+                               // angle(e-P, f) <= 60 degrees
+    double visible_head = unmeasured;  // P-e clear
+    double visible_body = unmeasured;  // mean share of the player's box seen: 8 corners pulled in, and centre
+    double clearance_lt4 = unmeasured;  // clearance < 4
+    double in_solid = unmeasured;       // inside a solid, or outside the sealed map
+    double fly_through = unmeasured;    // steps without a cut whose segment is not clear
+    double dist_err = unmeasured;       // mean abs(|e-P| - d_opt)
+    double dist_err_p95 = unmeasured;
+    double too_close = unmeasured;  // |e-P| < d_opt / 3
+    double behind = unmeasured;     // mean angle(e-P, f)
+    double behind_p95 = unmeasured;
+    double in_frame = unmeasured;  // e in the central 60 % of a 90 degrees wide 16:9 view
+
+    // Within segments, which end at cuts, deaths and uncounted frames; seconds in the denominators.
+    Spread acc;
+    Spread jerk;
+    Spread ang_speed;
+    Spread ang_acc;
+    double max_rotation = unmeasured;  // the largest turn between two frames
+
+    // Of all frames of a living player.
+    double pops = unmeasured;            // undeclared steps beyond max(64, 3 x the eye's step), a minute
+    double max_speed = unmeasured;       // the largest undeclared speed
+    double cuts = unmeasured;            // declared, a minute, apart from those below
+    double cuts_at_events = unmeasured;  // declared within 100 ms of a respawn or teleport, a minute
+};
+
+// Judges cameras[i] as a camera of trace.poses[i]. `metres_per_unit` is the map's. Players are judged in
+// parallel; the result does not depend on the number of threads. Fails only with ErrorCode::interrupted, soon
+// after `stop` is requested. Precondition: one camera a pose.
+[[nodiscard]] Result<Metrics> measure(const oracle::Oracle& oracle, double metres_per_unit,
+                                      const Trace& trace, std::span<const CameraSample> cameras,
+                                      const std::stop_token& stop = {});
+
+}  // namespace camdir::evaluation

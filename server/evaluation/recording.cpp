@@ -1,0 +1,121 @@
+#include "evaluation/recording.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <array>
+#include <atomic>
+#include <cassert>
+#include <charconv>
+#include <chrono>
+
+#include "camera/tracker.hpp"
+
+namespace camdir::evaluation {
+namespace {
+
+camera::Pose tracked(const TracePose& pose) {
+    camera::Pose seen;
+    seen.eye = pose.eye.cast<float>();
+    seen.orientation = pose.orientation.cast<float>().normalized();
+    seen.velocity = pose.velocity.cast<float>();
+    seen.alive = pose.alive;
+    seen.discontinuity = pose.discontinuity;
+    return seen;
+}
+
+CameraSample sampled(const camera::Camera& camera, bool cut) {
+    return {camera.position.cast<double>(), camera.orientation.cast<double>().normalized(), cut};
+}
+
+// Records one player at a time; several may share a recording.
+class Recorder {
+  public:
+    Recorder(const freespace::Freespace& freespace, const camera::Profile& profile, const Trace& trace,
+             Recording& recording)
+        : freespace_(freespace),
+          profile_(profile),
+          trace_(trace),
+          recording_(recording),
+          scratch_(freespace) {}
+
+    // Calls `keep_on` after every frame and stops when it says no. `nanoseconds` has one place a frame.
+    template <class KeepOn>
+    void follow(std::uint32_t player, double* nanoseconds, const KeepOn& keep_on) {
+        camera::ShotState state;
+        bool cut_unseen = false;  // a cut while the player had no pose shows in the next row
+        const auto track = track_of(trace_, player);
+        for (std::size_t frame = 0; frame < track.size() && keep_on(); ++frame) {
+            const bool present = track[frame] != absent;
+            const camera::Pose pose = present ? tracked(trace_.poses[track[frame]]) : camera::Pose{};
+            const std::int64_t elapsed =
+                frame == 0 ? 0 : trace_.frames[frame].time - trace_.frames[frame - 1].time;
+            const auto before = std::chrono::steady_clock::now();
+            const camera::Camera camera = camera::step(freespace_, profile_, present ? &pose : nullptr,
+                                                       static_cast<double>(elapsed) * 1e-9, state, scratch_);
+            const std::chrono::duration<double, std::nano> taken = std::chrono::steady_clock::now() - before;
+            nanoseconds[frame] = taken.count();
+            cut_unseen = cut_unseen || (camera.flags & camera::cut) != 0;
+            if (!present) continue;
+            recording_.cameras[track[frame]] = sampled(camera, std::exchange(cut_unseen, false));
+            recording_.terms[track[frame]] = camera.objective;
+        }
+    }
+
+  private:
+    const freespace::Freespace& freespace_;
+    const camera::Profile& profile_;
+    const Trace& trace_;
+    Recording& recording_;
+    camera::Scratch scratch_;
+};
+
+void append(std::string& text, float value) {
+    std::array<char, 32> digits{};
+    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value);
+    text += ',';
+    text.append(digits.data(), end.ptr);
+}
+
+}  // namespace
+
+Result<Recording> record(const freespace::Freespace& freespace, const camera::Profile& profile,
+                         const Trace& trace, const ProgressSink& progress, const std::stop_token& stop) {
+    const std::size_t frames = trace.frames.size();
+    const std::uint64_t total = std::uint64_t{frames} * trace.players.size();
+    Recording recording;
+    recording.cameras.resize(trace.poses.size());
+    recording.terms.resize(trace.poses.size());
+    recording.step_nanoseconds.resize(total);
+    std::atomic<std::uint64_t> done = 0;
+    const auto keep_on = [&] {
+        constexpr std::uint64_t stride = 1024;
+        const std::uint64_t count = done.fetch_add(1, std::memory_order_relaxed) + 1;
+        if (count % stride == 0) progress(count, total);
+        return !stop.stop_requested();
+    };
+    tbb::parallel_for(std::size_t{0}, trace.players.size(), [&](std::size_t i) {
+        Recorder recorder(freespace, profile, trace, recording);
+        recorder.follow(trace.players[i], recording.step_nanoseconds.data() + i * frames, keep_on);
+    });
+    if (stop.stop_requested()) return fail("interrupted", ErrorCode::interrupted);
+    return recording;
+}
+
+std::string format_terms(const Trace& trace, const Recording& recording) {
+    assert(recording.terms.size() == trace.poses.size());
+    std::string text = "t_ms,player,visibility,distance,angle,inertia_distance,inertia_angle,safety,total\n";
+    for (const TraceFrame& frame : trace.frames) {
+        const std::string time = format_milliseconds(frame.time);
+        for (std::uint32_t i = frame.first_pose; i < frame.first_pose + frame.pose_count; ++i) {
+            const camera::ObjectiveTerms& terms = recording.terms[i];
+            text += time + ',' + std::to_string(trace.poses[i].player);
+            for (const float term : {terms.visibility, terms.distance, terms.angle, terms.inertia_distance,
+                                     terms.inertia_angle, terms.safety, terms.total})
+                append(text, term);
+            text += '\n';
+        }
+    }
+    return text;
+}
+
+}  // namespace camdir::evaluation

@@ -1,0 +1,36 @@
+// The tracker over a whole trace, as the director would have run it live: one shot a player.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "camera/camera.hpp"
+#include "camera/profile.hpp"
+#include "evaluation/camera_path.hpp"
+#include "freespace/freespace.hpp"
+
+namespace camdir::evaluation {
+
+struct Recording {
+    CameraPath cameras;                         // of trace.poses
+    std::vector<camera::ObjectiveTerms> terms;  // of trace.poses
+    std::vector<double> step_nanoseconds;       // wall time of every camera::step, in no particular order
+};
+
+// Steps done and steps in all. Called from several threads.
+using ProgressSink = std::function<void(std::uint64_t, std::uint64_t)>;
+
+// Steps a shot for each player through every frame, players in parallel; the cameras do not depend on the
+// number of threads. Fails with ErrorCode::interrupted soon after `stop` is requested.
+[[nodiscard]] Result<Recording> record(const freespace::Freespace& freespace, const camera::Profile& profile,
+                                       const Trace& trace, const ProgressSink& progress,
+                                       const std::stop_token& stop);
+
+// CSV with the header t_ms,player,visibility,distance,angle,inertia_distance,inertia_angle,safety,total and a
+// row for each pose of the trace: the objective's terms as they entered the sum.
+[[nodiscard]] std::string format_terms(const Trace& trace, const Recording& recording);
+
+}  // namespace camdir::evaluation
