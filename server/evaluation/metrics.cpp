@@ -29,7 +29,9 @@ struct Thresholds {
     double behind = 60.0;  // degrees
 };
 
+// In degrees; 0 when either has no direction.
 double angle_between(const Vec3d& a, const Vec3d& b) {
+    if (a.isZero(0.0) || b.isZero(0.0)) return 0.0;
     return std::atan2(a.cross(b).norm(), a.dot(b)) * 180.0 / std::numbers::pi;
 }
 
@@ -147,7 +149,9 @@ class Judge {
         const double behind = angle_between(to_eye, pose.orientation * Vec3d::UnitX());
         const bool head = oracle_.segment_clear(camera.position, pose.eye);
         const bool framed = in_frame(camera, pose.eye);
-        const bool solid = !oracle_.reachable(camera.position);
+        // What sees a living player's eye is joined to it by free space.
+        const bool solid =
+            oracle_.in_solid(camera.position) || (!head && !oracle_.reachable(camera.position));
         const bool low = solid || oracle_.clearance(camera.position, limits_.clearance) < limits_.clearance;
         ++tally_.frames;
         tally_.head += head;

@@ -25,14 +25,14 @@ inline void add_box(scene::Scene& scene, const Vec3d& low, const Vec3d& high) {
     scene.bounds.extend(high);
 }
 
-// A closed room, free for |x|, |y| < 800 and 0 < z < 400, with a spawn point at its middle. `unit` scales it
+// A closed room, free for |x|, |y| < 400 and 0 < z < 300, with a spawn point at its middle. `unit` scales it
 // all.
 inline scene::Scene room(double unit = 1.0) {
     scene::Scene scene;
     scene.name = "room";
     scene.metres_per_unit = 0.0254 / unit;
-    const Vec3d low = unit * Vec3d(-800, -800, 0);
-    const Vec3d high = unit * Vec3d(800, 800, 400);
+    const Vec3d low = unit * Vec3d(-400, -400, 0);
+    const Vec3d high = unit * Vec3d(400, 400, 300);
     for (int axis = 0; axis < 3; ++axis) {
         Vec3d wall_high = high + Vec3d::Constant(16 * unit);
         Vec3d wall_low = low - Vec3d::Constant(16 * unit);
