@@ -1,5 +1,6 @@
 #include "camera/cut.hpp"
 
+#include <array>
 #include <optional>
 
 #include "camera/reach.hpp"
@@ -8,6 +9,8 @@
 
 namespace camdir::camera {
 namespace {
+
+constexpr std::array shares = {1.0F, 0.9F, 0.75F, 0.5F};  // of the way to the best spot
 
 // The nearest corner of the slabs round the anchor that keeps the minimum clearance and sees the anchor.
 std::optional<Candidate> roadmap_spot(const freespace::Freespace& freespace, const MapProfile& profile,
@@ -33,9 +36,10 @@ std::optional<Candidate> roadmap_spot(const freespace::Freespace& freespace, con
 Candidate landing(const freespace::Freespace& freespace, const MapProfile& profile,
                   const PlayerTrack& track) {
     const Spot spot = spot_to_cut_to(freespace, profile, track);
-    if (const auto candidate = look_up(freespace, profile, track, track.anchor + spot.offset, track.slab);
-        candidate && acceptable(profile, *candidate)) {
-        return *candidate;
+    for (const float share : shares) {
+        const Vec3f place = track.anchor + share * spot.offset;
+        const auto candidate = look_up(freespace, profile, track, place, track.slab);
+        if (candidate && acceptable(profile, *candidate)) return *candidate;
     }
     if (const auto candidate = roadmap_spot(freespace, profile, track)) return *candidate;
     return {track.anchor, track.slab, track.clearance, track.clearance};

@@ -16,6 +16,7 @@ constexpr float fastest = 1e4F;                 // map units/s: more is a jump
 constexpr float velocity_smoothing = 0.03F;     // s: two frames of 60 Hz
 constexpr float horizontal_persistence = 0.5F;  // s: how long players keep running
 constexpr float vertical_persistence = 0.15F;   // s: how long they keep rising or falling
+constexpr float turn_persistence = 0.08F;       // s: how long they keep turning
 constexpr float inside_surface = 0.9F;          // share of a ball's radius that is surely inside its slab
 
 Vec3f view_direction(const Pose& pose) {
@@ -43,6 +44,14 @@ Vec3f rotated_towards(const Vec3f& from, const Vec3f& to, float share) {
             std::abs(from.z()) < 0.9F ? Vec3f(from.cross(Vec3f::UnitZ()).cross(from)) : from.unitOrthogonal();
     }
     return (Eigen::AngleAxisf(angle * share, axis.normalized()) * from).normalized();
+}
+
+// The rotation vector from one direction to another; zero between opposite ones, which have none of their
+// own.
+Vec3f rotation_between(const Vec3f& from, const Vec3f& to) {
+    const Vec3f axis = from.cross(to);
+    const float sine = axis.norm();
+    return sine > 1e-6F ? Vec3f(axis * (angle_between(from, to) / sine)) : Vec3f::Zero();
 }
 
 void settle(const freespace::Freespace& freespace, const Vec3f& anchor, PlayerTrack& track) {
@@ -86,6 +95,7 @@ void restart(const freespace::Freespace& freespace, const Pose& pose, PlayerTrac
     track.anchor = pose.eye;
     track.velocity = limited(pose.velocity);
     track.heading = view_direction(pose);
+    track.view = track.heading;
     settle(freespace, pose.eye, track);
     track.covered = track.slab != freespace::none;
     if (!track.covered) settle(freespace, nearest_free_point(freespace, pose.eye), track);
@@ -97,8 +107,11 @@ void follow(const freespace::Freespace& freespace, const MapProfile& profile, co
     const Vec3f velocity = limited((pose.eye - track.eye) / dt);
     track.velocity += smoothing_share(dt, velocity_smoothing) * (velocity - track.velocity);
     track.eye = pose.eye;
-    track.heading =
-        rotated_towards(track.heading, view_direction(pose), smoothing_share(dt, profile.heading_smoothing));
+    const Vec3f view = view_direction(pose);
+    track.turning +=
+        smoothing_share(dt, velocity_smoothing) * (rotation_between(track.view, view) / dt - track.turning);
+    track.view = view;
+    track.heading = rotated_towards(track.heading, view, smoothing_share(dt, profile.heading_smoothing));
 
     const freespace::Distance found = freespace::distance(freespace, pose.eye, track.slab);
     track.covered = found.covered();
@@ -112,6 +125,13 @@ void follow(const freespace::Freespace& freespace, const MapProfile& profile, co
         settle(freespace, track.anchor + inside_surface * way.free_length * direction, track);
     }
     track.move = track.anchor - before;
+}
+
+Vec3f predicted_heading(const PlayerTrack& track, float ahead) {
+    const Vec3f rotation = track.turning * turn_persistence * (1.0F - std::exp(-ahead / turn_persistence));
+    const float angle = rotation.norm();
+    if (!(angle > 1e-6F)) return track.heading;
+    return Eigen::AngleAxisf(angle, rotation / angle) * track.heading;
 }
 
 Vec3f predicted_anchor(const freespace::Freespace& freespace, const MapProfile& profile,

@@ -14,6 +14,8 @@ struct PlayerTrack {
     Vec3f move = Vec3f::Zero();            // of the anchor in the last step
     Vec3f velocity = Vec3f::Zero();        // of the eye, low-passed
     Vec3f heading = Vec3f::UnitX();        // low-passed view direction, length 1
+    Vec3f view = Vec3f::UnitX();           // view direction of the last pose
+    Vec3f turning = Vec3f::Zero();         // its angular velocity, low-passed, rad/s
     std::uint32_t slab = freespace::none;  // of the anchor
     float clearance = 0.0F;                // free distance at the anchor
     bool covered = false;                  // the anchor is the eye
@@ -30,6 +32,9 @@ void restart(const freespace::Freespace& freespace, const Pose& pose, PlayerTrac
 // Follows the player to `pose`, `dt` seconds later.
 void follow(const freespace::Freespace& freespace, const MapProfile& profile, const Pose& pose, float dt,
             PlayerTrack& track);
+
+// Where the heading will probably point `ahead` seconds later: players stop turning soon.
+[[nodiscard]] Vec3f predicted_heading(const PlayerTrack& track, float ahead);
 
 // Where the anchor will probably be after profile.prediction seconds, no further than free space goes.
 [[nodiscard]] Vec3f predicted_anchor(const freespace::Freespace& freespace, const MapProfile& profile,

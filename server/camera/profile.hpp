@@ -35,7 +35,7 @@ struct Profile {
     float turn_limit = 660.0F;
     float step_limit = 55.0F;
 
-    float search_growth = 8.0F;
+    float search_growth = 30.0F;
     float search_time_limit = 1.5F;
 
     float vertical_fov = 58.7F;

@@ -25,6 +25,11 @@ float squared(float value) {
     return value * value;
 }
 
+// How far the camera trails behind a turning player: what its filters delay.
+float lag(const MapProfile& profile) {
+    return profile.heading_smoothing + 2.0F * profile.motion_smoothing;
+}
+
 struct Candidate {
     Vec3f direction;  // from the anchor
     float cost;       // without the distance's: a lower bound
@@ -34,7 +39,9 @@ class Fan {
   public:
     Fan(const MapProfile& profile, const PlayerTrack& track, const Vec3f* towards_camera)
         : profile_(profile), towards_camera_(towards_camera) {
-        const Look behind = look_along(-track.heading, 0.0F);
+        const Vec3f heading =
+            towards_camera == nullptr ? track.heading : predicted_heading(track, lag(profile));
+        const Look behind = look_along(-heading, 0.0F);
         behind_ =
             direction_of({behind.yaw, std::clamp(behind.pitch + profile.elevation, -steepest, steepest)});
     }

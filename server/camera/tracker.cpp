@@ -82,9 +82,13 @@ class Step {
         Moves all = moves(spot, state_.position);
         all.visibility = next_on_the_way(freespace_, player_, start(), scratch_.roadmap) - state_.position;
         const float urgency = std::min(greatest_urgency, std::exp(profile_.search_growth * state_.lost_for));
-        const Vec3f wanted = within_reach(state_.position + average_when_lost(profile_, all, urgency, dt_));
-        const auto reached = reach_shortened(freespace_, profile_, player_, start(), wanted);
-        if (reached) return move_to(*reached);
+        const Vec3f move = average_when_lost(profile_, all, urgency, dt_);
+        // Where the average would scrape along an obstacle, straight to the roadmap.
+        for (const Vec3f& wanted : {move, all.visibility}) {
+            const auto reached = reach_shortened(freespace_, profile_, player_, start(),
+                                                 within_reach(state_.position + wanted));
+            if (reached && reached->clearance >= profile_.minimum_clearance) return move_to(*reached);
+        }
         state_.lost_for += dt_;
         turn();
         return hold(searching);
@@ -105,8 +109,7 @@ class Step {
     Camera cut_to_player() {
         const Candidate spot = landing(freespace_, profile_, player_);
         state_.started = true;
-        state_.position = spot.position;
-        state_.slab = spot.slab;
+        settle(spot);
         state_.velocity = player_.velocity;
         state_.lost_for = 0.0F;
         state_.look = wanted_look();
@@ -117,11 +120,15 @@ class Step {
         const Motion before = motion();
         const bool lost = !is_seen(next);
         state_.velocity = (next.position - state_.position) / dt_;
-        state_.position = next.position;
-        state_.slab = next.slab;
+        settle(next);
         state_.lost_for = lost ? state_.lost_for + dt_ : 0.0F;
         turn();
         return frame(next, before, lost || out_of_reach() ? std::uint32_t{searching} : 0U);
+    }
+
+    void settle(const Candidate& place) {
+        state_.position = place.position;
+        state_.slab = place.slab;
     }
 
     Camera hold(std::uint32_t flags) {
