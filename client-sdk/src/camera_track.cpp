@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <limits>
 
 namespace camdir::sdk {
 
@@ -16,19 +17,26 @@ cdir_view view_of(std::int64_t time, std::uint32_t segment, const cdir_camera& c
     return view;
 }
 
+// Clearance falls by no more than the way that is travelled, from either end. In double: a float's square
+// overflows.
+float clearance_between(const cdir_camera& a, const cdir_camera& b, float share) {
+    using Vector = Eigen::Map<const Eigen::Vector3f>;
+    const double way = (Vector(b.position).cast<double>() - Vector(a.position).cast<double>()).norm();
+    const double clearance = std::max(a.clearance - share * way, b.clearance - (1.0 - share) * way);
+    return static_cast<float>(std::max<double>(clearance, std::numeric_limits<float>::lowest()));
+}
+
 // `share` of the way from a to b, 0 .. 1.
 cdir_camera interpolated(const cdir_camera& a, const cdir_camera& b, float share) {
     using Vector = Eigen::Map<const Eigen::Vector3f>;
     using Quaternion = Eigen::Map<const Eigen::Quaternionf>;
-    const Eigen::Vector3f way = Vector(b.position) - Vector(a.position);
     cdir_camera camera = a;
-    Eigen::Map<Eigen::Vector3f>(camera.position) = Vector(a.position) + share * way;
+    Eigen::Map<Eigen::Vector3f>(camera.position) =
+        (1.0F - share) * Vector(a.position) + share * Vector(b.position);
     Eigen::Map<Eigen::Quaternionf>(camera.orientation) =
         Quaternion(a.orientation).slerp(share, Quaternion(b.orientation)).normalized();
     camera.vertical_fov = a.vertical_fov + share * (b.vertical_fov - a.vertical_fov);
-    // Clearance falls by no more than the way that is travelled.
-    const float length = way.norm();
-    camera.clearance = std::max(a.clearance - share * length, b.clearance - (1.0F - share) * length);
+    camera.clearance = clearance_between(a, b, share);
     return camera;
 }
 

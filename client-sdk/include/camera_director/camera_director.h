@@ -42,6 +42,8 @@
 #ifndef CAMERA_DIRECTOR_CAMERA_DIRECTOR_H
 #define CAMERA_DIRECTOR_CAMERA_DIRECTOR_H
 
+/* NOLINTBEGIN(modernize-deprecated-headers,modernize-use-nullptr): C, although C++ reads it too. */
+#include <stddef.h>
 #include <stdint.h>
 
 #if defined(__GNUC__)
@@ -126,7 +128,7 @@ typedef struct cdir_context_options {
 
 /* Domain 0 on this host only: interface "lo", director "127.0.0.1". */
 static inline cdir_context_options cdir_context_options_default(void) {
-    cdir_context_options options = {sizeof(cdir_context_options), 0u, "lo", "127.0.0.1", 0};
+    cdir_context_options options = {sizeof(cdir_context_options), 0u, "lo", "127.0.0.1", NULL};
     return options;
 }
 
@@ -208,7 +210,7 @@ typedef struct cdir_pose_frame {
 } cdir_pose_frame;
 
 static inline cdir_pose_frame cdir_pose_frame_default(void) {
-    cdir_pose_frame frame = {sizeof(cdir_pose_frame), 0u, 0, 0, 0, 0, 0, 0, 0};
+    cdir_pose_frame frame = {sizeof(cdir_pose_frame), 0u, 0, 0, NULL, NULL, NULL, NULL, NULL};
     return frame;
 }
 
@@ -286,7 +288,7 @@ typedef struct cdir_shot_request {
 
 /* The director chooses the target among all players, with its default profile. */
 static inline cdir_shot_request cdir_shot_request_default(void) {
-    cdir_shot_request request = {sizeof(cdir_shot_request), CDIR_CHOOSE_TARGET, 0, 0, 0, 0u, 0u};
+    cdir_shot_request request = {sizeof(cdir_shot_request), CDIR_CHOOSE_TARGET, NULL, NULL, NULL, 0u, 0u};
     return request;
 }
 
@@ -437,5 +439,6 @@ CDIR_API cdir_status cdir_observer_close(cdir_observer observer) CDIR_NOEXCEPT;
 #ifdef __cplusplus
 }
 #endif
+/* NOLINTEND(modernize-deprecated-headers,modernize-use-nullptr) */
 
 #endif

@@ -3,9 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <random>
 
 #include "support/camera_frames.hpp"
 
@@ -216,6 +219,43 @@ TEST_F(MatchViewTest, FramesThatBreakTheContractAreDroppedAndCounted) {
         full.add_camera(id, 0.0F);
     }
     EXPECT_TRUE(accept(full)) << "as many cameras as are allowed";
+}
+
+// Lengths that nearly fit, numbers of every kind: what is shown is always a camera.
+TEST_F(MatchViewTest, NoFrameLeavesABrokenCamera) {
+    const unsigned seed = 3;
+    std::mt19937 random(seed);
+    const auto below = [&](std::uint32_t bound) { return static_cast<std::uint32_t>(random() % bound); };
+    const auto any_float = [&] { return std::bit_cast<float>(static_cast<std::uint32_t>(random())); };
+    answer(1, 5);
+    for (std::uint32_t i = 0; i < 20'000; ++i) {
+        const std::uint64_t epoch = 2 + i / 5000 - (below(10) == 0 ? 1 : 0);
+        CameraFrameArrays frame = frame_of(epoch, below(1000));
+        frame.frame_time = static_cast<std::int64_t>(below(50)) * ms * i / 20;
+        frame.director_id = below(2);
+        for (std::uint32_t n = below(4); n > 0; --n) {
+            frame.add_camera(3 + n, any_float(), below(32));
+        }
+        if (below(4) == 0) frame.position.resize(below(12), any_float());
+        if (below(4) == 0) frame.orientation.resize(below(16), 0.5F);
+        if (below(8) == 0) frame.clearance.assign(frame.camera_id.size(), any_float());
+        if (below(8) == 0) frame.vertical_fov.assign(frame.camera_id.size(), any_float());
+        if (below(8) == 0) frame.flags.resize(below(6));
+        accept(frame);
+        view_.accept(status_of(epoch, 3 + below(4)));
+        const auto view = view_.track().at(frame.frame_time - static_cast<std::int64_t>(below(100)) * ms);
+        if (!view) continue;
+        const cdir_camera& camera = view->camera;
+        const float* q = camera.orientation;
+        ASSERT_NEAR(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3], 1.0F, 2.1e-3F) << "step " << i;
+        ASSERT_TRUE(std::isfinite(camera.clearance)) << "step " << i;
+        ASSERT_TRUE(camera.vertical_fov > 0.0F && camera.vertical_fov < 3.1416F) << "step " << i;
+        ASSERT_TRUE(
+            std::all_of(camera.position, camera.position + 3, [](float x) { return std::isfinite(x); }))
+            << "step " << i;
+    }
+    EXPECT_GT(view_.counters().invalid, 1000U) << "seed " << seed;
+    EXPECT_GT(view_.counters().frames, 1000U) << "seed " << seed;
 }
 
 TEST_F(MatchViewTest, UnknownStateIsInvalid) {
