@@ -89,6 +89,22 @@ std::string flaw_of_index(const MeshView& mesh) {
     return {};
 }
 
+std::string flaw_of_hints(const HintGrid& hints, std::size_t triangle_count) {
+    // Counts up to 2^20 are exact as floats, and their product fits.
+    constexpr std::uint32_t limit = 1U << 20U;
+    std::uint64_t cells = 1;
+    for (const std::uint32_t count : hints.extent) {
+        if (count > limit) return "the grid of hints is too large";
+        cells *= count;
+    }
+    if (cells != hints.triangles.size() || !(hints.cell_size > 0.0F) || !within_limit(hints.cell_size))
+        return "the grid of hints does not fit its size";
+    for (std::size_t i = 0; i < hints.triangles.size(); ++i)
+        if (hints.triangles[i] >= triangle_count && hints.triangles[i] != none)
+            return at("hint", i, "is a triangle that does not exist");
+    return {};
+}
+
 }  // namespace
 
 std::string find_mesh_flaw(std::span<const Vertex> vertices, std::span<const Triangle> triangles) {
@@ -101,6 +117,7 @@ std::string find_flaw(const MeshView& mesh) {
     std::string flaw = find_mesh_flaw(mesh.vertices, mesh.triangles);
     if (flaw.empty()) flaw = flaw_of_incidence(mesh);
     if (flaw.empty()) flaw = flaw_of_index(mesh);
+    if (flaw.empty()) flaw = flaw_of_hints(mesh.hints, mesh.triangles.size());
     return flaw;
 }
 

@@ -11,6 +11,7 @@ Distance distance_at(const Freespace& freespace, const Vec3f& point, const SlabP
     if (best.triangle == none) return {};
     const Ball ball = ball_at(freespace.mesh(), best);
     const double value = ball.radius - (point.cast<double>() - ball.centre).norm();
+    if (!(value > 0.0)) return {};
     // One step down: the float must not exceed the double.
     return {std::nextafter(static_cast<float>(value), -std::numeric_limits<float>::infinity()),
             best.triangle};
@@ -20,16 +21,19 @@ Distance distance_at(const Freespace& freespace, const Vec3f& point, const SlabP
 
 Distance distance(const Freespace& freespace, const Vec3f& point, std::uint32_t previous) {
     if (!point.allFinite()) return {};
-    SlabPoint best;
-    if (previous < freespace.triangles().size()) improve_by_ring(freespace, point, previous, best);
-    if (!(best.value > 0.0F)) improve_everywhere(freespace.mesh(), point, best);
+    SlabPoint best = uncovered;
+    improve_by_hints(freespace.mesh(), point, previous, best);
+    if (best.triangle != none && previous < freespace.triangles().size())
+        improve_by_ring(freespace, point, best.triangle, best);
+    if (best.triangle == none) improve_everywhere(freespace.mesh(), point, 0.0F, best);
     return distance_at(freespace, point, best);
 }
 
 Distance distance_everywhere(const Freespace& freespace, const Vec3f& point) {
     if (!point.allFinite()) return {};
-    SlabPoint best;
-    improve_everywhere(freespace.mesh(), point, best);
+    SlabPoint best = uncovered;
+    improve_by_hints(freespace.mesh(), point, none, best);
+    improve_everywhere(freespace.mesh(), point, 0.0F, best);
     return distance_at(freespace, point, best);
 }
 

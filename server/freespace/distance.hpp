@@ -9,7 +9,7 @@ namespace camdir::freespace {
 
 struct Distance {
     // A lower bound of the clearance of the point: the largest d_f(m) - |c - m| over the points m of
-    // the slabs looked at. <= 0: the point is in none of them.
+    // the slabs looked at. -infinity when the point is in none of them, and for a point that is not finite.
     float value = -std::numeric_limits<float>::infinity();
     // The slab that gave it: the tracking state for the next query. `none` when nothing covers the point.
     std::uint32_t triangle = none;

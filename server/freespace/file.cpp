@@ -9,6 +9,7 @@
 #include "base/file.hpp"
 #include "freespace/check.hpp"
 #include "freespace/freespace.hpp"
+#include "freespace/hints.hpp"
 #include "freespace/index.hpp"
 #include "freespace_generated.h"
 
@@ -100,11 +101,13 @@ auto copy_counts(flatbuffers::FlatBufferBuilder& builder, std::span<const Count>
 
 flatbuffers::DetachedBuffer build_file(const Metadata& metadata, std::span<const SpawnPoint> spawn_points,
                                        const std::vector<Vertex>& vertices,
-                                       const std::vector<Triangle>& triangles, const Index& index) {
+                                       const std::vector<Triangle>& triangles, const Index& index,
+                                       const Incidence& incidence, const Hints& hints) {
     flatbuffers::FlatBufferBuilder builder;
     // A buffer is written back to front: the large arrays go last in the file, behind the root.
+    const auto wire_hints = builder.CreateVector(hints.triangles);
+    const wire::Extent extent(hints.extent[0], hints.extent[1], hints.extent[2]);
     const auto wire_index = copy_structs<wire::IndexNode>(builder, index.nodes);
-    const Incidence incidence = build_incidence(vertices.size(), triangles);
     const auto incident_triangles = builder.CreateVector(incidence.triangles);
     const auto incident_offsets = builder.CreateVector(incidence.offsets);
     const auto wire_triangles = copy_structs<wire::Triangle>(builder, triangles);
@@ -117,10 +120,10 @@ flatbuffers::DetachedBuffer build_file(const Metadata& metadata, std::span<const
     const wire::Header header(format_version, 0, 0);
     const Box3f box = bounds_of(vertices);
     const wire::Box bounds(to_wire(box.min()), to_wire(box.max()));
-    const auto root = wire::CreateFreespace(builder, &header, map_name, source_name, metadata.source_hash,
-                                            metadata.metres_per_unit, metadata.d0, parameters, &bounds,
-                                            wire_vertices, wire_triangles, incident_offsets,
-                                            incident_triangles, wire_index, wire_spawn_points, counts);
+    const auto root = wire::CreateFreespace(
+        builder, &header, map_name, source_name, metadata.source_hash, metadata.metres_per_unit, metadata.d0,
+        parameters, &bounds, wire_vertices, wire_triangles, incident_offsets, incident_triangles, wire_index,
+        hints.cell_size, &extent, wire_hints, wire_spawn_points, counts);
     wire::FinishFreespaceBuffer(builder, root);
     return builder.Release();
 }
@@ -187,14 +190,25 @@ std::span<const Element> view(const flatbuffers::Vector<Wire>* vector) {
     return {reinterpret_cast<const Element*>(vector->Data()), vector->size()};
 }
 
-MeshView view_mesh(const wire::Freespace& root) {
-    return {view<Vertex>(root.vertices()), view<Triangle>(root.triangles()),
-            view<std::uint32_t>(root.incident_offsets()), view<std::uint32_t>(root.incident_triangles()),
-            view<IndexNode>(root.index())};
-}
-
 Vec3f to_vector(const wire::Point& p) {
     return {p.x(), p.y(), p.z()};
+}
+
+HintGrid view_hints(const wire::Freespace& root) {
+    const wire::Extent& extent = *root.hint_extent();
+    return {to_vector(root.bounds()->min()),
+            root.hint_cell_size(),
+            {extent.x(), extent.y(), extent.z()},
+            view<std::uint32_t>(root.hints())};
+}
+
+MeshView view_mesh(const wire::Freespace& root) {
+    return {view<Vertex>(root.vertices()),
+            view<Triangle>(root.triangles()),
+            view<std::uint32_t>(root.incident_offsets()),
+            view<std::uint32_t>(root.incident_triangles()),
+            view<IndexNode>(root.index()),
+            view_hints(root)};
 }
 
 Metadata read_metadata(const wire::Freespace& root) {
@@ -300,7 +314,11 @@ std::vector<std::byte> encode(const Contents& contents) {
         const auto [a, b, c] = contents.triangles[t];
         triangles.push_back({new_number[a], new_number[b], new_number[c]});
     }
-    const auto buffer = build_file(contents.metadata, contents.spawn_points, vertices, triangles, index);
+    const Incidence incidence = build_incidence(vertices.size(), triangles);
+    const Hints hints = build_hints(
+        {vertices, triangles, incidence.offsets, incidence.triangles, index.nodes, {}}, bounds_of(vertices));
+    const auto buffer =
+        build_file(contents.metadata, contents.spawn_points, vertices, triangles, index, incidence, hints);
     const auto built = std::as_bytes(std::span(buffer.data(), buffer.size()));
     std::vector<std::byte> file(built.begin(), built.end());
     seal(file);

@@ -6,6 +6,7 @@
 // with d_f(m) <= 0 contribute nothing. Slabs never touch an obstacle.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -66,6 +67,26 @@ struct Contents {
 
 struct IndexNode;
 
+// A coarse grid of what to try first at a point; queries check what it says.
+struct HintGrid {
+    Vec3f origin = Vec3f::Zero();
+    float cell_size = 1.0F;
+    std::array<std::uint32_t, 3> extent{};     // cells along x, y, z
+    std::span<const std::uint32_t> triangles;  // x fastest: the best slab for the cell's centre, or none
+
+    // The triangle of the point's cell; none outside the grid.
+    [[nodiscard]] std::uint32_t at(const Vec3f& point) const {
+        std::size_t cell = 0;
+        for (int axis = 2; axis >= 0; --axis) {
+            const float position = (point[axis] - origin[axis]) / cell_size;
+            const std::uint32_t count = extent[static_cast<std::size_t>(axis)];
+            if (!(position >= 0.0F && position < static_cast<float>(count))) return none;
+            cell = cell * count + static_cast<std::uint32_t>(position);
+        }
+        return triangles[cell];
+    }
+};
+
 // The mesh as the file holds it.
 struct MeshView {
     std::span<const Vertex> vertices;
@@ -73,6 +94,7 @@ struct MeshView {
     std::span<const std::uint32_t> incident_offsets;    // one a vertex and one more
     std::span<const std::uint32_t> incident_triangles;  // of each vertex, ascending
     std::span<const IndexNode> index;                   // [0] is the root; empty without triangles
+    HintGrid hints;
 };
 
 // Immutable; all const members are thread-safe. Cheap to copy: copies share the storage, which lives as long

@@ -121,19 +121,31 @@ class Builder {
     }
 
     void set_bounds(IndexNode& node, std::uint32_t k, Range range) const {
-        Extent extent;
+        Extent box;
+        Extent reach;
         for (std::uint32_t i = range.begin; i < range.end; ++i) {
             const auto [a, b, c] = triangles_[order_[i]];
-            for (const std::uint32_t corner : {a, b, c})
-                extent.enclose(coordinates(vertices_[corner]));
+            for (const std::uint32_t corner : {a, b, c}) {
+                const auto [x, y, z, free_distance] = coordinates(vertices_[corner]);
+                const float radius = std::max(free_distance, 0.0F);
+                box.enclose({x, y, z, free_distance});
+                reach.enclose({x - radius, y - radius, z - radius, radius});
+                reach.enclose({x + radius, y + radius, z + radius, radius});
+            }
         }
-        node.min_x[k] = extent.low[0];
-        node.min_y[k] = extent.low[1];
-        node.min_z[k] = extent.low[2];
-        node.max_x[k] = extent.high[0];
-        node.max_y[k] = extent.high[1];
-        node.max_z[k] = extent.high[2];
-        node.max_radius[k] = extent.high[3];
+        node.min_x[k] = box.low[0];
+        node.min_y[k] = box.low[1];
+        node.min_z[k] = box.low[2];
+        node.max_x[k] = box.high[0];
+        node.max_y[k] = box.high[1];
+        node.max_z[k] = box.high[2];
+        node.reach_min_x[k] = reach.low[0];
+        node.reach_min_y[k] = reach.low[1];
+        node.reach_min_z[k] = reach.low[2];
+        node.reach_max_x[k] = reach.high[0];
+        node.reach_max_y[k] = reach.high[1];
+        node.reach_max_z[k] = reach.high[2];
+        node.max_radius[k] = box.high[3];
     }
 
     std::span<const Vertex> vertices_;

@@ -37,8 +37,12 @@ class IndexChild {
 struct IndexNode {
     static constexpr std::uint32_t width = 4;
 
+    // The box of the triangles below.
     float min_x[width], min_y[width], min_z[width];
     float max_x[width], max_y[width], max_z[width];
+    // The box of the balls around the corners below, and so of the slabs.
+    float reach_min_x[width], reach_min_y[width], reach_min_z[width];
+    float reach_max_x[width], reach_max_y[width], reach_max_z[width];
     float max_radius[width];  // the largest free distance of a corner below
     std::uint32_t child[width];
 };

@@ -1,5 +1,6 @@
 #include "freespace/search.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include "freespace/index.hpp"
@@ -15,16 +16,26 @@ struct Candidate {
 // Each level leaves at most three siblings behind.
 using Stack = std::array<Candidate, 3 * index_depth_limit + 1>;
 
-// What the children can reach at most: max_radius - |point - box|.
+// What the children can reach at most. A ball around the point inside one of their slabs has a radius of at
+// most max_radius - |point - box|, and it does not leave the reach.
 Lanes bounds_of_children(const IndexNode& node, const Vec3f& point) {
-    const auto gap = [](const float* low, const float* high, float coordinate) {
-        const Lanes c = broadcast(coordinate);
+    const auto gap = [](const float* low, const float* high, Lanes c) {
         return larger(larger(load(low) - c, c - load(high)), Lanes{});
     };
-    const Lanes x = gap(node.min_x, node.max_x, point.x());
-    const Lanes y = gap(node.min_y, node.max_y, point.y());
-    const Lanes z = gap(node.min_z, node.max_z, point.z());
-    return load(node.max_radius) - square_root(x * x + y * y + z * z);
+    const auto room = [](const float* low, const float* high, Lanes c) {
+        return smaller(c - load(low), load(high) - c);
+    };
+    const Lanes px = broadcast(point.x());
+    const Lanes py = broadcast(point.y());
+    const Lanes pz = broadcast(point.z());
+    const Lanes x = gap(node.min_x, node.max_x, px);
+    const Lanes y = gap(node.min_y, node.max_y, py);
+    const Lanes z = gap(node.min_z, node.max_z, pz);
+    const Lanes by_radius = load(node.max_radius) - square_root(x * x + y * y + z * z);
+    const Lanes by_reach = smaller(
+        smaller(room(node.reach_min_x, node.reach_max_x, px), room(node.reach_min_y, node.reach_max_y, py)),
+        room(node.reach_min_z, node.reach_max_z, pz));
+    return smaller(by_radius, by_reach);
 }
 
 // Pushes the children that can beat `to_beat`, the most promising last; returns the new height.
@@ -44,6 +55,15 @@ std::size_t push_children(const IndexNode& node, const Vec3f& point, float to_be
 
 }  // namespace
 
+void improve_by_hints(const MeshView& mesh, const Vec3f& point, std::uint32_t previous, SlabPoint& best) {
+    std::array<std::uint32_t, 2> candidates{};
+    std::size_t count = 0;
+    const std::uint32_t hint = mesh.hints.at(point);
+    if (hint != none) candidates[count++] = hint;
+    if (previous < mesh.triangles.size() && previous != hint) candidates[count++] = previous;
+    improve(mesh, point, std::span(candidates).first(count), best);
+}
+
 void improve_by_ring(const Freespace& freespace, const Vec3f& point, std::uint32_t triangle,
                      SlabPoint& best) {
     const auto [a, b, c] = freespace.triangles()[triangle];
@@ -52,18 +72,19 @@ void improve_by_ring(const Freespace& freespace, const Vec3f& point, std::uint32
 }
 
 // Depth first.
-void improve_everywhere(const MeshView& mesh, const Vec3f& point, SlabPoint& best) {
+void improve_everywhere(const MeshView& mesh, const Vec3f& point, float slack, SlabPoint& best) {
     if (mesh.index.empty()) return;
-    std::array<Candidate, 3 * index_depth_limit + 1> stack;
+    Stack stack;
     stack[0] = {std::numeric_limits<float>::infinity(), IndexChild::node(0)};
     std::size_t height = 1;
     while (height > 0) {
         const Candidate top = stack[--height];
-        if (!(top.bound > best.value)) continue;
+        const float to_beat = best.value + slack * std::max(best.value, 0.0F);
+        if (!(top.bound > to_beat)) continue;
         if (top.child.is_leaf())
             improve_range(mesh, point, top.child.first(), top.child.count(), best);
         else
-            height = push_children(mesh.index[top.child.index()], point, best.value, stack, height);
+            height = push_children(mesh.index[top.child.index()], point, to_beat, stack, height);
     }
 }
 

@@ -22,6 +22,9 @@ struct SlabPoint {
     float v = 0.0F;
 };
 
+// What a search begins with: slabs that do not hold the point are not worth finding.
+inline constexpr SlabPoint uncovered{.value = 0.0F};
+
 // Replaces `best` by the best point of the given triangles when that is better.
 void improve(const MeshView& mesh, const Vec3f& point, std::span<const std::uint32_t> triangles,
              SlabPoint& best);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "freespace/search.hpp"
 
@@ -9,7 +10,13 @@ namespace camdir::freespace {
 namespace {
 
 // A march takes a few balls; one that needs more creeps towards a pinch and is given up.
-constexpr int ball_limit = 256;
+constexpr int ball_limit = 128;
+// A hint is taken when its ball carries on by this share of its radius; the walk ends when no ball carries on
+// by the smaller one.
+constexpr double good_gain = 0.05;
+constexpr double least_gain = 1e-3;
+// A ball a little smaller than the best one carries nearly as far and is found much sooner.
+constexpr float sight_slack = 0.25F;
 // Shrinks a ball before the exit from it is computed, so that rounding never carries the walk out of it.
 constexpr double shrink = 1.0 - 1e-9;
 
@@ -59,43 +66,61 @@ double changeover(const RayBall& from, const RayBall& to, double begin, double e
     return high;
 }
 
-SlabPoint best_near(const Freespace& freespace, const Vec3f& point, std::uint32_t previous, float beam) {
-    SlabPoint best;
-    best.value = beam;
-    if (previous < freespace.triangles().size()) improve_by_ring(freespace, point, previous, best);
-    if (best.triangle == none) improve_everywhere(freespace.mesh(), point, best);
-    return best;
+// A ball of the walk and the slab that it comes from.
+struct Step {
+    std::uint32_t triangle;
+    RayBall ball;
+
+    // Holds the beam at t, and carries it to the end or further by a share of the ball's radius.
+    [[nodiscard]] bool carries_on(const Ray& ray, double t, double beam, double gain) const {
+        const double exit = ball.exit(beam);
+        return ball.clearance(t) > beam && (exit >= ray.length || exit - t > gain * ball.radius);
+    }
+};
+
+Step step_to(const Freespace& freespace, const Ray& ray, const SlabPoint& point) {
+    return {point.triangle, RayBall(ray, ball_at(freespace.mesh(), point))};
+}
+
+// A ball that holds the beam at t and carries it on: the one that the hints know, or what the index finds.
+std::optional<Step> find_step(const Freespace& freespace, const Ray& ray, double t, double beam,
+                              std::uint32_t previous) {
+    const Vec3f point = ray.at(t);
+    SlabPoint best = uncovered;
+    best.value = static_cast<float>(beam);
+    improve_by_hints(freespace.mesh(), point, previous, best);
+    if (best.triangle != none) {
+        const Step step = step_to(freespace, ray, best);
+        if (step.carries_on(ray, t, beam, good_gain)) return step;
+    }
+    improve_everywhere(freespace.mesh(), point, sight_slack, best);
+    if (best.triangle == none) return std::nullopt;
+    const Step step = step_to(freespace, ray, best);
+    if (!step.carries_on(ray, t, beam, least_gain)) return std::nullopt;
+    return step;
 }
 
 Sight march(const Freespace& freespace, const Ray& ray, double beam, std::uint32_t previous) {
     Sight sight;
+    std::optional<Step> step = find_step(freespace, ray, 0.0, beam, previous);
+    if (!step) return sight;
     double reached = 0.0;  // free up to here
-    SlabPoint best = best_near(freespace, ray.at(0.0), previous, static_cast<float>(beam));
-    if (best.triangle == none) return sight;
-    RayBall ball(ray, ball_at(freespace.mesh(), best));
-    double clearance = ball.clearance(0.0);
-    if (!(clearance > beam)) return sight;
+    double clearance = step->ball.clearance(0.0);
     for (int i = 0; i < ball_limit; ++i) {
-        sight.triangle = best.triangle;
-        const double exit = ball.exit(beam);
-        if (exit >= ray.length) {
-            sight.clear = true;
-            reached = ray.length;
-            break;
-        }
+        const RayBall ball = step->ball;
+        sight.triangle = step->triangle;
         const double entered = reached;
-        reached = exit;
-        best = best_near(freespace, ray.at(reached), best.triangle, static_cast<float>(beam));
-        if (best.triangle == none) break;
-        const RayBall next(ray, ball_at(freespace.mesh(), best));
-        if (!(next.clearance(reached) > beam) || !(next.exit(beam) > reached)) break;
-        const double change = changeover(ball, next, entered, reached);
-        clearance = std::min({clearance, ball.clearance(change), next.clearance(change)});
-        ball = next;
+        reached = std::min(ball.exit(beam), ray.length);
+        sight.clear = reached == ray.length;
+        if (sight.clear) break;
+        step = find_step(freespace, ray, reached, beam, sight.triangle);
+        if (!step) break;
+        const double change = changeover(ball, step->ball, entered, reached);
+        clearance = std::min({clearance, ball.clearance(change), step->ball.clearance(change)});
     }
-    clearance = std::min(clearance, ball.clearance(reached));
+    if (step) clearance = std::min(clearance, step->ball.clearance(reached));
     sight.free_length = sight.clear ? static_cast<float>(ray.length) : round_down(reached);
-    sight.clearance = round_down(clearance);
+    sight.clearance = round_down(step ? clearance : beam);
     return sight;
 }
 

@@ -22,6 +22,8 @@ struct Mesh {
     std::vector<std::uint32_t> incident_offsets;
     std::vector<std::uint32_t> incident_triangles;
     std::vector<IndexNode> index;
+    HintGrid hints;
+    std::vector<std::uint32_t> hint_triangles;
 
     Mesh() {
         std::mt19937 random(9);
@@ -32,9 +34,13 @@ struct Mesh {
         incident_offsets.assign(mesh.incident_offsets.begin(), mesh.incident_offsets.end());
         incident_triangles.assign(mesh.incident_triangles.begin(), mesh.incident_triangles.end());
         index.assign(mesh.index.begin(), mesh.index.end());
+        hints = mesh.hints;
+        hint_triangles.assign(hints.triangles.begin(), hints.triangles.end());
     }
     [[nodiscard]] std::string flaw() const {
-        return find_flaw({vertices, triangles, incident_offsets, incident_triangles, index});
+        HintGrid grid = hints;
+        grid.triangles = hint_triangles;
+        return find_flaw({vertices, triangles, incident_offsets, incident_triangles, index, grid});
     }
 };
 
@@ -111,6 +117,23 @@ TEST_F(CheckTest, Index) {
     EXPECT_EQ(broken.flaw(), "the index does not hold every triangle");
 }
 
+TEST_F(CheckTest, Hints) {
+    Mesh broken = mesh;
+    ++broken.hints.extent[2];
+    EXPECT_EQ(broken.flaw(), "the grid of hints does not fit its size");
+    broken = mesh;
+    broken.hints.extent = {1U << 31U, 1U << 31U, 4};
+    EXPECT_EQ(broken.flaw(), "the grid of hints is too large");
+    for (const float bad : {0.0F, -1.0F, NAN, INFINITY}) {
+        broken = mesh;
+        broken.hints.cell_size = bad;
+        EXPECT_EQ(broken.flaw(), "the grid of hints does not fit its size");
+    }
+    broken = mesh;
+    broken.hint_triangles[3] = static_cast<std::uint32_t>(mesh.triangles.size());
+    EXPECT_EQ(broken.flaw(), "hint 3 is a triangle that does not exist");
+}
+
 TEST(Check, IndexThatIsTooDeepForTheQueries) {
     // A chain: each node holds the next one and one triangle.
     Mesh mesh;
@@ -119,6 +142,7 @@ TEST(Check, IndexThatIsTooDeepForTheQueries) {
     mesh.triangles.assign(length, {0, 1, 2});
     mesh.incident_offsets = {0, length, 2 * length, 3 * length};
     mesh.incident_triangles.clear();
+    mesh.hint_triangles.assign(mesh.hint_triangles.size(), none);
     for (std::uint32_t i = 0; i < 3 * length; ++i)
         mesh.incident_triangles.push_back(i % length);
     const auto chain = [&](std::uint32_t nodes) {
