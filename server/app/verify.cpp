@@ -30,7 +30,8 @@ struct Options {
     VerificationParameters parameters;
 };
 
-constexpr std::array<const char*, 3> bucket_names = {"> 0", "> d0", "> 2 d0"};
+constexpr std::array<const char*, 3> bucket_names = {"clearance > 0", "clearance > d0", "clearance > 2d0"};
+constexpr std::array<const char*, 3> bucket_keys = {"above_0", "above_d0", "above_2_d0"};
 
 struct Kind {
     const char* key;
@@ -74,7 +75,7 @@ nlohmann::ordered_json result_json(const Options& options, const freespace::Meta
     }
     for (std::size_t bucket = 0; bucket < bucket_names.size(); ++bucket) {
         const evaluation::Coverage& coverage = result.coverage[bucket];
-        json["coverage"][bucket_names[bucket]] = {
+        json["coverage"][bucket_keys[bucket]] = {
             {"points", coverage.points}, {"covered", coverage.covered}, {"share", coverage.share()}};
     }
     json["tightness"] = result.tightness;
@@ -101,7 +102,7 @@ void print_table(const Options& options, const Verification& result, double seco
                 << ball.radius << '\n';
         }
     }
-    out << std::left << std::setw(16) << "clearance" << std::right << std::setw(12) << "points"
+    out << std::left << std::setw(16) << "reachable points" << std::right << std::setw(12) << "points"
         << std::setw(12) << "covered" << std::setw(10) << "share" << '\n';
     for (std::size_t bucket = 0; bucket < bucket_names.size(); ++bucket) {
         const evaluation::Coverage& coverage = result.coverage[bucket];

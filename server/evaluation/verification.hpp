@@ -25,8 +25,8 @@ struct VerificationParameters {
 };
 
 enum class Fault { surface_inside, centre_in_solid, centre_unreachable };
-inline constexpr std::array<const char*, 3> fault_names = {"surface inside", "centre in solid",
-                                                           "centre unreachable"};
+inline constexpr std::array<const char*, 3> fault_names = {"surface_inside", "centre_in_solid",
+                                                           "centre_unreachable"};
 
 struct UnsafeBall {
     Vec3d centre;

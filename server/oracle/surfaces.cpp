@@ -72,17 +72,16 @@ Nearest Surfaces::nearest(const Vec3d& point, double limit) const {
 
 bool Surfaces::segment_clear(const Vec3d& from, const Vec3d& to) const {
     if (!scene_) return true;
-    const double hidden =
-        rounding_ + rounding_of(std::max(from.cwiseAbs().maxCoeff(), to.cwiseAbs().maxCoeff()));
-    const double length = (to - from).norm();
-    if (length <= hidden) return nearest(from, hidden).distance > hidden;
-    const Vec3d beyond = (to - from) * (hidden / length);
-    const Vec3d start = from - beyond;
-    const Vec3d way = to + beyond - start;
+    const double largest = std::max(from.cwiseAbs().maxCoeff(), to.cwiseAbs().maxCoeff());
+    const double hidden = rounding_ + rounding_of(largest);
+    for (const Vec3d& end : {from, to}) {
+        if (nearest(end, hidden).distance <= hidden) return false;
+    }
+    const Vec3d way = to - from;
     RTCRay ray{};
-    ray.org_x = static_cast<float>(start.x());
-    ray.org_y = static_cast<float>(start.y());
-    ray.org_z = static_cast<float>(start.z());
+    ray.org_x = static_cast<float>(from.x());
+    ray.org_y = static_cast<float>(from.y());
+    ray.org_z = static_cast<float>(from.z());
     ray.dir_x = static_cast<float>(way.x());
     ray.dir_y = static_cast<float>(way.y());
     ray.dir_z = static_cast<float>(way.z());

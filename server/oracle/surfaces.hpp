@@ -26,8 +26,8 @@ class Surfaces {
     // Embree only finds the candidates.
     [[nodiscard]] Nearest nearest(const Vec3d& point, double limit) const;
 
-    // Embree's watertight test, on vertices rounded to float; the segment is made longer at both ends by
-    // what that rounding may hide, so that a touch at an end counts.
+    // Embree's watertight test, on vertices rounded to float; an end that comes as near to a triangle as that
+    // rounding may hide counts as a touch.
     [[nodiscard]] bool segment_clear(const Vec3d& from, const Vec3d& to) const;
 
   private:

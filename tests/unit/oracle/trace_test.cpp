@@ -1,0 +1,44 @@
+// Players are never in walls: every alive eye of every recorded match is free on its map.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "evaluation/trace.hpp"
+#include "oracle/oracle.hpp"
+#include "scene/load.hpp"
+#include "support/openarena.hpp"
+
+namespace camdir::oracle {
+namespace {
+
+class RecordedMatch : public testing::TestWithParam<std::tuple<std::string, std::string>> {};
+
+TEST_P(RecordedMatch, EveryAliveEyeIsFreeAndReachable) {
+    const auto& [map, rate] = GetParam();
+    const char* shared = std::getenv("CAMERA_DIRECTOR_SHARED");
+    if (shared == nullptr) GTEST_SKIP() << "CAMERA_DIRECTOR_SHARED is not set";
+    const auto path = std::filesystem::path(shared) / "traces" / (map + "-" + rate + ".csv.gz");
+    if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is missing";
+    const auto source = test::openarena_map(map);
+    if (!source) GTEST_SKIP() << "the OpenArena package with " << map << " is not installed";
+
+    const Oracle oracle(scene::load(*source).value());
+    const evaluation::Trace trace = evaluation::read_trace(path).value();
+    std::size_t eyes = 0;
+    for (const evaluation::TracePose& pose : trace.poses) {
+        if (!pose.alive) continue;
+        ++eyes;
+        ASSERT_FALSE(oracle.in_solid(pose.eye)) << "player " << pose.player << " at " << pose.eye.transpose();
+        ASSERT_GT(oracle.clearance(pose.eye), 0.0) << pose.eye.transpose();
+        ASSERT_TRUE(oracle.reachable(pose.eye)) << pose.eye.transpose();
+    }
+    EXPECT_GT(eyes, 10'000U);
+}
+
+INSTANTIATE_TEST_SUITE_P(Traces, RecordedMatch,
+                         testing::Combine(testing::ValuesIn(test::traced_maps()),
+                                          testing::Values("20hz", "60hz")));
+
+}  // namespace
+}  // namespace camdir::oracle

@@ -1,0 +1,57 @@
+// Real maps.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "scene/load.hpp"
+#include "support/openarena.hpp"
+#include "support/oracle_twins.hpp"
+
+namespace camdir::scene {
+namespace {
+
+class RealMap : public testing::TestWithParam<std::string> {
+  protected:
+    void SetUp() override {
+        const auto source = test::openarena_map(GetParam());
+        if (!source) GTEST_SKIP() << "the OpenArena package with " << GetParam() << " is not installed";
+        scene_ = load(*source).value();
+    }
+    Scene scene_;
+};
+
+TEST_P(RealMap, KeepsThePromisesOfAScene) {
+    EXPECT_EQ(scene_.name, GetParam());
+    EXPECT_GT(scene_.triangles.size(), 2000U);
+    EXPECT_GT(scene_.brushes.size(), 500U);
+    for (const auto& [a, b, c] : scene_.triangles) {
+        ASSERT_LT(std::max({a, b, c}), scene_.vertices.size());
+        const Vec3d& corner = scene_.vertices[a];
+        ASSERT_GT((scene_.vertices[b] - corner).cross(scene_.vertices[c] - corner).norm(), 0.0);
+    }
+    for (const Vec3d& vertex : scene_.vertices) {
+        ASSERT_TRUE(scene_.bounds.contains(vertex));
+    }
+    for (const Plane& plane : scene_.planes) {
+        ASSERT_NEAR(plane.normal.norm(), 1.0, 1e-12);
+    }
+}
+
+TEST_P(RealMap, SpawnPointsAreFree) {
+    EXPECT_GE(scene_.spawn_points.size(), 4U);
+    for (const SpawnPoint& spawn : scene_.spawn_points) {
+        EXPECT_GT(test::clearance(scene_, spawn.eye), 10.0) << spawn.eye.transpose();
+    }
+}
+
+TEST_P(RealMap, ReadsTheSameTwice) {
+    const Scene again = load(scene_.source).value();
+    EXPECT_EQ(again.source_hash, scene_.source_hash);
+    EXPECT_EQ(again.triangles, scene_.triangles);
+    EXPECT_EQ(again.vertices, scene_.vertices);
+}
+
+INSTANTIATE_TEST_SUITE_P(OpenArena, RealMap, testing::ValuesIn(test::traced_maps()));
+
+}  // namespace
+}  // namespace camdir::scene
