@@ -109,12 +109,16 @@ TEST(ReachedGrid, IsTheFloodOfTheDefinition) {
         SCOPED_TRACE(min_clearance);
         expect_same_cells(two_halls(16.0, 48.0), min_clearance);
     }
-    const unsigned seed = 7;
-    SCOPED_TRACE(seed);
-    std::mt19937 random(seed);
-    const scene::Scene scene = test::scene_of(test::random_map(random, 15));
-    const Oracle oracle(scene);
-    if (oracle.clearance(scene.spawn_points.front().eye) > 12.0) expect_same_cells(scene, 4.0);
+    int compared = 0;
+    for (unsigned seed = 7; compared < 2; ++seed) {
+        SCOPED_TRACE(seed);
+        std::mt19937 random(seed);
+        const scene::Scene scene = test::scene_of(test::random_map(random, 15));
+        // Where the eye is so free that its own cell is open, as the definition starts.
+        if (Oracle(scene).clearance(scene.spawn_points.front().eye) < 12.0) continue;
+        expect_same_cells(scene, 4.0);
+        ++compared;
+    }
 }
 
 TEST(ReachedGrid, NarrowDoorClosesForALargeClearance) {
