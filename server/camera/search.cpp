@@ -1,27 +1,24 @@
 #include "camera/search.hpp"
 
-#include <algorithm>
 #include <cstddef>
 
 #include "freespace/visibility.hpp"
 
 namespace camdir::camera {
-namespace {
 
-constexpr std::size_t looked_ahead = 4;  // vertices of the path that a shortcut may reach
-
-}  // namespace
-
-Vec3f next_on_the_way(const freespace::Freespace& freespace, const PlayerTrack& track, const Start& start,
-                      freespace::RoadmapSearch& roadmap) {
+Vec3f next_on_the_way(const freespace::Freespace& freespace, const MapProfile& profile,
+                      const PlayerTrack& track, const Start& start, freespace::RoadmapSearch& roadmap) {
     const freespace::RoadmapPath& path = roadmap.find(start.position, track.anchor);
     if (!path.found) return start.position;
     if (path.vertices.empty()) return track.anchor;
-    for (std::size_t i = std::min(looked_ahead, path.vertices.size()); i-- > 1;) {
+    Vec3f next = freespace.vertices()[path.vertices.front()].position();
+    for (std::size_t i = 1; i < path.vertices.size(); i *= 2) {
         const Vec3f vertex = freespace.vertices()[path.vertices[i]].position();
-        if (freespace::sight(freespace, start.position, vertex, 0.0F, start.slab).clear) return vertex;
+        if (!freespace::sight(freespace, start.position, vertex, profile.minimum_clearance, start.slab).clear)
+            break;
+        next = vertex;
     }
-    return freespace.vertices()[path.vertices.front()].position();
+    return next;
 }
 
 }  // namespace camdir::camera

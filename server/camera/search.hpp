@@ -10,7 +10,8 @@ namespace camdir::camera {
 // Where the way to the player leads next: the furthest of the first vertices of the shortest roadmap path
 // that the camera sees; the paper's second vertex when it sees no further. The camera's own position when
 // there is no way.
-[[nodiscard]] Vec3f next_on_the_way(const freespace::Freespace& freespace, const PlayerTrack& track,
-                                    const Start& start, freespace::RoadmapSearch& roadmap);
+[[nodiscard]] Vec3f next_on_the_way(const freespace::Freespace& freespace, const MapProfile& profile,
+                                    const PlayerTrack& track, const Start& start,
+                                    freespace::RoadmapSearch& roadmap);
 
 }  // namespace camdir::camera

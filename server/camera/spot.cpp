@@ -20,6 +20,7 @@ constexpr int yaw_steps = 12;  // to each side
 constexpr std::array elevations = {0.0F * radian, 20.0F * radian, -20.0F * radian, 45.0F * radian};
 constexpr float inside_beam = 2.0F;  // units: how far before the end of a free beam a spot lies
 constexpr float turn_cost = 0.2F;    // of leaving the camera's direction, against angle's own
+constexpr float cut_distance_weight = 2.0F;
 
 float squared(float value) {
     return value * value;
@@ -96,9 +97,11 @@ struct Origin {
 class SpotSearch {
   public:
     SpotSearch(const freespace::Freespace& freespace, const MapProfile& profile, const PlayerTrack& track)
-        : freespace_(freespace), profile_(profile) {
+        : freespace_(freespace), profile_(profile), distance_weight_(profile.weight_distance) {
         now_ = {track.anchor, track.slab, beam_radius(profile, track)};
     }
+    // A cut has no motion to pay for: nothing keeps it from a spot further round the player.
+    void for_a_cut() { distance_weight_ *= cut_distance_weight; }
     void foresee(const Vec3f& anchor) { later_ = Origin{anchor, now_.slab, now_.beam_radius}; }
 
     void consider(const Candidate& candidate) {
@@ -125,11 +128,12 @@ class SpotSearch {
         return beam.clear ? profile_.distance : std::max(0.0F, beam.free_length - inside_beam);
     }
     [[nodiscard]] float distance_cost(float length) const {
-        return profile_.weight_distance * squared((profile_.distance - length) / profile_.distance_tolerance);
+        return distance_weight_ * squared((profile_.distance - length) / profile_.distance_tolerance);
     }
 
     const freespace::Freespace& freespace_;
     const MapProfile& profile_;
+    float distance_weight_;
     Origin now_;
     std::optional<Origin> later_;
     Spot best_{Vec3f::Zero(), std::numeric_limits<float>::infinity()};
@@ -160,6 +164,7 @@ Spot spot_to_cut_to(const freespace::Freespace& freespace, const MapProfile& pro
                     const PlayerTrack& track) {
     Fan fan(profile, track, nullptr);
     SpotSearch search(freespace, profile, track);
+    search.for_a_cut();
     fan.fill(std::numbers::pi_v<float>);
     consider_all(fan, search);
     return search.best();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "camera/cut.hpp"
 #include "camera/moves.hpp"
@@ -80,15 +81,19 @@ class Step {
     Camera search() {
         const Spot spot = spot_to_move_to(freespace_, profile_, player_, state_.position);
         Moves all = moves(spot, state_.position);
-        all.visibility = next_on_the_way(freespace_, player_, start(), scratch_.roadmap) - state_.position;
+        all.visibility =
+            next_on_the_way(freespace_, profile_, player_, start(), scratch_.roadmap) - state_.position;
         const float urgency = std::min(greatest_urgency, std::exp(profile_.search_growth * state_.lost_for));
         const Vec3f move = average_when_lost(profile_, all, urgency, dt_);
-        // Where the average would scrape along an obstacle, straight to the roadmap.
+        // Where the average would scrape along an obstacle, straight to the roadmap, however narrow its way
+        // is.
+        std::optional<Candidate> next;
         for (const Vec3f& wanted : {move, all.visibility}) {
-            const auto reached = reach_shortened(freespace_, profile_, player_, start(),
-                                                 within_reach(state_.position + wanted));
-            if (reached && reached->clearance >= profile_.minimum_clearance) return move_to(*reached);
+            next = reach_shortened(freespace_, profile_, player_, start(),
+                                   within_reach(state_.position + wanted));
+            if (next && next->clearance >= profile_.minimum_clearance) break;
         }
+        if (next) return move_to(*next);
         state_.lost_for += dt_;
         turn();
         return hold(searching);

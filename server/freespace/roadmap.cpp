@@ -49,7 +49,11 @@ constexpr auto later = [](const auto& a, const auto& b) {
 }  // namespace
 
 RoadmapSearch::RoadmapSearch(const Freespace& freespace)
-    : freespace_(freespace), component_(find_components(freespace)), labels_(freespace.vertices().size()) {}
+    : freespace_(freespace), component_(find_components(freespace)), labels_(freespace.vertices().size()) {
+    // Each vertex is expanded once, over two edges of each of its triangles.
+    open_.reserve(6 * freespace.triangles().size() + 3);
+    path_.vertices.reserve(freespace.vertices().size());
+}
 
 RoadmapSearch::Gate RoadmapSearch::gate(const Vec3f& point) const {
     Gate gate;

@@ -46,7 +46,8 @@ class CheckedShot {
     [[nodiscard]] int cuts() const { return cuts_; }
 
   private:
-    void check(const Camera& camera, const Pose* pose);
+    // `slab`: of the camera before the step.
+    void check(const Camera& camera, const Pose* pose, std::uint32_t slab);
 
     const test::Plan& plan_;
     freespace::Freespace freespace_;

@@ -1,0 +1,67 @@
+// step() does not allocate. Counts every allocation of the program.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include "walk.hpp"
+
+namespace {
+
+std::atomic<long> allocations = 0;
+
+void* counted(std::size_t size) {
+    ++allocations;
+    if (void* memory = std::malloc(size)) return memory;
+    throw std::bad_alloc();
+}
+
+}  // namespace
+
+void* operator new(std::size_t size) {
+    return counted(size);
+}
+void* operator new[](std::size_t size) {
+    return counted(size);
+}
+void operator delete(void* memory) noexcept {
+    std::free(memory);
+}
+void operator delete[](void* memory) noexcept {
+    std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+    std::free(memory);
+}
+void operator delete[](void* memory, std::size_t) noexcept {
+    std::free(memory);
+}
+
+namespace camdir::camera {
+namespace {
+
+TEST(Allocation, NoStepAllocates) {
+    const test::Plan plan = test::l_corridor();
+    const freespace::Freespace freespace = plan.freespace();
+    std::vector<Pose> poses;
+    for (int i = 0; i < 600; ++i) {  // lost every 100 frames: the roadmap is searched
+        poses.push_back(pose_at(plan.eye(i / 100 % 2 == 0 ? 's' : 't'), 0.01F * static_cast<float>(i)));
+    }
+    poses[500].discontinuity = true;
+
+    Profile profile;
+    profile.search_time_limit = 3.0F;
+    Scratch scratch(freespace);
+    ShotState state;
+    int searched = 0;
+    const long before = allocations;
+    for (const Pose& pose : poses) {
+        searched += (step(freespace, profile, &pose, 1.0 / 60.0, state, scratch).flags & searching) != 0;
+    }
+    EXPECT_EQ(allocations - before, 0);
+    EXPECT_GT(searched, 10);
+}
+
+}  // namespace
+}  // namespace camdir::camera
