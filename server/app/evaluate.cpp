@@ -111,7 +111,8 @@ void print(const Options& options, const evaluation::Trace& trace, const evaluat
     if (recording.step_nanoseconds.empty()) return;
     std::cerr << "cost             median "
               << std::llround(evaluation::percentile(recording.step_nanoseconds, 0.5)) << "  p99 "
-              << std::llround(evaluation::percentile(recording.step_nanoseconds, 0.99)) << " ns an update\n";
+              << std::llround(evaluation::percentile(recording.step_nanoseconds, 0.99))
+              << " ns of CPU time an update\n";
 }
 
 Result<void> write_results(const Options& options, const evaluation::Trace& trace,

@@ -17,7 +17,7 @@ namespace camdir::evaluation {
 struct Recording {
     CameraPath cameras;                         // of trace.poses
     std::vector<camera::ObjectiveTerms> terms;  // of trace.poses
-    std::vector<double> step_nanoseconds;       // wall time of every camera::step, in no particular order
+    std::vector<double> step_nanoseconds;       // CPU time of every camera::step, in no particular order
 };
 
 // Steps done and steps in all. Called from several threads.
