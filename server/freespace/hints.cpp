@@ -9,7 +9,7 @@ namespace camdir::freespace {
 namespace {
 
 constexpr float cells_per_triangle = 2.0F;
-constexpr float fewest_cells = 16'384.0F;
+constexpr float fewest_cells = 1'024.0F;
 // A hint that is a tenth short of the best does its work as well.
 constexpr float slack = 0.1F;
 

@@ -14,7 +14,7 @@ constexpr int ball_limit = 128;
 // A hint is taken when its ball carries on by this share of its radius; the walk ends when no ball carries on
 // by the smaller one.
 constexpr double good_gain = 0.05;
-constexpr double least_gain = 1e-3;
+constexpr double least_gain = 0.01;
 // A ball a little smaller than the best one carries nearly as far and is found much sooner.
 constexpr float sight_slack = 0.25F;
 // Shrinks a ball before the exit from it is computed, so that rounding never carries the walk out of it.
