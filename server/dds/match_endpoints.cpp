@@ -36,7 +36,8 @@ Result<void> MatchEndpoints::open_readers(const Participant& participant) {
 
     for (const auto& [topic, reader] :
          {std::pair{Topic::pose_frame, &pose_reader_}, std::pair{Topic::match_event, &event_reader_},
-          std::pair{Topic::observer_request, &request_reader_}}) {
+          std::pair{Topic::observer_request, &request_reader_},
+          std::pair{Topic::observer_status, &rival_reader_}}) {
         *reader = dds_create_reader(subscriber_.handle(), participant.topic(topic), reader_qos(topic).get(),
                                     nullptr);
         if (*reader < 0) {
@@ -72,13 +73,29 @@ dds_return_t MatchEndpoints::write(const director::CameraFrame& frame) {
 
 dds_return_t MatchEndpoints::write(const director::ObserverStatus& status) {
     const camera_director_ObserverStatus sample = encode(status);
+    const std::lock_guard lock(statuses_mutex_);
+    statuses_[status.observer_id] = sample;
     return dds_write(status_writer_, &sample);
 }
 
 dds_return_t MatchEndpoints::withdraw(const std::string& observer_id) {
     const camera_director_ObserverStatus key = observer_status_key(match_id_, observer_id);
+    const std::lock_guard lock(statuses_mutex_);
+    statuses_.erase(observer_id);
     if (const dds_return_t disposed = dds_dispose(status_writer_, &key); disposed < 0) return disposed;
     return dds_unregister_instance(status_writer_, &key);
+}
+
+bool MatchEndpoints::lost_rival() {
+    dds_subscription_matched_status_t status{};
+    return dds_get_subscription_matched_status(rival_reader_, &status) == DDS_RETCODE_OK &&
+           status.current_count_change < 0;
+}
+
+void MatchEndpoints::repeat_statuses() {
+    const std::lock_guard lock(statuses_mutex_);
+    for (const auto& [observer_id, sample] : statuses_)
+        dds_write(status_writer_, &sample);
 }
 
 void MatchEndpoints::assert_liveliness() {

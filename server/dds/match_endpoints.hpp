@@ -3,7 +3,9 @@
 
 #include <atomic>
 #include <memory>
+#include <mutex>
 #include <string>
+#include <unordered_map>
 
 #include "dds/encode.hpp"
 #include "dds/entity.hpp"
@@ -23,12 +25,20 @@ class MatchEndpoints {
     [[nodiscard]] dds_entity_t pose_reader() const { return pose_reader_; }
     [[nodiscard]] dds_entity_t event_reader() const { return event_reader_; }
     [[nodiscard]] dds_entity_t request_reader() const { return request_reader_; }
+    // Reads other directors' statuses, so that their end is noticed.
+    [[nodiscard]] dds_entity_t rival_reader() const { return rival_reader_; }
 
-    // The writing calls may run beside the readers' thread, but one at a time. They return DDS's error.
+    // Written by one thread at a time, which may be another than the readers'. They return DDS's error.
     [[nodiscard]] dds_return_t write(const director::CameraFrame& frame);
     [[nodiscard]] dds_return_t write(const director::ObserverStatus& status);
     // The observer's status ends for everybody.
     [[nodiscard]] dds_return_t withdraw(const std::string& observer_id);
+
+    // Another director of the match has gone since the call before. One thread at a time.
+    [[nodiscard]] bool lost_rival();
+    // Writes the newest status of every observer again: readers have dropped what a standby wrote while its
+    // leader lived. Thread-safe.
+    void repeat_statuses();
 
     // "I am alive" when no camera was written since the call before. Thread-safe.
     void assert_liveliness();
@@ -49,8 +59,11 @@ class MatchEndpoints {
     dds_entity_t pose_reader_ = 0;
     dds_entity_t event_reader_ = 0;
     dds_entity_t request_reader_ = 0;
+    dds_entity_t rival_reader_ = 0;
     dds_entity_t camera_writer_ = 0;
     dds_entity_t status_writer_ = 0;
+    std::mutex statuses_mutex_;
+    std::unordered_map<std::string, camera_director_ObserverStatus> statuses_;  // newest, by observer
 };
 
 }  // namespace camdir::dds

@@ -14,6 +14,10 @@ namespace {
 
 constexpr std::size_t samples_a_take = 32;
 
+// Every observer notices the end of a director by itself, by the lease of its participant (10 s).
+constexpr std::chrono::seconds repeat_interval{2};
+constexpr std::chrono::seconds repeat_span{30};
+
 // Tags of the waitset that are no Source.
 const char guard_tag = 0;
 const char match_info_tag = 0;
@@ -32,7 +36,8 @@ Reception::Reception(const Participant& participant, Terms terms, MatchTable& ta
       match_info_samples_(topic_type(Topic::match_info), samples_a_take),
       pose_samples_(topic_type(Topic::pose_frame), samples_a_take),
       event_samples_(topic_type(Topic::match_event), samples_a_take),
-      request_samples_(topic_type(Topic::observer_request), samples_a_take) {}
+      request_samples_(topic_type(Topic::observer_request), samples_a_take),
+      status_samples_(topic_type(Topic::observer_status), samples_a_take) {}
 
 Reception::~Reception() {
     stop();
@@ -94,10 +99,10 @@ void Reception::forget(const std::string& match_id) {
 }
 
 void Reception::run() noexcept {
-    using Clock = std::chrono::steady_clock;
     // Three chances within a lease.
     const std::chrono::nanoseconds interval = std::chrono::nanoseconds(terms_.leadership.lease) / 4;
     Clock::time_point next_assertion = Clock::now();
+    Clock::time_point next_repetition = Clock::now();
     while (!stopping_) {
         const std::chrono::nanoseconds patience =
             std::max(std::chrono::nanoseconds(next_assertion - Clock::now()), std::chrono::nanoseconds(0));
@@ -108,6 +113,10 @@ void Reception::run() noexcept {
         if (Clock::now() >= next_assertion) {
             assert_liveliness();
             next_assertion = Clock::now() + interval;
+        }
+        if (Clock::now() >= next_repetition) {
+            repeat_statuses(Clock::now());
+            next_repetition = Clock::now() + repeat_interval;
         }
     }
 }
@@ -136,6 +145,13 @@ void Reception::assert_liveliness() {
     }
     for (const auto& [id, match] : matches_)
         match->endpoints->assert_liveliness();
+}
+
+void Reception::repeat_statuses(Clock::time_point now) {
+    for (const auto& [id, match] : matches_) {
+        if (match->endpoints->lost_rival()) match->repeat_until = now + repeat_span;
+        if (now < match->repeat_until) match->endpoints->repeat_statuses();
+    }
 }
 
 void Reception::take_match_infos() {
@@ -185,15 +201,17 @@ Result<void> Reception::add_match(const director::MatchInfo& info) {
     match->poses = {match.get(), &Reception::take_poses};
     match->events = {match.get(), &Reception::take_events};
     match->requests = {match.get(), &Reception::take_requests};
+    match->rivals = {match.get(), &Reception::discard_rivals_statuses};
     table_.add(match->endpoints);
     counters_.matches = static_cast<std::uint32_t>(matches_.size());
     // A match that is half watched is removed by the caller.
     for (const auto& [reader, source] : {std::pair{match->endpoints->pose_reader(), &match->poses},
                                          std::pair{match->endpoints->event_reader(), &match->events},
-                                         std::pair{match->endpoints->request_reader(), &match->requests}}) {
+                                         std::pair{match->endpoints->request_reader(), &match->requests},
+                                         std::pair{match->endpoints->rival_reader(), &match->rivals}}) {
         if (auto watched = watch(reader, source); !watched) return watched;
     }
-    triggered_.resize(2 + 3 * matches_.size());
+    triggered_.resize(2 + 4 * matches_.size());
     return {};
 }
 
@@ -302,6 +320,11 @@ void Reception::take_requests(Match& match) {
         ++counters_.of(Topic::observer_request).accepted;
         if (known_again(match)) receiver_->receive(observer_request_);
     });
+}
+
+void Reception::discard_rivals_statuses(Match& match) {
+    status_samples_.take(match.endpoints->rival_reader(),
+                         [](const auto& /*sample*/, const auto& /*info*/) {});
 }
 
 }  // namespace camdir::dds

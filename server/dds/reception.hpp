@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -21,7 +22,8 @@ namespace camdir::dds {
 
 // A match is found by its MatchInfo in the configured partitions. From then on its partition is read, until
 // the director has forgotten it and its game server is gone. The thread also asserts the liveliness of the
-// camera writers while the receiver is responsive.
+// camera writers while the receiver is responsive, and repeats a match's statuses when another director has
+// gone.
 class Reception {
   public:
     struct Terms {
@@ -44,6 +46,7 @@ class Reception {
     void forget(const std::string& match_id);
 
   private:
+    using Clock = std::chrono::steady_clock;
     struct Match;
     // What the waitset names when a reader has samples.
     struct Source {
@@ -55,18 +58,21 @@ class Reception {
         MatchTable::Endpoints endpoints;
         bool has_server = true;  // its MatchInfo is alive
         bool forgotten = false;  // by the director; it is told again when something comes
-        Source poses, events, requests;
+        Source poses, events, requests, rivals;
+        Clock::time_point repeat_until{};  // its statuses are repeated until then
     };
 
     [[nodiscard]] Result<void> watch(dds_entity_t reader, const void* tag);
     void run() noexcept;
     void take_triggered(std::size_t count);
     void assert_liveliness();
+    void repeat_statuses(Clock::time_point now);
 
     void take_match_infos();
     void take_poses(Match& match);
     void take_events(Match& match);
     void take_requests(Match& match);
+    void discard_rivals_statuses(Match& match);
 
     void match_found(const camera_director_MatchInfo& sample, const dds_sample_info_t& info);
     void match_lost(const std::string& match_id, bool over);
@@ -99,6 +105,7 @@ class Reception {
     TakeBuffer<camera_director_PoseFrame> pose_samples_;
     TakeBuffer<camera_director_MatchEvent> event_samples_;
     TakeBuffer<camera_director_ObserverRequest> request_samples_;
+    TakeBuffer<camera_director_ObserverStatus> status_samples_;
     director::PoseFrame pose_frame_;
     director::MatchEvent match_event_;
     director::ObserverRequest observer_request_;

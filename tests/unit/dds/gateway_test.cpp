@@ -6,8 +6,7 @@
 #include <algorithm>
 #include <limits>
 #include <mutex>
-#include <set>
-#include <sstream>
+#include <stdexcept>
 
 #include "support/eventually.hpp"
 #include "support/raw_peer.hpp"
@@ -88,7 +87,9 @@ class GatewayTest : public testing::Test {
     RawPeer& game(const std::string& match_id, std::uint64_t epoch = 1) {
         RawPeer& raw = peer(match_id);
         raw.write(test::raw_match_info(match_id, epoch));
-        EXPECT_TRUE(eventually([&] { return raw.directors() == 1; })) << "the match was not found";
+        if (!eventually([&] { return raw.directors() == 1; })) {
+            throw std::runtime_error("the match was not found");
+        }
         return raw;
     }
     std::uint64_t dropped(Topic topic, Defect defect) {

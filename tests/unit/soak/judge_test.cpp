@@ -1,0 +1,131 @@
+// What the observer probe counts as a violation.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "soak/latencies.hpp"
+#include "soak/shot_judge.hpp"
+
+namespace camdir::soak {
+namespace {
+
+// One wall: the square |y|, |z| <= 100 at x = 0.
+scene::Scene wall() {
+    scene::Scene scene;
+    scene.vertices = {{0, -100, -100}, {0, 100, -100}, {0, 100, 100}, {0, -100, 100}};
+    scene.triangles = {{0, 1, 2}, {0, 2, 3}};
+    scene.bounds = Box3d(Vec3d(-500, -500, -500), Vec3d(500, 500, 500));
+    return scene;
+}
+
+class JudgeTest : public testing::Test {
+  protected:
+    // The next frame has the observer's camera at x.
+    void camera_at(float x, std::uint32_t flags = 0) {
+        ++frame_.frame_number;
+        camera_director::Camera camera{};
+        camera.camera_id = 5;
+        camera.position[0] = x;
+        camera.flags = flags;
+        judge_.judge(frame_, &camera, frame_.source_time + 2'000'000);
+    }
+    void no_camera() {
+        ++frame_.frame_number;
+        judge_.judge(frame_, nullptr, frame_.source_time + 2'000'000);
+    }
+    [[nodiscard]] const Findings& found() const { return judge_.findings(); }
+
+    oracle::Oracle oracle_{wall()};
+    ShotJudge judge_{&oracle_, {.step = 64.0, .clearance = 1.0}};
+    camera_director::CameraFrame frame_ = cdir_camera_frame_default();
+};
+
+TEST_F(JudgeTest, AQuietCameraIsNoViolation) {
+    for (int i = 0; i < 20; ++i)
+        camera_at(-200.0F + 5.0F * static_cast<float>(i), CDIR_CAMERA_TARGET_VISIBLE);
+    EXPECT_EQ(found().frames, 20U);
+    EXPECT_EQ(found().cameras, 20U);
+    EXPECT_EQ(found().visible, 20U);
+    EXPECT_EQ(found().in_obstacle + found().through_geometry + found().jumps + found().gaps, 0U);
+    EXPECT_NEAR(found().latency.percentile(0.5), 2e-3, 2e-5);
+}
+
+TEST_F(JudgeTest, AStepThroughTheWallCountsUnlessItIsACut) {
+    camera_at(-20.0F);
+    camera_at(20.0F);
+    EXPECT_EQ(found().through_geometry, 1U);
+    camera_at(-20.0F, CDIR_CAMERA_CUT);
+    EXPECT_EQ(found().through_geometry, 1U);
+    EXPECT_EQ(found().cuts, 1U);
+}
+
+TEST_F(JudgeTest, ALongStepCountsUnlessItIsACutOrFramesAreMissing) {
+    camera_at(100.0F);
+    camera_at(165.0F);
+    EXPECT_EQ(found().jumps, 1U);
+    camera_at(100.0F, CDIR_CAMERA_CUT);
+    EXPECT_EQ(found().jumps, 1U);
+    frame_.frame_number += 3;
+    camera_at(400.0F);
+    EXPECT_EQ(found().jumps, 1U);
+    EXPECT_EQ(found().gaps, 3U);
+    no_camera();
+    camera_at(100.0F);
+    EXPECT_EQ(found().jumps, 1U) << "there was no camera in between";
+}
+
+TEST_F(JudgeTest, ACameraInTheWallCounts) {
+    camera_at(-0.5F);
+    EXPECT_EQ(found().in_obstacle, 1U);
+    camera_at(-1.5F);
+    EXPECT_EQ(found().in_obstacle, 1U);
+}
+
+TEST_F(JudgeTest, OldFramesAndOtherDirectorsAreTold) {
+    camera_at(100.0F);
+    frame_.frame_number -= 1;
+    camera_at(100.0F);
+    EXPECT_EQ(found().disorder, 1U);
+    frame_.director_id = 9;
+    frame_.frame_number = 0;
+    camera_at(300.0F);
+    EXPECT_EQ(found().hand_overs, 1U);
+    frame_.epoch = 2;
+    camera_at(100.0F);
+    EXPECT_EQ(found().epochs, 1U);
+    EXPECT_EQ(found().jumps, 0U);
+}
+
+TEST(Latencies, PercentilesAreRightToOnePercent) {
+    std::mt19937 random(7);
+    std::lognormal_distribution<double> draw(-6.0, 1.0);
+    Latencies latencies, other;
+    std::vector<double> all;
+    for (int i = 0; i < 20000; ++i) {
+        all.push_back(draw(random));
+        (i % 2 == 0 ? latencies : other).add(all.back());
+    }
+    latencies.add(other);
+    std::sort(all.begin(), all.end());
+    EXPECT_EQ(latencies.count(), all.size());
+    EXPECT_EQ(latencies.largest(), all.back());
+    for (const double share : {0.01, 0.5, 0.99, 0.999, 1.0}) {
+        const double exact = all[static_cast<std::size_t>(std::ceil(share * 20000)) - 1];
+        EXPECT_NEAR(latencies.percentile(share), exact, 0.0101 * exact) << share;
+    }
+}
+
+TEST(Latencies, WhatIsOutOfRangeStillCounts) {
+    Latencies latencies;
+    EXPECT_EQ(latencies.percentile(0.99), 0.0);
+    latencies.add(-1.0);  // clocks that were set
+    latencies.add(1e9);
+    EXPECT_EQ(latencies.count(), 2U);
+    EXPECT_GT(latencies.percentile(1.0), 800.0);
+}
+
+}  // namespace
+}  // namespace camdir::soak
