@@ -39,6 +39,8 @@ struct Map {
     std::string source;  // when set, `file` is baked from it when missing or stale
     double d0 = 16.0;    // bake::Parameters::d0
     bool strict = false;
+
+    bool operator==(const Map&) const = default;
 };
 
 struct Matches {

@@ -12,6 +12,15 @@ using nlohmann::json;
 
 constexpr double largest_id = 9007199254740991.0;  // what every JSON reader keeps exactly
 
+// The double that is written as shortly as the float: 0.1F becomes 0.1.
+double shortest(float value) {
+    std::array<char, 32> text{};
+    const auto end = std::to_chars(text.data(), text.data() + text.size(), value);
+    double result = 0.0;
+    std::from_chars(text.data(), end.ptr, result);
+    return result;
+}
+
 template <class Group, class T>
 Slot<T> in(Group Config::*group, T Group::*member) {
     return [=](const Target& target) -> T& { return target.config->*group.*member; };
@@ -284,15 +293,6 @@ std::string number(double value) {
 
 std::string range(const Key& key) {
     return number(key.minimum) + " to " + number(key.maximum);
-}
-
-// The double that is written as shortly as the float: 0.1F becomes 0.1.
-double shortest(float value) {
-    std::array<char, 32> text{};
-    const auto end = std::to_chars(text.data(), text.data() + text.size(), value);
-    double result = 0.0;
-    std::from_chars(text.data(), end.ptr, result);
-    return result;
 }
 
 }  // namespace

@@ -19,12 +19,13 @@ void MapLibrary::set_loading(const std::string& name, const std::string& reason)
     entry.reason = reason;
 }
 
-void MapLibrary::set_ready(const std::string& name, freespace::Freespace freespace) {
+void MapLibrary::set_ready(const std::string& name, freespace::Freespace freespace, double bake_seconds) {
     const std::lock_guard lock(mutex_);
     MapEntry& entry = entries_[name];
     entry.state = MapState::ready;
     entry.reason.clear();
     entry.freespace = std::move(freespace);
+    entry.bake_seconds = bake_seconds;
     entry.generation = ++generation_;
 }
 

@@ -17,6 +17,7 @@ struct MapEntry {
     MapState state = MapState::loading;
     std::string reason;            // why it failed, or what it waits for
     bool strict = false;           // refuse game servers whose map file differs from the baked one
+    double bake_seconds = 0.0;     // of the bake by this process; 0 = none
     std::uint64_t generation = 0;  // differs whenever the freespace differs
     std::optional<freespace::Freespace> freespace;  // set when ready; stays set while a newer one is baked
 };
@@ -26,7 +27,7 @@ class MapLibrary {
   public:
     void add(const std::string& name, bool strict);  // loading, or loading again
     void set_loading(const std::string& name, const std::string& reason);
-    void set_ready(const std::string& name, freespace::Freespace freespace);
+    void set_ready(const std::string& name, freespace::Freespace freespace, double bake_seconds = 0.0);
     void set_failed(const std::string& name, const std::string& reason);
     void remove(const std::string& name);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <utility>
 #include <variant>
 
 namespace camdir::director {
@@ -165,9 +166,12 @@ void Match::check_map_hash(const MapEntry& entry) {
     refusal_.clear();
     const std::uint64_t baked = entry.freespace->metadata().source_hash;
     if (info_->map_hash == 0 || baked == 0 || info_->map_hash == baked) return;
-    counters_.add(Counter::map_hash_mismatches);
-    spdlog::warn("match {}: its map file {} (xxh3 {:016x}) is not the one that was baked ({:016x})",
-                 match_id_, info_->map_name, info_->map_hash, baked);
+    const std::pair mismatch(info_->map_hash, baked);
+    if (std::exchange(told_mismatch_, mismatch) != mismatch) {
+        counters_.add(Counter::map_hash_mismatches);
+        spdlog::warn("match {}: its map file {} (xxh3 {:016x}) is not the one that was baked ({:016x})",
+                     match_id_, info_->map_name, info_->map_hash, baked);
+    }
     if (entry.strict)
         refusal_ = "the game server's map '" + info_->map_name + "' is not the one that was baked";
 }

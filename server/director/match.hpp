@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "director/attention.hpp"
 #include "director/inbox.hpp"
@@ -88,8 +89,9 @@ class Match final : public Strand {
     std::shared_ptr<const config::Config> config_;
     Inbox::Content content_;
     std::optional<MatchInfo> info_;
-    std::string refusal_;  // Situation::refusal
-    std::string no_map_;   // Situation::no_map
+    std::string refusal_;                                    // Situation::refusal
+    std::string no_map_;                                     // Situation::no_map
+    std::pair<std::uint64_t, std::uint64_t> told_mismatch_;  // hashes: the game server's, the baked map's
     std::uint64_t map_generation_ = 0;
     std::optional<freespace::Freespace> freespace_;
     std::unique_ptr<camera::Scratch> scratch_;

@@ -1,0 +1,167 @@
+#include "app/map_loader.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <set>
+
+#include "bake/bake.hpp"
+#include "base/file.hpp"
+#include "config/json_text.hpp"
+#include "scene/load.hpp"
+
+namespace camdir::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+double baked_d0(const freespace::Metadata& metadata) {
+    const auto parameters = config::parse_json(metadata.parameters);
+    return parameters && parameters->is_object() && parameters->contains("d0") &&
+                   (*parameters)["d0"].is_number()
+               ? (*parameters)["d0"].get<double>()
+               : 0.0;
+}
+
+// Why `file` does not hold the map as configured; empty: it does.
+std::string staleness(const config::Map& map, const freespace::Freespace& baked, std::uint64_t source_hash) {
+    if (baked.metadata().source_hash != source_hash) return map.source + " has changed since";
+    const double d0 = baked_d0(baked.metadata());
+    if (std::abs(d0 - map.d0) > 1e-5) return "it was baked with d0 " + std::to_string(d0);
+    return {};
+}
+
+std::string percent(const bake::Progress& progress) {
+    std::string text = "baking: " + std::string(progress.stage);
+    if (progress.total > 0) text += " " + std::to_string(100 * progress.done / progress.total) + " %";
+    return text;
+}
+
+}  // namespace
+
+Result<void> check_map(const config::Map& map) {
+    if (map.source.empty()) {
+        const auto opened = freespace::Freespace::open(map.file);
+        if (!opened) return tl::unexpected(opened.error());
+    } else {
+        const auto hash = scene::hash_source(map.source);
+        if (!hash) return tl::unexpected(hash.error());
+    }
+    return {};
+}
+
+void MapLoader::load(const std::vector<config::Map>& maps) {
+    stop();
+    std::set<std::string> listed;
+    for (const config::Map& map : maps)
+        listed.insert(map.name);
+    for (const std::string& name : library_.names()) {
+        if (listed.contains(name)) continue;
+        library_.remove(name);
+        loaded_.erase(name);
+    }
+    std::vector<config::Map> wanted;
+    for (const config::Map& map : maps) {
+        if (unchanged(map)) continue;
+        library_.add(map.name, map.strict);
+        wanted.push_back(map);
+    }
+    changed_();
+    thread_ = std::jthread([this, wanted](const std::stop_token& token) { work(token, wanted); });
+}
+
+void MapLoader::stop() {
+    if (!thread_.joinable()) return;
+    thread_.request_stop();
+    thread_.join();
+}
+
+void MapLoader::work(const std::stop_token& stop, const std::vector<config::Map>& maps) {
+    std::vector<config::Map> to_bake;
+    for (const config::Map& map : maps)
+        if (!stop.stop_requested() && !open_if_current(map)) to_bake.push_back(map);
+    for (const config::Map& map : to_bake)
+        if (!stop.stop_requested()) bake_and_open(map, stop);
+}
+
+// False: the map is to be baked.
+bool MapLoader::open_if_current(const config::Map& map) {
+    if (map.source.empty()) {
+        open(map, 0.0);
+        return true;
+    }
+    const auto hash = scene::hash_source(map.source);
+    const auto opened = freespace::Freespace::open(map.file);
+    if (!hash && !opened) {
+        set_failed(map, hash.error());
+        return true;
+    }
+    if (!hash) spdlog::warn("map {}: {}: {} is used as it is", map.name, hash.error().message, map.file);
+    const std::string stale = !opened ? opened.error().message : !hash ? "" : staleness(map, *opened, *hash);
+    if (stale.empty()) {
+        open(map, 0.0);
+        return true;
+    }
+    spdlog::info("map {}: will be baked: {}", map.name, stale);
+    library_.set_loading(map.name, "waits to be baked");
+    return false;
+}
+
+void MapLoader::bake_and_open(const config::Map& map, const std::stop_token& stop) {
+    const auto begin = std::chrono::steady_clock::now();
+    const auto baked = bake(map, stop);
+    if (!baked && baked.error().code == ErrorCode::interrupted) return;
+    if (!baked) return set_failed(map, baked.error());
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+    spdlog::info("map {}: baked in {:.1f} s", map.name, seconds.count());
+    open(map, seconds.count());
+}
+
+Result<void> MapLoader::bake(const config::Map& map, const std::stop_token& stop) {
+    spdlog::info("map {}: baking {}", map.name, map.source);
+    library_.set_loading(map.name, "baking");
+    const auto scene = scene::load(map.source);
+    if (!scene) return tl::unexpected(scene.error());
+    bake::Parameters parameters;
+    parameters.d0 = map.d0;
+    const auto baked = bake::bake(
+        *scene, parameters,
+        [&](const bake::Progress& progress) { library_.set_loading(map.name, percent(progress)); }, stop);
+    if (!baked) return tl::unexpected(baked.error());
+    return write_file(map.file, freespace::encode(baked->contents));
+}
+
+void MapLoader::open(const config::Map& map, double bake_seconds) {
+    auto opened = freespace::Freespace::open(map.file);
+    if (!opened) return set_failed(map, opened.error());
+    spdlog::info("map {}: {} vertices, {} triangles", map.name, opened->vertices().size(),
+                 opened->triangles().size());
+    remember(map);
+    library_.set_ready(map.name, std::move(*opened), bake_seconds);
+    changed_();
+}
+
+void MapLoader::set_failed(const config::Map& map, const Error& error) {
+    spdlog::error("map {}: {}", map.name, error.message);
+    loaded_.erase(map.name);
+    library_.set_failed(map.name, error.message);
+    changed_();
+}
+
+bool MapLoader::unchanged(const config::Map& map) const {
+    const auto found = loaded_.find(map.name);
+    if (found == loaded_.end()) return false;
+    const Origin& origin = found->second;
+    std::error_code error;
+    return origin.map == map && fs::last_write_time(map.file, error) == origin.written &&
+           fs::file_size(map.file, error) == origin.size && !error;
+}
+
+void MapLoader::remember(const config::Map& map) {
+    std::error_code error;
+    loaded_[map.name] = {map, fs::last_write_time(map.file, error), fs::file_size(map.file, error)};
+}
+
+}  // namespace camdir::app

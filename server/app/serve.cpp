@@ -1,0 +1,72 @@
+// camera-director serve
+#include <spdlog/spdlog.h>
+
+#include <iostream>
+#include <memory>
+
+#include "app/commands.hpp"
+#include "app/logging.hpp"
+#include "app/service.hpp"
+
+namespace camdir::app {
+namespace {
+
+struct Options {
+    std::string config;
+    bool check = false;
+    bool print_schema = false;
+    bool print_reference = false;
+};
+
+int check(const config::Config& config, const std::string& file) {
+    bool good = true;
+    for (std::size_t i = 0; i < config.maps.size(); ++i) {
+        const auto checked = check_map(config.maps[i]);
+        if (checked) continue;
+        good = false;
+        std::cerr << "camera-director: " << file << ": /maps/" << i << ": " << checked.error().message
+                  << '\n';
+    }
+    if (!good) return exit_failed;
+    std::cerr << "camera-director: " << file << ": valid\n";
+    return exit_done;
+}
+
+int serve(const Options& options) {
+    if (options.print_schema || options.print_reference) {
+        std::cout << (options.print_schema ? config::schema() : config::reference());
+        return exit_done;
+    }
+    auto config = config::load(options.config);
+    if (!config) return report(config.error());
+    if (options.check) return check(*config, options.config);
+
+    Signals signals;
+    start_logging(config->log);
+    auto service = Service::open(options.config, std::move(*config));
+    if (!service) {
+        spdlog::critical("{}", service.error().message);
+        return exit_failed;
+    }
+    (*service)->run(signals);
+    return exit_done;
+}
+
+}  // namespace
+
+void add_serve(CLI::App& root, Run& run) {
+    auto options = std::make_shared<Options>();
+    CLI::App& command =
+        *root.add_subcommand("serve", "Serve cameras until SIGTERM; SIGHUP reloads maps and profiles.");
+    auto* config =
+        command.add_option("--config", options->config, "Configuration (JSON).")->type_name("FILE");
+    command.add_flag("--check", options->check, "Validate the configuration and what it names, then exit.")
+        ->needs(config);
+    auto* print = command.add_option_group("print", "Print what the configuration can say, then exit");
+    print->add_flag("--print-schema", options->print_schema, "JSON Schema of the configuration.");
+    print->add_flag("--print-reference", options->print_reference, "Reference of its keys, Markdown.");
+    command.require_option(1, 0);
+    command.callback([&run, options] { run = [options] { return serve(*options); }; });
+}
+
+}  // namespace camdir::app

@@ -1,0 +1,122 @@
+#include "http/metrics.hpp"
+
+#include <limits>
+#include <utility>
+
+namespace camdir::http {
+namespace {
+
+using director::Counter;
+using director::Statistics;
+using prometheus::MetricFamily;
+using prometheus::MetricType;
+
+constexpr const char* prefix = "camera_director_";
+
+MetricFamily family(MetricType type, const std::string& name, const std::string& help) {
+    MetricFamily result;
+    result.name = prefix + name;
+    result.help = help;
+    result.type = type;
+    return result;
+}
+
+MetricFamily counter(const std::string& name, const std::string& help, std::uint64_t value) {
+    MetricFamily result = counter_family(name, help);
+    add_metric(result, static_cast<double>(value));
+    return result;
+}
+
+MetricFamily gauge(const std::string& name, const std::string& help, std::uint64_t value) {
+    MetricFamily result = gauge_family(name, help);
+    add_metric(result, static_cast<double>(value));
+    return result;
+}
+
+MetricFamily histogram(const std::string& name, const std::string& help,
+                       const director::Durations& durations) {
+    MetricFamily result = family(MetricType::Histogram, name, help);
+    auto& out = result.metric.emplace_back().histogram;
+    for (std::size_t i = 0; i < durations.buckets.size(); ++i) {
+        out.sample_count += durations.buckets[i];
+        const bool last = i == director::Durations::bounds_s.size();
+        out.bucket.push_back({out.sample_count, last ? std::numeric_limits<double>::infinity()
+                                                     : director::Durations::bounds_s[i]});
+    }
+    out.sample_sum = durations.sum_s;
+    return result;
+}
+
+MetricFamily drops(const Statistics& statistics) {
+    static constexpr std::pair<Counter, const char*> reasons[] = {
+        {Counter::drop_unknown_match, "unknown_match"},
+        {Counter::drop_old_epoch, "old_epoch"},
+        {Counter::drop_early_epoch, "early_epoch"},
+        {Counter::drop_old_frame, "old_frame"},
+        {Counter::drop_superseded, "superseded"},
+        {Counter::drop_waiting, "no_map"},
+        {Counter::drop_players, "players"},
+        {Counter::drop_events, "events"},
+        {Counter::drop_control, "control"}};
+    MetricFamily result = counter_family("dropped_total", "What came in and was dropped, by reason.");
+    for (const auto& [reason, label] : reasons)
+        add_metric(result, static_cast<double>(statistics[reason]), {{"reason", label}});
+    return result;
+}
+
+}  // namespace
+
+MetricFamily counter_family(const std::string& name, const std::string& help) {
+    return family(MetricType::Counter, name, help);
+}
+
+MetricFamily gauge_family(const std::string& name, const std::string& help) {
+    return family(MetricType::Gauge, name, help);
+}
+
+void add_metric(MetricFamily& family, double value, std::vector<prometheus::ClientMetric::Label> labels) {
+    auto& metric = family.metric.emplace_back();
+    metric.label = std::move(labels);
+    if (family.type == MetricType::Counter)
+        metric.counter.value = value;
+    else
+        metric.gauge.value = value;
+}
+
+std::vector<MetricFamily> director_metrics(const Statistics& s) {
+    return {counter("match_infos_total", "MatchInfo samples.", s[Counter::match_infos]),
+            counter("pose_frames_total", "Pose frames of running matches.", s[Counter::pose_frames]),
+            counter("events_total", "Match events.", s[Counter::events]),
+            counter("requests_total", "Observer requests, new or changed.", s[Counter::requests]),
+            counter("camera_frames_total", "Camera frames published.", s[Counter::camera_frames]),
+            counter("cameras_total", "Cameras in them.", s[Counter::cameras]),
+            counter("cuts_total", "Cameras that jumped, declared.", s[Counter::cuts]),
+            counter("searches_total", "Times that a camera began to search for its player.",
+                    s[Counter::searches]),
+            counter("silences_total", "Times that a match fell silent.", s[Counter::silences]),
+            counter("refused_matches_total", "Matches above the limit.", s[Counter::refused_matches]),
+            counter("refused_requests_total", "Requests refused.", s[Counter::refused_requests]),
+            counter("map_hash_mismatches_total", "Matches whose map file is not the one that was baked.",
+                    s[Counter::map_hash_mismatches]),
+            drops(s),
+            gauge("matches", "Matches that have a game server.", s.matches),
+            gauge("silent_matches", "Those of them that are silent.", s.silent_matches),
+            gauge("observers", "Observers.", s.observers),
+            gauge("shots", "Shots, each with a camera.", s.shots),
+            histogram("step_seconds", "Time of one shot's tracker step.", s.step),
+            histogram("latency_seconds", "From the receiving of a pose frame to its cameras' leaving.",
+                      s.latency)};
+}
+
+std::vector<MetricFamily> map_metrics(const std::map<std::string, director::MapEntry>& maps) {
+    MetricFamily loaded = gauge_family("map_loaded", "1: the map can be used.");
+    MetricFamily bake =
+        gauge_family("map_bake_seconds", "Duration of the map's bake by this process; 0: none.");
+    for (const auto& [name, entry] : maps) {
+        add_metric(loaded, entry.freespace ? 1.0 : 0.0, {{"map", name}});
+        add_metric(bake, entry.bake_seconds, {{"map", name}});
+    }
+    return {loaded, bake};
+}
+
+}  // namespace camdir::http

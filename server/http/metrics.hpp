@@ -1,0 +1,27 @@
+// The director's numbers as Prometheus metrics.
+#pragma once
+
+#include <prometheus/metric_family.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "director/map_library.hpp"
+#include "director/view.hpp"
+
+namespace camdir::http {
+
+// A family without metrics; `name` without the project's prefix.
+[[nodiscard]] prometheus::MetricFamily counter_family(const std::string& name, const std::string& help);
+[[nodiscard]] prometheus::MetricFamily gauge_family(const std::string& name, const std::string& help);
+
+// Adds a metric with the labels to a family of counters or gauges.
+void add_metric(prometheus::MetricFamily& family, double value,
+                std::vector<prometheus::ClientMetric::Label> labels = {});
+
+[[nodiscard]] std::vector<prometheus::MetricFamily> director_metrics(const director::Statistics& statistics);
+[[nodiscard]] std::vector<prometheus::MetricFamily> map_metrics(
+    const std::map<std::string, director::MapEntry>& maps);
+
+}  // namespace camdir::http

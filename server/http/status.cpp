@@ -1,0 +1,65 @@
+#include "http/status.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace camdir::http {
+namespace {
+
+using json = nlohmann::ordered_json;
+
+json shown(const director::ShotView& shot) {
+    json page = {{"camera_id", shot.camera_id},
+                 {"automatic", shot.automatic},
+                 {"profile", shot.profile},
+                 {"observers", shot.observers},
+                 {"flags", shot.flags}};
+    page["target"] = shot.target == director::no_player ? json() : json(shot.target);
+    return page;
+}
+
+json shown(const director::ObserverView& observer) {
+    static constexpr const char* states[] = {"refused", "accepted", "waiting for map", "waiting for player"};
+    return {{"observer_id", observer.observer_id},
+            {"state", states[static_cast<std::size_t>(observer.state)]},
+            {"camera_id", observer.camera_id},
+            {"reason", observer.reason}};
+}
+
+json shown(const director::MatchView& match) {
+    if (!match.answered) return {{"match_id", match.match_id}, {"state", "no answer"}};
+    json page = {{"match_id", match.match_id}, {"state", match.state},
+                 {"epoch", match.epoch},       {"map", match.map_name},
+                 {"rate_hz", match.rate_hz},   {"spectator_delay_s", match.spectator_delay_s},
+                 {"players", match.players},   {"last_pose_number", match.last_pose_number},
+                 {"shots", json::array()},     {"observers", json::array()}};
+    for (const auto& shot : match.shots)
+        page["shots"].push_back(shown(shot));
+    for (const auto& observer : match.observers)
+        page["observers"].push_back(shown(observer));
+    return page;
+}
+
+json shown(const std::string& name, const director::MapEntry& map) {
+    static constexpr const char* states[] = {"loading", "ready", "failed"};
+    json page = {
+        {"name", name}, {"state", states[static_cast<std::size_t>(map.state)]}, {"reason", map.reason}};
+    if (map.freespace) {
+        page["vertices"] = map.freespace->vertices().size();
+        page["triangles"] = map.freespace->triangles().size();
+        page["bytes"] = map.freespace->byte_size();
+    }
+    return page;
+}
+
+}  // namespace
+
+std::string status_page(const director::View& view, const std::map<std::string, director::MapEntry>& maps) {
+    json page = {{"maps", json::array()}, {"matches", json::array()}};
+    for (const auto& [name, map] : maps)
+        page["maps"].push_back(shown(name, map));
+    for (const auto& match : view.matches)
+        page["matches"].push_back(shown(match));
+    return page.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace camdir::http

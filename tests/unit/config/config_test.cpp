@@ -1,0 +1,165 @@
+#include "config/config.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace camdir::config {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+Config good(const std::string& text) {
+    auto config = parse(text, "test", "/etc/director");
+    EXPECT_TRUE(config) << config.error().message;
+    return config.value_or(Config{});
+}
+
+std::string problem(const std::string& text) {
+    const auto config = parse(text, "test", "");
+    return config ? "no problem" : config.error().message;
+}
+
+TEST(Config, EmptyObjectGivesTheDefaults) {
+    const Config config = good("{}");
+    EXPECT_EQ(config.http.address, "127.0.0.1");
+    EXPECT_EQ(config.dds.partitions, std::vector<std::string>{"match/*"});
+    EXPECT_TRUE(config.profiles.contains("default"));
+    EXPECT_TRUE(config.maps.empty());
+}
+
+TEST(Config, ReadsWhatIsThere) {
+    const Config config = good(R"({
+        "dds": {"domain": 7, "peers": ["a", "b:7411"]},
+        "maps": [{"name": "dm1", "file": "dm1.vfs", "source": "/maps/pak.pk3:maps/dm1.bsp", "d0": 24.5}],
+        "profiles": {"close": {"distance": 60}},
+        "matches": {"default_profile": "close"}})");
+    EXPECT_EQ(config.dds.domain, 7);
+    EXPECT_THAT(config.dds.peers, ElementsAre("a", "b:7411"));
+    ASSERT_EQ(config.maps.size(), 1U);
+    EXPECT_EQ(config.maps[0].d0, 24.5);
+    EXPECT_EQ(config.profiles.at("close").distance, 60.0F);
+    EXPECT_EQ(config.matches.default_profile, "close");
+}
+
+TEST(Config, RelativePathsStartAtTheFilesFolder) {
+    const Config config = good(R"({"maps": [{"name": "a", "file": "x/a.vfs", "source": "pak.pk3:maps/a.bsp"},
+                                            {"name": "b", "file": "/data/b.vfs"}]})");
+    EXPECT_EQ(config.maps[0].file, "/etc/director/x/a.vfs");
+    EXPECT_EQ(config.maps[0].source, "/etc/director/pak.pk3:maps/a.bsp");
+    EXPECT_EQ(config.maps[1].file, "/data/b.vfs");
+    EXPECT_EQ(config.maps[1].source, "");
+}
+
+TEST(Config, ReportsEveryProblem) {
+    const std::string problems =
+        problem(R"({"dds": {"domain": 999, "domian": 1}, "http": {"port": "x"}, "mapps": []})");
+    EXPECT_THAT(problems, AllOf(HasSubstr("test: /dds/domain: 999: expected an integer from 0 to 230\n"),
+                                HasSubstr("test: /dds/domian: unknown key, did you mean \"domain\"?"),
+                                HasSubstr("test: /http/port: \"x\": expected an integer from 0 to 65535"),
+                                HasSubstr("test: /mapps: unknown key, did you mean \"maps\"?")));
+}
+
+TEST(Config, SuggestsOnlyWhatIsNear) {
+    EXPECT_THAT(problem(R"({"http": {"completely_else": 1}})"),
+                AllOf(HasSubstr("/http/completely_else: unknown key"), Not(HasSubstr("did you mean"))));
+}
+
+TEST(Config, RefusesWhatIsThereTwice) {
+    EXPECT_THAT(problem(R"({"http": {"port": 1, "port": 2}})"), HasSubstr("the key \"port\" is there twice"));
+    EXPECT_THAT(problem(R"({"maps": [{"name": "a", "file": "1"}, {"name": "a", "file": "2"}]})"),
+                HasSubstr("/maps/1/name: \"a\": expected a name that no other map has"));
+    EXPECT_THAT(problem(R"({"maps": [{"name": "a", "file": "1"}, {"name": "b", "file": "1"}]})"),
+                HasSubstr("/maps/1/file: \"1\": expected a file that no other map has"));
+}
+
+TEST(Config, RefusesMissingKeys) {
+    EXPECT_THAT(problem(R"({"maps": [{"file": "1"}]})"), HasSubstr("/maps/0/name: missing: expected a text"));
+}
+
+TEST(Config, RefusesWrongShapes) {
+    EXPECT_THAT(problem("[]"), HasSubstr("expected an object"));
+    EXPECT_THAT(problem(R"({"maps": {}})"), HasSubstr("/maps: {}: expected a list"));
+    EXPECT_THAT(problem(R"({"maps": [1]})"), HasSubstr("/maps/0: 1: expected an object"));
+    EXPECT_THAT(problem(R"({"profiles": {"a": 1}})"), HasSubstr("/profiles/a: 1: expected an object"));
+    EXPECT_THAT(problem(R"({"dds": 1})"), HasSubstr("/dds: 1: expected an object"));
+}
+
+TEST(Config, RefusesBrokenText) {
+    EXPECT_THAT(problem("{\"dds\": }"), AllOf(HasSubstr("test: "), HasSubstr("line 1, column 9")));
+    EXPECT_NE(problem(""), "no problem");
+    EXPECT_NE(problem("{} {}"), "no problem");
+    EXPECT_NE(problem("{\"http\": {\"address\": \"\xff\"}}"), "no problem");
+    EXPECT_THAT(problem(std::string(100000, '[')), Not(HasSubstr("no problem")));
+    EXPECT_THAT(problem(std::string(1000, '[') + std::string(1000, ']')), HasSubstr("nested deeper"));
+    EXPECT_NE(problem(R"({"dds": {"domain": 1e999}})"), "no problem");
+}
+
+TEST(Config, RefusesADefaultProfileThatIsNot) {
+    EXPECT_THAT(problem(R"({"matches": {"default_profile": "x"}})"),
+                HasSubstr("/matches/default_profile: \"x\": expected the name of a profile"));
+}
+
+TEST(Config, RefusesProfileNamesThatNoRequestCanName) {
+    EXPECT_THAT(problem(R"({"profiles": {"": {}}})"),
+                HasSubstr("/profiles/: \"\": expected a name of 1 to 31 bytes"));
+    EXPECT_NE(problem("{\"profiles\": {\"" + std::string(32, 'p') + "\": {}}}"), "no problem");
+}
+
+TEST(Config, EscapesPointers) {
+    EXPECT_THAT(problem(R"({"profiles": {"a/b~c": {"distance": "x"}}})"),
+                HasSubstr("/profiles/a~1b~0c/distance: "));
+}
+
+TEST(Config, SurvivesMutations) {
+    const std::string seed =
+        R"({"dds": {"domain": 7, "peers": ["a"]}, "maps": [{"name": "a", "file": "b", "d0": 2.5}],
+                                 "profiles": {"p": {"distance": 60}}, "log": {"level": "info"}})";
+    std::mt19937 random(20260105);
+    std::size_t refused = 0;
+    for (int round = 0; round < 2000; ++round) {
+        std::string text = seed;
+        for (int change = 0; change < 3; ++change)
+            text[random() % text.size()] = static_cast<char>(random() % 256);
+        const auto config = parse(text, "test", "");
+        if (config) continue;
+        ++refused;
+        EXPECT_THAT(config.error().message, HasSubstr("test: "));
+    }
+    EXPECT_GT(refused, 1000U);
+}
+
+TEST(Overrides, ChangeWhatTheyName) {
+    camera::Profile base;
+    base.distance = 200.0F;
+    const auto profile = override_profile(base, R"({"vertical_fov": 40})");
+    ASSERT_TRUE(profile) << profile.error().message;
+    EXPECT_EQ(profile->distance, 200.0F);
+    EXPECT_EQ(profile->vertical_fov, 40.0F);
+    EXPECT_EQ(override_profile(base, "")->distance, 200.0F);
+}
+
+TEST(Overrides, AreRefusedInOneLine) {
+    const auto profile = override_profile({}, R"({"distanse": 1, "vertical_fov": 1000})");
+    ASSERT_FALSE(profile);
+    EXPECT_THAT(profile.error().message,
+                AllOf(HasSubstr("/distanse: unknown key, did you mean \"distance\"?"),
+                      HasSubstr("; /vertical_fov: 1000: expected a number from"), Not(HasSubstr("\n"))));
+    EXPECT_FALSE(override_profile({}, "[]"));
+    EXPECT_FALSE(override_profile({}, "{"));
+}
+
+TEST(Changes, OnlyWhatNeedsARestartIsNamed) {
+    const Config running = good("{}");
+    const Config loaded = good(R"({"http": {"port": 1}, "limits": {"workers": 3}, "log": {"level": "debug"},
+                                   "profiles": {"x": {}}, "maps": [{"name": "a", "file": "b"}]})");
+    EXPECT_THAT(changes_for_restart(running, loaded), ElementsAre("/http/port", "/limits/workers"));
+    EXPECT_TRUE(changes_for_restart(running, running).empty());
+}
+
+}  // namespace
+}  // namespace camdir::config

@@ -1,0 +1,41 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/file.hpp"
+#include "config/keys.hpp"
+
+namespace camdir::config {
+namespace {
+
+using nlohmann::json;
+
+TEST(Schema, DescribesEveryKey) {
+    const json root = json::parse(schema());
+    EXPECT_EQ(root["additionalProperties"], false);
+    for (const Key& key : keys()) {
+        json object;
+        if (key.section == "/maps/*")
+            object = root["properties"]["maps"]["items"];
+        else if (key.section == "/profiles/*")
+            object = root["properties"]["profiles"]["additionalProperties"];
+        else
+            object = root["properties"][key.section.substr(1)];
+        EXPECT_EQ(object["additionalProperties"], false);
+        const json& described = object["properties"][key.name];
+        ASSERT_TRUE(described.is_object()) << key.name;
+        EXPECT_EQ(described.value("default", json()), key.required ? json() : default_of(key)) << key.name;
+        const bool number = type_name(key) == "number" || type_name(key) == "integer";
+        EXPECT_EQ(described.contains("minimum"), number) << key.name;
+        EXPECT_EQ(described.value("minimum", key.minimum), key.minimum) << key.name;
+        EXPECT_EQ(described.value("maximum", key.maximum), key.maximum) << key.name;
+    }
+}
+
+TEST(Reference, HasARowForEveryKey) {
+    const std::string page = reference();
+    for (const Key& key : keys())
+        EXPECT_THAT(page, testing::HasSubstr("| `" + key.name + "` | ")) << key.name;
+}
+
+}  // namespace
+}  // namespace camdir::config

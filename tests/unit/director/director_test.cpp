@@ -1,0 +1,306 @@
+// Requests and what becomes of them.
+#include "director/director.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "camera/camera.hpp"
+#include "stage.hpp"
+
+namespace camdir::director {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(Director, AnAcceptedRequestHasACameraInEveryFrame) {
+    Stage stage;
+    ASSERT_TRUE(stage.start());
+    stage.ask(Stage::request("o"));
+    const ObserverStatus status = stage.wire.status("o");
+    EXPECT_EQ(status.state, RequestState::accepted);
+    EXPECT_EQ(status.epoch, 1U);
+    EXPECT_NE(status.camera_id, 0U);
+    EXPECT_EQ(status.reason, "");
+
+    for (std::uint32_t number = 10; number < 20; ++number)
+        stage.send(Stage::poses(number));
+    const auto frames = stage.wire.frames();
+    ASSERT_EQ(frames.size(), 10U);
+    for (std::uint32_t i = 0; i < frames.size(); ++i) {
+        const CameraFrame& frame = frames[i];
+        EXPECT_EQ(frame.epoch, 1U);
+        EXPECT_EQ(frame.frame_number, i);
+        EXPECT_EQ(frame.pose_number, 10 + i);
+        EXPECT_EQ(frame.frame_time, Stage::poses(10 + i).frame_time);
+        EXPECT_EQ(frame.source_time, Stage::poses(10 + i).source_time);
+        ASSERT_EQ(frame.cameras.size(), 1U);
+        EXPECT_EQ(frame.cameras[0].camera_id, status.camera_id);
+        EXPECT_EQ(frame.cameras[0].target, 1U);
+        EXPECT_GT(frame.cameras[0].clearance, 0.0F);
+        EXPECT_EQ((frame.cameras[0].flags & camera::cut) != 0, i == 0);
+    }
+}
+
+TEST(Director, AMatchWithoutShotsPublishesNothing) {
+    Stage stage;
+    stage.start();
+    stage.send(Stage::poses(1));
+    EXPECT_TRUE(stage.wire.frames().empty());
+    EXPECT_EQ(stage.director.statistics()[Counter::pose_frames], 1U);
+}
+
+TEST(Director, EqualRequestsShareACamera) {
+    Stage stage;
+    stage.start();
+    ObserverRequest first = Stage::request("a");
+    first.overrides = R"({"distance": 80, "vertical_fov": 50})";
+    first.group = {3, 2};
+    ObserverRequest second = Stage::request("b");
+    second.overrides = R"(  {"vertical_fov":50,"distance":80}  )";
+    second.group = {2, 3, 2};
+    second.profile = "default";
+    stage.ask(first);
+    stage.ask(second);
+    stage.ask(Stage::request("c"));
+    stage.ask(Stage::request("d", 2));
+    EXPECT_EQ(stage.wire.status("a").camera_id, stage.wire.status("b").camera_id);
+    EXPECT_NE(stage.wire.status("a").camera_id, stage.wire.status("c").camera_id);
+    EXPECT_NE(stage.wire.status("c").camera_id, stage.wire.status("d").camera_id);
+    stage.send(Stage::poses(1));
+    EXPECT_EQ(stage.wire.frames().back().cameras.size(), 3U);
+    EXPECT_EQ(stage.director.statistics().shots, 3U);
+    EXPECT_EQ(stage.director.statistics().observers, 4U);
+}
+
+TEST(Director, AShotLivesAsLongAsAnybodyWantsIt) {
+    Stage stage;
+    stage.start();
+    stage.ask(Stage::request("a"));
+    stage.ask(Stage::request("b"));
+    const std::uint32_t id = stage.wire.status("a").camera_id;
+    stage.director.request_gone("m", "a");
+    stage.director.settle();
+    EXPECT_FALSE(stage.wire.has_status("a"));
+    stage.send(Stage::poses(1));
+    EXPECT_EQ(stage.wire.frames().back().cameras.at(0).camera_id, id);
+    stage.director.request_gone("m", "b");
+    stage.send(Stage::poses(2));
+    EXPECT_EQ(stage.wire.frames().size(), 1U);
+    EXPECT_EQ(stage.director.statistics().shots, 0U);
+}
+
+TEST(Director, TwoDirectorsGiveAShotTheSameId) {
+    Stage leader;
+    Stage standby;
+    for (Stage* stage : {&leader, &standby})
+        stage->start();
+    leader.ask(Stage::request("a", 1));
+    leader.ask(Stage::request("b", 2));
+    standby.ask(Stage::request("b", 2));
+    standby.ask(Stage::request("a", 1));
+    EXPECT_EQ(leader.wire.status("a").camera_id, standby.wire.status("a").camera_id);
+    EXPECT_EQ(leader.wire.status("b").camera_id, standby.wire.status("b").camera_id);
+}
+
+TEST(Director, AChangedRequestChangesTheCamera) {
+    Stage stage;
+    stage.start();
+    stage.ask(Stage::request("a", 1));
+    stage.send(Stage::poses(1));
+    stage.ask(Stage::request("a", 2));
+    stage.send(Stage::poses(2));
+    const auto frames = stage.wire.frames();
+    ASSERT_EQ(frames.size(), 2U);
+    EXPECT_EQ(frames[1].cameras.at(0).target, 2U);
+    EXPECT_EQ(frames[1].cameras.at(0).camera_id, stage.wire.status("a").camera_id);
+    EXPECT_NE(frames[1].cameras.at(0).flags & camera::cut, 0U);
+}
+
+TEST(Director, BadProfilesAndOverridesAreRefusedWithAReason) {
+    Stage stage;
+    stage.start();
+    ObserverRequest request = Stage::request("a");
+    request.profile = "cinematic";
+    stage.ask(request);
+    EXPECT_EQ(stage.wire.status("a").state, RequestState::refused);
+    EXPECT_THAT(stage.wire.status("a").reason, HasSubstr("no profile 'cinematic'; known: default"));
+
+    request = Stage::request("b");
+    request.overrides = R"({"distanze": 3})";
+    stage.ask(request);
+    EXPECT_EQ(stage.wire.status("b").state, RequestState::refused);
+    EXPECT_THAT(stage.wire.status("b").reason, HasSubstr("did you mean \"distance\"?"));
+
+    request.overrides = "{\"" + std::string(900, 'x') + "\": 1}";
+    stage.ask(request);
+    EXPECT_EQ(stage.wire.status("b").reason.size(), 255U);
+    EXPECT_EQ(stage.director.statistics()[Counter::refused_requests], 3U);
+
+    stage.ask(Stage::request("b"));
+    EXPECT_EQ(stage.wire.status("b").state, RequestState::accepted);
+}
+
+TEST(Director, AnUnknownPlayerIsWaitedFor) {
+    Stage stage;
+    stage.start();
+    stage.ask(Stage::request("a", 9));
+    EXPECT_EQ(stage.wire.status("a").state, RequestState::waiting_for_player);
+    EXPECT_EQ(stage.wire.status("a").reason, "player 9 is not in the match");
+    stage.send(Stage::poses(1));
+    EXPECT_TRUE(stage.wire.frames().empty());
+    stage.send(Stage::poses(2, 1, {1, 9}));
+    EXPECT_EQ(stage.wire.status("a").state, RequestState::accepted);
+    EXPECT_EQ(stage.wire.frames().size(), 1U);
+
+    stage.start(Stage::info("m", 1, {1, 2, 3}));
+    for (std::uint32_t number = 3; number < 6; ++number)
+        stage.send(Stage::poses(number));
+    EXPECT_EQ(stage.wire.status("a").state, RequestState::accepted) << "seen lately";
+}
+
+TEST(Director, APlayerWhoLeftIsWaitedFor) {
+    Stage stage;
+    stage.start();
+    stage.ask(Stage::request("a", 3));
+    stage.send(Stage::poses(1));
+    stage.send(Stage::poses(2, 1, {1, 2}));
+    EXPECT_EQ(stage.wire.status("a").state, RequestState::accepted) << "still listed";
+    EXPECT_NE(stage.wire.frames().back().cameras.at(0).flags & camera::target_absent, 0U);
+    stage.start(Stage::info("m", 1, {1, 2}));
+    EXPECT_EQ(stage.wire.status("a").state, RequestState::waiting_for_player);
+    EXPECT_EQ(stage.wire.status("a").camera_id, 0U);
+}
+
+TEST(Director, SpectatorsAreNotTracked) {
+    Stage stage;
+    stage.start();
+    PoseFrame frame = Stage::poses(1);
+    frame.poses[0].flags |= pose_spectator;
+    stage.send(frame);
+    stage.ask(Stage::request("a", 1));
+    EXPECT_EQ(stage.wire.status("a").state, RequestState::waiting_for_player);
+    EXPECT_EQ(stage.wire.status("a").reason, "player 1 is a spectator");
+    stage.send(Stage::poses(2));
+    EXPECT_EQ(stage.wire.status("a").state, RequestState::accepted);
+}
+
+TEST(Director, AnAutomaticTargetFollowsTheEvents) {
+    Stage stage;
+    stage.start();
+    stage.ask(Stage::request("a", no_player));
+    EXPECT_EQ(stage.wire.status("a").state, RequestState::accepted);
+    stage.send(Stage::poses(1));
+    EXPECT_EQ(stage.wire.frames().back().cameras.at(0).target, 1U) << "nothing happened: the lowest id";
+
+    const PoseFrame later = Stage::poses(400);
+    for (int i = 0; i < 3; ++i)
+        stage.director.receive("m", MatchEvent{1, later.frame_time, 1, 3, 2, 0.0F});
+    stage.send(later);
+    const ShotCamera camera = stage.wire.frames().back().cameras.at(0);
+    EXPECT_EQ(camera.target, 3U);
+    EXPECT_NE(camera.flags & camera::cut, 0U);
+    EXPECT_EQ(camera.camera_id, stage.wire.status("a").camera_id);
+    EXPECT_EQ(stage.director.statistics()[Counter::events], 3U);
+}
+
+TEST(Director, LimitsRefuseWhatIsTooMuch) {
+    config::Config config = Stage::default_config();
+    config.limits.matches = 1;
+    config.limits.observers = 3;
+    config.limits.shots = 2;
+    config.limits.players = 2;
+    Stage stage(config);
+    ASSERT_TRUE(stage.start());
+    EXPECT_FALSE(stage.start(Stage::info("second")));
+    EXPECT_TRUE(stage.start()) << "a known match is no new one";
+
+    stage.ask(Stage::request("a", 1));
+    stage.ask(Stage::request("b", 2));
+    stage.ask(Stage::request("c", 3));
+    EXPECT_EQ(stage.wire.status("c").state, RequestState::refused);
+    EXPECT_EQ(stage.wire.status("c").reason, "this match has 2 cameras already");
+    stage.ask(Stage::request("d", 1));
+    EXPECT_EQ(stage.wire.status("d").state, RequestState::refused);
+    EXPECT_EQ(stage.wire.status("d").reason, "3 observers watch this match already");
+
+    stage.send(Stage::poses(1));
+    EXPECT_EQ(stage.director.statistics()[Counter::drop_players], 1U);
+    EXPECT_EQ(stage.director.statistics()[Counter::refused_matches], 1U);
+
+    // The place of one who leaves goes to who waits.
+    stage.director.request_gone("m", "a");
+    stage.director.settle();
+    EXPECT_EQ(stage.wire.status("c").state, RequestState::accepted);
+}
+
+TEST(Director, ObserversOfARefusedMatchAreTold) {
+    config::Config config = Stage::default_config();
+    config.limits.matches = 1;
+    Stage stage(config);
+    stage.start();
+    stage.ask(Stage::request("a", 1, "second"));
+    EXPECT_EQ(stage.wire.status("a", "second").state, RequestState::waiting_for_map);
+    EXPECT_EQ(stage.wire.status("a", "second").reason, "no game server runs this match");
+    EXPECT_FALSE(stage.start(Stage::info("second")));
+    EXPECT_EQ(stage.wire.status("a", "second").state, RequestState::refused);
+    EXPECT_EQ(stage.wire.status("a", "second").reason, "1 matches run already");
+    stage.ask(Stage::request("a", 1, "third"));
+    EXPECT_EQ(stage.wire.status("a", "third").state, RequestState::refused);
+
+    stage.director.match_over("m");
+    EXPECT_TRUE(stage.start(Stage::info("second")));
+    EXPECT_EQ(stage.wire.status("a", "second").state, RequestState::accepted);
+}
+
+TEST(Director, AReloadedConfigurationJudgesAgain) {
+    config::Config config = Stage::default_config();
+    config.profiles["close"].distance = 40.0F;
+    Stage stage(config);
+    stage.start();
+    ObserverRequest request = Stage::request("a");
+    request.profile = "close";
+    stage.ask(request);
+    const std::uint32_t id = stage.wire.status("a").camera_id;
+    ASSERT_EQ(stage.wire.status("a").state, RequestState::accepted);
+    stage.send(Stage::poses(1));
+
+    config.profiles["close"].distance = 30.0F;
+    config.limits.shots = 1;  // needs a restart: no effect
+    stage.director.reconfigure(config);
+    stage.ask(Stage::request("b"));
+    EXPECT_EQ(stage.wire.status("b").state, RequestState::accepted);
+    EXPECT_EQ(stage.wire.status("a").camera_id, id);
+    stage.send(Stage::poses(2));
+    for (const ShotCamera& camera : stage.wire.frames().back().cameras)
+        EXPECT_EQ((camera.flags & camera::cut) != 0, camera.camera_id != id);
+
+    config.profiles.erase("close");
+    stage.director.reconfigure(config);
+    stage.director.settle();
+    EXPECT_EQ(stage.wire.status("a").state, RequestState::refused);
+}
+
+TEST(Director, AViewShowsWhatRuns) {
+    Stage stage;
+    stage.start();
+    stage.ask(Stage::request("a", 2));
+    stage.ask(Stage::request("b", 77));
+    stage.send(Stage::poses(5));
+    const View view = stage.director.view(std::chrono::seconds(30));
+    ASSERT_EQ(view.matches.size(), 1U);
+    const MatchView& match = view.matches[0];
+    EXPECT_TRUE(match.answered);
+    EXPECT_EQ(match.match_id, "m");
+    EXPECT_EQ(match.state, "running");
+    EXPECT_EQ(match.map_name, "square");
+    EXPECT_EQ(match.players, 3U);
+    EXPECT_EQ(match.last_pose_number, 5U);
+    ASSERT_EQ(match.shots.size(), 1U);
+    EXPECT_EQ(match.shots[0].target, 2U);
+    ASSERT_EQ(match.observers.size(), 2U);
+    EXPECT_EQ(match.observers[0].state, RequestState::accepted);
+    EXPECT_EQ(match.observers[1].state, RequestState::waiting_for_player);
+}
+
+}  // namespace
+}  // namespace camdir::director

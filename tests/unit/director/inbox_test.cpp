@@ -1,0 +1,97 @@
+#include "director/inbox.hpp"
+
+#include <gtest/gtest.h>
+
+#include "director/roster.hpp"
+
+namespace camdir::director {
+namespace {
+
+PoseFrame frame(std::uint64_t epoch, std::uint32_t number, std::uint32_t flags = pose_alive) {
+    PoseFrame frame;
+    frame.epoch = epoch;
+    frame.frame_number = number;
+    frame.poses.push_back({1, Vec3f::Zero(), Quatf::Identity(), Vec3f::Zero(), flags});
+    return frame;
+}
+
+class InboxTest : public testing::Test {
+  protected:
+    [[nodiscard]] std::uint64_t counted(Counter counter) const {
+        Statistics sum;
+        counters_.add_to(sum);
+        return sum[counter];
+    }
+
+    Counters counters_;
+    Inbox inbox_{10, counters_};
+    Inbox::Content content_;
+};
+
+TEST_F(InboxTest, ControlsKeepTheirOrder) {
+    inbox_.put(RequestGone{"a"});
+    inbox_.put(MatchEvent{});
+    inbox_.put(RequestGone{"b"});
+    inbox_.take(content_);
+    ASSERT_EQ(content_.controls.size(), 3U);
+    EXPECT_EQ(std::get<RequestGone>(content_.controls[0]).observer_id, "a");
+    EXPECT_EQ(std::get<RequestGone>(content_.controls[2]).observer_id, "b");
+    EXPECT_FALSE(content_.has_frame);
+    inbox_.take(content_);
+    EXPECT_TRUE(content_.controls.empty());
+}
+
+TEST_F(InboxTest, TheNewestFrameWins) {
+    inbox_.put(frame(1, 1), 10);
+    inbox_.put(frame(1, 3), 30);
+    inbox_.put(frame(1, 2), 20);
+    inbox_.take(content_);
+    EXPECT_TRUE(content_.has_frame);
+    EXPECT_EQ(content_.frame.frame_number, 3U);
+    EXPECT_EQ(content_.received_ns, 30);
+    EXPECT_EQ(counted(Counter::drop_superseded), 1U);
+    EXPECT_EQ(counted(Counter::drop_old_frame), 1U);
+    inbox_.take(content_);
+    EXPECT_FALSE(content_.has_frame);
+}
+
+TEST_F(InboxTest, ANewEpochWinsWhateverItsNumber) {
+    inbox_.put(frame(1, 900), 1);
+    inbox_.put(frame(2, 1), 2);
+    inbox_.put(frame(1, 901), 3);
+    inbox_.take(content_);
+    EXPECT_EQ(content_.frame.epoch, 2U);
+    EXPECT_EQ(counted(Counter::drop_old_epoch), 1U);
+}
+
+TEST_F(InboxTest, ARespawnIsNotLostWithItsFrame) {
+    inbox_.put(frame(1, 1, pose_alive | pose_discontinuity), 1);
+    inbox_.put(frame(1, 2), 2);
+    inbox_.put(frame(1, 3), 3);
+    inbox_.take(content_);
+    EXPECT_EQ(content_.frame.poses.at(0).flags, pose_alive | pose_discontinuity);
+    inbox_.put(frame(1, 4), 4);
+    inbox_.take(content_);
+    EXPECT_EQ(content_.frame.poses.at(0).flags, pose_alive);
+    inbox_.put(frame(1, 5, pose_discontinuity), 5);
+    inbox_.put(frame(2, 1), 6);
+    inbox_.take(content_);
+    EXPECT_EQ(content_.frame.poses.at(0).flags, pose_alive) << "another epoch's";
+}
+
+TEST_F(InboxTest, BothQueuesAreBounded) {
+    for (int i = 0; i < 300; ++i)
+        inbox_.put(MatchEvent{});
+    for (int i = 0; i < 13; ++i)
+        inbox_.put(RequestGone{"a"});
+    inbox_.take(content_);
+    EXPECT_EQ(content_.controls.size(), 256U + 10U);
+    EXPECT_EQ(counted(Counter::drop_events), 44U);
+    EXPECT_EQ(counted(Counter::drop_control), 3U);
+    inbox_.put(MatchEvent{});
+    inbox_.take(content_);
+    EXPECT_EQ(content_.controls.size(), 1U);
+}
+
+}  // namespace
+}  // namespace camdir::director

@@ -1,0 +1,130 @@
+// Many matches at once: the same cameras whatever the number of workers, and no frame unaccounted for.
+#include <gtest/gtest.h>
+
+#include <random>
+#include <thread>
+
+#include "stage.hpp"
+#include "support/freespace_meshes.hpp"
+
+namespace camdir::director {
+namespace {
+
+std::string name_of(int match) {
+    return "match-" + std::to_string(match);
+}
+
+// Two observers with a target and one without.
+void fill(Stage& stage, int matches) {
+    for (int match = 0; match < matches; ++match) {
+        stage.director.receive(Stage::info(name_of(match)));
+        stage.director.receive(Stage::request("a", 1, name_of(match)));
+        stage.director.receive(Stage::request("b", 2, name_of(match)));
+        stage.director.receive(Stage::request("c", no_player, name_of(match)));
+    }
+    stage.director.settle();
+}
+
+void append(std::string& bytes, const CameraFrame& frame) {
+    const auto add = [&](const auto& value) {
+        bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+    };
+    add(frame.epoch);
+    add(frame.frame_number);
+    add(frame.pose_number);
+    for (const ShotCamera& camera : frame.cameras) {
+        add(camera.camera_id);
+        add(camera.target);
+        for (const float number : {camera.position.x(), camera.position.y(), camera.position.z(),
+                                   camera.orientation.x(), camera.orientation.y(), camera.orientation.z(),
+                                   camera.orientation.w(), camera.vertical_fov, camera.clearance})
+            add(number);
+        add(camera.flags);
+    }
+}
+
+// The bytes of all cameras of a session that is the same but for the number of workers.
+std::string cameras_with(std::int64_t workers) {
+    constexpr int matches = 12;
+    config::Config config = Stage::default_config();
+    config.limits.workers = workers;
+    Stage stage(config);
+    std::mt19937 random(7);
+    stage.maps.set_ready("square", test::make_freespace(test::random_contents(random, 12, 12, 40)));
+    const freespace::Freespace space = *stage.maps.find("square")->freespace;
+    fill(stage, matches);
+    for (std::uint32_t number = 1; number <= 60; ++number) {
+        for (int match = 0; match < matches; ++match) {
+            PoseFrame frame = Stage::poses(number);
+            // Now and then a player is somewhere else, so that cameras cut and search.
+            if (random() % 20 == 0) frame.poses[random() % 3].eye = test::random_point(random, space);
+            const auto killer = static_cast<std::uint32_t>(1 + random() % 3);
+            stage.director.receive(name_of(match),
+                                   MatchEvent{1, frame.frame_time, 1, killer, no_player, 0.0F});
+            stage.director.receive(name_of(match), frame);
+        }
+        stage.director.settle();
+    }
+    std::string cameras;
+    for (int match = 0; match < matches; ++match) {
+        const auto frames = stage.wire.frames(name_of(match));
+        EXPECT_EQ(frames.size(), 60U);
+        for (const CameraFrame& frame : frames)
+            append(cameras, frame);
+    }
+    return cameras;
+}
+
+TEST(ManyMatches, TheNumberOfWorkersChangesNothing) {
+    const std::string one = cameras_with(1);
+    for (const std::int64_t workers : {2, 3, 5, 8})
+        EXPECT_TRUE(cameras_with(workers) == one) << workers << " workers";
+}
+
+TEST(ManyMatches, EveryFrameIsAnsweredOrCounted) {
+    constexpr int matches = 40;
+    constexpr std::uint32_t frames = 50;
+    config::Config config = Stage::default_config();
+    config.limits.workers = 4;
+    Stage stage(config);
+    fill(stage, matches);
+    // Each match has a game server of its own; observers come and go meanwhile, and maps are loaded again.
+    std::vector<std::thread> threads;
+    for (int first = 0; first < 4; ++first)
+        threads.emplace_back([&stage, first] {
+            for (std::uint32_t number = 1; number <= frames; ++number)
+                for (int match = first; match < matches; match += 4)
+                    stage.director.receive(name_of(match), Stage::poses(number));
+        });
+    threads.emplace_back([&stage] {
+        for (int round = 0; round < 50; ++round) {
+            const std::string match = name_of(round % matches);
+            stage.director.receive(Stage::request("guest", 3, match));
+            stage.director.receive(match, MatchEvent{1, round, 1, 2, 3, 0.0F});
+            (void)stage.director.statistics();
+            if (round % 10 == 0) (void)stage.director.view(std::chrono::milliseconds(50));
+            if (round % 10 == 5) stage.director.maps_changed();
+            stage.director.request_gone(match, "guest");
+        }
+    });
+    for (std::thread& thread : threads)
+        thread.join();
+    stage.director.settle();
+
+    const Statistics statistics = stage.director.statistics();
+    EXPECT_EQ(statistics[Counter::camera_frames] + statistics[Counter::drop_superseded], matches * frames);
+    EXPECT_EQ(statistics.shots, 3U * matches);
+    for (int match = 0; match < matches; ++match) {
+        const auto published = stage.wire.frames(name_of(match));
+        ASSERT_FALSE(published.empty());
+        EXPECT_EQ(published.back().pose_number, frames) << "the newest pose always wins";
+        for (std::uint32_t i = 0; i < published.size(); ++i) {
+            ASSERT_EQ(published[i].frame_number, i);
+            const std::uint32_t before = i == 0 ? 0 : published[i - 1].pose_number;
+            ASSERT_GT(published[i].pose_number, before);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace camdir::director

@@ -1,0 +1,131 @@
+#include "stage.hpp"
+
+#include <cmath>
+
+#include "support/freespace_meshes.hpp"
+
+namespace camdir::director {
+
+void MemoryWire::publish(const std::string& match_id, const CameraFrame& frame) {
+    const std::lock_guard lock(mutex_);
+    frames_[match_id].push_back(frame);
+}
+
+void MemoryWire::publish(const ObserverStatus& status) {
+    const std::lock_guard lock(mutex_);
+    statuses_[{status.match_id, status.observer_id}] = status;
+    ++statuses_published_;
+}
+
+void MemoryWire::withdraw(const std::string& match_id, const std::string& observer_id) {
+    const std::lock_guard lock(mutex_);
+    statuses_.erase({match_id, observer_id});
+}
+
+void MemoryWire::forget(const std::string& match_id) {
+    const std::lock_guard lock(mutex_);
+    forgotten_.insert(match_id);
+}
+
+std::vector<CameraFrame> MemoryWire::frames(const std::string& match_id) const {
+    const std::lock_guard lock(mutex_);
+    const auto found = frames_.find(match_id);
+    return found == frames_.end() ? std::vector<CameraFrame>{} : found->second;
+}
+
+ObserverStatus MemoryWire::status(const std::string& observer_id, const std::string& match_id) const {
+    const std::lock_guard lock(mutex_);
+    const auto found = statuses_.find({match_id, observer_id});
+    ObserverStatus none;
+    none.reason = "none";
+    return found == statuses_.end() ? none : found->second;
+}
+
+std::size_t MemoryWire::statuses_published() const {
+    const std::lock_guard lock(mutex_);
+    return statuses_published_;
+}
+
+bool MemoryWire::has_status(const std::string& observer_id, const std::string& match_id) const {
+    const std::lock_guard lock(mutex_);
+    return statuses_.contains({match_id, observer_id});
+}
+
+bool MemoryWire::forgotten(const std::string& match_id) const {
+    const std::lock_guard lock(mutex_);
+    return forgotten_.contains(match_id);
+}
+
+Stage::Stage(const config::Config& config) : director(config, maps, wire) {
+    maps.add("square", false);
+    maps.set_ready("square", square());
+}
+
+config::Config Stage::default_config() {
+    config::Config config;
+    config.profiles["default"];
+    config.limits.workers = 2;
+    config.matches.silence_frames = 100000;
+    return config;
+}
+
+freespace::Freespace Stage::square() {
+    return test::make_freespace(test::square_contents());
+}
+
+MatchInfo Stage::info(const std::string& match_id, std::uint64_t epoch, std::vector<std::uint32_t> players) {
+    MatchInfo info;
+    info.match_id = match_id;
+    info.epoch = epoch;
+    info.map_name = "square";
+    info.metres_per_unit = 0.0254F;
+    info.rate_hz = 20.0F;
+    for (const std::uint32_t id : players)
+        info.players.push_back({id, "player " + std::to_string(id), "", 0});
+    return info;
+}
+
+ObserverRequest Stage::request(const std::string& observer_id, std::uint32_t target,
+                               const std::string& match_id) {
+    ObserverRequest request;
+    request.match_id = match_id;
+    request.observer_id = observer_id;
+    request.target = target;
+    return request;
+}
+
+PoseFrame Stage::poses(std::uint32_t number, std::uint64_t epoch, const std::vector<std::uint32_t>& players) {
+    PoseFrame frame;
+    frame.epoch = epoch;
+    frame.frame_number = number;
+    frame.frame_time = static_cast<std::int64_t>(number) * 50'000'000;
+    frame.source_time = 1'000'000'000 + frame.frame_time;
+    for (const std::uint32_t id : players) {
+        const float angle = 0.02F * static_cast<float>(number) + static_cast<float>(id);
+        PlayerPose pose;
+        pose.player_id = id;
+        pose.eye = Vec3f(50.0F + 20.0F * std::cos(angle), 50.0F + 20.0F * std::sin(angle), 0.0F);
+        pose.orientation = Quatf(Eigen::AngleAxisf(angle + 1.57F, Vec3f::UnitZ()));
+        pose.flags = pose_alive;
+        frame.poses.push_back(pose);
+    }
+    return frame;
+}
+
+bool Stage::start(const MatchInfo& match) {
+    const bool taken = director.receive(match);
+    director.settle();
+    return taken;
+}
+
+void Stage::ask(const ObserverRequest& wanted) {
+    director.receive(wanted);
+    director.settle();
+}
+
+void Stage::send(const PoseFrame& frame, const std::string& match_id) {
+    director.receive(match_id, frame);
+    director.settle();
+}
+
+}  // namespace camdir::director

@@ -1,0 +1,64 @@
+// A director on a stage: made-up maps and poses, a wire into memory.
+#pragma once
+
+#include <map>
+#include <mutex>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "director/director.hpp"
+#include "director/roster.hpp"
+
+namespace camdir::director {
+
+// Keeps all that is published. Thread-safe.
+class MemoryWire final : public Wire {
+  public:
+    void publish(const std::string& match_id, const CameraFrame& frame) override;
+    void publish(const ObserverStatus& status) override;
+    void withdraw(const std::string& match_id, const std::string& observer_id) override;
+    void forget(const std::string& match_id) override;
+
+    [[nodiscard]] std::vector<CameraFrame> frames(const std::string& match_id = "m") const;
+    // The newest; a status that says "none" when there is none.
+    [[nodiscard]] ObserverStatus status(const std::string& observer_id,
+                                        const std::string& match_id = "m") const;
+    [[nodiscard]] std::size_t statuses_published() const;
+    [[nodiscard]] bool has_status(const std::string& observer_id, const std::string& match_id = "m") const;
+    [[nodiscard]] bool forgotten(const std::string& match_id) const;
+
+  private:
+    mutable std::mutex mutex_;
+    std::map<std::string, std::vector<CameraFrame>> frames_;
+    std::map<std::pair<std::string, std::string>, ObserverStatus> statuses_;
+    std::size_t statuses_published_ = 0;
+    std::set<std::string> forgotten_;
+};
+
+// Maps "square" (ready); players stand around its middle.
+struct Stage {
+    explicit Stage(const config::Config& config = default_config());
+
+    [[nodiscard]] static config::Config default_config();
+    [[nodiscard]] static freespace::Freespace square();
+
+    [[nodiscard]] static MatchInfo info(const std::string& match_id = "m", std::uint64_t epoch = 1,
+                                        std::vector<std::uint32_t> players = {1, 2, 3});
+    [[nodiscard]] static ObserverRequest request(const std::string& observer_id, std::uint32_t target = 1,
+                                                 const std::string& match_id = "m");
+    // Frame `number` at `number` times 50 ms: every player walks, all alive.
+    [[nodiscard]] static PoseFrame poses(std::uint32_t number, std::uint64_t epoch = 1,
+                                         const std::vector<std::uint32_t>& players = {1, 2, 3});
+
+    // Receive and settle.
+    bool start(const MatchInfo& match = info());
+    void ask(const ObserverRequest& wanted);
+    void send(const PoseFrame& frame, const std::string& match_id = "m");
+
+    MemoryWire wire;
+    MapLibrary maps;
+    Director director;
+};
+
+}  // namespace camdir::director

@@ -1,0 +1,143 @@
+#include "director/worker_pool.hpp"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <future>
+#include <mutex>
+#include <string>
+
+namespace camdir::director {
+namespace {
+
+class FunctionStrand final : public Strand {
+  public:
+    explicit FunctionStrand(std::function<void()> work) : work_(std::move(work)) {}
+
+  private:
+    void turn() noexcept override { work_(); }
+    std::function<void()> work_;
+};
+
+TEST(WorkerPool, AScheduledStrandHasATurnThatBeginsLater) {
+    WorkerPool pool(2, 1);
+    std::atomic<int> posted{0};
+    std::atomic<int> seen{0};
+    FunctionStrand strand([&] { seen = posted.load(); });
+    ASSERT_TRUE(pool.attach(strand));
+    for (int i = 1; i <= 10'000; ++i) {
+        posted = i;
+        pool.schedule(strand);
+        if (i % 100 != 0) continue;
+        WorkerPool::settle(strand);
+        ASSERT_EQ(seen, i);
+    }
+    pool.detach(strand);
+}
+
+TEST(WorkerPool, OneWorkerAtATimeInAStrand) {
+    constexpr std::size_t strands = 130;  // more than two words of bits
+    WorkerPool pool(8, strands);
+    struct Counted {
+        std::atomic<int> inside{0};
+        std::atomic<bool> overlapped{false};
+        int turns = 0;  // not atomic: the thread sanitizer watches
+        std::unique_ptr<FunctionStrand> strand;
+    };
+    std::vector<Counted> counted(strands);
+    for (Counted& one : counted) {
+        one.strand = std::make_unique<FunctionStrand>([&one] {
+            if (one.inside.fetch_add(1) != 0) one.overlapped = true;
+            ++one.turns;
+            one.inside.fetch_sub(1);
+        });
+        ASSERT_TRUE(pool.attach(*one.strand));
+    }
+    std::vector<std::thread> threads;
+    for (int t = 0; t < 4; ++t)
+        threads.emplace_back([&] {
+            for (int i = 0; i < 300; ++i)
+                for (Counted& one : counted)
+                    pool.schedule(*one.strand);
+        });
+    for (std::thread& thread : threads)
+        thread.join();
+    for (Counted& one : counted) {
+        WorkerPool::settle(*one.strand);
+        EXPECT_FALSE(one.overlapped);
+        EXPECT_GE(one.turns, 1);
+        EXPECT_LE(one.turns, 1200);
+        pool.detach(*one.strand);
+    }
+}
+
+TEST(WorkerPool, ABusyStrandDoesNotStarveTheOthers) {
+    constexpr std::size_t others = 100;
+    WorkerPool pool(1, others + 2);
+    std::promise<void> release;
+    FunctionStrand blocker([&] { release.get_future().wait(); });
+    int busy_turns = 0;  // of the one worker
+    int turns = 0;
+    int busy_turns_at_the_end = 0;
+    std::unique_ptr<FunctionStrand> busy;
+    busy = std::make_unique<FunctionStrand>([&] {
+        ++busy_turns;
+        if (turns < static_cast<int>(others)) pool.schedule(*busy);
+    });
+    std::vector<std::unique_ptr<FunctionStrand>> strands;
+    for (std::size_t i = 0; i < others; ++i)
+        strands.push_back(std::make_unique<FunctionStrand>([&] {
+            if (++turns == static_cast<int>(others)) busy_turns_at_the_end = busy_turns;
+        }));
+    ASSERT_TRUE(pool.attach(blocker));
+    ASSERT_TRUE(pool.attach(*busy));
+    for (const auto& strand : strands)
+        ASSERT_TRUE(pool.attach(*strand));
+
+    pool.schedule(blocker);
+    pool.schedule(*busy);
+    for (const auto& strand : strands)
+        pool.schedule(*strand);
+    release.set_value();
+    for (const auto& strand : strands)
+        WorkerPool::settle(*strand);
+    WorkerPool::settle(*busy);
+    EXPECT_EQ(turns, static_cast<int>(others));
+    EXPECT_LE(busy_turns_at_the_end, 2) << "a turn a round";
+}
+
+TEST(WorkerPool, KnowsWhenAWorkerHangs) {
+    WorkerPool pool(2, 1);
+    std::promise<void> release;
+    FunctionStrand strand([&] { release.get_future().wait(); });
+    ASSERT_TRUE(pool.attach(strand));
+    EXPECT_TRUE(pool.responsive(std::chrono::milliseconds(1)));
+    pool.schedule(strand);
+    while (pool.responsive(std::chrono::milliseconds(1)))
+        std::this_thread::yield();
+    EXPECT_TRUE(pool.responsive(std::chrono::hours(1)));
+    release.set_value();
+    WorkerPool::settle(strand);
+    while (!pool.responsive(std::chrono::milliseconds(1)))
+        std::this_thread::yield();
+    pool.detach(strand);
+}
+
+TEST(WorkerPool, HoldsNoMoreThanItsCapacity) {
+    WorkerPool pool(1, 2);
+    FunctionStrand a([] {});
+    FunctionStrand b([] {});
+    FunctionStrand c([] {});
+    EXPECT_TRUE(pool.attach(a));
+    EXPECT_TRUE(pool.attach(b));
+    EXPECT_FALSE(pool.attach(c));
+    pool.detach(a);
+    EXPECT_TRUE(pool.attach(c));
+    pool.schedule(c);
+    WorkerPool::settle(c);
+    pool.detach(b);
+    pool.detach(c);
+}
+
+}  // namespace
+}  // namespace camdir::director
