@@ -1,7 +1,9 @@
 #include "bake/bake.hpp"
 
+#include <tbb/info.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <utility>
@@ -168,9 +170,9 @@ Result<Baked> bake(const scene::Scene& scene, const Parameters& parameters, cons
 
     const double unit = metres_of_nominal_unit / scene.metres_per_unit;
     const double d0 = parameters.d0 * unit;
-    const int threads =
-        parameters.threads > 0 ? static_cast<int>(parameters.threads) : tbb::task_arena::automatic;
-    return tbb::task_arena(threads).execute([&]() -> Result<Baked> {
+    const auto cores = static_cast<unsigned>(tbb::info::default_concurrency());
+    const unsigned threads = parameters.threads == 0 ? cores : std::min(parameters.threads, cores);
+    return tbb::task_arena(static_cast<int>(threads)).execute([&]() -> Result<Baked> {
         Bake bake(scene, unit, d0);
         if (auto done = bake.run(progress, stop, finished); !done)
             return tl::unexpected(std::move(done.error()));

@@ -19,7 +19,7 @@ inline constexpr double max_d0 = 256.0;
 
 struct Parameters {
     double d0 = 16.0;  // sampling distance in units of 0.0254 m: sets which openings exist. min_d0 .. max_d0
-    unsigned threads = 0;  // 0 = one a core. Never changes the result
+    unsigned threads = 0;  // 0 = one a core, which is also the most. Never changes the result
 };
 
 // How far a stage is; injected so that baking knows no terminal. Called from one thread at a time.

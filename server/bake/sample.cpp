@@ -43,9 +43,11 @@ double area(const Triangle3d& t) {
 }
 
 tl::unexpected<Error> too_many(const scene::Scene& scene, double distance, double at_least) {
+    const auto millions = static_cast<std::uint64_t>(std::min(at_least / 1e6, 1e12));
     return fail(scene.source + ": a sampling distance of " + std::to_string(distance) +
-                " map units needs at least " + std::to_string(static_cast<std::uint64_t>(at_least)) +
-                " samples, more than the limit of " + std::to_string(max_samples) + "; choose a larger d0");
+                " map units needs more than " + std::to_string(millions) +
+                " million samples, and the limit is " + std::to_string(max_samples / 1'000'000U) +
+                " million; choose a larger d0");
 }
 
 }  // namespace
@@ -60,8 +62,9 @@ double covering_radius(const Triangle3d& t) {
     const Vec3d to_a = a - apex;
     const Vec3d to_b = b - apex;
     if (to_a.dot(to_b) >= 0.0) {
-        // Not obtuse: the circumcentre lies inside.
+        // Not obtuse: the circumcentre lies inside. Without area the apex lies on an end.
         const double twice_area = to_a.cross(to_b).norm();
+        if (twice_area == 0.0) return 0.5 * std::sqrt(longest.length2);
         return to_a.norm() * to_b.norm() * std::sqrt(longest.length2) / (2.0 * twice_area);
     }
     // Obtuse: on the longest edge, where the cells of its ends meet the apex's cell.

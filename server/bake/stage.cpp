@@ -4,8 +4,8 @@
 
 namespace camdir::bake {
 
-Stage::Stage(std::string name, const ProgressSink& sink, std::stop_token stop)
-    : name_(std::move(name)), sink_(sink), stop_(std::move(stop)) {
+Stage::Stage(std::string name, ProgressSink sink, std::stop_token stop)
+    : name_(std::move(name)), sink_(std::move(sink)), stop_(std::move(stop)) {
     if (sink_) sink_({name_, 0, 0});
 }
 

@@ -18,7 +18,7 @@ namespace camdir::bake {
 // Used from the thread that runs the stage; `for_each` spreads its body over the threads of the arena.
 class Stage {
   public:
-    Stage(std::string name, const ProgressSink& sink, std::stop_token stop);
+    Stage(std::string name, ProgressSink sink, std::stop_token stop);
 
     // Tells the progress, at most every 50 ms. False when the stage must end: return interrupted() then.
     [[nodiscard]] bool advance(std::uint64_t done, std::uint64_t total);
@@ -38,7 +38,7 @@ class Stage {
     using Clock = std::chrono::steady_clock;
 
     std::string name_;
-    const ProgressSink& sink_;
+    ProgressSink sink_;
     std::stop_token stop_;
     std::vector<freespace::Count> counts_;
     Clock::time_point start_ = Clock::now();

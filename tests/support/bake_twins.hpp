@@ -1,0 +1,21 @@
+// The slow, obvious twins of what server/bake computes in closed form.
+#pragma once
+
+#include <array>
+
+#include "bake/triangle.hpp"
+
+namespace camdir::test {
+
+// The point of a triangle with the given weights.
+[[nodiscard]] Vec3d point_of(const bake::Triangle3d& triangle, const std::array<double, 3>& weights);
+
+// The smallest of |m - q| - r(m) that a search over ever finer grids finds. Never less than the true minimum.
+[[nodiscard]] double searched_margin(const bake::Triangle3d& corners,
+                                     const std::array<double, 3>& free_distance,
+                                     const bake::Triangle3d& obstacle);
+
+// The same for the distance of a point.
+[[nodiscard]] double searched_distance(const Vec3d& point, const bake::Triangle3d& triangle);
+
+}  // namespace camdir::test

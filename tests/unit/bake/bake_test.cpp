@@ -1,0 +1,201 @@
+#include "bake/bake.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <random>
+
+#include "bake/certificate.hpp"
+#include "support/solid_scenes.hpp"
+
+namespace camdir::bake {
+namespace {
+
+using test::SolidScene;
+
+Baked baked(const SolidScene& scene, double d0, unsigned threads = 0) {
+    return bake(scene.scene(), {d0, threads}, {}, {}).value();
+}
+
+std::vector<Slab> slabs_of(const freespace::Contents& contents) {
+    std::vector<Slab> slabs;
+    for (const freespace::Triangle& t : contents.triangles) {
+        Triangle3d corners;
+        std::array<double, 3> free_distance{};
+        const std::array<std::uint32_t, 3> ids{t.a, t.b, t.c};
+        for (int i = 0; i < 3; ++i) {
+            corners[i] = contents.vertices[ids[i]].position().cast<double>();
+            free_distance[i] = contents.vertices[ids[i]].free_distance;
+        }
+        slabs.emplace_back(corners, free_distance);
+    }
+    return slabs;
+}
+
+bool covered(const std::vector<Slab>& slabs, const Vec3d& p) {
+    return std::any_of(slabs.begin(), slabs.end(), [&](const Slab& slab) {
+        return slab.margin_at_least(Triangle3d{p, p, p}) < 0.0 &&
+               slab.margin(Triangle3d{p, p, p}).value < 0.0;
+    });
+}
+
+// Draws balls from every slab and compares them with the scene's closed form.
+void expect_safe(const SolidScene& scene, const freespace::Contents& contents) {
+    std::mt19937 random(17);
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    for (const freespace::Triangle& t : contents.triangles) {
+        const freespace::Vertex& a = contents.vertices[t.a];
+        const freespace::Vertex& b = contents.vertices[t.b];
+        const freespace::Vertex& c = contents.vertices[t.c];
+        ASSERT_GT(std::max({a.free_distance, b.free_distance, c.free_distance}), 0.0F);
+        for (int i = 0; i < 20; ++i) {
+            const double u = unit(random);
+            const double v = unit(random) * (1.0 - u);
+            const Vec3d m = (1.0 - u - v) * a.position().cast<double>() + u * b.position().cast<double>() +
+                            v * c.position().cast<double>();
+            const double r = (1.0 - u - v) * a.free_distance + u * b.free_distance + v * c.free_distance;
+            ASSERT_LE(r, scene.clearance(m) + 1e-9);
+            ASSERT_TRUE(r <= 0.0 || scene.scene().bounds.contains(m));
+        }
+    }
+}
+
+struct Coverage {
+    int points = 0;
+    int covered = 0;
+    [[nodiscard]] double share() const { return static_cast<double>(covered) / points; }
+};
+
+// Of random points of `region` with clearance > `clearance`.
+Coverage coverage(const SolidScene& scene, const freespace::Contents& contents, const Box3d& region,
+                  double clearance) {
+    std::mt19937 random(18);
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    const std::vector<Slab> slabs = slabs_of(contents);
+    Coverage result;
+    while (result.points < 500) {
+        const Vec3d p =
+            region.min() + Vec3d(unit(random), unit(random), unit(random)).cwiseProduct(region.sizes());
+        if (scene.clearance(p) <= clearance) continue;
+        ++result.points;
+        result.covered += covered(slabs, p);
+    }
+    return result;
+}
+
+const Box3d room_box(Vec3d(0, 0, 0), Vec3d(256, 192, 128));
+const Box3d first_room(Vec3d(-264, -128, 0), Vec3d(-8, 128, 128));
+const Box3d second_room(Vec3d(8, -128, 0), Vec3d(264, 128, 128));
+
+TEST(Bake, OfARoomIsSafeAndCoversIt) {
+    const SolidScene room = test::box_room();
+    const Baked result = baked(room, 16.0);
+    expect_safe(room, result.contents);
+    EXPECT_EQ(coverage(room, result.contents, room_box, 16.0).share(), 1.0);
+    EXPECT_GT(coverage(room, result.contents, room_box, 0.0).share(), 0.93);
+}
+
+TEST(Bake, OfARoomWithAPillarIsSafeAndCoversIt) {
+    const SolidScene room = test::pillar_room();
+    const Baked result = baked(room, 16.0);
+    expect_safe(room, result.contents);
+    EXPECT_EQ(coverage(room, result.contents, room_box, 16.0).share(), 1.0);
+}
+
+TEST(Bake, SmallD0LeadsThroughTheDoor) {
+    const SolidScene rooms = test::two_rooms();
+    const Baked result = baked(rooms, 16.0);
+    expect_safe(rooms, result.contents);
+    EXPECT_EQ(coverage(rooms, result.contents, first_room, 16.0).share(), 1.0);
+    EXPECT_EQ(coverage(rooms, result.contents, second_room, 16.0).share(), 1.0);
+}
+
+TEST(Bake, LargeD0ClosesTheDoor) {
+    const SolidScene rooms = test::two_rooms();
+    const Baked result = baked(rooms, 40.0);
+    expect_safe(rooms, result.contents);
+    EXPECT_GT(coverage(rooms, result.contents, first_room, 40.0).share(), 0.999);
+    for (const freespace::Vertex& v : result.contents.vertices)
+        ASSERT_LT(v.x, 8.0F);
+}
+
+TEST(Bake, WorksInAnyUnit) {
+    const SolidScene room = test::box_room();
+    scene::Scene metres = room.scene();
+    metres.metres_per_unit = 1.0;
+    for (Vec3d& p : metres.vertices)
+        p *= 0.0254;
+    metres.bounds = Box3d(metres.bounds.min() * 0.0254, metres.bounds.max() * 0.0254);
+    metres.brushes.clear();
+    metres.spawn_points[0].eye *= 0.0254;
+    const Baked result = bake(metres, {16.0, 0}, {}, {}).value();
+    EXPECT_NEAR(result.contents.metadata.d0, 16.0 * 0.0254, 1e-6);
+    const Baked expected = baked(room, 16.0);
+    EXPECT_NEAR(static_cast<double>(result.contents.triangles.size()),
+                static_cast<double>(expected.contents.triangles.size()),
+                0.05 * static_cast<double>(expected.contents.triangles.size()));
+}
+
+TEST(Bake, IsTheSameForAnyNumberOfThreads) {
+    const SolidScene rooms = test::two_rooms();
+    const auto bytes = freespace::encode(baked(rooms, 12.0, 1).contents);
+    EXPECT_EQ(freespace::encode(baked(rooms, 12.0, 2).contents), bytes);
+}
+
+TEST(Bake, ReportsEveryStageAndItsProgress) {
+    std::vector<std::string> shown;
+    std::vector<std::string> finished;
+    const auto progress = [&](const Progress& p) {
+        EXPECT_TRUE(p.done <= p.total || p.total == 0);
+        if (shown.empty() || shown.back() != p.stage) shown.emplace_back(p.stage);
+    };
+    const auto result = bake(test::box_room().scene(), {16.0, 0}, progress, {},
+                             [&](const StageReport& report) { finished.push_back(report.stage); });
+    ASSERT_TRUE(result);
+    EXPECT_EQ(shown, finished);
+    EXPECT_THAT(finished, testing::ElementsAre("sample", "weld", "delaunay", "voronoi", "triangulate",
+                                               "clearance", "crossing", "inside", "certify", "pack"));
+    const auto& counts = result->contents.metadata.counts;
+    const auto covered_spawns = std::find_if(counts.begin(), counts.end(), [](const freespace::Count& count) {
+        return count.stage == "pack" && count.what == "covered spawn points";
+    });
+    ASSERT_NE(covered_spawns, counts.end());
+    EXPECT_EQ(covered_spawns->value, 1.0);
+}
+
+TEST(Bake, StopsInWhicheverStageItIsAsked) {
+    const SolidScene room = test::box_room();
+    for (const char* stage : {"sample", "weld", "delaunay", "voronoi", "triangulate", "clearance", "crossing",
+                              "inside", "certify", "pack"}) {
+        std::stop_source stop;
+        const auto request = [&](const Progress& p) {
+            if (p.stage == stage) stop.request_stop();
+        };
+        const auto result = bake(room.scene(), {16.0, 2}, request, stop.get_token());
+        ASSERT_FALSE(result) << stage;
+        EXPECT_EQ(result.error().code, ErrorCode::interrupted);
+        EXPECT_THAT(result.error().message, testing::HasSubstr(stage));
+    }
+}
+
+TEST(Bake, RefusesWhatItCannotBake) {
+    scene::Scene empty = test::box_room().scene();
+    empty.triangles.clear();
+    EXPECT_THAT(bake(empty, {}, {}, {}).error().message,
+                testing::HasSubstr("made.map: the scene has no obstacles"));
+
+    const scene::Scene room = test::box_room().scene();
+    for (const double d0 : {0.0, 1.9, 257.0, -1.0, std::numeric_limits<double>::quiet_NaN()})
+        EXPECT_THAT(bake(room, {d0, 0}, {}, {}).error().message, testing::HasSubstr("from 2 to 256"));
+    EXPECT_THAT(bake(room, {200.0, 0}, {}, {}).error().message, testing::HasSubstr("spawn points"));
+
+    scene::Scene flat = room;
+    for (Vec3d& p : flat.vertices)
+        p.z() = 0.0;
+    EXPECT_THAT(bake(flat, {}, {}, {}).error().message, testing::HasSubstr("one plane"));
+}
+
+}  // namespace
+}  // namespace camdir::bake

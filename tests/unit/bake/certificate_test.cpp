@@ -1,0 +1,128 @@
+#include "bake/certificate.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "support/bake_twins.hpp"
+#include "support/solid_scenes.hpp"
+
+namespace camdir::bake {
+namespace {
+
+struct Pair {
+    Triangle3d corners;
+    std::array<double, 3> free_distance;
+    Triangle3d obstacle;
+};
+
+// Slabs and obstacles of every shape: far, near, crossing, coplanar, needles, segments and points; free
+// distances that change slower and faster than the distance between their corners.
+Pair random_pair(std::mt19937& random) {
+    std::uniform_real_distribution<double> coordinate(-10.0, 10.0);
+    const auto point = [&] { return Vec3d(coordinate(random), coordinate(random), coordinate(random)); };
+    Pair pair{{point(), point(), point()}, {}, {point(), point(), point()}};
+    std::uniform_real_distribution<double> radius(-3.0, 12.0);
+    for (double& r : pair.free_distance)
+        r = radius(random);
+    const Vec3d shift = 20.0 * point().normalized();
+    switch (random() % 8) {
+        case 0:
+            for (Vec3d& q : pair.obstacle)
+                q += shift;
+            break;
+        case 1:
+            for (Vec3d& q : pair.obstacle)
+                q.z() = 0.0;
+            for (Vec3d& p : pair.corners)
+                p.z() = 3.0;
+            break;
+        case 2:
+            for (Vec3d& q : pair.obstacle)
+                q.z() = 0.0;
+            for (Vec3d& p : pair.corners)
+                p.z() = 0.0;
+            break;
+        case 3:
+            pair.obstacle[2] = pair.obstacle[1];
+            break;
+        case 4:
+            pair.obstacle[1] = pair.obstacle[2] = pair.obstacle[0];
+            break;
+        case 5:
+            pair.corners[2] = 0.5 * (pair.corners[0] + pair.corners[1]) + 1e-3 * pair.corners[2];
+            break;
+        case 6:
+            pair.free_distance[1] = pair.free_distance[2] = pair.free_distance[0];
+            break;
+        default:
+            break;
+    }
+    return pair;
+}
+
+double free_distance_at(const Pair& pair, const std::array<double, 3>& weights) {
+    return weights[0] * pair.free_distance[0] + weights[1] * pair.free_distance[1] +
+           weights[2] * pair.free_distance[2];
+}
+
+TEST(Certificate, MarginIsAttainedAndNoSearchFindsLess) {
+    std::mt19937 random(13);
+    for (int round = 0; round < 1000; ++round) {
+        const Pair pair = random_pair(random);
+        const Margin margin = Slab(pair.corners, pair.free_distance).margin(pair.obstacle);
+        ASSERT_NEAR(margin.weights[0] + margin.weights[1] + margin.weights[2], 1.0, 1e-9);
+        for (const double w : margin.weights)
+            ASSERT_GE(w, 0.0);
+        const Vec3d m = test::point_of(pair.corners, margin.weights);
+        const double attained =
+            (closest_point(pair.obstacle, m) - m).norm() - free_distance_at(pair, margin.weights);
+        ASSERT_NEAR(margin.value, attained, 1e-7) << "round " << round;
+        ASSERT_LE(margin.value, test::searched_margin(pair.corners, pair.free_distance, pair.obstacle) + 1e-7)
+            << "round " << round;
+    }
+}
+
+TEST(Certificate, BoundsAreNeverAboveTheMargin) {
+    std::mt19937 random(14);
+    int separated = 0;
+    for (int round = 0; round < 20000; ++round) {
+        const Pair pair = random_pair(random);
+        const Slab slab(pair.corners, pair.free_distance);
+        const double margin = slab.margin(pair.obstacle).value;
+        ASSERT_LE(slab.margin_at_least(pair.obstacle), margin + 1e-9) << "round " << round;
+        ASSERT_LE(slab.margin_at_least(box_of(pair.obstacle)), margin + 1e-9) << "round " << round;
+        separated += slab.margin_at_least(pair.obstacle) > 0.0;
+    }
+    EXPECT_GT(separated, 1000);
+}
+
+TEST(Certificate, OfASlabWithoutAreaIsThatOfItsSegmentOrPoint) {
+    const Triangle3d wall{Vec3d(-50, -50, 0), Vec3d(50, -50, 0), Vec3d(0, 80, 0)};
+    const Vec3d a(0, 0, 5);
+    const Vec3d b(0, 4, 9);
+    EXPECT_DOUBLE_EQ(Slab({a, a, a}, {3, 3, 3}).margin(wall).value, 2.0);
+    EXPECT_DOUBLE_EQ(Slab({a, b, b}, {3, 8, 8}).margin(wall).value, 1.0);
+}
+
+TEST(Certificate, MarginTowardsASceneIsTheSmallestOfAllOrEnough) {
+    std::mt19937 random(15);
+    const test::SolidScene room = test::pillar_room();
+    const Obstacles obstacles(room.scene());
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    for (int round = 0; round < 500; ++round) {
+        Triangle3d corners;
+        for (Vec3d& p : corners)
+            p = Vec3d(256.0 * unit(random), 192.0 * unit(random), 128.0 * unit(random));
+        const Slab slab(corners, {40.0 * unit(random), 40.0 * unit(random), 40.0 * unit(random)});
+        double smallest = std::numeric_limits<double>::infinity();
+        for (const Triangle3d& obstacle : obstacles.triangles())
+            smallest = std::min(smallest, slab.margin(obstacle).value);
+        ASSERT_DOUBLE_EQ(margin(slab, obstacles, 1000.0).value, smallest) << "round " << round;
+        ASSERT_EQ(margin(slab, obstacles, smallest - 1.0).value, smallest - 1.0) << "round " << round;
+    }
+}
+
+}  // namespace
+}  // namespace camdir::bake
