@@ -82,7 +82,7 @@ TEST_F(CheckTest, Incidence) {
     EXPECT_THAT(broken.flaw(), HasSubstr("out of range"));
     broken = mesh;
     broken.incident_triangles[8] = static_cast<std::uint32_t>(mesh.triangles.size());
-    EXPECT_THAT(broken.flaw(), HasSubstr("does not exist"));
+    EXPECT_THAT(broken.flaw(), HasSubstr("do not exist"));
     broken = mesh;
     const auto shared = std::ranges::adjacent_find(
         mesh.incident_offsets, [](std::uint32_t first, std::uint32_t end) { return end - first >= 2; });
@@ -90,7 +90,7 @@ TEST_F(CheckTest, Incidence) {
     EXPECT_THAT(broken.flaw(), HasSubstr("out of order"));
     broken = mesh;
     broken.triangles[0] = broken.triangles[100];
-    EXPECT_THAT(broken.flaw(), HasSubstr("is no corner of its incident triangle"));
+    EXPECT_THAT(broken.flaw(), HasSubstr("the incidence is not that of the triangles"));
 }
 
 TEST_F(CheckTest, Index) {
