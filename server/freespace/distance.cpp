@@ -25,7 +25,7 @@ Distance distance(const Freespace& freespace, const Vec3f& point, std::uint32_t 
     improve_by_hints(freespace.mesh(), point, previous, best);
     if (best.triangle != none && previous < freespace.triangles().size())
         improve_by_ring(freespace, point, best.triangle, best);
-    if (best.triangle == none) improve_everywhere(freespace.mesh(), point, 0.0F, best);
+    if (best.triangle == none) improve_everywhere(freespace.mesh(), point, Effort{}, best);
     return distance_at(freespace, point, best);
 }
 
@@ -33,7 +33,7 @@ Distance distance_everywhere(const Freespace& freespace, const Vec3f& point) {
     if (!point.allFinite()) return {};
     SlabPoint best = uncovered;
     improve_by_hints(freespace.mesh(), point, none, best);
-    improve_everywhere(freespace.mesh(), point, 0.0F, best);
+    improve_everywhere(freespace.mesh(), point, Effort{}, best);
     return distance_at(freespace, point, best);
 }
 

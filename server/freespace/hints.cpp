@@ -11,7 +11,7 @@ namespace {
 constexpr float cells_per_triangle = 2.0F;
 constexpr float fewest_cells = 1'024.0F;
 // A hint that is a tenth short of the best does its work as well.
-constexpr float slack = 0.1F;
+constexpr Effort hint_effort{.slack = 0.1F};
 
 float choose_cell_size(const MeshView& mesh, const Box3f& bounds) {
     const Vec3f size = bounds.sizes().cwiseMax(1.0F);
@@ -39,7 +39,7 @@ Hints build_hints(const MeshView& mesh, const Box3f& bounds) {
                 const Vec3f centre = bounds.min() + hints.cell_size * (cell + Vec3f::Constant(0.5F));
                 SlabPoint best = uncovered;
                 improve_range(mesh, centre, previous, 1, best);
-                improve_everywhere(mesh, centre, slack, best);
+                improve_everywhere(mesh, centre, hint_effort, best);
                 hints.triangles.push_back(best.triangle);
                 if (best.triangle != none) previous = best.triangle;
             }

@@ -64,6 +64,19 @@ void improve_by_hints(const MeshView& mesh, const Vec3f& point, std::uint32_t pr
     improve(mesh, point, std::span(candidates).first(count), best);
 }
 
+void improve_by_hints_around(const MeshView& mesh, const Vec3f& point, SlabPoint& best) {
+    const float half = 0.5F * mesh.hints.cell_size;
+    std::array<std::uint32_t, 8> candidates{};
+    std::size_t count = 0;
+    for (const float x : {-half, half})
+        for (const float y : {-half, half})
+            for (const float z : {-half, half}) {
+                const std::uint32_t hint = mesh.hints.at(point + Vec3f(x, y, z));
+                if (hint != none) candidates[count++] = hint;
+            }
+    improve(mesh, point, std::span(candidates).first(count), best);
+}
+
 void improve_by_ring(const Freespace& freespace, const Vec3f& point, std::uint32_t triangle,
                      SlabPoint& best) {
     const auto [a, b, c] = freespace.triangles()[triangle];
@@ -72,19 +85,22 @@ void improve_by_ring(const Freespace& freespace, const Vec3f& point, std::uint32
 }
 
 // Depth first.
-void improve_everywhere(const MeshView& mesh, const Vec3f& point, float slack, SlabPoint& best) {
+void improve_everywhere(const MeshView& mesh, const Vec3f& point, const Effort& effort, SlabPoint& best) {
     if (mesh.index.empty()) return;
     Stack stack;
     stack[0] = {std::numeric_limits<float>::infinity(), IndexChild::node(0)};
     std::size_t height = 1;
-    while (height > 0) {
+    std::uint32_t leaves = 0;
+    while (height > 0 && leaves < effort.leaves) {
         const Candidate top = stack[--height];
-        const float to_beat = best.value + slack * std::max(best.value, 0.0F);
+        const float to_beat = best.value + effort.slack * std::max(best.value, 0.0F);
         if (!(top.bound > to_beat)) continue;
-        if (top.child.is_leaf())
+        if (top.child.is_leaf()) {
+            ++leaves;
             improve_range(mesh, point, top.child.first(), top.child.count(), best);
-        else
+        } else {
             height = push_children(mesh.index[top.child.index()], point, to_beat, stack, height);
+        }
     }
 }
 

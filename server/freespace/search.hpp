@@ -8,11 +8,20 @@ namespace camdir::freespace {
 // Tries the hint for the point and `previous`, when it is a triangle of the mesh.
 void improve_by_hints(const MeshView& mesh, const Vec3f& point, std::uint32_t previous, SlabPoint& best);
 
+// Tries the hints of the eight cells nearest to the point.
+void improve_by_hints_around(const MeshView& mesh, const Vec3f& point, SlabPoint& best);
+
 // Tries `triangle` and every triangle that shares a vertex with it.
 void improve_by_ring(const Freespace& freespace, const Vec3f& point, std::uint32_t triangle, SlabPoint& best);
 
-// Tries every triangle that the index cannot rule out: afterwards no slab is better than best.value by more
-// than the share `slack` of it, but for rounding. A good `best` to begin with and a slack make it cheap.
-void improve_everywhere(const MeshView& mesh, const Vec3f& point, float slack, SlabPoint& best);
+// When a search by the index may end early.
+struct Effort {
+    float slack = 0.0F;                 // nothing is better than the best by more than this share of it
+    std::uint32_t leaves = 0xffffffff;  // looked into, the most promising first
+};
+
+// Tries every triangle that the index cannot rule out: with all effort no slab is better than `best`
+// afterwards, but for rounding. A good `best` to begin with makes it cheap.
+void improve_everywhere(const MeshView& mesh, const Vec3f& point, const Effort& effort, SlabPoint& best);
 
 }  // namespace camdir::freespace

@@ -15,8 +15,9 @@ constexpr int ball_limit = 128;
 // by the smaller one.
 constexpr double good_gain = 0.05;
 constexpr double least_gain = 0.01;
-// A ball a little smaller than the best one carries nearly as far and is found much sooner.
-constexpr float sight_slack = 0.25F;
+// A ball a little smaller than the best one carries nearly as far and is found much sooner; and just outside
+// the slabs there are very many that nearly hold the point.
+constexpr Effort sight_effort{.slack = 0.25F, .leaves = 24};
 // Shrinks a ball before the exit from it is computed, so that rounding never carries the walk out of it.
 constexpr double shrink = 1.0 - 1e-9;
 
@@ -78,26 +79,26 @@ struct Step {
     }
 };
 
-Step step_to(const Freespace& freespace, const Ray& ray, const SlabPoint& point) {
-    return {point.triangle, RayBall(ray, ball_at(freespace.mesh(), point))};
-}
-
-// A ball that holds the beam at t and carries it on: the one that the hints know, or what the index finds.
+// A ball that holds the beam at t and carries it on. What is tried grows until one does.
 std::optional<Step> find_step(const Freespace& freespace, const Ray& ray, double t, double beam,
                               std::uint32_t previous) {
+    const MeshView& mesh = freespace.mesh();
     const Vec3f point = ray.at(t);
     SlabPoint best = uncovered;
     best.value = static_cast<float>(beam);
-    improve_by_hints(freespace.mesh(), point, previous, best);
-    if (best.triangle != none) {
-        const Step step = step_to(freespace, ray, best);
-        if (step.carries_on(ray, t, beam, good_gain)) return step;
-    }
-    improve_everywhere(freespace.mesh(), point, sight_slack, best);
-    if (best.triangle == none) return std::nullopt;
-    const Step step = step_to(freespace, ray, best);
-    if (!step.carries_on(ray, t, beam, least_gain)) return std::nullopt;
-    return step;
+    std::optional<Step> step;
+    const auto found = [&](double gain) {
+        if (best.triangle == none) return false;
+        step = Step{best.triangle, RayBall(ray, ball_at(mesh, best))};
+        return step->carries_on(ray, t, beam, gain);
+    };
+    improve_by_hints(mesh, point, previous, best);
+    if (found(good_gain)) return step;
+    improve_by_hints_around(mesh, point, best);
+    if (found(good_gain)) return step;
+    improve_everywhere(mesh, point, sight_effort, best);
+    if (found(least_gain)) return step;
+    return std::nullopt;
 }
 
 Sight march(const Freespace& freespace, const Ray& ray, double beam, std::uint32_t previous) {
