@@ -11,10 +11,11 @@ build_packages=(
     cyclonedds-dev cyclonedds-tools          # the wire
     libspdlog-dev nlohmann-json3-dev libcli11-dev
     libcpp-httplib-dev prometheus-cpp-dev libcurl4-openssl-dev zlib1g-dev libsystemd-dev
+    libgtest-dev libgmock-dev librapidcheck-dev  # the tests, which are configured with the rest
 )
 # What the demo plays on.
 map_packages=(openarena-081-maps)
 # What testing needs besides.
-test_packages=(libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev clang-format-14 openarena-088-data curl)
+test_packages=(clang-format-14 openarena-088-data)
 # What `test.sh --all` needs besides.
 lint_packages=(clang-14 clang-tidy-14 libclang-rt-14-dev)

@@ -1,8 +1,9 @@
 // observer-probe: observers who check what they receive.
+#include <unistd.h>
 #include <CLI/CLI.hpp>
+
 #include <atomic>
 #include <chrono>
-#include <iomanip>
 #include <iostream>
 #include <memory>
 #include <mutex>
@@ -11,6 +12,7 @@
 
 #include "app/interrupt.hpp"
 #include "base/file.hpp"
+#include "findings_table.hpp"
 #include "load.hpp"
 #include "oracle/oracle.hpp"
 #include "scene/load.hpp"
@@ -25,6 +27,7 @@ struct Options {
     std::uint32_t matches = 1;
     std::uint32_t observers = 1;
     bool automatic = false;
+    bool by_player = false;
     std::string profile;
     std::string map;
     double seconds = 0.0;
@@ -68,6 +71,10 @@ class Probe {
     [[nodiscard]] Findings findings() const {
         const std::lock_guard lock(mutex_);
         return judge_.findings();
+    }
+    [[nodiscard]] std::optional<camera_director::Camera> latest() const {
+        const std::lock_guard lock(mutex_);
+        return judge_.latest();
     }
     [[nodiscard]] camera_director::ShotStatus status() const { return observer_.shot_status(); }
 
@@ -116,19 +123,21 @@ double milliseconds(double seconds) {
     return 1e3 * seconds;
 }
 
-void print_table(std::ostream& out, const Probes& probes, const Options& options, double seconds) {
-    out << std::fixed << std::setprecision(1)
-        << "match          frames/s    gaps  p50 ms  p99 ms  max ms  in obstacle  through   jumps    cuts\n";
-    for (std::size_t match = 0; match < options.matches; ++match) {
-        const Findings found = sum(probes, match * options.observers, options.observers);
-        out << std::left << std::setw(14) << options.match_prefix + "-" + std::to_string(match) << std::right
-            << std::setw(9) << static_cast<double>(found.frames) / options.observers / seconds << std::setw(8)
-            << found.gaps << std::setw(8) << milliseconds(found.latency.percentile(0.5)) << std::setw(8)
-            << milliseconds(found.latency.percentile(0.99)) << std::setw(8)
-            << milliseconds(found.latency.largest()) << std::setw(13) << found.in_obstacle << std::setw(9)
-            << found.through_geometry << std::setw(8) << found.jumps << std::setw(8) << found.cuts << '\n';
+std::vector<Row> rows_of(const Probes& probes, const Options& options) {
+    std::vector<Row> rows;
+    if (options.by_player) {
+        for (std::size_t i = 0; i < probes.size(); ++i) {
+            const std::string match = options.matches > 1 ? std::to_string(i / options.observers) + "/" : "";
+            rows.push_back({match + std::to_string(i % options.observers), 1, probes[i]->findings(),
+                            probes[i]->latest()});
+        }
+        return rows;
     }
-    out.flush();
+    for (std::size_t match = 0; match < options.matches; ++match) {
+        rows.push_back({options.match_prefix + "-" + std::to_string(match), options.observers,
+                        sum(probes, match * options.observers, options.observers), std::nullopt});
+    }
+    return rows;
 }
 
 // Observers that are not served, each with what the director said.
@@ -234,19 +243,23 @@ int probe(const Options& options, const std::stop_token& stop) {
             one->restart();
     }
 
+    const char* heading = options.by_player ? "player" : "match";
+    const bool live = ::isatty(STDERR_FILENO) == 1;
+    const auto pause = live ? std::chrono::milliseconds(500) : std::chrono::milliseconds(5000);
+    FindingsTable table(std::cerr, heading, live);
     const auto start = Clock::now();
-    auto next_table = start + std::chrono::seconds(5);
+    auto next_table = start + pause;
     while (!stop.stop_requested() && (options.seconds == 0.0 || since(start) < options.seconds)) {
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
         if (Clock::now() < next_table) continue;
-        print_table(std::cerr, probes, options, since(start));
-        next_table += std::chrono::seconds(5);
+        table.print(rows_of(probes, options), since(start));
+        next_table += pause;
     }
 
     const double seconds = since(start);
     const Findings total = sum(probes, 0, probes.size());
     const auto violations = violations_of(total, options, seconds, probes);
-    print_table(std::cout, probes, options, seconds);
+    FindingsTable(std::cout, heading, false).print(rows_of(probes, options), seconds);
     for (const std::string& violation : violations)
         std::cout << "VIOLATION: " << violation << '\n';
     if (!options.json.empty()) {
@@ -267,6 +280,7 @@ void add_options(CLI::App& app, Options& options) {
         ->check(CLI::Range(1, 256))
         ->capture_default_str();
     app.add_flag("--automatic", options.automatic, "Let the director choose every target");
+    app.add_flag("--by-player", options.by_player, "A row for each observer instead of each match");
     app.add_option("--profile", options.profile, "Camera profile; default: the director's");
     app.add_option("--map", options.map, "The source map: judge cameras against its obstacles");
     app.add_option("--seconds", options.seconds, "How long, once served; 0: until interrupted")

@@ -45,6 +45,10 @@ class ShotJudge {
 
     [[nodiscard]] Findings& findings() { return findings_; }
     [[nodiscard]] const Findings& findings() const { return findings_; }
+    // The observer's camera of the newest frame.
+    [[nodiscard]] std::optional<camera_director::Camera> latest() const {
+        return previous_ ? previous_->own : std::nullopt;
+    }
 
   private:
     struct Previous {

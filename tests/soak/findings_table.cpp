@@ -1,0 +1,55 @@
+#include "findings_table.hpp"
+
+#include <iomanip>
+#include <ostream>
+#include <utility>
+
+namespace camdir::soak {
+namespace {
+
+const char* state_of(const std::optional<camera_director::Camera>& camera) {
+    if (!camera) return "-";
+    if ((camera->flags & CDIR_CAMERA_CUT) != 0) return "cut";
+    if ((camera->flags & CDIR_CAMERA_TARGET_ABSENT) != 0) return "absent";
+    if ((camera->flags & CDIR_CAMERA_SEARCHING) != 0) return "searching";
+    if ((camera->flags & CDIR_CAMERA_HELD) != 0) return "held";
+    return "tracking";
+}
+
+double percent(std::uint64_t part, std::uint64_t whole) {
+    return whole == 0 ? 0.0 : 100.0 * static_cast<double>(part) / static_cast<double>(whole);
+}
+
+void print_row(std::ostream& out, const Row& row, double seconds) {
+    const Findings& found = row.findings;
+    const auto milliseconds = [&](double share) { return 1e3 * found.latency.percentile(share); };
+    out << std::left << std::setw(12) << row.name << std::setw(11) << state_of(row.latest) << std::right
+        << std::setw(9) << percent(found.visible, found.cameras) << std::setw(11);
+    if (row.latest)
+        out << row.latest->clearance;
+    else
+        out << "-";
+    out << std::setw(9) << milliseconds(0.5) << std::setw(8) << milliseconds(0.99) << std::setw(9)
+        << static_cast<double>(found.frames) / row.shots / seconds << std::setw(7) << found.gaps
+        << std::setw(6) << found.cuts << std::setw(13) << found.in_obstacle << std::setw(9)
+        << found.through_geometry << std::setw(7) << found.jumps << '\n';
+}
+
+}  // namespace
+
+FindingsTable::FindingsTable(std::ostream& out, std::string heading, bool live)
+    : out_(out), heading_(std::move(heading)), live_(live) {}
+
+void FindingsTable::print(const std::vector<Row>& rows, double seconds) {
+    // Up over the table before, and clear from there.
+    if (live_ && printed_lines_ > 0) out_ << "\x1b[" << printed_lines_ << "A\x1b[J";
+    out_ << std::fixed << std::setprecision(1) << std::left << std::setw(12) << heading_
+         << "state      visible %  clearance  p50 ms  p99 ms  frames/s  gaps  cuts  in obstacle  through  "
+            "jumps\n";
+    for (const Row& row : rows)
+        print_row(out_, row, seconds);
+    out_.flush();
+    printed_lines_ = rows.size() + 1;
+}
+
+}  // namespace camdir::soak
