@@ -85,7 +85,7 @@ probe=$!
 started+=("$probe")
 
 # Resident kilobytes and processor ticks of the server, once a second or 1000 times in all.
-pause=$(awk -v s="$seconds" 'BEGIN { print s > 1000 ? s / 1000 : 1 }')
+pause=$(awk -v s="$seconds" 'BEGIN { print (s > 1000 ? s / 1000 : 1) }')
 sample() {
     awk '/^VmRSS/ { rss = $2 } END { printf "%s ", rss }' "/proc/$server/status"
     awk '{ print $14 + $15 }' "/proc/$server/stat"

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "support/child_process.hpp"
 #include "domains.hpp"
 #include "fake_director.hpp"
+#include "support/child_process.hpp"
 
 namespace camdir::test {
 namespace {
