@@ -147,8 +147,8 @@ void add_profiles(std::vector<Key>& table) {
                          in_profile(key.member),
                          key.help,
                          key.unit,
-                         key.minimum,
-                         key.maximum,
+                         shortest(key.minimum),
+                         shortest(key.maximum),
                          {},
                          false,
                          true});
