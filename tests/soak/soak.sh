@@ -106,14 +106,14 @@ kill -TERM "$game"
 played=0
 wait "$game" || played=$?
 
-median_of() { sort -n | awk '{ v[NR] = $1 } END { print NR ? v[int((NR + 1) / 2)] : 0 }'; }
+median_of() { sort -n | awk '{ v[NR] = $1 } END { print (NR ? v[int((NR + 1) / 2)] : 0) }'; }
 count=$(wc -l <"$work/samples.txt")
 early=$(awk -v n="$count" 'NR > n / 4 && NR <= n / 2 { print $1 }' "$work/samples.txt" | median_of)
 last=$(awk -v n="$count" 'NR > 3 * n / 4 { print $1 }' "$work/samples.txt" | median_of)
 cores=$(awk -v s="$pause" -v hz="$(getconf CLK_TCK)" \
-    'NR == 1 { first = $2 } { last = $2 } END { print NR > 1 ? (last - first) / hz / (s * (NR - 1)) : 0 }' \
+    'NR == 1 { first = $2 } { last = $2 } END { print (NR > 1 ? (last - first) / hz / (s * (NR - 1)) : 0) }' \
     "$work/samples.txt")
-level=$(awk -v a="$early" -v b="$last" -v most="$growth" 'BEGIN { print b - a <= 1024 * most ? "true" : "false" }')
+level=$(awk -v a="$early" -v b="$last" -v most="$growth" 'BEGIN { print (b - a <= 1024 * most ? "true" : "false") }')
 
 result=$(cat <<RESULT
 {
