@@ -1,0 +1,69 @@
+#include "http/metrics.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <numeric>
+#include <set>
+
+namespace camdir::http {
+namespace {
+
+using director::Counter;
+using director::Statistics;
+using prometheus::MetricFamily;
+
+const MetricFamily& family(const std::vector<MetricFamily>& families, const std::string& name) {
+    for (const MetricFamily& one : families)
+        if (one.name == "camera_director_" + name) return one;
+    throw std::runtime_error("no family " + name);
+}
+
+TEST(Metrics, ShowEveryCounterOnce) {
+    Statistics statistics;
+    std::iota(statistics.counters.begin(), statistics.counters.end(), std::uint64_t{1000});
+    std::multiset<double> shown;
+    for (const MetricFamily& one : director_metrics(statistics))
+        if (one.type == prometheus::MetricType::Counter)
+            for (const auto& metric : one.metric)
+                shown.insert(metric.counter.value);
+    for (const std::uint64_t value : statistics.counters)
+        EXPECT_EQ(shown.count(static_cast<double>(value)), 1U) << value;
+}
+
+TEST(Metrics, SayWhyThingsAreDropped) {
+    Statistics statistics;
+    statistics.counters[static_cast<std::size_t>(Counter::drop_old_epoch)] = 5;
+    const auto families = director_metrics(statistics);
+    for (const auto& metric : family(families, "dropped_total").metric)
+        EXPECT_EQ(metric.counter.value, metric.label.at(0).value == "old_epoch" ? 5.0 : 0.0);
+}
+
+TEST(Metrics, HistogramsAreCumulative) {
+    Statistics statistics;
+    statistics.step.buckets.front() = 3;
+    statistics.step.buckets.back() = 2;
+    statistics.step.sum_s = 1.5;
+    const auto families = director_metrics(statistics);
+    const auto& histogram = family(families, "step_seconds").metric.at(0).histogram;
+    EXPECT_EQ(histogram.sample_count, 5U);
+    EXPECT_EQ(histogram.sample_sum, 1.5);
+    EXPECT_EQ(histogram.bucket.front().cumulative_count, 3U);
+    EXPECT_EQ(histogram.bucket[histogram.bucket.size() - 2].cumulative_count, 3U);
+    EXPECT_EQ(histogram.bucket.back().cumulative_count, 5U);
+    EXPECT_EQ(histogram.bucket.back().upper_bound, std::numeric_limits<double>::infinity());
+}
+
+TEST(Metrics, ShowEveryMap) {
+    director::MapEntry entry;
+    entry.bake_seconds = 2.5;
+    const auto families = map_metrics({{"a", entry}, {"b", {}}});
+    ASSERT_EQ(family(families, "map_loaded").metric.size(), 2U);
+    EXPECT_EQ(family(families, "map_loaded").metric[0].gauge.value, 0.0);
+    EXPECT_EQ(family(families, "map_bake_seconds").metric[0].gauge.value, 2.5);
+    EXPECT_EQ(family(families, "map_bake_seconds").metric[1].label.at(0).value, "b");
+}
+
+}  // namespace
+}  // namespace camdir::http

@@ -1,0 +1,46 @@
+#include "http/status.hpp"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+namespace camdir::http {
+namespace {
+
+using nlohmann::json;
+
+TEST(Status, ShowsMapsMatchesShotsAndObservers) {
+    director::MatchView match;
+    match.match_id = "cup \"7\"";
+    match.answered = true;
+    match.state = "running";
+    match.shots.push_back({5, 2, false, "default", 3, 2});
+    match.shots.push_back({6, director::no_player, true, "default", 1, 0});
+    match.observers.push_back(
+        {"anna", director::RequestState::waiting_for_player, 0, "player 9 is not in the match"});
+    director::MatchView busy;
+    busy.match_id = "busy";
+    director::MapEntry failed;
+    failed.state = director::MapState::failed;
+    failed.reason = "damaged";
+
+    const json page = json::parse(status_page({{match, busy}}, {{"dm1", failed}}));
+    EXPECT_EQ(page["maps"][0]["name"], "dm1");
+    EXPECT_EQ(page["maps"][0]["state"], "failed");
+    EXPECT_EQ(page["maps"][0]["reason"], "damaged");
+    EXPECT_EQ(page["matches"][0]["match_id"], "cup \"7\"");
+    EXPECT_EQ(page["matches"][0]["shots"][0]["target"], 2);
+    EXPECT_TRUE(page["matches"][0]["shots"][1]["target"].is_null());
+    EXPECT_EQ(page["matches"][0]["observers"][0]["state"], "waiting for player");
+    EXPECT_EQ(page["matches"][1]["state"], "no answer");
+}
+
+TEST(Status, SurvivesNamesThatAreNoText) {
+    director::MatchView match;
+    match.match_id = "\xff\xfe";
+    match.answered = true;
+    EXPECT_TRUE(json::accept(status_page({{match}}, {})));
+}
+
+}  // namespace
+}  // namespace camdir::http
