@@ -44,7 +44,7 @@ ObjectiveTerms objective(const MapProfile& profile, const PlayerTrack& track, co
         profile.weight_inertia_distance * squared((speed - speed_before) / profile.speed_tolerance);
     terms.inertia_angle = profile.weight_inertia_angle * squared(turn / profile.speed_tolerance);
     terms.safety = profile.weight_safety * (speed / profile.safe_speed) * profile.minimum_clearance /
-                   std::max(candidate.clearance, least_clearance);
+                   std::max(candidate.clearance, least_clearance * profile.unit);
     terms.total = terms.visibility * (terms.distance + terms.angle + terms.inertia_distance +
                                       terms.inertia_angle + terms.safety);
     return terms;

@@ -90,10 +90,10 @@ std::span<const ProfileKey> profile_keys() {
     return keys;
 }
 
-MapProfile::MapProfile(const Profile& profile, float metres_per_unit) : Profile(profile) {
-    const float profile_units_to_map = metres_of_a_profile_unit / metres_per_unit;
+MapProfile::MapProfile(const Profile& profile, float metres_per_unit)
+    : Profile(profile), unit(metres_of_a_profile_unit / metres_per_unit) {
     for (const ProfileKey& key : keys) {
-        this->*key.member *= scale(key.unit, profile_units_to_map);
+        this->*key.member *= scale(key.unit, unit);
     }
 }
 

@@ -11,7 +11,7 @@ namespace camdir::camera {
 struct Profile {
     float distance = 120.0F;           // d_opt
     float elevation = 0.0F;            // of the spot behind, above the player's line of view
-    float distance_tolerance = 60.0F;  // a deviation by this much costs 1
+    float distance_tolerance = 50.0F;  // a deviation by this much costs 1
     float angle_tolerance = 45.0F;     // likewise
     float speed_tolerance = 400.0F;    // likewise, for changes of the camera's velocity
 
@@ -24,7 +24,7 @@ struct Profile {
 
     float visibility_threshold = 1.0F;
     float minimum_clearance = 4.5F;
-    float safe_speed = 4000.0F;  // w(v) = v / safe_speed
+    float safe_speed = 8000.0F;  // w(v) = v / safe_speed
     float swing = 75.0F;
     float prediction = 0.15F;
     float iterations = 2.0F;
@@ -57,6 +57,8 @@ struct ProfileKey {
 // The same profile in the units of a map: lengths in map units, angles in radians.
 struct MapProfile : Profile {
     MapProfile(const Profile& profile, float metres_per_unit);
+
+    float unit;  // 0.0254 m in map units
 };
 
 }  // namespace camdir::camera

@@ -54,7 +54,7 @@ Vec3f swung(const freespace::Freespace& freespace, const MapProfile& profile, co
     const freespace::Sight beam = freespace::sight(freespace, track.anchor, track.anchor + arm,
                                                    beam_radius(profile, track), track.slab);
     if (beam.clear) return track.anchor + arm;
-    return track.anchor + std::max(0.0F, beam.free_length - inside_beam) * arm.normalized();
+    return track.anchor + std::max(0.0F, beam.free_length - inside_beam * profile.unit) * arm.normalized();
 }
 
 }  // namespace

@@ -18,8 +18,9 @@ constexpr float steepest = 80.0F * radian;
 constexpr float yaw_step = 15.0F * radian;
 constexpr int yaw_steps = 12;  // to each side
 constexpr std::array elevations = {0.0F * radian, 20.0F * radian, -20.0F * radian, 45.0F * radian};
-constexpr float inside_beam = 2.0F;  // units: how far before the end of a free beam a spot lies
-constexpr float turn_cost = 0.2F;    // of leaving the camera's direction, against angle's own
+constexpr float inside_beam = 2.0F;    // units: how far before the end of a free beam a spot lies
+constexpr float turn_cost = 0.2F;      // of leaving the camera's direction, against angle's own
+constexpr float fan_interval = 0.06F;  // s
 constexpr float cut_distance_weight = 2.0F;
 
 float squared(float value) {
@@ -31,7 +32,7 @@ float lag(const MapProfile& profile) {
     return profile.heading_smoothing + 2.0F * profile.motion_smoothing;
 }
 
-struct Candidate {
+struct FanDirection {
     Vec3f direction;  // from the anchor
     float cost;       // without the distance's: a lower bound
 };
@@ -47,6 +48,10 @@ class Fan {
             direction_of({behind.yaw, std::clamp(behind.pitch + profile.elevation, -steepest, steepest)});
     }
 
+    void add(const Vec3f& direction, float swing) {
+        if (angle_between(direction, behind_) > swing) return;
+        candidates_[count_++] = {direction, direction_cost(direction)};
+    }
     void fill(float swing) {
         const Look behind = look_along(behind_, 0.0F);
         for (const float elevation : elevations) {
@@ -58,12 +63,12 @@ class Fan {
         }
         if (towards_camera_ != nullptr) add(*towards_camera_, swing);
         std::sort(candidates_.begin(), candidates_.begin() + count_,
-                  [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
+                  [](const FanDirection& a, const FanDirection& b) { return a.cost < b.cost; });
     }
 
-    [[nodiscard]] Candidate behind() const { return {behind_, direction_cost(behind_)}; }
-    [[nodiscard]] const Candidate* begin() const { return candidates_.data(); }
-    [[nodiscard]] const Candidate* end() const { return candidates_.data() + count_; }
+    [[nodiscard]] FanDirection behind() const { return {behind_, direction_cost(behind_)}; }
+    [[nodiscard]] const FanDirection* begin() const { return candidates_.data(); }
+    [[nodiscard]] const FanDirection* end() const { return candidates_.data() + count_; }
 
   private:
     [[nodiscard]] float direction_cost(const Vec3f& direction) const {
@@ -75,15 +80,10 @@ class Fan {
         }
         return cost;
     }
-    void add(const Vec3f& direction, float swing) {
-        if (angle_between(direction, behind_) > swing) return;
-        candidates_[count_++] = {direction, direction_cost(direction)};
-    }
-
     const MapProfile& profile_;
     const Vec3f* towards_camera_;
     Vec3f behind_;
-    std::array<Candidate, elevations.size() * 2 * yaw_steps + 1> candidates_;
+    std::array<FanDirection, elevations.size() * 2 * yaw_steps + 1> candidates_;
     std::size_t count_ = 0;
 };
 
@@ -104,7 +104,12 @@ class SpotSearch {
     void for_a_cut() { distance_weight_ *= cut_distance_weight; }
     void foresee(const Vec3f& anchor) { later_ = Origin{anchor, now_.slab, now_.beam_radius}; }
 
-    void consider(const Candidate& candidate) {
+    // Considers it; whether nothing is in its way at all.
+    bool is_free(const FanDirection& candidate) {
+        consider(candidate);
+        return best_.cost <= candidate.cost;
+    }
+    void consider(const FanDirection& candidate) {
         float length = free_length(now_, candidate.direction);
         float cost = candidate.cost + distance_cost(length);
         if (cost >= best_.cost) return;
@@ -125,7 +130,8 @@ class SpotSearch {
         const freespace::Sight beam =
             freespace::sight(freespace_, from.position, from.position + profile_.distance * direction,
                              from.beam_radius, from.slab);
-        return beam.clear ? profile_.distance : std::max(0.0F, beam.free_length - inside_beam);
+        return beam.clear ? profile_.distance
+                          : std::max(0.0F, beam.free_length - inside_beam * profile_.unit);
     }
     [[nodiscard]] float distance_cost(float length) const {
         return distance_weight_ * squared((profile_.distance - length) / profile_.distance_tolerance);
@@ -140,7 +146,7 @@ class SpotSearch {
 };
 
 void consider_all(const Fan& fan, SpotSearch& search) {
-    for (const Candidate& candidate : fan) {
+    for (const FanDirection& candidate : fan) {
         if (candidate.cost >= search.best().cost) break;
         search.consider(candidate);
     }
@@ -149,14 +155,24 @@ void consider_all(const Fan& fan, SpotSearch& search) {
 }  // namespace
 
 Spot spot_to_move_to(const freespace::Freespace& freespace, const MapProfile& profile,
-                     const PlayerTrack& track, const Vec3f& camera) {
+                     const PlayerTrack& track, const Vec3f& camera, float dt, SpotMemory& memory) {
     const Vec3f offset = camera - track.anchor;
     const Vec3f towards_camera = offset.normalized();
-    Fan fan(profile, track, offset.norm() > 1.0F ? &towards_camera : nullptr);
+    Fan fan(profile, track, offset.norm() > profile.unit ? &towards_camera : nullptr);
     SpotSearch search(freespace, profile, track);
     search.foresee(predicted_anchor(freespace, profile, track));
-    fan.fill(profile.swing);
-    consider_all(fan, search);
+    memory.age += dt;
+    if (!search.is_free(fan.behind())) {
+        if (memory.age >= fan_interval) {
+            fan.fill(profile.swing);
+            memory.age = 0.0F;
+        } else {
+            fan.add(memory.direction, profile.swing);
+        }
+        consider_all(fan, search);
+    }
+    const Vec3f chosen = search.best().offset;
+    if (chosen.norm() > profile.unit) memory.direction = chosen.normalized();
     return search.best();
 }
 

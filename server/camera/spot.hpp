@@ -14,13 +14,21 @@ struct Spot {
     float cost = 0.0F;
 };
 
-// The least costly spot that a free beam joins to the anchor. Directions up to profile.swing from behind are
-// tried, the cheapest first, until none can be better. `camera` is where the camera is now: other directions
-// cost more, and the beam must also be free from where the player will be.
-[[nodiscard]] Spot spot_to_move_to(const freespace::Freespace& freespace, const MapProfile& profile,
-                                   const PlayerTrack& track, const Vec3f& camera);
+// What a shot remembers of its last choice.
+struct SpotMemory {
+    Vec3f direction = Vec3f::UnitX();  // from the anchor
+    float age = 1.0F;                  // seconds since the whole fan was looked through
+};
 
-// The same in all directions, wherever the camera is.
+// The spot behind the player if free beams join it to the anchor and to where the anchor will be. Otherwise
+// the least costly spot within profile.swing of behind, directions other than the one to `camera` costing
+// more; the whole fan is looked through at most 16 times a second, in between only the last choice is
+// compared. `dt` is the time since the last call.
+[[nodiscard]] Spot spot_to_move_to(const freespace::Freespace& freespace, const MapProfile& profile,
+                                   const PlayerTrack& track, const Vec3f& camera, float dt,
+                                   SpotMemory& memory);
+
+// The least costly spot of all directions that a free beam joins to the anchor, wherever the camera is.
 [[nodiscard]] Spot spot_to_cut_to(const freespace::Freespace& freespace, const MapProfile& profile,
                                   const PlayerTrack& track);
 

@@ -20,8 +20,8 @@ constexpr float usual_frame = 1.0F / 60.0F;  // s
 constexpr float shortest_frame = 1e-3F;      // s
 constexpr float longest_frame = 0.25F;       // s
 constexpr float greatest_urgency = 1e6F;
-constexpr float at_rest = 1.0F;     // map units/s
-constexpr float at_the_eye = 1.0F;  // map units: nearer, there is no line of sight to look along
+constexpr float at_rest = 1.0F;     // units/s
+constexpr float at_the_eye = 1.0F;  // units: nearer, there is no line of sight to look along
 constexpr float quarter_turn = std::numbers::pi_v<float> / 2.0F;
 
 float usable_frame(double dt) {
@@ -60,7 +60,7 @@ class Step {
 
   private:
     Camera keep_in_sight() {
-        const Spot spot = spot_to_move_to(freespace_, profile_, player_, state_.position);
+        const Spot spot = spot_to_move_to(freespace_, profile_, player_, state_.position, dt_, state_.spot);
         Vec3f position = state_.position;
         Vec3f wanted = position;
         for (int i = 0; i < static_cast<int>(profile_.iterations); ++i) {
@@ -79,7 +79,7 @@ class Step {
     }
 
     Camera search() {
-        const Spot spot = spot_to_move_to(freespace_, profile_, player_, state_.position);
+        const Spot spot = spot_to_move_to(freespace_, profile_, player_, state_.position, dt_, state_.spot);
         Moves all = moves(spot, state_.position);
         all.visibility =
             next_on_the_way(freespace_, profile_, player_, start(), scratch_.roadmap) - state_.position;
@@ -102,7 +102,7 @@ class Step {
     // A dead player: the camera glides on ever slower, then holds.
     Camera come_to_rest() {
         const Vec3f velocity = state_.velocity * std::exp(-dt_ / profile_.motion_smoothing);
-        if (velocity.norm() > at_rest) {
+        if (velocity.norm() > at_rest * profile_.unit) {
             const Vec3f wanted = within_reach(state_.position + velocity * dt_);
             const auto reached = reach(freespace_, profile_, player_, start(), wanted);
             if (reached && reached->clearance >= profile_.minimum_clearance) return move_to(*reached);
@@ -178,7 +178,8 @@ class Step {
 
     [[nodiscard]] Look wanted_look() const {
         const Vec3f to_eye = player_.eye - state_.position;
-        Look look = look_along(to_eye.norm() > at_the_eye ? to_eye : player_.heading, state_.look.yaw);
+        Look look = look_along(to_eye.norm() > at_the_eye * profile_.unit ? to_eye : player_.heading,
+                               state_.look.yaw);
         look.pitch = std::clamp(look.pitch + profile_.framing_offset, -quarter_turn, quarter_turn);
         return look;
     }

@@ -6,6 +6,7 @@
 #include "camera/camera.hpp"
 #include "camera/player.hpp"
 #include "camera/profile.hpp"
+#include "camera/spot.hpp"
 #include "camera/view.hpp"
 #include "freespace/freespace.hpp"
 #include "freespace/roadmap.hpp"
@@ -19,6 +20,7 @@ struct ShotState {
     Vec3f position = Vec3f::Zero();
     Vec3f velocity = Vec3f::Zero();
     std::uint32_t slab = freespace::none;  // of the position
+    SpotMemory spot;
     Look look;
     float lost_for = 0.0F;  // seconds since the player was last seen
 };

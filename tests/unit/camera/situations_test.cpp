@@ -192,6 +192,31 @@ TEST(Situations, AMapWithoutFreespaceStillGivesFiniteCameras) {
     }
 }
 
+TEST(Situations, AMapInMetresShowsTheSame) {
+    const test::Plan plan = test::l_corridor();
+    const freespace::Freespace units = plan.freespace();
+    freespace::Contents contents = plan.contents(1.0F);
+    constexpr float metre = 0.0254F;
+    for (freespace::Vertex& vertex : contents.vertices) {
+        vertex = {vertex.x * metre, vertex.y * metre, vertex.z * metre, vertex.free_distance * metre};
+    }
+    const auto metres = freespace::Freespace::parse(freespace::encode(contents), "metres").value();
+    Runner runner(plan, plan.eye('s'), 2);
+    Scratch units_scratch(units);
+    Scratch metres_scratch(metres);
+    ShotState units_state;
+    ShotState metres_state;
+    for (int i = 0; i < 120; ++i) {
+        Pose pose = runner.next(1.0F / 60.0F);
+        const Camera a = step(units, {}, &pose, 1.0 / 60.0, units_state, units_scratch);
+        pose.eye *= metre;
+        pose.velocity *= metre;
+        const Camera b = step(metres, {}, &pose, 1.0 / 60.0, metres_state, metres_scratch);
+        EXPECT_LT((a.position - b.position / metre).norm(), 1.0F) << "frame " << i;
+        EXPECT_EQ(a.flags, b.flags);
+    }
+}
+
 TEST(Situations, ACopyOfTheStateGoesOnAlike) {
     const test::Plan plan = test::figure_eight();
     const freespace::Freespace freespace = plan.freespace();
