@@ -1,0 +1,83 @@
+// Maps that are baked at start.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <filesystem>
+
+#include "served.hpp"
+#include "support/eventually.hpp"
+#include "support/openarena.hpp"
+#include "support/q3_maps.hpp"
+
+namespace camdir::test {
+namespace {
+
+using nlohmann::json;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+Bytes room(double height) {
+    q3::Bsp bsp = room_map(Box3d(Vec3d(0.0, 0.0, 0.0), Vec3d(512.0, 384.0, height)));
+    add_spawn_point(bsp, Vec3d(256.0, 192.0, 40.0));
+    return encode(bsp);
+}
+
+void write(const Folder& folder, const std::string& name, const Bytes& bytes) {
+    folder.write(name, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+json with_room(double d0 = 64.0) {
+    json config = quiet_config();
+    config["maps"] = {{{"name", "room"}, {"file", "room.vfs"}, {"source", "room.bsp"}, {"d0", d0}}};
+    return config;
+}
+
+// Serves until ready, then stops; the log.
+std::string log_of_a_start(const Folder& folder, const json& config) {
+    Served served(folder, config);
+    EXPECT_TRUE(served.logged("\"ready\"")) << served.log();
+    EXPECT_EQ(served.status()["maps"][0]["state"], "ready") << served.log();
+    served.signal(SIGTERM);
+    EXPECT_EQ(served.exit_code(), 0);
+    return served.log();
+}
+
+TEST(Bake, OnlyWhatIsMissingOrStaleIsBaked) {
+    const Folder folder;
+    write(folder, "room.bsp", room(256.0));
+    EXPECT_THAT(log_of_a_start(folder, with_room()),
+                AllOf(HasSubstr("will be baked"), HasSubstr("baked in")));
+    EXPECT_THAT(log_of_a_start(folder, with_room()), Not(HasSubstr("baked")));
+    EXPECT_THAT(log_of_a_start(folder, with_room(48.0)), HasSubstr("it was baked with d0 64"));
+    write(folder, "room.bsp", room(320.0));
+    EXPECT_THAT(log_of_a_start(folder, with_room(48.0)), HasSubstr("room.bsp has changed since"));
+    folder.write("room.vfs", "damaged");
+    EXPECT_THAT(log_of_a_start(folder, with_room(48.0)),
+                AllOf(HasSubstr("will be baked: "), HasSubstr("room.vfs")));
+    std::filesystem::remove(folder / "room.bsp");
+    EXPECT_THAT(log_of_a_start(folder, with_room(48.0)),
+                AllOf(HasSubstr("is used as it is"), Not(HasSubstr("baking"))));
+}
+
+TEST(Bake, IsNotReadyMeanwhileAndStopsAtOnce) {
+    const auto map = openarena_map("oa_dm1");
+    if (!map) GTEST_SKIP() << "openarena-081-maps is not installed";
+    const Folder folder;
+    folder.write_square("square.vfs");
+    json config = quiet_config();
+    config["maps"] = {{{"name", "dm1"}, {"file", "dm1.vfs"}, {"source", *map}, {"d0", 4}},
+                      {{"name", "square"}, {"file", "square.vfs"}}};
+    Served served(folder, config);
+    ASSERT_TRUE(served.logged("map dm1: baking")) << served.log();
+    EXPECT_THAT(served.get("/readyz", 503), HasSubstr("map dm1: "));
+    EXPECT_EQ(served.get("/healthz"), "ok\n");
+    EXPECT_EQ(served.status()["maps"][1]["state"], "ready") << "what needs no baking comes first";
+    served.signal(SIGTERM);
+    EXPECT_EQ(served.exit_code(), 0) << served.log();
+    EXPECT_FALSE(std::filesystem::exists(folder / "dm1.vfs"));
+}
+
+}  // namespace
+}  // namespace camdir::test

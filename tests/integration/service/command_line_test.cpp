@@ -1,0 +1,61 @@
+// camera-director serve as a user types it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "served.hpp"
+
+namespace camdir::test {
+namespace {
+
+using nlohmann::json;
+using testing::AllOf;
+using testing::HasSubstr;
+
+TEST(CommandLine, UsageErrorsExitWith2) {
+    EXPECT_EQ(run_director({"serve"}).exit_code, 2);
+    EXPECT_EQ(run_director({"serve", "--check"}).exit_code, 2);
+    EXPECT_EQ(run_director({"serve", "--config"}).exit_code, 2);
+    EXPECT_EQ(run_director({"serve", "--config", "x", "--no-such-option"}).exit_code, 2);
+}
+
+TEST(CommandLine, ABadConfigurationExitsWith1AndSaysWhy) {
+    const Folder folder;
+    folder.write("config.json", R"({"dds": {"domain": 999}, "htpp": {}})");
+    for (const auto& more : {std::vector<std::string>{}, std::vector<std::string>{"--check"}}) {
+        std::vector<std::string> arguments = {"serve", "--config", folder / "config.json"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const Ran ran = run_director(arguments);
+        EXPECT_EQ(ran.exit_code, 1);
+        EXPECT_THAT(ran.errors,
+                    AllOf(HasSubstr("config.json: /dds/domain: 999: expected an integer from 0 to 230"),
+                          HasSubstr("/htpp: unknown key, did you mean \"http\"?")));
+        EXPECT_EQ(ran.output, "");
+    }
+    EXPECT_EQ(run_director({"serve", "--config", folder / "none.json"}).exit_code, 1);
+}
+
+TEST(CommandLine, CheckLooksAtTheMapsToo) {
+    const Folder folder;
+    json config = quiet_config();
+    config["maps"] = {{{"name", "square"}, {"file", "square.vfs"}}};
+    folder.write("config.json", config.dump());
+    const Ran missing = run_director({"serve", "--check", "--config", folder / "config.json"});
+    EXPECT_EQ(missing.exit_code, 1);
+    EXPECT_THAT(missing.errors, AllOf(HasSubstr("/maps/0: "), HasSubstr("square.vfs: ")));
+    folder.write_square("square.vfs");
+    const Ran good = run_director({"serve", "--check", "--config", folder / "config.json"});
+    EXPECT_EQ(good.exit_code, 0) << good.errors;
+    EXPECT_THAT(good.errors, HasSubstr("valid"));
+}
+
+TEST(CommandLine, PrintsItsSchemaAndReference) {
+    const Ran schema = run_director({"serve", "--print-schema"});
+    EXPECT_EQ(schema.exit_code, 0);
+    EXPECT_TRUE(json::parse(schema.output)["properties"].contains("dds"));
+    const Ran reference = run_director({"serve", "--print-reference"});
+    EXPECT_EQ(reference.exit_code, 0);
+    EXPECT_THAT(reference.output, HasSubstr("| `domain` | integer | `0` | 0 .. 230 |"));
+}
+
+}  // namespace
+}  // namespace camdir::test

@@ -1,0 +1,89 @@
+#include "served.hpp"
+
+#include <sstream>
+#include <stdexcept>
+
+#include "base/file.hpp"
+#include "support/eventually.hpp"
+#include "support/freespace_meshes.hpp"
+
+// After Eigen, whose names collide with a macro of its <resolv.h>.
+#include <httplib.h>
+
+namespace camdir::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+void check(const Result<void>& written) {
+    if (!written) throw std::runtime_error(written.error().message);
+}
+
+}  // namespace
+
+Folder::Folder() {
+    std::string pattern = (fs::temp_directory_path() / "camdir-serve-XXXXXX").string();
+    if (::mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("cannot create " + pattern);
+    path_ = pattern;
+}
+
+Folder::~Folder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+}
+
+void Folder::write(const std::string& name, const std::string& content) const {
+    check(write_file(path_ / name, content));
+}
+
+void Folder::write_square(const std::string& name) const {
+    check(write_file(path_ / name, freespace::encode(square_contents())));
+}
+
+Ran run_director(const std::vector<std::string>& arguments) {
+    std::vector<std::string> command = {CAMERA_DIRECTOR};
+    command.insert(command.end(), arguments.begin(), arguments.end());
+    ChildProcess process(command);
+    const int exit_code = process.wait();
+    return {exit_code, process.output(), process.errors()};
+}
+
+json quiet_config() {
+    return {{"dds", {{"domain", 61}, {"participant_index", -1}}},
+            {"http", {{"port", 0}}},
+            {"log", {{"format", "json"}, {"level", "debug"}}}};
+}
+
+Served::Served(const Folder& folder, const json& config) {
+    folder.write("config.json", config.dump());
+    process_ = std::make_unique<ChildProcess>(
+        std::vector<std::string>{CAMERA_DIRECTOR, "serve", "--config", folder / "config.json"});
+}
+
+bool Served::logged(const std::string& text) const {
+    return eventually([&] { return log().find(text) != std::string::npos; });
+}
+
+int Served::port() const {
+    const std::string before = "http: listening on 127.0.0.1 port ";
+    if (!logged(before)) throw std::runtime_error("no port in the log: " + log());
+    std::istringstream lines(log());
+    for (std::string line; std::getline(lines, line);) {
+        const std::string message = json::parse(line)["message"];
+        if (message.starts_with(before)) return std::stoi(message.substr(before.size()));
+    }
+    throw std::runtime_error("no port in the log: " + log());
+}
+
+std::string Served::get(const std::string& path, int status) {
+    httplib::Client client("127.0.0.1", port());
+    client.set_read_timeout(60);
+    const auto answer = client.Get(path.c_str());
+    if (!answer) throw std::runtime_error("no answer to GET " + path);
+    if (answer->status != status)
+        throw std::runtime_error("GET " + path + ": " + std::to_string(answer->status) + " " + answer->body);
+    return answer->body;
+}
+
+}  // namespace camdir::test

@@ -1,0 +1,62 @@
+// A real camera-director process and the folder it works in.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "support/child_process.hpp"
+
+namespace camdir::test {
+
+// A folder of its own, removed at the end.
+class Folder {
+  public:
+    Folder();
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+    ~Folder();
+
+    [[nodiscard]] std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+    void write(const std::string& name, const std::string& content) const;
+    // The baked square of support/freespace_meshes.hpp.
+    void write_square(const std::string& name) const;
+
+  private:
+    std::filesystem::path path_;
+};
+
+// Runs camera-director with these arguments to its end.
+struct Ran {
+    int exit_code;
+    std::string output;
+    std::string errors;
+};
+[[nodiscard]] Ran run_director(const std::vector<std::string>& arguments);
+
+// A configuration that disturbs nobody: no fixed ports, a JSON log.
+[[nodiscard]] nlohmann::json quiet_config();
+
+// `camera-director serve` with the configuration written to `folder`/config.json.
+class Served {
+  public:
+    Served(const Folder& folder, const nlohmann::json& config);
+
+    // Waits until the log says so; false when it did not within a generous while.
+    [[nodiscard]] bool logged(const std::string& text) const;
+    // GET; the body. Throws when the status is another.
+    [[nodiscard]] std::string get(const std::string& path, int status = 200);
+    [[nodiscard]] nlohmann::json status() { return nlohmann::json::parse(get("/status")); }
+
+    void signal(int number) const { process_->send_signal(number); }
+    // Waits for its end.
+    [[nodiscard]] int exit_code() { return process_->wait(); }
+    [[nodiscard]] std::string log() const { return process_->errors(); }
+
+  private:
+    [[nodiscard]] int port() const;
+    std::unique_ptr<ChildProcess> process_;
+};
+
+}  // namespace camdir::test

@@ -1,0 +1,115 @@
+// The process from start to end, without a match.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <sstream>
+
+#include "served.hpp"
+#include "support/eventually.hpp"
+
+namespace camdir::test {
+namespace {
+
+using nlohmann::json;
+using testing::AllOf;
+using testing::HasSubstr;
+
+json with_square(json config = quiet_config()) {
+    config["maps"] = {{{"name", "square"}, {"file", "square.vfs"}}};
+    return config;
+}
+
+TEST(Service, IsReadyShowsItselfAndStopsOnSigterm) {
+    const Folder folder;
+    folder.write_square("square.vfs");
+    Served served(folder, with_square());
+    ASSERT_TRUE(served.logged("\"ready\"")) << served.log();
+    EXPECT_EQ(served.get("/healthz"), "ok\n");
+    EXPECT_EQ(served.get("/readyz"), "ready\n");
+    EXPECT_THAT(served.get("/metrics"), AllOf(HasSubstr("camera_director_map_loaded{map=\"square\"} 1\n"),
+                                              HasSubstr("camera_director_matches 0\n"),
+                                              HasSubstr("camera_director_wire_received_total{topic=")));
+    EXPECT_EQ(served.status()["maps"][0]["state"], "ready");
+    EXPECT_EQ(served.status()["maps"][0]["triangles"], 2);
+    served.signal(SIGTERM);
+    EXPECT_EQ(served.exit_code(), 0);
+
+    std::istringstream lines(served.log());
+    for (std::string line; std::getline(lines, line);) {
+        ASSERT_TRUE(json::accept(line)) << line;
+        EXPECT_TRUE(json::parse(line).contains("time"));
+    }
+    EXPECT_THAT(served.log(), HasSubstr("\"stopped\""));
+}
+
+TEST(Service, StopsOnSigintWhileItStarts) {
+    const Folder folder;
+    Served served(folder, quiet_config());
+    ASSERT_TRUE(served.logged("http: listening"));
+    served.signal(SIGINT);
+    EXPECT_EQ(served.exit_code(), 0);
+}
+
+TEST(Service, AMapThatCannotBeLoadedIsToldAndTheOthersAreServed) {
+    const Folder folder;
+    folder.write_square("square.vfs");
+    folder.write("damaged.vfs", "this is no baked map");
+    json config = with_square();
+    config["maps"].push_back({{"name", "damaged"}, {"file", "damaged.vfs"}});
+    config["maps"].push_back({{"name", "unbaked"}, {"file", "unbaked.vfs"}, {"source", "unbaked.bsp"}});
+    Served served(folder, config);
+    ASSERT_TRUE(served.logged("\"ready\"")) << served.log();
+    EXPECT_THAT(served.get("/metrics"), AllOf(HasSubstr("map_loaded{map=\"damaged\"} 0\n"),
+                                              HasSubstr("map_loaded{map=\"square\"} 1\n"),
+                                              HasSubstr("map_loaded{map=\"unbaked\"} 0\n")));
+    for (const json& map : served.status()["maps"]) {
+        if (map["name"] == "square") continue;
+        EXPECT_EQ(map["state"], "failed");
+        EXPECT_THAT(map["reason"].get<std::string>(), HasSubstr(map["name"].get<std::string>() + "."));
+    }
+}
+
+TEST(Service, SighupReloads) {
+    const Folder folder;
+    folder.write_square("square.vfs");
+    folder.write_square("other.vfs");
+    Served served(folder, with_square());
+    ASSERT_TRUE(served.logged("\"ready\"")) << served.log();
+
+    folder.write("config.json", R"({"maps": [{"name": "other", "file": "other.vfs", "d0": 1}]})");
+    served.signal(SIGHUP);
+    ASSERT_TRUE(served.logged("not reloaded")) << served.log();
+    EXPECT_THAT(served.log(), HasSubstr("/maps/0/d0: 1: expected a number from 2 to 256"));
+    EXPECT_EQ(served.status()["maps"][0]["name"], "square");
+
+    json config = with_square();
+    config["maps"].push_back({{"name", "other"}, {"file", "other.vfs"}});
+    config["http"]["port"] = 1;
+    folder.write("config.json", config.dump());
+    served.signal(SIGHUP);
+    ASSERT_TRUE(eventually([&] {
+        const json maps = served.status()["maps"];
+        return maps.size() == 2 && maps[0]["state"] == "ready" && maps[1]["state"] == "ready";
+    })) << served.log();
+    EXPECT_THAT(served.log(), HasSubstr("/http/port takes effect after a restart"));
+    served.signal(SIGTERM);
+    EXPECT_EQ(served.exit_code(), 0);
+}
+
+TEST(Service, ATakenPortIsAnError) {
+    const Folder folder;
+    Served first(folder, quiet_config());
+    const Folder other;
+    ASSERT_TRUE(first.logged("http: listening"));
+    const std::string log = first.log();
+    const std::size_t at = log.find(" port ") + 6;
+    json config = quiet_config();
+    config["http"]["port"] = std::stoi(log.substr(at));
+    Served second(other, config);
+    EXPECT_EQ(second.exit_code(), 1);
+    EXPECT_THAT(second.log(), HasSubstr("http: cannot listen on 127.0.0.1 port"));
+}
+
+}  // namespace
+}  // namespace camdir::test
