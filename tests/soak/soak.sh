@@ -13,7 +13,7 @@ set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 bin=$here/../../build/release/bin
 work=${TMPDIR:-/tmp}/camera-director-soak
-seconds=60 matches=4 players=8 observers=8 rate=60 trace= json= growth=4 map_name=oa_dm1
+seconds=60 matches=4 players=8 observers=8 rate=60 trace='' json='' growth=4 map_name=oa_dm1
 map=/usr/share/games/openarena/baseoa/pak1-maps.pk3:maps/oa_dm1.bsp
 
 while [ $# -gt 0 ]; do
@@ -45,7 +45,7 @@ mkdir -p "$locks"
 for domain in $(shuf -i 1-80); do
     exec 9>"$locks/$domain"
     flock -n 9 && break
-    domain=
+    domain=''
 done
 [ -n "$domain" ] || { echo "soak.sh: every test domain is taken" >&2; exit 1; }
 

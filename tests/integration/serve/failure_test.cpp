@@ -1,0 +1,160 @@
+// Processes that die, and what the others make of it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <csignal>
+#include <memory>
+
+#include "hall.hpp"
+#include "support/eventually.hpp"
+#include "support/test_domain.hpp"
+
+namespace camdir::test {
+namespace {
+
+using camera_director::Context;
+using camera_director::Observer;
+
+class FailureTest : public testing::Test {
+  protected:
+    // A game server in a process of its own: match "game-0", 4 players.
+    std::unique_ptr<ChildProcess> game_process() {
+        return std::make_unique<ChildProcess>(std::vector<std::string>{
+            CAMDIR_BIN_DIR "/synthetic-players", (folder_.path() / "hall.vfs").string(), "--domain",
+            std::to_string(domain_.id()), "--match-prefix", "game", "--players", "4"});
+    }
+    void SetUp() override { write_hall(folder_.path() / "hall.vfs"); }
+
+    TestDomain domain_;
+    TemporaryFolder folder_;
+};
+
+bool has_target(std::span<const camera_director::Camera> cameras, std::uint32_t target) {
+    return std::any_of(cameras.begin(), cameras.end(),
+                       [&](const auto& camera) { return camera.target == target; });
+}
+
+TEST_F(FailureTest, AGameServerThatIsKilledAndStartedAgainIsANewEpoch) {
+    Server server(domain_.id());
+    ASSERT_TRUE(server.ready()) << server.log();
+    const Context context(connection(domain_.id()));
+    auto game = game_process();
+    Observer observer(context, "game-0", "anna");
+    observer.request({.target = 1});
+    ASSERT_TRUE(sees_own_camera(observer)) << server.log();
+    std::uint64_t before = 0;
+    ASSERT_TRUE(sees(observer, [&](const auto& frame, auto /*cameras*/) {
+        before = frame.epoch;
+        return true;
+    }));
+
+    game->send_signal(SIGKILL);
+    EXPECT_EQ(game->wait(), -SIGKILL);
+    game = game_process();
+    EXPECT_TRUE(sees(observer, [&](const auto& frame, auto cameras) {
+        return frame.epoch > before && has_target(cameras, 1);
+    })) << server.log();
+}
+
+TEST_F(FailureTest, TheShotOfAnObserverThatIsKilledEnds) {
+    Server server(domain_.id());
+    ASSERT_TRUE(server.ready()) << server.log();
+    const Context context(connection(domain_.id()));
+    const Game game(context, "game-0", "hall");
+    Observer stays(context, "game-0", "stays");
+    stays.request({.target = 3});
+    ChildProcess dies({CAMDIR_BIN_DIR "/observer-probe", "--domain", std::to_string(domain_.id()),
+                       "--match-prefix", "game"});  // asks for player 0
+    ASSERT_TRUE(sees(stays, [](const auto& /*frame*/, auto cameras) {
+        return has_target(cameras, 0) && has_target(cameras, 3);
+    })) << server.log();
+    dies.send_signal(SIGKILL);
+    EXPECT_TRUE(sees(stays, [](const auto& /*frame*/,
+                               auto cameras) { return !has_target(cameras, 0) && has_target(cameras, 3); }))
+        << "its request's liveliness lasts 10 s\n"
+        << server.log();
+}
+
+TEST_F(FailureTest, AServerThatIsKilledAndStartedAgainFindsEverybodyAgain) {
+    const Context context(connection(domain_.id()));
+    const Game game(context, "cup", "hall");
+    Observer observer(context, "cup", "anna");
+    observer.request({.target = 2});
+    auto server = std::make_unique<Server>(domain_.id(), Server::Options{.director_id = 10});
+    ASSERT_TRUE(sees_own_camera(observer)) << server->log();
+    server->process().send_signal(SIGKILL);
+    EXPECT_EQ(server->process().wait(), -SIGKILL);
+    server = std::make_unique<Server>(domain_.id(), Server::Options{.director_id = 11});
+    EXPECT_TRUE(sees(observer, [](const auto& frame, auto cameras) {
+        return frame.director_id == 11 && has_target(cameras, 2);
+    })) << server->log();
+}
+
+TEST_F(FailureTest, TheStandbyTakesOverWithTheSameCameraIds) {
+    Server leader(domain_.id(), {.participant_index = 0, .strength = 200, .director_id = 10});
+    Server standby(domain_.id(), {.participant_index = 1, .strength = 100, .director_id = 20});
+    ASSERT_TRUE(leader.ready() && standby.ready()) << leader.log() << standby.log();
+    const Context context(connection(domain_.id()));
+    const Game game(context, "cup", "hall");
+    Observer first(context, "cup", "first");
+    Observer second(context, "cup", "second");
+    first.request({.target = 2});
+    second.request({.target = 1});
+    ASSERT_TRUE(eventually([&] {
+        first.poll();
+        return first.counters().directors == 2;
+    })) << standby.log();
+    ASSERT_TRUE(sees(first, [](const auto& frame, auto cameras) {
+        return frame.director_id == 10 && cameras.size() == 2;
+    })) << leader.log();
+    ASSERT_TRUE(comes_to(first, CDIR_SHOT_ACCEPTED));
+    const std::uint32_t camera_id = first.shot_status().camera_id;
+
+    // The standby may have been heard before the leader was found.
+    const std::uint64_t hand_overs = first.counters().hand_overs;
+    leader.process().send_signal(SIGKILL);
+    EXPECT_TRUE(sees(first, [&](const auto& frame, auto cameras) {
+        if (frame.director_id != 20 || !has_target(cameras, 2)) return false;
+        for (const auto& camera : cameras) {
+            if (camera.target == 2) {
+                EXPECT_EQ(camera.camera_id, camera_id);
+            }
+        }
+        return true;
+    })) << standby.log();
+    EXPECT_EQ(first.counters().hand_overs, hand_overs + 1);
+    // The leader's answer to the request dies later than its cameras: the standby's must stand by then.
+    ASSERT_TRUE(eventually([&] {
+        first.poll();
+        return first.counters().directors == 1;
+    }));
+    EXPECT_TRUE(comes_to(first, CDIR_SHOT_ACCEPTED)) << standby.log();
+    EXPECT_TRUE(sees_own_camera(first));
+}
+
+TEST_F(FailureTest, ALeaderThatLeavesInPeaceHandsOver) {
+    Server leader(domain_.id(), {.participant_index = 0, .strength = 200, .director_id = 10});
+    Server standby(domain_.id(), {.participant_index = 1, .strength = 100, .director_id = 20});
+    ASSERT_TRUE(leader.ready() && standby.ready()) << leader.log() << standby.log();
+    const Context context(connection(domain_.id()));
+    const Game game(context, "cup", "hall");
+    Observer observer(context, "cup", "anna");
+    observer.request({.target = 2});
+    ASSERT_TRUE(eventually([&] {
+        observer.poll();
+        return observer.counters().directors == 2;
+    }));
+    ASSERT_TRUE(sees(observer, [](const auto& frame, auto cameras) {
+        return frame.director_id == 10 && has_target(cameras, 2);
+    }));
+    leader.process().send_signal(SIGTERM);
+    EXPECT_EQ(leader.process().wait_for(patience), 0) << leader.log();
+    EXPECT_TRUE(sees(observer, [](const auto& frame, auto cameras) {
+        return frame.director_id == 20 && has_target(cameras, 2);
+    })) << standby.log();
+    EXPECT_TRUE(sees_own_camera(observer));
+}
+
+}  // namespace
+}  // namespace camdir::test

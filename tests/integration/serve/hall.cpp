@@ -1,0 +1,157 @@
+#include "hall.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <stdexcept>
+
+#include "base/file.hpp"
+#include "freespace/freespace.hpp"
+#include "support/eventually.hpp"
+
+namespace camdir::test {
+
+TemporaryFolder::TemporaryFolder() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "camdir-serve-XXXXXX").string();
+    if (::mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("cannot create a temporary folder");
+    path_ = pattern;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+}
+
+void write_hall(const std::filesystem::path& file) {
+    constexpr float w = hall_half_width;
+    constexpr float h = hall_half_height;
+    freespace::Contents hall;
+    hall.metadata.map_name = file.stem().string();
+    hall.metadata.source_name = "made for a test";
+    hall.metadata.metres_per_unit = 0.0254F;
+    hall.metadata.d0 = 16.0F;
+    hall.metadata.parameters = "{}";
+    hall.vertices = {{-w, -w, 0.0F, h}, {w, -w, 0.0F, h}, {w, w, 0.0F, h}, {-w, w, 0.0F, h}};
+    hall.triangles = {{0, 1, 2}, {0, 2, 3}};
+    hall.spawn_points = {{Vec3f::Zero(), 0.0F}};
+    if (const auto written = write_file(file, freespace::encode(hall)); !written) {
+        throw std::runtime_error(written.error().message);
+    }
+}
+
+Server::Server(std::uint32_t domain, const Options& options) {
+    write_hall(folder_.path() / "hall.vfs");
+    write_hall(folder_.path() / "yard.vfs");
+    const auto config = folder_.path() / "config.json";
+    // A lease that a busy machine keeps.
+    std::ofstream(config) << R"({"dds": {"domain": )" << domain << R"(, "participant_index": )"
+                          << options.participant_index << R"(, "strength": )" << options.strength
+                          << R"(, "director_id": )" << options.director_id << R"(, "lease_ms": 1000},
+        "http": {"enabled": false},
+        "maps": [{"name": "hall", "file": "hall.vfs"}, {"name": "yard", "file": "yard.vfs"}]})";
+    process_ = std::make_unique<ChildProcess>(
+        std::vector<std::string>{CAMDIR_BIN_DIR "/camera-director", "serve", "--config", config.string()});
+}
+
+bool Server::ready() const {
+    return eventually([&] { return log().find("ready") != std::string::npos; });
+}
+
+camera_director::ContextOptions connection(std::uint32_t domain) {
+    // The ports of the participants 0 and 1 of a domain: the DDS standard's, from base 7400 on.
+    const std::uint32_t standby_port = 7400 + 250 * domain + 10 + 2;
+    return {.domain = domain, .directors = "127.0.0.1, 127.0.0.1:" + std::to_string(standby_port)};
+}
+
+namespace {
+
+camera_director::MatchInfo info_of(const std::string& match_id, const std::string& map_name,
+                                   std::uint32_t players) {
+    camera_director::MatchInfo info;
+    info.match_id = match_id;
+    info.map_name = map_name;
+    for (std::uint32_t player = 0; player < players; ++player) {
+        info.players.push_back({.id = player, .name = "player " + std::to_string(player)});
+    }
+    return info;
+}
+
+}  // namespace
+
+Game::Game(const camera_director::Context& context, const std::string& match_id, const std::string& map_name,
+           std::uint32_t players)
+    : info_(info_of(match_id, map_name, players)), match_(context, info_) {
+    thread_ = std::jthread([this](const std::stop_token& stop) {
+        auto due = std::chrono::steady_clock::now();
+        while (!stop.stop_requested()) {
+            {
+                const std::lock_guard lock(mutex_);
+                publish(frames_++);
+            }
+            due += std::chrono::microseconds(16'667);
+            std::this_thread::sleep_until(due);
+        }
+    });
+}
+
+Game::~Game() = default;
+
+void Game::change_map(const std::string& map_name) {
+    const std::lock_guard lock(mutex_);
+    info_.map_name = map_name;
+    match_.restart(info_);
+    frames_ = 0;
+}
+
+void Game::publish(std::uint32_t frame) {
+    std::vector<std::uint32_t> ids, flags;
+    std::vector<float> eyes, orientations;
+    const float time = static_cast<float>(frame) / 60.0F;
+    for (const camera_director::Player& player : info_.players) {
+        const float radius = 200.0F + 50.0F * static_cast<float>(player.id);
+        const float angle = time + static_cast<float>(player.id);
+        const float heading = angle + std::acos(0.0F);  // along the circle
+        ids.push_back(player.id);
+        flags.push_back(CDIR_POSE_ALIVE);
+        eyes.insert(eyes.end(), {radius * std::cos(angle), radius * std::sin(angle), 0.0F});
+        orientations.insert(orientations.end(), {0.0F, 0.0F, std::sin(heading / 2), std::cos(heading / 2)});
+    }
+    match_.publish({.frame_time = std::int64_t{16'666'667} * frame,
+                    .player_id = ids,
+                    .eye = eyes,
+                    .orientation = orientations,
+                    .flags = flags});
+}
+
+bool sees(camera_director::Observer& observer, const FrameTest& wanted) {
+    std::array<camera_director::Camera, CDIR_MAX_CAMERAS> cameras;
+    return eventually([&] {
+        while (const auto frame = observer.next_frame(cameras)) {
+            if (wanted(*frame, std::span(cameras).first(frame->camera_count))) return true;
+        }
+        return false;
+    });
+}
+
+bool sees_own_camera(camera_director::Observer& observer) {
+    return sees(observer, [&](const auto& /*frame*/, auto cameras) {
+        const auto status = observer.shot_status();
+        if (status.state != CDIR_SHOT_ACCEPTED) return false;
+        for (const auto& camera : cameras) {
+            if (camera.camera_id == status.camera_id) return true;
+        }
+        return false;
+    });
+}
+
+bool comes_to(camera_director::Observer& observer, std::uint32_t state) {
+    return eventually([&] {
+        observer.poll();
+        return observer.shot_status().state == state;
+    });
+}
+
+}  // namespace camdir::test

@@ -1,0 +1,85 @@
+// What the tests of serve work with: a hall without obstacles, a server that knows it, a game in it.
+#pragma once
+
+#include <camera_director/camera_director.hpp>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "support/child_process.hpp"
+
+namespace camdir::test {
+
+// A folder that goes with the object.
+class TemporaryFolder {
+  public:
+    TemporaryFolder();
+    ~TemporaryFolder();
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+  private:
+    std::filesystem::path path_;
+};
+
+// The hall: the plane z = 0 within +-1000 units, free 150 units up and down; made, not baked.
+inline constexpr float hall_half_width = 1000.0F;
+inline constexpr float hall_half_height = 150.0F;
+void write_hall(const std::filesystem::path& file);
+
+// A running `camera-director serve` with the maps "hall" and "yard", which are both the hall.
+class Server {
+  public:
+    struct Options {
+        std::int64_t participant_index = 0;
+        std::int64_t strength = 100;
+        std::int64_t director_id = 1;
+    };
+    Server(std::uint32_t domain, const Options& options);
+    explicit Server(std::uint32_t domain) : Server(domain, Options{}) {}
+
+    [[nodiscard]] ChildProcess& process() { return *process_; }
+    [[nodiscard]] std::string log() const { return process_->errors(); }
+    [[nodiscard]] bool ready() const;
+
+  private:
+    TemporaryFolder folder_;
+    std::unique_ptr<ChildProcess> process_;
+};
+
+// The SDK's connection to the directors of this machine with participant indices 0 and 1.
+[[nodiscard]] camera_director::ContextOptions connection(std::uint32_t domain);
+
+// A game server in this process: players who walk in circles in the hall, 60 frames a second.
+class Game {
+  public:
+    Game(const camera_director::Context& context, const std::string& match_id, const std::string& map_name,
+         std::uint32_t players = 4);
+    ~Game();
+
+    void change_map(const std::string& map_name);
+
+  private:
+    void publish(std::uint32_t frame);
+
+    std::mutex mutex_;
+    camera_director::MatchInfo info_;
+    camera_director::Match match_;
+    std::uint32_t frames_ = 0;
+    std::jthread thread_;
+};
+
+// Takes frames until one satisfies `wanted`, which gets the frame and its cameras; false when none did.
+using FrameTest =
+    std::function<bool(const camera_director::CameraFrame&, std::span<const camera_director::Camera>)>;
+[[nodiscard]] bool sees(camera_director::Observer& observer, const FrameTest& wanted);
+
+// A frame with the observer's own camera.
+[[nodiscard]] bool sees_own_camera(camera_director::Observer& observer);
+
+// The observer's shot comes into this state (CDIR_SHOT_...).
+[[nodiscard]] bool comes_to(camera_director::Observer& observer, std::uint32_t state);
+
+}  // namespace camdir::test

@@ -1,0 +1,175 @@
+// A match with a real server over real DDS.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <csignal>
+#include <limits>
+#include <optional>
+
+#include "hall.hpp"
+#include "support/eventually.hpp"
+#include "support/raw_peer.hpp"
+#include "support/test_domain.hpp"
+
+namespace camdir::test {
+namespace {
+
+using camera_director::Context;
+using camera_director::Observer;
+using testing::HasSubstr;
+
+class MatchTest : public testing::Test {
+  protected:
+    void SetUp() override { ASSERT_TRUE(server_.ready()) << server_.log(); }
+
+    TestDomain domain_;
+    Server server_{domain_.id()};
+    Context context_{connection(domain_.id())};
+};
+
+TEST_F(MatchTest, EveryObserverGetsItsOwnCameraInsideTheFreespace) {
+    const Game game(context_, "cup", "hall");
+    Observer first(context_, "cup", "first");
+    Observer second(context_, "cup", "second");
+    first.request({.target = 1});
+    second.request({.target = 2});
+    ASSERT_TRUE(comes_to(first, CDIR_SHOT_ACCEPTED)) << server_.log();
+    ASSERT_TRUE(comes_to(second, CDIR_SHOT_ACCEPTED));
+    ASSERT_NE(first.shot_status().camera_id, second.shot_status().camera_id);
+
+    int frames = 0;
+    std::optional<camera_director::CameraFrame> before;
+    EXPECT_TRUE(sees(first, [&](const auto& frame, auto cameras) {
+        if (before) {
+            EXPECT_EQ(frame.frame_number, before->frame_number + 1);
+            EXPECT_GT(frame.frame_time, before->frame_time);
+        }
+        before = frame;
+        EXPECT_EQ(frame.director_id, 1U);
+        for (const auto& camera : cameras) {
+            EXPECT_LE(std::abs(camera.position[2]), hall_half_height);
+            EXPECT_LE(std::hypot(camera.position[0], camera.position[1]), hall_half_width);
+            const auto own = first.shot_status();
+            if (camera.camera_id == own.camera_id) {
+                EXPECT_EQ(camera.target, 1U);
+                ++frames;
+            }
+        }
+        return frames >= 60;
+    }));
+    EXPECT_EQ(first.counters().gaps, 0U);
+}
+
+TEST_F(MatchTest, EqualRequestsShareACamera) {
+    const Game game(context_, "cup", "hall");
+    Observer first(context_, "cup", "first");
+    Observer second(context_, "cup", "second");
+    first.request({.target = 3});
+    second.request({.target = 3});
+    ASSERT_TRUE(comes_to(first, CDIR_SHOT_ACCEPTED));
+    ASSERT_TRUE(comes_to(second, CDIR_SHOT_ACCEPTED));
+    EXPECT_EQ(first.shot_status().camera_id, second.shot_status().camera_id);
+    EXPECT_TRUE(sees(first, [](const auto& /*frame*/, auto cameras) { return cameras.size() == 1; }));
+}
+
+TEST_F(MatchTest, AMapChangeBeginsANewEpochWithACut) {
+    Game game(context_, "cup", "hall");
+    Observer observer(context_, "cup", "anna");
+    observer.request({.target = 0});
+    ASSERT_TRUE(sees_own_camera(observer)) << server_.log();
+    std::uint64_t before = 0;
+    ASSERT_TRUE(sees(observer, [&](const auto& frame, auto /*cameras*/) {
+        before = frame.epoch;
+        return true;
+    }));
+    game.change_map("yard");
+    EXPECT_TRUE(sees(observer, [&](const auto& frame, auto cameras) {
+        if (frame.epoch == before || cameras.empty()) return false;
+        EXPECT_GT(frame.epoch, before);
+        EXPECT_TRUE((cameras[0].flags & CDIR_CAMERA_CUT) != 0) << "the first camera of an epoch";
+        return true;
+    })) << server_.log();
+}
+
+TEST_F(MatchTest, AnUnknownMapIsToldByName) {
+    const Game game(context_, "cup", "atlantis");
+    Observer observer(context_, "cup", "anna");
+    observer.request({.target = 0});
+    ASSERT_TRUE(comes_to(observer, CDIR_SHOT_WAITING_FOR_MAP)) << server_.log();
+    EXPECT_THAT(observer.shot_status().reason, HasSubstr("atlantis"));
+}
+
+TEST_F(MatchTest, ARequestThatMakesNoSenseIsRefusedWithAReason) {
+    const Game game(context_, "cup", "hall");
+    Observer observer(context_, "cup", "anna");
+    observer.request({.target = 0, .profile = "no-such-profile"});
+    ASSERT_TRUE(comes_to(observer, CDIR_SHOT_REFUSED)) << server_.log();
+    EXPECT_THAT(observer.shot_status().reason, HasSubstr("no-such-profile"));
+    observer.request({.target = 0, .overrides = R"({"no_such_key": 1})"});
+    ASSERT_TRUE(eventually([&] {
+        observer.poll();
+        return std::string(observer.shot_status().reason).find("no_such_key") != std::string::npos;
+    })) << server_.log();
+    observer.request({.target = 0});
+    EXPECT_TRUE(sees_own_camera(observer));
+}
+
+TEST_F(MatchTest, AnObserverThatLeavesTakesItsShotWithIt) {
+    const Game game(context_, "cup", "hall");
+    Observer stays(context_, "cup", "stays");
+    stays.request({.target = 0});
+    {
+        Observer leaves(context_, "cup", "leaves");
+        leaves.request({.target = 1});
+        ASSERT_TRUE(sees(stays, [](const auto& /*frame*/, auto cameras) { return cameras.size() == 2; }));
+    }
+    EXPECT_TRUE(sees(stays, [](const auto& /*frame*/, auto cameras) { return cameras.size() == 1; }));
+}
+
+// Speaks to the wire directly: the SDK would refuse to send these.
+TEST_F(MatchTest, MalformedSamplesAreDroppedWithAReasonAndDoNotHurt) {
+    RawPeer raw(domain_.id(), "raw");
+    raw.write(raw_match_info("raw", 1));
+    Observer observer(context_, "cup", "anna");
+    const Game game(context_, "cup", "hall");
+    observer.request({.target = 0});
+    ASSERT_TRUE(sees_own_camera(observer));
+
+    const auto dropped = [&](RawPoseFrame frame, const std::string& reason) {
+        return eventually([&] {
+            raw.write(frame.sample());
+            return server_.log().find("PoseFrame of match 'raw' dropped: " + reason) != std::string::npos;
+        });
+    };
+    RawPoseFrame lengths("raw", 1, 1, 8);
+    lengths.orientation.clear();
+    EXPECT_TRUE(dropped(lengths, "array_length"));
+    RawPoseFrame crowd("raw", 1, 2, 5000);
+    EXPECT_TRUE(dropped(crowd, "too_many"));
+    RawPoseFrame infinite("raw", 1, 3, 8);
+    infinite.eye[5] = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_TRUE(dropped(infinite, "not_finite"));
+    RawPoseFrame twisted("raw", 1, 4, 8);
+    twisted.orientation[2] = 7.0F;
+    EXPECT_TRUE(dropped(twisted, "not_unit"));
+    RawPoseFrame foreign("cup", 1, 5, 8);
+    EXPECT_TRUE(dropped(foreign, "wrong_partition"));
+
+    EXPECT_TRUE(sees_own_camera(observer)) << "the other match goes on";
+    EXPECT_FALSE(server_.process().wait_for(std::chrono::milliseconds(0))) << server_.log();
+}
+
+TEST_F(MatchTest, SigtermDrainsAndSaysGoodbye) {
+    const Game game(context_, "cup", "hall");
+    Observer observer(context_, "cup", "anna");
+    observer.request({.target = 0});
+    ASSERT_TRUE(sees_own_camera(observer));
+    server_.process().send_signal(SIGTERM);
+    EXPECT_EQ(server_.process().wait_for(patience), 0) << server_.log();
+    EXPECT_TRUE(comes_to(observer, CDIR_SHOT_UNANSWERED));
+    EXPECT_EQ(observer.counters().directors, 0U);
+}
+
+}  // namespace
+}  // namespace camdir::test
