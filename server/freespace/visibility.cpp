@@ -17,7 +17,7 @@ constexpr double good_gain = 0.05;
 constexpr double least_gain = 0.01;
 // A ball a little smaller than the best one carries nearly as far and is found much sooner; and just outside
 // the slabs there are very many that nearly hold the point.
-constexpr Effort sight_effort{.slack = 0.25F, .leaves = 24};
+constexpr Effort sight_effort{.slack = 0.25F, .leaves = 32};
 // Shrinks a ball before the exit from it is computed, so that rounding never carries the walk out of it.
 constexpr double shrink = 1.0 - 1e-9;
 

@@ -1,0 +1,88 @@
+// The representation of a real map against exact queries on its source.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <optional>
+#include <random>
+
+#include "bake/bake.hpp"
+#include "freespace/distance.hpp"
+#include "freespace/visibility.hpp"
+#include "oracle/oracle.hpp"
+#include "scene/load.hpp"
+#include "support/freespace_meshes.hpp"
+
+namespace camdir::freespace {
+namespace {
+
+constexpr const char* archive = "/usr/share/games/openarena/baseoa/pak1-maps.pk3";
+
+class RealMap : public testing::Test {
+  protected:
+    static void SetUpTestSuite() {
+        if (!std::filesystem::exists(archive)) return;
+        const auto scene = scene::load(std::string(archive) + ":maps/oa_dm1.bsp");
+        ASSERT_TRUE(scene) << scene.error().message;
+        const auto baked = bake::bake(*scene, bake::Parameters{}, {}, {});
+        ASSERT_TRUE(baked) << baked.error().message;
+        freespace_.emplace(test::make_freespace(baked->contents));
+        oracle_.emplace(*scene);
+    }
+    static void TearDownTestSuite() {
+        freespace_.reset();
+        oracle_.reset();
+    }
+    void SetUp() override {
+        if (!freespace_) GTEST_SKIP() << "needs OpenArena's maps: " << archive << " is missing";
+    }
+
+    // Another covered point at most `reach` away.
+    Vec3f covered_point_near(const Vec3f& from, float reach) {
+        std::uniform_real_distribution<float> offset(-reach, reach);
+        while (true) {
+            const Vec3f to = from + Vec3f(offset(random_), offset(random_), offset(random_));
+            if ((to - from).norm() <= reach && distance_everywhere(*freespace_, to).covered()) return to;
+        }
+    }
+
+    static std::optional<Freespace> freespace_;
+    static std::optional<oracle::Oracle> oracle_;
+    std::mt19937 random_{1};
+};
+
+std::optional<Freespace> RealMap::freespace_;
+std::optional<oracle::Oracle> RealMap::oracle_;
+
+TEST_F(RealMap, DistanceNeverExceedsTheClearance) {
+    double reported = 0.0;
+    double exact = 0.0;
+    for (int i = 0; i < 3'000; ++i) {
+        const Vec3f point = test::covered_point(random_, *freespace_);
+        const double clearance = oracle_->clearance(point.cast<double>());
+        const float value = distance(*freespace_, point).value;
+        ASSERT_LE(value, clearance + 0.02) << point.transpose();
+        reported += value;
+        exact += clearance;
+    }
+    EXPECT_GT(reported, 0.9 * exact);
+}
+
+TEST_F(RealMap, NothingIsSeenThroughAWallAndLittleIsMissed) {
+    int visible = 0;
+    int missed = 0;
+    for (int i = 0; i < 10'000; ++i) {
+        const Vec3f from = test::covered_point(random_, *freespace_);
+        const Vec3f to = covered_point_near(from, 128.0F);
+        const bool truly = oracle_->segment_clear(from.cast<double>(), to.cast<double>());
+        const bool seen = sight(*freespace_, from, to).clear;
+        ASSERT_TRUE(truly || !seen) << from.transpose() << " to " << to.transpose();
+        visible += truly ? 1 : 0;
+        missed += truly && !seen ? 1 : 0;
+    }
+    EXPECT_GT(visible, 5'000);
+    EXPECT_LE(missed, 0.006 * visible) << missed << " of " << visible;
+}
+
+}  // namespace
+}  // namespace camdir::freespace
