@@ -20,7 +20,7 @@ std::string flaw_of_vertices(std::span<const Vertex> vertices) {
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         const Vertex& v = vertices[i];
         const bool sane =
-            within_limit(v.x) & within_limit(v.y) & within_limit(v.z) & within_limit(v.free_distance);
+            within_limit(v.x) && within_limit(v.y) && within_limit(v.z) && within_limit(v.free_distance);
         if (!sane) return at("vertex", i, "is not finite or out of range");
     }
     return {};
