@@ -2,6 +2,7 @@
 
 #include <array>
 #include <numbers>
+#include <string_view>
 
 namespace camdir::camera {
 namespace {
@@ -78,7 +79,7 @@ constexpr std::array keys = {
 };
 static_assert(keys.size() * sizeof(float) == sizeof(Profile), "every member has one key");
 
-float scale(const char* unit, float profile_units_to_map) {
+float scale(std::string_view unit, float profile_units_to_map) {
     if (unit == units || unit == units_per_second) return profile_units_to_map;
     if (unit == degrees || unit == degrees_per_second) return radians_of_a_degree;
     return 1.0F;

@@ -36,7 +36,8 @@ TEST(ProfileKeys, NameEveryMemberOnceWithItsDefaultInRange) {
     for (const ProfileKey& key : profile_keys()) {
         SCOPED_TRACE(key.name);
         EXPECT_TRUE(names.insert(key.name).second);
-        EXPECT_THAT(key.unit, testing::AnyOf("units", "units/s", "degrees", "degrees/s", "s", "1/s", ""));
+        EXPECT_THAT(std::string(key.unit),
+                    testing::AnyOf("units", "units/s", "degrees", "degrees/s", "s", "1/s", ""));
         EXPECT_LT(key.minimum, key.maximum);
         EXPECT_GE(Profile{}.*key.member, key.minimum);
         EXPECT_LE(Profile{}.*key.member, key.maximum);
