@@ -271,7 +271,8 @@ TEST(Director, AReloadedConfigurationJudgesAgain) {
     EXPECT_EQ(stage.wire.status("b").state, RequestState::accepted);
     EXPECT_EQ(stage.wire.status("a").camera_id, id);
     stage.send(Stage::poses(2));
-    for (const ShotCamera& camera : stage.wire.frames().back().cameras)
+    const CameraFrame shown = stage.wire.frames().back();
+    for (const ShotCamera& camera : shown.cameras)
         EXPECT_EQ((camera.flags & camera::cut) != 0, camera.camera_id != id);
 
     config.profiles.erase("close");
