@@ -44,11 +44,12 @@ bool insert(const std::vector<Vec3d>& samples, Triangulation& triangulation, Sta
 }
 
 // Numbers the finite cells by their samples: the order of CGAL's containers depends on memory addresses.
-std::vector<Cell> number_cells(const Triangulation& triangulation) {
+Result<std::vector<Cell>> number_cells(const Triangulation& triangulation, Stage& stage) {
     using Entry = std::pair<Cell, Triangulation::Cell_handle>;
     std::vector<Entry> entries;
     entries.reserve(triangulation.number_of_finite_cells());
     for (const auto handle : triangulation.finite_cell_handles()) {
+        if (entries.size() % 65536 == 0 && !stage.advance(0, 0)) return stage.interrupted();
         Cell cell;
         for (int i = 0; i < 4; ++i)
             cell[i] = handle->vertex(i)->info();
@@ -71,9 +72,12 @@ struct LongEdge {
     Triangulation::Edge edge;
 };
 
-std::vector<LongEdge> long_edges(const Triangulation& triangulation, double min_length) {
+Result<std::vector<LongEdge>> long_edges(const Triangulation& triangulation, double min_length,
+                                         Stage& stage) {
     std::vector<LongEdge> edges;
+    std::size_t seen = 0;
     for (const auto& [cell, i, j] : triangulation.finite_edges()) {
+        if (++seen % 65536 == 0 && !stage.advance(0, 0)) return stage.interrupted();
         const auto a = cell->vertex(i);
         const auto b = cell->vertex(j);
         if (CGAL::squared_distance(a->point(), b->point()) < min_length * min_length) continue;
@@ -112,15 +116,18 @@ Result<Delaunay> delaunay(const std::vector<Vec3d>& samples, double min_length, 
     if (!insert(samples, triangulation, stage)) return stage.interrupted();
     if (triangulation.dimension() < 3) return fail("all samples of the obstacles lie in one plane");
 
+    auto cells = number_cells(triangulation, stage);
+    if (!cells) return tl::unexpected(std::move(cells.error()));
     Delaunay result;
-    result.cells = number_cells(triangulation);
-    const std::vector<LongEdge> edges = long_edges(triangulation, min_length);
-    for (std::size_t i = 0; i < edges.size(); ++i) {
-        if (i % 4096 == 0 && !stage.advance(i, edges.size())) return stage.interrupted();
-        append_ring(triangulation, edges[i].edge, result);
+    result.cells = std::move(*cells);
+    const auto edges = long_edges(triangulation, min_length, stage);
+    if (!edges) return tl::unexpected(edges.error());
+    for (std::size_t i = 0; i < edges->size(); ++i) {
+        if (i % 4096 == 0 && !stage.advance(i, edges->size())) return stage.interrupted();
+        append_ring(triangulation, (*edges)[i].edge, result);
     }
     stage.count("cells", static_cast<double>(result.cells.size()));
-    stage.count("long edges", static_cast<double>(edges.size()));
+    stage.count("long edges", static_cast<double>(edges->size()));
     stage.count("bounded faces", static_cast<double>(result.ring_count()));
     return result;
 }

@@ -23,23 +23,23 @@ Result<std::vector<char>> parts_with_spawn_points(const MedialMesh& mesh,
                                                   const scene::Scene& scene, DisjointSets& parts,
                                                   Stage& stage) {
     std::vector<char> wanted(mesh.vertices.size());
-    std::size_t connected = 0;
-    for (const scene::SpawnPoint& spawn : scene.spawn_points) {
-        bool found = false;
-        for (const freespace::Triangle& t : mesh.triangles)
-            for (const std::uint32_t vertex : {t.a, t.b, t.c})
-                if ((mesh.position(vertex) - spawn.eye).squaredNorm() <
-                    clearance[vertex] * clearance[vertex]) {
-                    wanted[parts.find(vertex)] = 1;
-                    found = true;
-                }
-        connected += found;
-        if (!stage.advance(connected, scene.spawn_points.size())) return stage.interrupted();
+    std::vector<char> connected(scene.spawn_points.size());
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        if (i % 16384 == 0 && !stage.advance(i, mesh.triangles.size())) return stage.interrupted();
+        const freespace::Triangle& t = mesh.triangles[i];
+        for (const std::uint32_t vertex : {t.a, t.b, t.c})
+            for (std::size_t spawn = 0; spawn < connected.size(); ++spawn) {
+                const Vec3d to_eye = scene.spawn_points[spawn].eye - mesh.position(vertex);
+                if (to_eye.squaredNorm() >= clearance[vertex] * clearance[vertex]) continue;
+                wanted[parts.find(vertex)] = 1;
+                connected[spawn] = 1;
+            }
     }
-    stage.count("spawn points", static_cast<double>(scene.spawn_points.size()));
-    stage.count("connected spawn points", static_cast<double>(connected));
-    if (connected == 0)
-        return fail(scene.source + ": none of the " + std::to_string(scene.spawn_points.size()) +
+    const auto count = std::count(connected.begin(), connected.end(), 1);
+    stage.count("spawn points", static_cast<double>(connected.size()));
+    stage.count("connected spawn points", static_cast<double>(count));
+    if (count == 0)
+        return fail(scene.source + ": none of the " + std::to_string(connected.size()) +
                     " spawn points has its eye in free space that is wide enough for this d0");
     return wanted;
 }

@@ -22,20 +22,22 @@ Edge longest_edge(const Triangle3d& t) {
     return longest;
 }
 
-// Appends the midpoints that bisecting the longest edges adds until the triangles are fine enough.
-void refine(const Triangle3d& t, double distance, std::vector<Vec3d>& samples) {
+// Appends the midpoints that bisecting the longest edges adds until the triangles are fine enough. False when
+// there are too many or when the stage must end.
+bool refine(const Triangle3d& t, double distance, std::vector<Vec3d>& samples, Stage& stage) {
     const Edge longest = longest_edge(t);
     const double limit2 = 4.0 * distance * distance;
-    if (longest.length2 < limit2 && covering_radius(t) < distance) return;
-    if (samples.size() > max_samples) return;
+    if (longest.length2 < limit2 && covering_radius(t) < distance) return true;
+    if (samples.size() > max_samples) return false;
     const Vec3d& a = t[longest.from];
     const Vec3d& b = t[(longest.from + 1) % 3];
     const Vec3d& c = t[(longest.from + 2) % 3];
     // The sum commutes exactly, so both triangles of a shared edge get the same point.
     const Vec3d middle = 0.5 * (a + b);
     samples.push_back(middle);
-    refine({a, middle, c}, distance, samples);
-    refine({middle, b, c}, distance, samples);
+    if (samples.size() % 65536 == 0 && !stage.advance(0, 0)) return false;
+    return refine({a, middle, c}, distance, samples, stage) &&
+           refine({middle, b, c}, distance, samples, stage);
 }
 
 double area(const Triangle3d& t) {
@@ -88,9 +90,10 @@ Result<std::vector<Vec3d>> sample(const scene::Scene& scene, double distance, St
         if (i % 256 == 0 && !stage.advance(i, triangles.size())) return stage.interrupted();
         const Triangle3d& triangle = triangles[i];
         samples.insert(samples.end(), triangle.begin(), triangle.end());
-        refine(triangle, distance, samples);
+        const bool refined = refine(triangle, distance, samples, stage);
         if (samples.size() > max_samples)
             return too_many(scene, distance, static_cast<double>(samples.size()));
+        if (!refined) return stage.interrupted();
     }
     stage.count("triangles", static_cast<double>(triangles.size()));
     stage.count("points", static_cast<double>(samples.size()));

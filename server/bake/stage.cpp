@@ -12,7 +12,7 @@ Stage::Stage(std::string name, ProgressSink sink, std::stop_token stop)
 bool Stage::advance(std::uint64_t done, std::uint64_t total) {
     if (stop_.stop_requested()) return false;
     const auto now = Clock::now();
-    if (sink_ && (now - last_shown_ >= std::chrono::milliseconds(50) || done == total)) {
+    if (sink_ && (now - last_shown_ >= std::chrono::milliseconds(50) || (total > 0 && done == total))) {
         sink_({name_, done, total});
         last_shown_ = now;
     }

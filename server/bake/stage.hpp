@@ -20,13 +20,17 @@ class Stage {
   public:
     Stage(std::string name, ProgressSink sink, std::stop_token stop);
 
-    // Tells the progress, at most every 50 ms. False when the stage must end: return interrupted() then.
+    // Tells the progress, at most every 50 ms; a `total` of 0 is unknown. False when the stage must end:
+    // return interrupted() then.
     [[nodiscard]] bool advance(std::uint64_t done, std::uint64_t total);
 
     // body(i) for every i < count, in any order and on any thread: it may write only what belongs to i.
     // False when a stop was requested; some bodies did not run then.
     template <class Body>
     [[nodiscard]] bool for_each(std::uint64_t count, const Body& body);
+
+    // For bodies that take long: they should end soon when it is true.
+    [[nodiscard]] bool stopping() const { return stop_.stop_requested(); }
 
     // A number for the bake's report.
     void count(std::string what, double value);
@@ -49,7 +53,7 @@ template <class Body>
 bool Stage::for_each(std::uint64_t count, const Body& body) {
     // Slices, so that one thread tells the progress between them; grains, so that a stop is seen soon.
     constexpr std::uint64_t slice = 16384;
-    constexpr std::uint64_t grain = 64;
+    const std::uint64_t grain = std::clamp<std::uint64_t>(count / 64, 1, 64);
     for (std::uint64_t first = 0; first < count; first += slice) {
         const std::uint64_t last = std::min(first + slice, count);
         tbb::parallel_for(tbb::blocked_range<std::uint64_t>(first, last, grain),

@@ -48,6 +48,7 @@ Result<VoronoiFaces> voronoi_faces(const std::vector<Vec3d>& samples, const Dela
     VoronoiFaces faces;
     std::vector<std::uint32_t> polygon;
     for (std::size_t i = 0; i < delaunay.ring_count(); ++i) {
+        if (i % 16384 == 0 && !stage.advance(i, delaunay.ring_count())) return stage.interrupted();
         polygon.clear();
         for (const std::uint32_t cell : delaunay.ring(i))
             polygon.push_back(sets.find(cell));

@@ -1,0 +1,126 @@
+// camera-director bake as its users run it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "base/file.hpp"
+#include "freespace/freespace.hpp"
+#include "support/child_process.hpp"
+#include "support/openarena.hpp"
+
+namespace camdir {
+namespace {
+
+namespace fs = std::filesystem;
+using test::ChildProcess;
+using testing::HasSubstr;
+
+class BakeCommand : public testing::Test {
+  protected:
+    void SetUp() override {
+        std::string pattern = (fs::temp_directory_path() / "camdir-bake-XXXXXX").string();
+        folder_ = ::mkdtemp(pattern.data());
+        output_ = (folder_ / "map.vfs").string();
+    }
+    void TearDown() override { fs::remove_all(folder_); }
+
+    static std::vector<std::string> command(std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), {CAMERA_DIRECTOR, "bake"});
+        return arguments;
+    }
+
+    fs::path folder_;
+    std::string output_;
+};
+
+TEST_F(BakeCommand, BadUsageExitsWith2) {
+    const std::vector<std::vector<std::string>> wrong{
+        {},
+        {"map.bsp"},
+        {"map.bsp", "-o", output_, "--d0", "1"},
+        {"map.bsp", "-o", output_, "--d0", "much"},
+        {"map.bsp", "-o", output_, "--threads", "-1"},
+        {"map.bsp", "-o", output_, "--no-such-option"},
+        {"map.bsp", "other.bsp", "-o", output_},
+    };
+    for (const auto& arguments : wrong) {
+        ChildProcess process(command(arguments));
+        EXPECT_EQ(process.wait(), 2) << process.errors();
+        EXPECT_NE(process.errors(), "");
+    }
+    EXPECT_TRUE(fs::is_empty(folder_));
+}
+
+TEST_F(BakeCommand, BadInputExitsWith1AndLeavesNothing) {
+    const std::string text = (folder_ / "text.bsp").string();
+    ASSERT_TRUE(write_file(text, std::string("no map at all")));
+    for (const std::string& map : {text, (folder_ / "missing.bsp").string(), folder_.string()}) {
+        ChildProcess process(command({map, "-o", output_}));
+        EXPECT_EQ(process.wait(), 1);
+        EXPECT_THAT(process.errors(), HasSubstr(map));
+        EXPECT_FALSE(fs::exists(output_));
+    }
+}
+
+TEST_F(BakeCommand, RefusesAFolderThatIsNotThereBeforeItWorks) {
+    const std::string nowhere = (folder_ / "no" / "map.vfs").string();
+    ChildProcess process(command({"missing.bsp", "-o", nowhere}));
+    EXPECT_EQ(process.wait(), 1);
+    EXPECT_THAT(process.errors(), HasSubstr(nowhere));
+    EXPECT_THAT(process.errors(), testing::Not(HasSubstr("missing.bsp")));
+}
+
+TEST_F(BakeCommand, WritesAFileAndAReportAndTheSameBytesForAnyThreads) {
+    const auto map = test::openarena_map("oa_dm1");
+    if (!map) GTEST_SKIP() << "oa_dm1 of package openarena-081-maps is missing";
+    const std::string report = (folder_ / "report.json").string();
+    ChildProcess one(command({*map, "-o", output_, "--d0", "48", "--threads", "1", "--report", report}));
+    ASSERT_EQ(one.wait(), 0) << one.errors();
+    EXPECT_EQ(one.output(), "");
+    EXPECT_THAT(one.errors(), HasSubstr("certify"));
+    EXPECT_THAT(one.errors(), HasSubstr("triangles"));
+
+    const auto freespace = freespace::Freespace::open(output_).value();
+    EXPECT_EQ(freespace.metadata().map_name, "oa_dm1");
+    EXPECT_FLOAT_EQ(freespace.metadata().d0, 48.0F);
+    const Bytes text = read_file(report).value();
+    const auto json = nlohmann::json::parse(reinterpret_cast<const char*>(text.data()),
+                                            reinterpret_cast<const char*>(text.data()) + text.size());
+    EXPECT_EQ(json.at("triangles"), freespace.triangles().size());
+    EXPECT_EQ(json.at("file_bytes"), fs::file_size(output_));
+    EXPECT_GT(json.at("peak_memory_bytes"), 1'000'000);
+    EXPECT_EQ(json.at("stages").back().at("counts").at("covered spawn points"), 8);
+
+    const Bytes bytes = read_file(output_).value();
+    ChildProcess two(command({*map, "-o", "-", "--d0", "48", "--threads", "2", "--quiet"}));
+    ASSERT_EQ(two.wait(), 0) << two.errors();
+    EXPECT_EQ(two.errors(), "") << "quiet";
+    EXPECT_TRUE(two.output() == std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+}
+
+TEST_F(BakeCommand, InterruptedExitsWith130AndKeepsWhatWasThere) {
+    const auto map = test::openarena_map("oa_dm3");
+    if (!map) GTEST_SKIP() << "oa_dm3 of package openarena-081-maps is missing";
+    ASSERT_TRUE(write_file(output_, std::string("older")));
+    for (const int signal : {SIGINT, SIGTERM}) {
+        ChildProcess process(command({*map, "-o", output_, "--d0", "6"}));
+        const auto give_up = std::chrono::steady_clock::now() + std::chrono::minutes(5);
+        while (process.errors().find("sample") == std::string::npos) {
+            ASSERT_LT(std::chrono::steady_clock::now(), give_up) << process.errors();
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        }
+        process.send_signal(signal);
+        EXPECT_EQ(process.wait_for(std::chrono::minutes(2)), 130);
+        EXPECT_THAT(process.errors(), HasSubstr("interrupted"));
+        EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
+        EXPECT_EQ(fs::file_size(output_), 5U);
+    }
+}
+
+}  // namespace
+}  // namespace camdir
