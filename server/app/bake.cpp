@@ -81,6 +81,7 @@ std::string report_json(const Options& options, const scene::Scene& scene, const
         {"source", scene.source},
         {"metres_per_unit", scene.metres_per_unit},
         {"d0", options.parameters.d0},
+        {"loss", options.parameters.loss},
         {"d0_map_units", baked.contents.metadata.d0},
         {"vertices", baked.contents.vertices.size()},
         {"triangles", baked.contents.triangles.size()},
@@ -139,6 +140,17 @@ void add_bake(CLI::App& root, Run& run) {
         ->add_option("--d0", options->parameters.d0,
                      "Sampling distance in units of 0.0254 m: openings narrower than about twice of it close")
         ->check(CLI::Range(bake::min_d0, bake::max_d0))
+        ->capture_default_str();
+    command
+        ->add_option(
+            "--loss", options->parameters.loss,
+            "Mesh reduction: free distance that the centre of a ball may lose, in percent of it and of "
+            "6 d0; 0 keeps the whole mesh")
+        ->check(CLI::Range(0.0, bake::max_loss))
+        ->capture_default_str();
+    command
+        ->add_option("--triangles", options->parameters.triangles,
+                     "End the reduction at this many triangles; 0 goes on to the allowed loss")
         ->capture_default_str();
     command->add_option("--threads", options->parameters.threads, "0 is one a core")
         ->check(CLI::Range(0U, 1024U))

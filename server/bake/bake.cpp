@@ -16,6 +16,7 @@
 #include "bake/medial_mesh.hpp"
 #include "bake/obstacles.hpp"
 #include "bake/pack.hpp"
+#include "bake/reduce.hpp"
 #include "bake/sample.hpp"
 #include "bake/solids.hpp"
 #include "bake/stage.hpp"
@@ -32,8 +33,13 @@ constexpr double metres_of_nominal_unit = 0.0254;
 // What the stages hand to each other. A stage clears what nobody needs after it.
 class Bake {
   public:
-    Bake(const scene::Scene& scene, double unit, double d0)
-        : scene_(scene), unit_(unit), d0_(d0), obstacles_(scene), solids_(scene) {}
+    Bake(const scene::Scene& scene, const Parameters& parameters, double unit)
+        : scene_(scene),
+          parameters_(parameters),
+          unit_(unit),
+          d0_(parameters.d0 * unit),
+          obstacles_(scene),
+          solids_(scene) {}
 
     Result<void> run(const ProgressSink& progress, const std::stop_token& stop, const ReportSink& finished);
     [[nodiscard]] Baked take() && { return {std::move(contents_), std::move(reports_)}; }
@@ -48,12 +54,14 @@ class Bake {
     Result<void> crossing(Stage& stage);
     Result<void> inside(Stage& stage);
     Result<void> certify(Stage& stage);
+    Result<void> reduce(Stage& stage);
     Result<void> pack(Stage& stage);
 
     // Dropped samples must not break the sampling condition: sampling is finer by this distance.
     [[nodiscard]] double weld_distance() const { return d0_ / 64.0; }
 
     const scene::Scene& scene_;
+    const Parameters& parameters_;
     double unit_;  // map units in a nominal unit
     double d0_;    // map units
     Obstacles obstacles_;
@@ -79,7 +87,7 @@ Result<void> keep(Result<T> result, T& place) {
 Result<void> Bake::run(const ProgressSink& progress, const std::stop_token& stop,
                        const ReportSink& finished) {
     using Run = Result<void> (Bake::*)(Stage&);
-    constexpr std::array<std::pair<const char*, Run>, 10> stages{{
+    constexpr std::array<std::pair<const char*, Run>, 11> stages{{
         {"sample", &Bake::sample},
         {"weld", &Bake::weld},
         {"delaunay", &Bake::delaunay},
@@ -89,6 +97,7 @@ Result<void> Bake::run(const ProgressSink& progress, const std::stop_token& stop
         {"crossing", &Bake::crossing},
         {"inside", &Bake::inside},
         {"certify", &Bake::certify},
+        {"reduce", &Bake::reduce},
         {"pack", &Bake::pack},
     }};
     for (const auto& [name, stage_of] : stages) {
@@ -142,6 +151,13 @@ Result<void> Bake::certify(Stage& stage) {
     return keep(free_distances(mesh_, clearance_, obstacles_, 0.005 * unit_, stage), free_distance_);
 }
 
+Result<void> Bake::reduce(Stage& stage) {
+    if (!(parameters_.loss > 0.0)) return {};
+    const double share = parameters_.loss / 100.0;
+    const Reduction reduction{share * 6.0 * d0_, share, parameters_.triangles};
+    return bake::reduce(mesh_, free_distance_, scene_, obstacles_, reduction, stage);
+}
+
 Result<void> Bake::pack(Stage& stage) {
     return keep(bake::pack(mesh_, free_distance_, scene_, stage), contents_);
 }
@@ -154,7 +170,9 @@ freespace::Metadata describe(const scene::Scene& scene, const Parameters& parame
     metadata.source_hash = scene.source_hash;
     metadata.metres_per_unit = static_cast<float>(scene.metres_per_unit);
     metadata.d0 = static_cast<float>(d0);
-    metadata.parameters = "{\"d0\": " + std::to_string(parameters.d0) + "}";
+    metadata.parameters = "{\"d0\": " + std::to_string(parameters.d0) +
+                          ", \"loss\": " + std::to_string(parameters.loss) +
+                          ", \"triangles\": " + std::to_string(parameters.triangles) + "}";
     for (const StageReport& report : reports)
         metadata.counts.insert(metadata.counts.end(), report.counts.begin(), report.counts.end());
     return metadata;
@@ -173,7 +191,7 @@ Result<Baked> bake(const scene::Scene& scene, const Parameters& parameters, cons
     const auto cores = static_cast<unsigned>(tbb::info::default_concurrency());
     const unsigned threads = parameters.threads == 0 ? cores : std::min(parameters.threads, cores);
     return tbb::task_arena(static_cast<int>(threads)).execute([&]() -> Result<Baked> {
-        Bake bake(scene, unit, d0);
+        Bake bake(scene, parameters, unit);
         if (auto done = bake.run(progress, stop, finished); !done)
             return tl::unexpected(std::move(done.error()));
         Baked baked = std::move(bake).take();

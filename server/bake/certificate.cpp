@@ -197,4 +197,16 @@ Margin margin(const Slab& slab, const Obstacles& obstacles, double enough) {
     return worst;
 }
 
+bool is_certified(const Slab& slab, const Obstacles& obstacles) {
+    bool certified = true;
+    obstacles.tree().visit_by([&](const Box3d& box) { return slab.margin_at_least(box); },
+                              [&] { return certified ? 0.0 : -std::numeric_limits<double>::infinity(); },
+                              [&](std::uint32_t position) {
+                                  const Triangle3d& obstacle = obstacles.triangles()[position];
+                                  certified = certified && (slab.margin_at_least(obstacle) >= 0.0 ||
+                                                            slab.margin(obstacle).value >= 0.0);
+                              });
+    return certified;
+}
+
 }  // namespace camdir::bake

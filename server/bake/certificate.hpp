@@ -30,6 +30,10 @@ class Slab {
     [[nodiscard]] double margin_at_least(const Box3d& box) const;
     [[nodiscard]] double margin_at_least(const Triangle3d& obstacle) const;
 
+    // The largest r(m) - |m - point| over the points m of the triangle: the free distance that the slab gives
+    // to the point; not positive when the point is outside.
+    [[nodiscard]] double distance(const Vec3d& point) const { return -towards_point(point).value; }
+
     // The largest value of a point's coordinate along `direction` (of length <= 1) over the slab.
     [[nodiscard]] double reach(const Vec3d& direction) const;
 
@@ -53,5 +57,8 @@ class Slab {
 
 // The smallest margin towards any obstacle as far as it lies below `enough`; otherwise some value >= enough.
 [[nodiscard]] Margin margin(const Slab& slab, const Obstacles& obstacles, double enough);
+
+// No ball of the slab reaches into an obstacle: margin() would be at least 0.
+[[nodiscard]] bool is_certified(const Slab& slab, const Obstacles& obstacles);
 
 }  // namespace camdir::bake

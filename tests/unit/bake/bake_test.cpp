@@ -155,8 +155,9 @@ TEST(Bake, ReportsEveryStageAndItsProgress) {
                              [&](const StageReport& report) { finished.push_back(report.stage); });
     ASSERT_TRUE(result);
     EXPECT_EQ(shown, finished);
-    EXPECT_THAT(finished, testing::ElementsAre("sample", "weld", "delaunay", "voronoi", "triangulate",
-                                               "clearance", "crossing", "inside", "certify", "pack"));
+    EXPECT_THAT(finished,
+                testing::ElementsAre("sample", "weld", "delaunay", "voronoi", "triangulate", "clearance",
+                                     "crossing", "inside", "certify", "reduce", "pack"));
     const auto& counts = result->contents.metadata.counts;
     const auto covered_spawns = std::find_if(counts.begin(), counts.end(), [](const freespace::Count& count) {
         return count.stage == "pack" && count.what == "covered spawn points";
@@ -168,12 +169,12 @@ TEST(Bake, ReportsEveryStageAndItsProgress) {
 TEST(Bake, StopsInWhicheverStageItIsAsked) {
     const SolidScene room = test::box_room();
     for (const char* stage : {"sample", "weld", "delaunay", "voronoi", "triangulate", "clearance", "crossing",
-                              "inside", "certify", "pack"}) {
+                              "inside", "certify", "reduce", "pack"}) {
         std::stop_source stop;
         const auto request = [&](const Progress& p) {
             if (p.stage == stage) stop.request_stop();
         };
-        const auto result = bake(room.scene(), {16.0, 2}, request, stop.get_token());
+        const auto result = bake(room.scene(), {16.0, 2, 1.0, 0}, request, stop.get_token());
         ASSERT_FALSE(result) << stage;
         EXPECT_EQ(result.error().code, ErrorCode::interrupted);
         EXPECT_THAT(result.error().message, testing::HasSubstr(stage));
