@@ -39,7 +39,7 @@ if $all; then
     step "Thread sanitizer: unit and integration tests"
     cmake --preset tsan
     cmake --build --preset tsan
-    TSAN_OPTIONS="suppressions=$PWD/tests/support/tsan.supp" ctest --preset tsan --label-regex '^(unit|integration)$'
+    ctest --preset tsan --label-regex '^(unit|integration)$'
 
     step "clang-tidy"
     deploy/lint.sh

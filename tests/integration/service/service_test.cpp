@@ -63,7 +63,9 @@ TEST(Service, AMapThatCannotBeLoadedIsToldAndTheOthersAreServed) {
     EXPECT_THAT(served.get("/metrics"), AllOf(HasSubstr("map_loaded{map=\"damaged\"} 0\n"),
                                               HasSubstr("map_loaded{map=\"square\"} 1\n"),
                                               HasSubstr("map_loaded{map=\"unbaked\"} 0\n")));
-    for (const json& map : served.status()["maps"]) {
+    const json status = served.status();
+    ASSERT_EQ(status.at("maps").size(), 3U);
+    for (const json& map : status.at("maps")) {
         if (map["name"] == "square") continue;
         EXPECT_EQ(map["state"], "failed");
         EXPECT_THAT(map["reason"].get<std::string>(), HasSubstr(map["name"].get<std::string>() + "."));
