@@ -88,8 +88,9 @@ dds_return_t MatchEndpoints::withdraw(const std::string& observer_id) {
 
 bool MatchEndpoints::lost_rival() {
     dds_subscription_matched_status_t status{};
-    return dds_get_subscription_matched_status(rival_reader_, &status) == DDS_RETCODE_OK &&
-           status.current_count_change < 0;
+    if (dds_get_subscription_matched_status(rival_reader_, &status) != DDS_RETCODE_OK) return false;
+    // One that came and one that went leave current_count as it was.
+    return status.current_count_change < static_cast<std::int32_t>(status.total_count_change);
 }
 
 void MatchEndpoints::repeat_statuses() {

@@ -1,5 +1,6 @@
 #include "dds/participant.hpp"
 
+#include <arpa/inet.h>
 #include <spdlog/spdlog.h>
 
 #include <utility>
@@ -34,10 +35,17 @@ std::string element(const std::string& name, const std::string& content) {
     return "<" + name + ">" + content + "</" + name + ">";
 }
 
+bool is_ip_address(const std::string& text) {
+    unsigned char bytes[sizeof(in6_addr)];
+    return ::inet_pton(AF_INET, text.c_str(), bytes) == 1 || ::inet_pton(AF_INET6, text.c_str(), bytes) == 1;
+}
+
 std::string general(const config::Dds& config) {
     std::string xml;
     if (!config.interface.empty()) {
-        xml += element("Interfaces", "<NetworkInterface name=\"" + escaped(config.interface) + "\"/>");
+        const std::string attribute = is_ip_address(config.interface) ? "address" : "name";
+        xml += element("Interfaces",
+                       "<NetworkInterface " + attribute + "=\"" + escaped(config.interface) + "\"/>");
     }
     xml += element("AllowMulticast", config.multicast ? "true" : "false");
     // A match's frame leaves in one datagram.

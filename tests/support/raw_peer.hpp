@@ -1,4 +1,5 @@
-// A game server or observer that speaks to the wire directly: it can say what the SDK refuses to say.
+// A game server, observer or other director that speaks to the wire directly: it can say what the SDK refuses
+// to say.
 #pragma once
 
 #include <camera_director.h>
@@ -29,6 +30,9 @@ class RawPeer {
     void dispose(const camera_director_MatchInfo& key);
     void dispose(const camera_director_ObserverRequest& key);
 
+    // Speaks as a director of this ownership strength; one strength a peer.
+    void write(const camera_director_ObserverStatus& sample, std::int32_t strength);
+
     struct Camera {
         std::uint32_t id, target, flags;
         float position[3], orientation[4];
@@ -58,6 +62,7 @@ class RawPeer {
     std::string partition_;
     dds_entity_t match_info_ = 0, pose_frame_ = 0, match_event_ = 0, observer_request_ = 0;
     dds_entity_t camera_frame_ = 0, observer_status_ = 0;
+    dds_entity_t rival_status_ = 0;  // the writer of ObserverStatus, once there is one
     std::map<std::string, camera_director_ObserverStatus> statuses_;
 };
 

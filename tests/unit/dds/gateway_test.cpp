@@ -8,6 +8,7 @@
 #include <mutex>
 #include <stdexcept>
 
+#include "dds/encode.hpp"
 #include "support/eventually.hpp"
 #include "support/raw_peer.hpp"
 #include "support/test_domain.hpp"
@@ -120,6 +121,20 @@ director::CameraFrame one_camera(std::uint32_t frame_number) {
     return frame;
 }
 
+director::ObserverStatus status_of(const std::string& observer_id, const std::string& reason) {
+    director::ObserverStatus status;
+    status.match_id = "cup";
+    status.observer_id = observer_id;
+    status.state = director::RequestState::accepted;
+    status.reason = reason;
+    return status;
+}
+
+// Another director of the match "cup", stronger than the gateway, that tells anna something.
+void tell_as_stronger_director(RawPeer& rival) {
+    rival.write(encode(status_of("anna", "the leader's")), 1000);
+}
+
 TEST_F(GatewayTest, HandsOnWhatAMatchSays) {
     RawPeer& raw = game("cup");
     EXPECT_TRUE(recorder_.has("info cup 1"));
@@ -155,11 +170,8 @@ TEST_F(GatewayTest, WritesCamerasAndStatuses) {
     EXPECT_EQ(frames[0].cameras[0].id, 9U);
     EXPECT_EQ(frames[0].cameras[0].position[2], 3.0F);
 
-    director::ObserverStatus status;
-    status.match_id = "cup";
-    status.observer_id = "anna";
+    director::ObserverStatus status = status_of("anna", "the map is being baked");
     status.state = director::RequestState::waiting_for_map;
-    status.reason = "the map is being baked";
     gateway_->publish(status);
     ASSERT_TRUE(eventually([&] { return raw.statuses().count("anna") == 1; }));
     EXPECT_EQ(raw.statuses().at("anna").state, 2U);
@@ -170,6 +182,32 @@ TEST_F(GatewayTest, WritesCamerasAndStatuses) {
     gateway_->publish("nobody's match", one_camera(0));
     EXPECT_EQ(gateway_->counters().camera_frames_written, 1U);
     EXPECT_EQ(gateway_->counters().write_failures, 0U);
+}
+
+TEST_F(GatewayTest, StatusesAreRepeatedWhenAStrongerDirectorHasGone) {
+    RawPeer& observer = game("cup");
+    const auto anna_hears = [&](const std::string& reason) {
+        return eventually([&] {
+            const auto& statuses = observer.statuses();
+            return statuses.contains("anna") && statuses.at("anna").reason == reason;
+        });
+    };
+    auto rival = std::make_unique<RawPeer>(domain_.id(), "cup");
+    tell_as_stronger_director(*rival);
+    ASSERT_TRUE(anna_hears("the leader's"));
+    gateway_->publish(status_of("anna", "ours"));
+    gateway_->publish(status_of("bob", "ours"));
+    ASSERT_TRUE(eventually([&] { return observer.statuses().contains("bob"); }));
+    EXPECT_STREQ(observer.statuses().at("anna").reason, "the leader's");
+    rival.reset();
+    EXPECT_TRUE(anna_hears("ours"));
+
+    // One that goes as soon as it has come.
+    rival = std::make_unique<RawPeer>(domain_.id(), "cup");
+    tell_as_stronger_director(*rival);
+    ASSERT_TRUE(anna_hears("the leader's"));
+    rival.reset();
+    EXPECT_TRUE(anna_hears("ours"));
 }
 
 TEST_F(GatewayTest, AReaderThatSleepsLosesNothingWithin32Frames) {
@@ -190,10 +228,7 @@ TEST_F(GatewayTest, LateObserversSeeStatusesButNoOldCameras) {
     game("cup");
     gateway_->publish("cup", one_camera(0));
     for (int i = 0; i < 256; ++i) {
-        director::ObserverStatus status;
-        status.match_id = "cup";
-        status.observer_id = std::to_string(i);
-        gateway_->publish(status);
+        gateway_->publish(status_of(std::to_string(i), ""));
     }
     RawPeer& late = peer("cup");
     EXPECT_TRUE(eventually([&] { return late.statuses().size() == 256; }));
@@ -297,10 +332,7 @@ TEST_F(GatewayTest, ADirectorThatHangsStopsSayingThatItLives) {
 TEST_F(GatewayTest, ClosingGivesTheMatchesUpAndNothingIsReceivedAfterStopping) {
     RawPeer& raw = game("cup");
     gateway_->publish("cup", one_camera(0));
-    director::ObserverStatus status;
-    status.match_id = "cup";
-    status.observer_id = "anna";
-    gateway_->publish(status);
+    gateway_->publish(status_of("anna", ""));
     ASSERT_TRUE(eventually([&] { return raw.statuses().size() == 1; }));
 
     gateway_->stop_receiving();

@@ -46,6 +46,15 @@ TEST(Participant, CycloneAcceptsTheDefaultConfiguration) {
     }
 }
 
+TEST(Participant, TheInterfaceIsNamedByItsAddressAsWell) {
+    const test::TestDomain domain;
+    config::Dds config;
+    config.domain = domain.id();
+    config.interface = "127.0.0.1";
+    const auto participant = Participant::open(config);
+    EXPECT_TRUE(participant) << participant.error().message;
+}
+
 TEST(Participant, IgnoresTheEnvironmentsConfiguration) {
     const test::TestDomain domain;
     ASSERT_EQ(::setenv("CYCLONEDDS_URI", "<CycloneDDS><NoSuchElement/></CycloneDDS>", 1), 0);
