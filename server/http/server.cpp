@@ -3,18 +3,26 @@
 #include <httplib.h>
 #include <prometheus/text_serializer.h>
 
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
 #include <condition_variable>
 #include <mutex>
 #include <thread>
 #include <utility>
 
+#include "http/connection.hpp"
+
 namespace camdir::http {
 namespace {
 
 constexpr std::size_t threads = 4;
-constexpr std::ptrdiff_t most_connections = 16;  // served or waiting for a thread
-constexpr time_t patience_s = 5;
-constexpr std::size_t most_requests_a_connection = 100;
+constexpr std::ptrdiff_t most_connections = 16;   // served or waiting for a thread
+constexpr std::chrono::seconds patience{3};       // for a request and its answer
+constexpr std::chrono::seconds idle_patience{5};  // for the next request of a connection
+constexpr std::chrono::milliseconds stop_period{100};
+constexpr int most_requests_a_connection = 100;
 
 // httplib's own pool queues without bound; this one lets the accepting thread wait.
 class BoundedPool final : public httplib::TaskQueue {
@@ -38,6 +46,31 @@ class BoundedPool final : public httplib::TaskQueue {
     std::condition_variable free_again_;
     std::ptrdiff_t connections_ = 0;
     httplib::ThreadPool pool_{threads};
+};
+
+// Serves each connection through a Connection.
+class BoundedServer final : public httplib::Server {
+  private:
+    bool process_and_close_socket(socket_t socket) override {
+        for (int left = most_requests_a_connection; left > 0 && next_request(socket); --left) {
+            Connection connection(socket, Connection::Clock::now() + patience);
+            bool closed = false;
+            if (!process_request(connection, left == 1, closed, nullptr) || closed) break;
+        }
+        ::shutdown(socket, SHUT_RDWR);
+        return ::close(socket) == 0;
+    }
+
+    // Waits for its first byte; false when none comes or the server stops.
+    [[nodiscard]] bool next_request(socket_t socket) const {
+        const auto end = Connection::Clock::now() + idle_patience;
+        while (svr_sock_ != INVALID_SOCKET && Connection::Clock::now() < end) {
+            pollfd readable{socket, POLLIN, 0};
+            const int count = ::poll(&readable, 1, static_cast<int>(stop_period.count()));
+            if (count != 0) return count > 0;
+        }
+        return false;
+    }
 };
 
 void answer_text(httplib::Response& response, int status, const std::string& text) {
@@ -71,10 +104,6 @@ void show_metrics(const Sources& sources, httplib::Response& response) {
 struct Server::Listener {
     explicit Listener(Sources shown) : sources(std::move(shown)) {
         server.new_task_queue = [] { return new BoundedPool; };  // httplib deletes it
-        server.set_keep_alive_max_count(most_requests_a_connection);
-        server.set_keep_alive_timeout(patience_s);
-        server.set_read_timeout(patience_s);
-        server.set_write_timeout(patience_s);
         server.set_payload_max_length(0);
         // httplib's default shares a taken port instead of refusing it.
         server.set_socket_options([](socket_t socket) {
@@ -98,7 +127,7 @@ struct Server::Listener {
     }
 
     const Sources sources;
-    httplib::Server server;
+    BoundedServer server;
     int port = 0;
     std::thread thread;
 };

@@ -23,7 +23,8 @@ struct Sources {
 };
 
 // Serves from the constructor's end to the destructor with a fixed number of threads; connections beyond a
-// few wait in the kernel. Requests that carry a body, or take longer than seconds, are cut off.
+// few wait in the kernel. Requests that carry a body, are larger than 16 KB or take longer than 3 s, their
+// answer included, are cut off.
 class Server {
   public:
     // Fails when the address cannot be listened on.

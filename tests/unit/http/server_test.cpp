@@ -3,7 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <arpa/inet.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
 #include <atomic>
+#include <thread>
 
 #include "http/metrics.hpp"
 
@@ -77,6 +82,59 @@ TEST_F(ServerTest, ServesNothingElse) {
     const auto posted = http.Post("/healthz", std::string(100'000, 'x'), "text/plain");
     EXPECT_TRUE(!posted || posted->status >= 400) << "answered with an error or cut off";
     EXPECT_EQ(client().Get("/healthz")->status, 200);
+}
+
+// A connection that says what httplib's client would not.
+class RawClient {
+  public:
+    explicit RawClient(std::uint16_t port) : socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+        sockaddr_in to{};
+        to.sin_family = AF_INET;
+        to.sin_port = htons(port);
+        to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+        if (::connect(socket_, reinterpret_cast<const sockaddr*>(&to), sizeof to) != 0)
+            throw std::runtime_error("cannot connect");
+    }
+    ~RawClient() { ::close(socket_); }
+    RawClient(const RawClient&) = delete;
+    RawClient& operator=(const RawClient&) = delete;
+
+    // False when the server has closed the connection.
+    [[nodiscard]] bool send(const std::string& bytes) const {
+        return ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL) >= 0;
+    }
+
+  private:
+    int socket_;
+};
+
+TEST_F(ServerTest, ARequestWithoutEndIsCutOff) {
+    const RawClient endless(server_->port());
+    const std::string more(1 << 20U, 'x');
+    int megabytes = 0;
+    while (megabytes < 64 && endless.send(more))
+        ++megabytes;
+    EXPECT_LT(megabytes, 64);
+}
+
+TEST_F(ServerTest, ClientsThatDribbleDoNotKeepOthersOut) {
+    std::vector<std::unique_ptr<RawClient>> slow;
+    for (int i = 0; i < 5; ++i)
+        slow.push_back(std::make_unique<RawClient>(server_->port()));
+    std::atomic<bool> answered{false};
+    std::thread dribble([&] {
+        while (!answered) {
+            for (const auto& each : slow)
+                (void)each->send("x");
+            std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        }
+    });
+    auto http = client();
+    http.set_read_timeout(60);
+    const auto answer = http.Get("/healthz");
+    answered = true;
+    dribble.join();
+    EXPECT_TRUE(answer);
 }
 
 TEST_F(ServerTest, ManyClientsAtOnceAreServed) {
