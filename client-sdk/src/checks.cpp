@@ -12,6 +12,12 @@ namespace camdir::sdk {
 namespace {
 
 constexpr float pi = 3.14159265F;
+// ns: 73 years. Differences of such times do not overflow.
+constexpr std::int64_t furthest_time = std::int64_t{1} << 61U;
+
+bool is_time(std::int64_t ns) {
+    return -furthest_time <= ns && ns <= furthest_time;
+}
 
 bool all_finite(const float* values, std::size_t count) {
     return std::all_of(values, values + count, [](float value) { return std::isfinite(value); });
@@ -83,6 +89,10 @@ std::string checked_observer_id(const char* text) {
     return id;
 }
 
+void check_frame_time(std::int64_t frame_time) {
+    require(is_time(frame_time), "frame_time must be within 73 years of 0");
+}
+
 void check(const cdir_match_info& info, std::span<const cdir_player> players) {
     (void)checked_text("map_name", info.map_name, 1, sizeof info.map_name - 1);
     require(std::isfinite(info.metres_per_unit) && info.metres_per_unit > 0.0F,
@@ -100,6 +110,7 @@ void check(const cdir_match_info& info, std::span<const cdir_player> players) {
 void check(const cdir_pose_frame& frame) {
     const std::size_t n = frame.player_count;
     require(n <= CDIR_MAX_PLAYERS, "player_count is greater than CDIR_MAX_PLAYERS");
+    check_frame_time(frame.frame_time);
     if (n == 0) return;
     require(frame.player_id != nullptr && frame.eye != nullptr && frame.orientation != nullptr &&
                 frame.flags != nullptr,
@@ -113,6 +124,7 @@ void check(const cdir_match_event& event) {
     require(event.kind >= CDIR_EVENT_KILL && event.kind <= CDIR_EVENT_AWARD,
             "an event's kind must be one of CDIR_EVENT_");
     require(std::isfinite(event.value), "an event's value is not finite");
+    check_frame_time(event.frame_time);
     require(event.reserved == 0, "event.reserved is not 0");
 }
 
@@ -132,7 +144,7 @@ bool is_valid(const camera_director_CameraFrame& frame, const std::string& match
                          frame.position._length == 3 * n && frame.orientation._length == 4 * n &&
                          frame.vertical_fov._length == n && frame.clearance._length == n &&
                          frame.flags._length == n;
-    return lengths && frame.match_id == match_id && all_finite(frame.position) &&
+    return lengths && frame.match_id == match_id && is_time(frame.frame_time) && all_finite(frame.position) &&
            all_unit(frame.orientation._buffer, n) && all_finite(frame.clearance) &&
            std::all_of(frame.vertical_fov._buffer, frame.vertical_fov._buffer + n,
                        [](float fov) { return fov > 0.0F && fov < pi; });

@@ -5,6 +5,7 @@
 #include <camera_director/camera_director.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 
@@ -17,6 +18,7 @@ void require(bool condition, const char* text);
                                        std::size_t most);
 [[nodiscard]] std::string checked_match_id(const char* text);
 [[nodiscard]] std::string checked_observer_id(const char* text);
+void check_frame_time(std::int64_t frame_time);
 void check(const cdir_match_info& info, std::span<const cdir_player> players);
 void check(const cdir_pose_frame& frame);
 void check(const cdir_match_event& event);

@@ -289,6 +289,7 @@ cdir_status cdir_observer_newest_camera(cdir_observer observer, cdir_view* view)
 cdir_status cdir_observer_camera_at(cdir_observer observer, int64_t frame_time, cdir_view* view) noexcept {
     return guarded([&] {
         check_struct("view", view);
+        check_frame_time(frame_time);
         return answer(
             find(observer)->with_view([=](const MatchView& match) { return match.track().at(frame_time); }),
             view);

@@ -3,6 +3,8 @@
 
 #include <dds/dds.h>
 
+#include <utility>
+
 #include "entity.hpp"
 
 namespace camdir::sdk {
@@ -19,14 +21,19 @@ class WireSample {
     ~WireSample() { dds_sample_free(&value_, &type_, DDS_FREE_CONTENTS); }
 
     [[nodiscard]] Taken take(const Entity& reader) {
+        if (std::exchange(gone_after_, false)) return Taken::gone;
         void* buffer = &value_;
         dds_sample_info_t info{};
         while (true) {
             const dds_return_t count = dds_take(reader.get(), &buffer, &info, 1, 1);
             check_dds("cannot read", count);
             if (count == 0) return Taken::nothing;
-            if (info.valid_data) return Taken::data;
-            if (info.instance_state != DDS_IST_ALIVE) return Taken::gone;
+            const bool alive = info.instance_state == DDS_IST_ALIVE;
+            if (info.valid_data) {
+                gone_after_ = !alive;
+                return Taken::data;
+            }
+            if (!alive) return Taken::gone;
         }
     }
 
@@ -36,6 +43,8 @@ class WireSample {
   private:
     const dds_topic_descriptor_t& type_;
     Wire value_{};
+    // Of an instance that ended after its last sample DDS gives that sample only, marked with the end.
+    bool gone_after_ = false;
 };
 
 }  // namespace camdir::sdk

@@ -23,8 +23,8 @@
  *
  * Units and axes. Right-handed, z up; positions in map units; angles in radians; times in nanoseconds.
  * Quaternions are x y z w and turn the axes x forward, y left, z up of a player's eye or of a camera into
- * the map's axes. frame_time is the game's own clock within an epoch; an epoch counts a match's lives: a
- * map change or a restart begins a new one.
+ * the map's axes. frame_time is the game's own clock within an epoch, and within 73 years of 0; an epoch
+ * counts a match's lives: a map change or a restart begins a new one.
  *
  * Status. 0 or greater: the call did what it says, or there was nothing to do. Less than 0: the call
  * failed, changed nothing, and cdir_last_error() in the same thread says why. No call crashes on a null

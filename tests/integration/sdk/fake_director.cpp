@@ -182,6 +182,13 @@ void FakeDirector::write_status(const std::string& observer_id, std::uint64_t ep
     ASSERT_EQ(dds_write(status_writer_, &sample), DDS_RETCODE_OK);
 }
 
+void FakeDirector::withdraw_status(const std::string& observer_id) {
+    camera_director_ObserverStatus key{};
+    match_id_.copy(key.match_id, sizeof key.match_id - 1);
+    observer_id.copy(key.observer_id, sizeof key.observer_id - 1);
+    ASSERT_EQ(dds_dispose(status_writer_, &key), DDS_RETCODE_OK);
+}
+
 std::uint32_t FakeDirector::observer_count() const {
     dds_publication_matched_status_t matched{};
     dds_get_publication_matched_status(camera_writer_, &matched);

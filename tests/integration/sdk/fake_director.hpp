@@ -80,6 +80,7 @@ class FakeDirector {
     void write(CameraFrameArrays& frame);
     void write_status(const std::string& observer_id, std::uint64_t epoch, std::uint32_t state,
                       std::uint32_t camera_id, const std::string& reason = {});
+    void withdraw_status(const std::string& observer_id);
     // Observers that read the cameras.
     [[nodiscard]] std::uint32_t observer_count() const;
 

@@ -99,6 +99,15 @@ TEST_F(Spectator, RequestDiesWithItsObserver) {
     EXPECT_TRUE(eventually([&] { return director_.request_is_gone(); }));
 }
 
+TEST_F(Spectator, AnAnswerThatIsWithdrawnBeforeAnybodyLooksIsWithdrawn) {
+    have_shot_accepted(1);
+    // Within one process a sample has arrived when it is written.
+    director_.write_status("anna", 1, CDIR_SHOT_WAITING_FOR_PLAYER, 4);
+    director_.withdraw_status("anna");
+    observer_.poll();
+    EXPECT_EQ(observer_.shot_status().state, static_cast<std::uint32_t>(CDIR_SHOT_UNANSWERED));
+}
+
 TEST_F(Spectator, AnswersAndCamerasArrive) {
     EXPECT_EQ(observer_.shot_status().state, static_cast<std::uint32_t>(CDIR_SHOT_NOT_REQUESTED));
     observer_.request({.target = 104});

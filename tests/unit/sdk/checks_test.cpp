@@ -117,6 +117,13 @@ TEST(Checks, PoseFrameIsFiniteAndItsOrientationsAreUnit) {
     EXPECT_NO_THROW(check(frame));
     frame.player_count = CDIR_MAX_PLAYERS + 1;
     EXPECT_THROW(check(frame), Failure);
+    frame.player_count = 2;
+    for (const std::int64_t far :
+         {std::numeric_limits<std::int64_t>::min(), std::numeric_limits<std::int64_t>::max()}) {
+        frame.frame_time = far;
+        EXPECT_THROW(check(frame), Failure);
+        EXPECT_THROW(check_frame_time(far), Failure);
+    }
     EXPECT_NO_THROW(check(cdir_pose_frame_default())) << "a frame without players needs no arrays";
 }
 

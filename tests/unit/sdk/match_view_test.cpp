@@ -181,6 +181,8 @@ TEST_F(MatchViewTest, FramesThatBreakTheContractAreDroppedAndCounted) {
     const float infinity = std::numeric_limits<float>::infinity();
     const std::vector<std::function<void(CameraFrameArrays&)>> defects = {
         [](auto& frame) { frame.match_id = "another"; },
+        [](auto& frame) { frame.frame_time = std::numeric_limits<std::int64_t>::min(); },
+        [](auto& frame) { frame.frame_time = std::numeric_limits<std::int64_t>::max(); },
         [](auto& frame) { frame.camera_id.push_back(9); },
         [](auto& frame) { frame.target.clear(); },
         [](auto& frame) { frame.position.pop_back(); },
