@@ -1,8 +1,6 @@
 // Sampling in parallel with the same outcome on any number of threads.
 #pragma once
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
@@ -10,6 +8,8 @@
 #include <random>
 #include <stop_token>
 #include <vector>
+
+#include "base/parallel.hpp"
 
 namespace camdir::evaluation {
 
@@ -44,7 +44,7 @@ template <class Outcome, class Work, class Done>
                                               const Done& done) {
     std::vector<Outcome> outcomes(count);
     std::atomic<std::uint64_t> finished = 0;
-    tbb::parallel_for(std::uint64_t{0}, count, [&](std::uint64_t i) {
+    parallel_for(std::uint64_t{0}, count, [&](std::uint64_t i) {
         if (stop.stop_requested()) return;
         outcomes[i] = work(first + i);
         done(++finished);

@@ -1,7 +1,5 @@
 #include "evaluation/metrics.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -9,6 +7,7 @@
 #include <cstdint>
 #include <numbers>
 
+#include "base/parallel.hpp"
 #include "evaluation/motion.hpp"
 #include "evaluation/statistics.hpp"
 
@@ -250,7 +249,7 @@ Result<Metrics> measure(const oracle::Oracle& oracle, double metres_per_unit, co
     assert(cameras.size() == trace.poses.size());
     const Thresholds thresholds(metres_per_unit);
     std::vector<Tally> tallies(trace.players.size());
-    tbb::parallel_for(std::size_t{0}, tallies.size(), [&](std::size_t i) {
+    parallel_for(std::size_t{0}, tallies.size(), [&](std::size_t i) {
         tallies[i] = judge_player(oracle, thresholds, trace, cameras, trace.players[i], stop);
     });
     if (stop.stop_requested()) return fail("interrupted", ErrorCode::interrupted);

@@ -1,13 +1,12 @@
 #include "evaluation/recording.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <array>
 #include <atomic>
 #include <cassert>
 #include <charconv>
 #include <ctime>
 
+#include "base/parallel.hpp"
 #include "camera/tracker.hpp"
 
 namespace camdir::evaluation {
@@ -99,7 +98,7 @@ Result<Recording> record(const freespace::Freespace& freespace, const camera::Pr
         if (count % stride == 0) progress(count, total);
         return !stop.stop_requested();
     };
-    tbb::parallel_for(std::size_t{0}, trace.players.size(), [&](std::size_t i) {
+    parallel_for(std::size_t{0}, trace.players.size(), [&](std::size_t i) {
         Recorder recorder(freespace, profile, trace, recording);
         recorder.follow(trace.players[i], recording.step_nanoseconds.data() + i * frames, keep_on);
     });
