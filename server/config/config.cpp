@@ -89,6 +89,24 @@ void read_object(const std::string& section, const std::string& pointer, const j
             problems.add(pointer + "/" + key.name + ": missing: expected " + expected(key));
 }
 
+// One spelling of a path that is not resolved yet.
+std::string normal(const std::string& path) {
+    return fs::path(path).lexically_normal().string();
+}
+
+// The files that the maps' sources are, or may lie in: `archive.pk3` of `archive.pk3:maps/name.bsp`.
+std::set<std::string> source_files(const std::vector<Map>& maps) {
+    std::set<std::string> files;
+    for (const Map& map : maps) {
+        if (map.source.empty()) continue;
+        files.insert(normal(map.source));
+        for (std::size_t colon = map.source.find(':'); colon != std::string::npos;
+             colon = map.source.find(':', colon + 1))
+            files.insert(normal(map.source.substr(0, colon)));
+    }
+    return files;
+}
+
 void read_maps(const json& list, Config& config, Problems& problems) {
     if (!list.is_array()) return problems.add("/maps", list, "a list of objects");
     std::set<std::string> names;
@@ -99,10 +117,16 @@ void read_maps(const json& list, Config& config, Problems& problems) {
         read_object("/maps/*", pointer, list[i], {nullptr, &map, nullptr}, problems);
         if (!map.name.empty() && !names.insert(map.name).second)
             problems.add(pointer + "/name", map.name, "a name that no other map has");
-        if (!map.file.empty() && !files.insert(map.file).second)
+        if (!map.file.empty() && !files.insert(normal(map.file)).second)
             problems.add(pointer + "/file", map.file, "a file that no other map has");
         config.maps.push_back(std::move(map));
     }
+    // A bake would write over it.
+    const std::set<std::string> sources = source_files(config.maps);
+    for (std::size_t i = 0; i < config.maps.size(); ++i)
+        if (!config.maps[i].file.empty() && sources.contains(normal(config.maps[i].file)))
+            problems.add("/maps/" + std::to_string(i) + "/file", config.maps[i].file,
+                         "a file that is no map's source");
 }
 
 void read_profiles(const json& object, Config& config, Problems& problems) {

@@ -46,7 +46,7 @@ struct Map {
 struct Matches {
     std::string default_profile = "default";
     std::int64_t silence_frames = 30;  // a match without poses for silence_frames / rate_hz is silent
-    double forget_s = 300.0;           // a silent match, or one without a game server, is forgotten after
+    double forget_s = 300.0;           // a match whose server is lost is over after
     double automatic_hold_s = 5.0;
     double automatic_lead = 1.0;
     double automatic_half_life_s = 10.0;

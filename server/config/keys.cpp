@@ -180,7 +180,7 @@ void add_matches(std::vector<Key>& table) {
     table.push_back({section,
                      "forget_s",
                      slot(&Matches::forget_s),
-                     "A match that is silent, or never had a game server, is forgotten after this.",
+                     "A match whose game server is gone without a word is over after this long without poses.",
                      "s",
                      0,
                      86400,

@@ -75,6 +75,18 @@ TEST(Config, RefusesWhatIsThereTwice) {
                 HasSubstr("/maps/1/name: \"a\": expected a name that no other map has"));
     EXPECT_THAT(problem(R"({"maps": [{"name": "a", "file": "1"}, {"name": "b", "file": "1"}]})"),
                 HasSubstr("/maps/1/file: \"1\": expected a file that no other map has"));
+    EXPECT_THAT(problem(R"({"maps": [{"name": "a", "file": "1"}, {"name": "b", "file": "x/../1"}]})"),
+                HasSubstr("/maps/1/file: \"x/../1\": expected a file that no other map has"));
+}
+
+TEST(Config, RefusesToBakeOverASource) {
+    for (const char* source : {"a.bsp", "./a.bsp", "a.bsp:maps/a.bsp"})
+        EXPECT_THAT(problem(R"({"maps": [{"name": "a", "file": "a.bsp", "source": ")" + std::string(source) +
+                            R"("}]})"),
+                    HasSubstr("/maps/0/file: \"a.bsp\": expected a file that is no map's source"));
+    EXPECT_THAT(problem(R"({"maps": [{"name": "a", "file": "a.vfs", "source": "p.pk3:maps/a.bsp"},
+                                     {"name": "b", "file": "p.pk3"}]})"),
+                HasSubstr("/maps/1/file: \"p.pk3\": expected a file that is no map's source"));
 }
 
 TEST(Config, RefusesMissingKeys) {
