@@ -9,6 +9,27 @@
 namespace camdir::app {
 namespace {
 
+constexpr const char* time_pattern = "%Y-%m-%dT%H:%M:%S.%eZ";
+
+// 2026-01-02T03:04:05.678Z info: message
+// One line whatever is in the names from outside that a message quotes.
+class TextLines final : public spdlog::formatter {
+  public:
+    void format(const spdlog::details::log_msg& message, spdlog::memory_buf_t& line) override {
+        head_.format(message, line);
+        for (const char c : message.payload)
+            line.push_back(static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c);
+        line.push_back('\n');
+    }
+
+    [[nodiscard]] std::unique_ptr<spdlog::formatter> clone() const override {
+        return std::make_unique<TextLines>();
+    }
+
+  private:
+    spdlog::pattern_formatter head_{std::string(time_pattern) + " %l: ", spdlog::pattern_time_type::utc, ""};
+};
+
 // {"time":"2026-01-02T03:04:05.678Z","level":"info","message":"..."}
 class JsonLines final : public spdlog::formatter {
   public:
@@ -29,7 +50,7 @@ class JsonLines final : public spdlog::formatter {
     }
 
   private:
-    spdlog::pattern_formatter time_{"%Y-%m-%dT%H:%M:%S.%eZ", spdlog::pattern_time_type::utc, ""};
+    spdlog::pattern_formatter time_{time_pattern, spdlog::pattern_time_type::utc, ""};
 };
 
 }  // namespace
@@ -39,8 +60,7 @@ void start_logging(const config::Log& config) {
     if (config.format == "json")
         logger->set_formatter(std::make_unique<JsonLines>());
     else
-        logger->set_formatter(std::make_unique<spdlog::pattern_formatter>("%Y-%m-%dT%H:%M:%S.%eZ %l: %v",
-                                                                          spdlog::pattern_time_type::utc));
+        logger->set_formatter(std::make_unique<TextLines>());
     spdlog::set_default_logger(logger);
     set_log_level(config);
 }

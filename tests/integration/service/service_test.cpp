@@ -72,6 +72,17 @@ TEST(Service, AMapThatCannotBeLoadedIsToldAndTheOthersAreServed) {
     }
 }
 
+TEST(Service, ANameFromOutsideForgesNoLineOfTheLog) {
+    const Folder folder;
+    json config = quiet_config();
+    config["log"]["format"] = "text";
+    config["maps"] = json::array({{{"name", "a\nforged"}, {"file", "a.vfs"}}});
+    const Served served(folder, config);
+    ASSERT_TRUE(served.logged("info: ready")) << served.log();
+    EXPECT_THAT(served.log(), HasSubstr("error: map a?forged: "));
+    EXPECT_THAT(served.log(), testing::Not(HasSubstr("\nforged")));
+}
+
 TEST(Service, SighupReloads) {
     const Folder folder;
     folder.write_square("square.vfs");
