@@ -177,16 +177,17 @@ void add_matches(std::vector<Key>& table) {
                      {},
                      false,
                      true});
-    table.push_back({section,
-                     "forget_s",
-                     slot(&Matches::forget_s),
-                     "A match whose game server is gone without a word is over after this long without poses.",
-                     "s",
-                     0,
-                     86400,
-                     {},
-                     false,
-                     true});
+    table.push_back(
+        {section,
+         "forget_s",
+         slot(&Matches::forget_s),
+         "A match whose game server is gone without a word is over after this long without poses.",
+         "s",
+         0,
+         86400,
+         {},
+         false,
+         true});
     table.push_back({section,
                      "automatic_hold_s",
                      slot(&Matches::automatic_hold_s),
