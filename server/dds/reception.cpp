@@ -274,51 +274,43 @@ bool Reception::written_in(const dds_sample_info_t& info, const std::string& par
     return written;
 }
 
+template <class Sample, class Message>
+bool Reception::accept(Match& match, Topic topic, const Sample& sample, Message& message) {
+    const std::string& match_id = match.info.match_id;
+    if (sample.match_id != match_id) {
+        drop_log_.drop(topic, Defect::wrong_partition, match_id);
+        return false;
+    }
+    if (const auto defect = decode(sample, message)) {
+        drop_log_.drop(topic, *defect, match_id);
+        return false;
+    }
+    ++counters_.of(topic).accepted;
+    return known_again(match);
+}
+
 void Reception::take_poses(Match& match) {
     pose_samples_.take(match.endpoints->pose_reader(), [&](const auto& sample, const auto& info) {
-        if (!info.valid_data) return;
-        const std::string& match_id = match.info.match_id;
-        if (sample.match_id != match_id) {
-            return drop_log_.drop(Topic::pose_frame, Defect::wrong_partition, match_id);
-        }
-        if (const auto defect = decode(sample, pose_frame_)) {
-            return drop_log_.drop(Topic::pose_frame, *defect, match_id);
-        }
-        ++counters_.of(Topic::pose_frame).accepted;
-        if (known_again(match)) receiver_->receive(match_id, pose_frame_);
+        if (info.valid_data && accept(match, Topic::pose_frame, sample, pose_frame_))
+            receiver_->receive(match.info.match_id, pose_frame_);
     });
 }
 
 void Reception::take_events(Match& match) {
     event_samples_.take(match.endpoints->event_reader(), [&](const auto& sample, const auto& info) {
-        if (!info.valid_data) return;
-        const std::string& match_id = match.info.match_id;
-        if (sample.match_id != match_id) {
-            return drop_log_.drop(Topic::match_event, Defect::wrong_partition, match_id);
-        }
-        if (const auto defect = decode(sample, match_event_)) {
-            return drop_log_.drop(Topic::match_event, *defect, match_id);
-        }
-        ++counters_.of(Topic::match_event).accepted;
-        if (known_again(match)) receiver_->receive(match_id, match_event_);
+        if (info.valid_data && accept(match, Topic::match_event, sample, match_event_))
+            receiver_->receive(match.info.match_id, match_event_);
     });
 }
 
 void Reception::take_requests(Match& match) {
     request_samples_.take(match.endpoints->request_reader(), [&](const auto& sample, const auto& info) {
         const std::string& match_id = match.info.match_id;
-        if (sample.match_id != match_id) {
-            return drop_log_.drop(Topic::observer_request, Defect::wrong_partition, match_id);
-        }
         if (info.instance_state != DDS_ALIVE_INSTANCE_STATE) {
-            return receiver_->request_gone(match_id, sample.observer_id);
+            if (sample.match_id == match_id) receiver_->request_gone(match_id, sample.observer_id);
+        } else if (info.valid_data && accept(match, Topic::observer_request, sample, observer_request_)) {
+            receiver_->receive(observer_request_);
         }
-        if (!info.valid_data) return;
-        if (const auto defect = decode(sample, observer_request_)) {
-            return drop_log_.drop(Topic::observer_request, *defect, match_id);
-        }
-        ++counters_.of(Topic::observer_request).accepted;
-        if (known_again(match)) receiver_->receive(observer_request_);
     });
 }
 

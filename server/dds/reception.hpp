@@ -69,6 +69,9 @@ class Reception {
     void repeat_statuses(Clock::time_point now);
 
     void take_match_infos();
+    // Checks a sample of the match and decodes it. False: it is dropped, counted, or the match was refused.
+    template <class Sample, class Message>
+    [[nodiscard]] bool accept(Match& match, Topic topic, const Sample& sample, Message& message);
     void take_poses(Match& match);
     void take_events(Match& match);
     void take_requests(Match& match);
