@@ -25,9 +25,6 @@ class Order {
     void before() {}
     void after() {}
 #endif
-
-  private:
-    char place_ = 0;
 };
 
 }  // namespace detail
