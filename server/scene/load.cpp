@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "scene/q3_scene.hpp"
+#include "scene/quake_scene.hpp"
 #include "scene/source.hpp"
 
 namespace camdir::scene {
@@ -18,7 +19,10 @@ std::uint64_t hash_of(const Bytes& bytes) {
 
 Result<Scene> read_scene(std::span<const std::byte> bytes) {
     if (is_q3_bsp(bytes)) return read_q3_scene(bytes);
-    return fail("unknown format; expected a Quake 3 BSP, which starts with IBSP and the version 46");
+    if (is_quake_bsp(bytes)) return read_quake_scene(bytes);
+    return fail(
+        "unknown format; expected a BSP of Quake (starts with version 29), of GoldSrc (version 30) or of "
+        "Quake 3 (IBSP and version 46)");
 }
 
 }  // namespace

@@ -82,8 +82,9 @@ struct Bsp {
 };
 
 // Afterwards: every reference between lumps is in range, the nodes form a tree with its root at 0, no
-// brush side belongs to two brushes, numbers of planes, vertices and models are finite and below 2^20 in
-// size, plane normals have length 1 within 1 %, there is at least one model. Errors name lump and element.
+// brush side belongs to two brushes, no brush or face to two models, numbers of planes, vertices and models
+// are finite and below 2^20 in size, plane normals have length 1 within 1 %, there is at least one model.
+// Errors name lump and element.
 [[nodiscard]] Result<Bsp> parse_bsp(std::span<const std::byte> bytes);
 
 }  // namespace camdir::scene::q3

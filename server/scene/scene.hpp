@@ -31,8 +31,10 @@ struct SpawnPoint {
 
 // Something the reader found in the source and left out on purpose; shown by `inspect`.
 struct LeftOut {
-    std::string what;
-    std::uint64_t count;
+    std::string reason;       // liquid, not solid, entity, outside the world's box, ...
+    std::string what;         // the texture, shader or class of entities; empty: all with this reason
+    std::uint64_t count = 0;  // surfaces; spawn points where the reason says so
+    double area = 0.0;        // of those surfaces, square map units
 };
 
 struct Scene {
@@ -45,7 +47,8 @@ struct Scene {
     std::vector<Vec3d> vertices;
     std::vector<std::array<std::uint32_t, 3>> triangles;
 
-    // The obstacles' volumes where the format knows them (Quake 3), else empty.
+    // The obstacles' volumes where the format knows them, else empty: Quake 3's brushes, the solid leaves of
+    // Quake's and GoldSrc's trees.
     std::vector<Plane> planes;
     std::vector<Brush> brushes;
 

@@ -4,39 +4,17 @@
 
 #include <array>
 #include <cstring>
-#include <span>
 #include <sstream>
 #include <stdexcept>
 
 #include "scene/q3_scene.hpp"
+#include "scene/solid.hpp"
+#include "support/bsp_writer.hpp"
 
 namespace camdir::test {
 namespace {
 
-constexpr std::size_t lump_count = 17;
 constexpr double wall = 16.0;
-
-class Writer {
-  public:
-    Writer() : bytes_(8 + 8 * lump_count) { std::memcpy(bytes_.data(), "IBSP\x2e\0\0\0", 8); }
-
-    template <class Container>
-    void lump(std::size_t number, const Container& elements) {
-        const auto content = std::as_bytes(std::span(elements));
-        const std::array<std::int32_t, 2> place = {static_cast<std::int32_t>(bytes_.size()),
-                                                   static_cast<std::int32_t>(content.size())};
-        std::memcpy(bytes_.data() + 8 + 8 * number, place.data(), sizeof place);
-        bytes_.insert(bytes_.end(), content.begin(), content.end());
-        while (bytes_.size() % 4 != 0) {
-            bytes_.push_back(std::byte{0});
-        }
-    }
-
-    [[nodiscard]] Bytes take() { return std::move(bytes_); }
-
-  private:
-    Bytes bytes_;
-};
 
 q3::Shader shader(const std::string& name, std::int32_t flags, std::int32_t contents) {
     q3::Shader shader{};
@@ -87,21 +65,12 @@ q3::Face face(std::int32_t type, Shader shader, std::int32_t first_vertex, std::
     return face;
 }
 
-std::vector<scene::Plane> planes_of(const Box3d& box) {
-    std::vector<scene::Plane> planes;
-    for (Eigen::Index axis = 0; axis < 3; ++axis) {
-        planes.push_back({Vec3d::Unit(axis), box.max()[axis]});
-        planes.push_back({-Vec3d::Unit(axis), -box.min()[axis]});
-    }
-    return planes;
-}
-
 // A chain of nodes: in front of the first plane that a point is in front of lies the void, behind all of
 // them the room.
 void enclose(q3::Bsp& bsp, const Box3d& inside) {
     bsp.leaves = {q3::Leaf{0, {}}, q3::Leaf{-1, {}}};
     bsp.nodes.clear();
-    const std::vector<scene::Plane> planes = planes_of(inside);
+    const std::vector<scene::Plane> planes = scene::make_solid(inside).planes;
     for (std::size_t i = 0; i < planes.size(); ++i) {
         const bool is_last = i + 1 == planes.size();
         bsp.nodes.push_back(
@@ -112,7 +81,7 @@ void enclose(q3::Bsp& bsp, const Box3d& inside) {
 }  // namespace
 
 Bytes encode(const q3::Bsp& bsp) {
-    Writer writer;
+    BspWriter writer({"IBSP\x2e\0\0\0", 8}, 17);
     writer.lump(0, bsp.entities);
     writer.lump(1, bsp.shaders);
     writer.lump(2, bsp.planes);
@@ -165,7 +134,7 @@ void add_brush(q3::Bsp& bsp, const std::vector<scene::Plane>& planes, Shader sha
 }
 
 void add_box(q3::Bsp& bsp, const Box3d& box, Shader shader) {
-    add_brush(bsp, planes_of(box), shader);
+    add_brush(bsp, scene::make_solid(box).planes, shader);
     grow(bsp.models.front(), box.min());
     grow(bsp.models.front(), box.max());
 }
@@ -230,7 +199,7 @@ q3::Bsp random_map(std::mt19937& random, int obstacles) {
     for (int i = 0; i < obstacles; ++i) {
         const Vec3d corner = random_point_in(random, inside);
         const Box3d box(corner, corner + Vec3d(size(random), size(random), size(random)));
-        std::vector<scene::Plane> planes = planes_of(box);
+        std::vector<scene::Plane> planes = scene::make_solid(box).planes;
         const Vec3d slope = random_point_in(random, Box3d(Vec3d::Constant(-1.0), Vec3d::Constant(1.0)));
         if (i % 2 == 1) planes.push_back({slope.normalized(), slope.normalized().dot(box.center())});
         add_brush(bsp, planes, stone);

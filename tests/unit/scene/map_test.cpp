@@ -6,6 +6,7 @@
 #include "scene/load.hpp"
 #include "support/openarena.hpp"
 #include "support/oracle_twins.hpp"
+#include "support/shared_files.hpp"
 
 namespace camdir::scene {
 namespace {
@@ -50,6 +51,49 @@ TEST_P(RealMap, ReadsTheSameTwice) {
     EXPECT_EQ(again.triangles, scene_.triangles);
     EXPECT_EQ(again.vertices, scene_.vertices);
 }
+
+// Maps of Quake and GoldSrc: their volumes are the tree's, their surfaces the faces, and neither is derived
+// from the other.
+class TreeMap : public testing::TestWithParam<std::string> {
+  protected:
+    void SetUp() override {
+        const auto file = test::shared_file("maps/" + GetParam() + ".bsp");
+        if (!file) GTEST_SKIP() << "CAMERA_DIRECTOR_SHARED has no maps/" << GetParam() << ".bsp";
+        scene_ = load(file->string()).value();
+    }
+    Scene scene_;
+};
+
+TEST_P(TreeMap, KeepsThePromisesOfAScene) {
+    EXPECT_GT(scene_.triangles.size(), 300U);
+    EXPECT_GT(scene_.brushes.size(), 50U);
+    EXPECT_GE(scene_.spawn_points.size(), 1U);
+    for (const auto& [a, b, c] : scene_.triangles) {
+        ASSERT_LT(std::max({a, b, c}), scene_.vertices.size());
+    }
+    for (const SpawnPoint& spawn : scene_.spawn_points) {
+        EXPECT_GT(test::clearance(scene_, spawn.eye), 4.0) << spawn.kind << ' ' << spawn.eye.transpose();
+    }
+}
+
+TEST_P(TreeMap, BotsWalkInFreeSpace) {
+    const auto file = test::shared_file("maps/" + GetParam() + ".way");
+    if (!file) GTEST_SKIP() << "CAMERA_DIRECTOR_SHARED has no maps/" << GetParam() << ".way";
+    const std::vector<Vec3d> points = test::way_points(*file);
+    ASSERT_GT(points.size(), 10U);
+    for (const Vec3d& point : points) {
+        EXPECT_LE(test::depth_in_solid(scene_, point), 0.0) << point.transpose() << ": on a floor at most";
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Shared, TreeMap,
+                         testing::Values("4all", "bunker-defense", "corner", "dung3on", "fegefeuer",
+                                         "lexi_temple", "loop", "nzp_warehouse", "lqdm1", "lqdm13"),
+                         [](const auto& test) {
+                             std::string name = test.param;
+                             std::replace(name.begin(), name.end(), '-', '_');
+                             return name;
+                         });
 
 INSTANTIATE_TEST_SUITE_P(OpenArena, RealMap, testing::ValuesIn(test::traced_maps()));
 

@@ -4,11 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <map>
 #include <numbers>
 
 #include "support/oracle_twins.hpp"
 #include "support/q3_maps.hpp"
+#include "support/scene_measures.hpp"
 
 namespace camdir::scene {
 namespace {
@@ -16,34 +16,10 @@ namespace {
 const Box3d hall(Vec3d(-256.0, -192.0, 0.0), Vec3d(256.0, 192.0, 256.0));
 const Box3d crate(Vec3d(0.0, 0.0, 0.0), Vec3d(64.0, 64.0, 64.0));
 
-double area_of(const Scene& scene) {
-    double area = 0.0;
-    for (const auto& [a, b, c] : scene.triangles) {
-        area +=
-            (scene.vertices[b] - scene.vertices[a]).cross(scene.vertices[c] - scene.vertices[a]).norm() / 2.0;
-    }
-    return area;
-}
-
-double surface_of(const Box3d& box) {
-    const Vec3d s = box.sizes();
-    return 2.0 * (s.x() * s.y() + s.y() * s.z() + s.z() * s.x());
-}
-
-std::map<std::string, std::uint64_t> left_out(const Scene& scene) {
-    std::map<std::string, std::uint64_t> counts;
-    for (const LeftOut& entry : scene.left_out) {
-        counts[entry.what] = entry.count;
-    }
-    return counts;
-}
-
-bool has_surface_at(const Scene& scene, const Vec3d& point) {
-    return std::any_of(scene.triangles.begin(), scene.triangles.end(), [&](const auto& t) {
-        return test::distance_to_triangle(point, scene.vertices[t[0]], scene.vertices[t[1]],
-                                          scene.vertices[t[2]]) < 0.01;
-    });
-}
+using test::area_of;
+using test::has_surface_at;
+using test::left_out_counts;
+using test::surface_of;
 
 TEST(Q3Scene, RoomIsItsInnerSurface) {
     const Scene scene = test::scene_of(test::room_map(hall));
@@ -55,7 +31,7 @@ TEST(Q3Scene, RoomIsItsInnerSurface) {
     for (const Vec3d& vertex : scene.vertices) {
         EXPECT_TRUE(scene.bounds.contains(vertex));
     }
-    EXPECT_GT(left_out(scene)["brush faces that nobody can see"], 0U);
+    EXPECT_GT(left_out_counts(scene)["face that nobody can see"], 0U);
 }
 
 TEST(Q3Scene, ClipWaterAndGhostBrushesAreNoObstaclesButSkyIs) {
@@ -79,11 +55,15 @@ TEST(Q3Scene, LeftOutIsCounted) {
     test::add_entity_model(bsp, "func_door", Vec3d::Zero());
     test::add_box(bsp, crate, test::stone);
     const Scene scene = test::scene_of(bsp);
-    const auto counts = left_out(scene);
-    EXPECT_THAT(counts, testing::IsSupersetOf(
-                            {testing::Pair("clip brushes", 1), testing::Pair("liquid brushes", 1),
-                             testing::Pair("non-solid patches", 1),
-                             testing::Pair("non-solid triangle soups", 1), testing::Pair("func_door", 1)}));
+    const auto counts = left_out_counts(scene);
+    EXPECT_THAT(counts, testing::IsSupersetOf({testing::Pair("clip: test/clip", 6),
+                                               testing::Pair("liquid: test/water", 6),
+                                               testing::Pair("entity: func_door", 6)}));
+    EXPECT_GE(counts.at("not solid: test/ghost"), 2U) << "the soup and the patch";
+    const auto areas = test::left_out_areas(scene);
+    EXPECT_NEAR(areas.at("liquid: test/water"), surface_of(crate), 1e-6);
+    EXPECT_NEAR(areas.at("entity: func_door"), surface_of(crate), 1e-6);
+    EXPECT_NEAR(areas.at("not solid: test/ghost"), 40.5, 1e-6);
     EXPECT_NEAR(area_of(scene), surface_of(hall), 1e-6);
 }
 
@@ -132,7 +112,7 @@ TEST(Q3Scene, SurfacesEndAtTheWorldsBox) {
     bsp.models.front().face_count = 2;
     const Scene scene = test::scene_of(bsp);
     EXPECT_LT(area_of(scene), surface_of(hall) * 2.0);
-    EXPECT_EQ(left_out(scene)["surfaces outside the world's box"], 1U);
+    EXPECT_EQ(left_out_counts(scene)["outside the world's box"], 1U);
 }
 
 TEST(Q3Scene, SpawnPointsStandAtEyeHeight) {
@@ -158,7 +138,7 @@ TEST(Q3Scene, SpawnEyeStaysBelowTheCeilingAndOutOfSolid) {
     ASSERT_EQ(scene.spawn_points.size(), 2U);
     EXPECT_EQ(scene.spawn_points[0].eye.z(), 39.0) << "under the low ceiling";
     EXPECT_EQ(scene.spawn_points[1].eye.z(), 30.0) << "sunk into the floor";
-    EXPECT_EQ(left_out(scene)["spawn points in solid"], 1U);
+    EXPECT_EQ(left_out_counts(scene)["spawn point in solid: info_player_deathmatch"], 1U);
 }
 
 TEST(Q3Scene, BrushFacesLieOnTheirBrush) {

@@ -1,4 +1,4 @@
-// The entity text of a BSP: what stands where.
+// The entity text of a BSP of whatever version: what stands where.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 #include "base/geometry.hpp"
 #include "scene/scene.hpp"
 
-namespace camdir::scene::q3 {
+namespace camdir::scene {
 
 // Views into the text that was parsed.
 struct Entity {
@@ -34,7 +34,21 @@ struct Entity {
 // Groups of quoted pairs in braces. Errors name the byte of the entity lump.
 [[nodiscard]] Result<std::vector<Entity>> parse_entities(std::string_view text);
 
-// Players appear here: deathmatch, single player and team spawn points.
+// An entity's brush model, where the entity puts it.
+struct PlacedModel {
+    std::size_t model;  // > 0: model 0 is the world
+    std::string_view class_name;
+    bool is_obstacle;
+    Vec3d origin;
+};
+
+// The models of all entities, each once; `is_obstacle` chooses by class name. Fails when a model is not below
+// `model_count`, or when an obstacle has no sound origin or shares its model with another.
+[[nodiscard]] Result<std::vector<PlacedModel>> placed_models(const std::vector<Entity>& entities,
+                                                             std::size_t model_count,
+                                                             bool (*is_obstacle)(std::string_view));
+
+// Players appear here: deathmatch, single player, cooperative and team spawn points.
 [[nodiscard]] bool is_spawn_point(std::string_view class_name);
 
-}  // namespace camdir::scene::q3
+}  // namespace camdir::scene

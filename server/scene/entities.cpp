@@ -1,4 +1,4 @@
-#include "scene/q3_entities.hpp"
+#include "scene/entities.hpp"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace camdir::scene::q3 {
+namespace camdir::scene {
 namespace {
 
 constexpr double max_coordinate = 1 << 20;
@@ -123,6 +123,35 @@ Result<std::vector<Entity>> parse_entities(std::string_view text) {
     return entities;
 }
 
+Result<std::vector<PlacedModel>> placed_models(const std::vector<Entity>& entities, std::size_t model_count,
+                                               bool (*is_obstacle)(std::string_view)) {
+    enum class Use { none, left_out, obstacle };
+    std::vector<Use> uses(model_count, Use::none);
+    std::vector<PlacedModel> placed;
+    for (const Entity& entity : entities) {
+        const std::optional<std::size_t> model = entity.brush_model();
+        if (!model || *model == 0) continue;
+        const std::string who =
+            "entity " + std::to_string(entity.number) + ": model *" + std::to_string(*model);
+        if (*model >= model_count)
+            return fail(who + " does not exist; expected a number below " + std::to_string(model_count));
+        Use& use = uses[*model];
+        PlacedModel found{*model, entity.class_name(), is_obstacle(entity.class_name()), Vec3d::Zero()};
+        if (!found.is_obstacle) {
+            if (use == Use::none) placed.push_back(found);
+            use = std::max(use, Use::left_out);
+            continue;
+        }
+        if (use == Use::obstacle) return fail(who + " belongs to another entity already");
+        use = Use::obstacle;
+        const Result<Vec3d> origin = entity.origin();
+        if (!origin) return tl::unexpected(origin.error());
+        found.origin = *origin;
+        placed.push_back(found);
+    }
+    return placed;
+}
+
 bool is_spawn_point(std::string_view class_name) {
     constexpr std::array<std::string_view, 4> of_teams = {"team_CTF_redplayer", "team_CTF_blueplayer",
                                                           "team_CTF_redspawn", "team_CTF_bluespawn"};
@@ -131,4 +160,4 @@ bool is_spawn_point(std::string_view class_name) {
            std::find(of_teams.begin(), of_teams.end(), class_name) != of_teams.end();
 }
 
-}  // namespace camdir::scene::q3
+}  // namespace camdir::scene

@@ -1,0 +1,11 @@
+// Arbitrary bytes are a scene that keeps its promises, or an error of one line.
+#include <cstdint>
+#include <span>
+
+#include "scene/quake_scene.hpp"
+#include "scene_promises.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    camdir::fuzz::check(camdir::scene::read_quake_scene(std::as_bytes(std::span(data, size))));
+    return 0;
+}
