@@ -8,6 +8,7 @@ build_packages=(
     libflatbuffers-dev flatbuffers-compiler  # MAP.vfs
     libxxhash-dev libzip-dev zipcmp zipmerge ziptool  # hashes, pk3 archives
     libembree-dev                            # the exact oracle
+    libcairo2-dev                            # lettering and PNG of pictures
     cyclonedds-dev cyclonedds-tools          # the wire
     libspdlog-dev nlohmann-json3-dev libcli11-dev
     libcpp-httplib-dev prometheus-cpp-dev libcurl4-openssl-dev zlib1g-dev libsystemd-dev

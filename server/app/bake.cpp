@@ -1,6 +1,5 @@
 // camera-director bake: a map file becomes a MAP.vfs.
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <iomanip>
 #include <iostream>
@@ -10,6 +9,7 @@
 #include "app/commands.hpp"
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
+#include "app/writable.hpp"
 #include "bake/bake.hpp"
 #include "base/file.hpp"
 #include "freespace/freespace.hpp"
@@ -25,16 +25,6 @@ struct Options {
     bake::Parameters parameters;
     bool quiet = false;
 };
-
-// Fails before the work starts, not after it.
-Result<void> check_writable(const std::string& file) {
-    if (file.empty() || file == "-") return {};
-    std::filesystem::path folder = std::filesystem::path(file).parent_path();
-    if (folder.empty()) folder = ".";
-    if (::access(folder.c_str(), W_OK | X_OK) != 0)
-        return fail(file + ": cannot write into the folder " + folder.string());
-    return {};
-}
 
 std::string seconds_text(double seconds) {
     std::ostringstream text;

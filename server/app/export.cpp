@@ -1,76 +1,57 @@
-// camera-director export: the medial mesh with its free distances as a PLY file, for mesh viewers.
-#include <bit>
-#include <cstring>
+// camera-director export: the medial mesh with its free distances, for mesh viewers.
+#include <memory>
 
 #include "app/commands.hpp"
+#include "app/glb.hpp"
+#include "app/ply.hpp"
+#include "app/writable.hpp"
 #include "base/file.hpp"
 #include "freespace/freespace.hpp"
 
 namespace camdir::app {
 namespace {
 
-using freespace::Freespace;
-using freespace::Triangle;
-using freespace::Vertex;
+struct Options {
+    std::string file, ply, glb;
+};
 
-static_assert(std::endian::native == std::endian::little, "PLY is written in the order of memory");
-
-std::string ply_header(const Freespace& freespace) {
-    return "ply\n"
-           "format binary_little_endian 1.0\n"
-           "element vertex " +
-           std::to_string(freespace.vertices().size()) +
-           "\n"
-           "property float x\n"
-           "property float y\n"
-           "property float z\n"
-           "property float free_distance\n"
-           "element face " +
-           std::to_string(freespace.triangles().size()) +
-           "\n"
-           "property list uchar uint vertex_indices\n"
-           "end_header\n";
+void check_usage(const Options& options) {
+    if (options.ply.empty() && options.glb.empty()) throw CLI::RequiredError("--ply or --glb");
+    if (options.ply == "-" && options.glb == "-")
+        throw CLI::ValidationError("only one of --ply and --glb can be standard output");
 }
 
-template <class Value>
-void append(Bytes& bytes, const Value& value) {
-    const auto raw = std::as_bytes(std::span(&value, 1));
-    bytes.insert(bytes.end(), raw.begin(), raw.end());
-}
-
-Bytes to_ply(const Freespace& freespace) {
-    Bytes bytes;
-    for (const char character : ply_header(freespace))
-        append(bytes, character);
-    for (const Vertex& vertex : freespace.vertices())
-        append(bytes, vertex);
-    for (const Triangle& triangle : freespace.triangles()) {
-        append(bytes, std::uint8_t{3});
-        append(bytes, triangle);
-    }
-    return bytes;
-}
-
-int export_ply(const std::string& file, const std::string& ply) {
-    const auto freespace = Freespace::open(file);
-    if (!freespace) return report(freespace.error());
-    const auto written = write_file(ply, to_ply(*freespace));
-    return written ? exit_done : report(written.error());
+Result<void> export_mesh(const Options& options) {
+    for (const std::string& file : {options.ply, options.glb})
+        if (auto writable = check_writable(file); !writable) return writable;
+    const auto freespace = freespace::Freespace::open(options.file);
+    if (!freespace) return tl::unexpected(freespace.error());
+    Result<void> written;
+    if (!options.ply.empty()) written = write_file(options.ply, to_ply(*freespace));
+    if (!written || options.glb.empty()) return written;
+    const auto glb = to_glb(*freespace);
+    if (!glb) return fail(options.glb + ": " + glb.error().message);
+    return write_file(options.glb, *glb);
 }
 
 }  // namespace
 
 void add_export(CLI::App& root, Run& run) {
-    struct Options {
-        std::string file, ply;
-    };
     const auto options = std::make_shared<Options>();
     CLI::App* command =
         root.add_subcommand("export", "Write the medial mesh of a baked map for mesh viewers.");
     command->add_option("FILE.vfs", options->file, "Baked map")->required();
-    command->add_option("--ply", options->ply, "Binary PLY file to write, - for standard output")->required();
-    command->callback(
-        [options, &run] { run = [options] { return export_ply(options->file, options->ply); }; });
+    command->add_option("--ply", options->ply, "Binary PLY file to write, - for standard output");
+    command->add_option("--glb", options->glb,
+                        "Binary glTF 2.0 file to write, - for standard output: the mesh coloured by free "
+                        "distance, the roadmap, spawn points; metres, y up");
+    command->callback([options, &run] {
+        check_usage(*options);
+        run = [options] {
+            const Result<void> done = export_mesh(*options);
+            return done ? exit_done : report(done.error());
+        };
+    });
 }
 
 }  // namespace camdir::app

@@ -16,6 +16,7 @@ int main(int argc, char** argv) {
     add_export(root, run);
     add_verify(root, run);
     add_evaluate(root, run);
+    add_render(root, run);
     add_serve(root, run);
 
     try {
