@@ -1,11 +1,9 @@
 // camera-director bake: a map file becomes a MAP.vfs.
-#include <sys/resource.h>
-
-#include <iomanip>
 #include <iostream>
-#include <nlohmann/json.hpp>
-#include <sstream>
+#include <set>
 
+#include "app/bake_config.hpp"
+#include "app/bake_report.hpp"
 #include "app/commands.hpp"
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
@@ -24,65 +22,11 @@ struct Options {
     std::string report;
     bake::Parameters parameters;
     bool quiet = false;
+    // Of a whole configuration.
+    std::string config;
+    std::uint64_t memory_mib = 0;
+    bool force = false;
 };
-
-std::string seconds_text(double seconds) {
-    std::ostringstream text;
-    text << std::fixed << std::setprecision(2) << seconds << " s";
-    return text.str();
-}
-
-std::string line_of(const bake::StageReport& report) {
-    std::ostringstream line;
-    line << std::left << std::setw(12) << report.stage << std::right << std::setw(9)
-         << seconds_text(report.seconds);
-    const char* separator = "  ";
-    for (const freespace::Count& count : report.counts) {
-        line << separator << std::fixed << std::setprecision(0) << count.value << ' ' << count.what;
-        separator = ", ";
-    }
-    return line.str();
-}
-
-double total_seconds(const bake::Baked& baked) {
-    double sum = 0.0;
-    for (const bake::StageReport& stage : baked.stages)
-        sum += stage.seconds;
-    return sum;
-}
-
-std::uint64_t peak_memory_bytes() {
-    rusage usage{};
-    ::getrusage(RUSAGE_SELF, &usage);
-    return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024U;
-}
-
-std::string report_json(const Options& options, const scene::Scene& scene, const bake::Baked& baked,
-                        std::size_t bytes) {
-    nlohmann::ordered_json stages = nlohmann::ordered_json::array();
-    for (const bake::StageReport& stage : baked.stages) {
-        nlohmann::ordered_json counts = nlohmann::ordered_json::object();
-        for (const freespace::Count& count : stage.counts)
-            counts[count.what] = count.value;
-        stages.push_back({{"stage", stage.stage}, {"seconds", stage.seconds}, {"counts", counts}});
-    }
-    const nlohmann::ordered_json report{
-        {"map", scene.name},
-        {"source", scene.source},
-        {"metres_per_unit", scene.metres_per_unit},
-        {"d0", options.parameters.d0},
-        {"loss", options.parameters.loss},
-        {"d0_map_units", baked.contents.metadata.d0},
-        {"vertices", baked.contents.vertices.size()},
-        {"triangles", baked.contents.triangles.size()},
-        {"file_bytes", bytes},
-        {"seconds", total_seconds(baked)},
-        {"peak_memory_bytes", peak_memory_bytes()},
-        {"stages", stages},
-    };
-    // Names of files need not be UTF-8.
-    return report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
-}
 
 Result<bake::Baked> bake_shown(const scene::Scene& scene, const Options& options,
                                const std::stop_token& stop) {
@@ -107,25 +51,66 @@ Result<void> bake_to_file(const Options& options) {
     if (!baked) return tl::unexpected(baked.error());
     const std::vector<std::byte> bytes = freespace::encode(baked->contents);
     if (auto written = write_file(options.output, bytes); !written) return written;
+    const BakeReport report = report_of(*scene, *baked, bytes.size());
     if (!options.report.empty()) {
-        auto written = write_file(options.report, report_json(options, *scene, *baked, bytes.size()));
-        if (!written) return written;
+        nlohmann::ordered_json json = to_json(report);
+        json["peak_memory_bytes"] = peak_memory_bytes();
+        if (auto written = write_file(options.report, report_text(json)); !written) return written;
     }
     if (!options.quiet)
-        std::cerr << options.output << ": " << baked->contents.vertices.size() << " vertices, "
-                  << baked->contents.triangles.size() << " triangles, " << bytes.size() << " bytes in "
-                  << seconds_text(total_seconds(*baked)) << ", at most " << peak_memory_bytes() / 1'000'000U
-                  << " MB of memory\n";
+        std::cerr << options.output << ": " << report.vertices << " vertices, " << report.triangles
+                  << " triangles, " << report.file_bytes << " bytes in " << seconds_text(report.seconds)
+                  << ", at most " << peak_memory_bytes() / 1'000'000U << " MB of memory\n";
     return {};
+}
+
+// What a user may give decides between the two ways to use the command.
+void check_usage(const CLI::App& command) {
+    if (command.count("--config") == 0) {
+        for (const char* wanted : {"MAP", "--output"})
+            if (command.count(wanted) == 0)
+                throw CLI::RequiredError(std::string(wanted) + " (or --config alone)");
+        return;
+    }
+    const std::set<std::string> of_both{"help", "config", "memory", "force", "threads", "report", "quiet"};
+    for (const CLI::Option* option : command.get_options())
+        if (option->count() > 0 && !of_both.contains(option->get_single_name()))
+            throw CLI::ExcludesError("--config", option->get_name());
+}
+
+int run_bake(const Options& options) {
+    if (!options.config.empty())
+        return bake_config({options.config, options.report, options.parameters.threads, options.memory_mib,
+                            options.force, options.quiet});
+    const auto done = bake_to_file(options);
+    return done ? exit_done : report(done.error());
+}
+
+// For --config.
+void add_config_options(CLI::App& command, Options& options) {
+    auto* config = command
+                       .add_option("--config", options.config,
+                                   "Bake what is missing or stale of the maps of this configuration instead: "
+                                   "each with the parameters and into the file that it says there")
+                       ->type_name("FILE");
+    command
+        .add_option("--memory", options.memory_mib,
+                    "MiB that maps baked at once may take; a map that needs more is baked alone; 0: half "
+                    "of the machine's")
+        ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 30U))
+        ->needs(config)
+        ->capture_default_str();
+    command.add_flag("--force", options.force, "Bake also what is not stale")->needs(config);
 }
 
 }  // namespace
 
 void add_bake(CLI::App& root, Run& run) {
     auto options = std::make_shared<Options>();
-    CLI::App* command = root.add_subcommand("bake", "Make a MAP.vfs, the freespace of a map");
-    command->add_option("MAP", options->map, "Map file, or archive.pk3:maps/name.bsp")->required();
-    command->add_option("-o,--output", options->output, "File to write; - is standard output")->required();
+    CLI::App* command = root.add_subcommand(
+        "bake", "Make a MAP.vfs, the freespace of a map, or those of all maps of a configuration");
+    command->add_option("MAP", options->map, "Map file, or archive.pk3:maps/name.bsp");
+    command->add_option("-o,--output", options->output, "File to write; - is standard output");
     command
         ->add_option("--d0", options->parameters.d0,
                      "Sampling distance in units of 0.0254 m: openings narrower than about twice of it close")
@@ -148,11 +133,10 @@ void add_bake(CLI::App& root, Run& run) {
     command->add_flag("--quiet", options->quiet, "Print nothing but errors");
     command->add_option("--report", options->report,
                         "Write seconds and counts of each stage and the peak of memory as JSON");
-    command->callback([options, &run] {
-        run = [options] {
-            const auto done = bake_to_file(*options);
-            return done ? exit_done : report(done.error());
-        };
+    add_config_options(*command, *options);
+    command->callback([options, command, &run] {
+        check_usage(*command);
+        run = [options] { return run_bake(*options); };
     });
 }
 

@@ -2,36 +2,16 @@
 
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <set>
 
-#include "bake/bake.hpp"
-#include "base/file.hpp"
-#include "config/json_text.hpp"
+#include "app/map_bake.hpp"
 #include "scene/load.hpp"
 
 namespace camdir::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-double baked_d0(const freespace::Metadata& metadata) {
-    const auto parameters = config::parse_json(metadata.parameters);
-    return parameters && parameters->is_object() && parameters->contains("d0") &&
-                   (*parameters)["d0"].is_number()
-               ? (*parameters)["d0"].get<double>()
-               : 0.0;
-}
-
-// Why `file` does not hold the map as configured; empty: it does.
-std::string staleness(const config::Map& map, const freespace::Freespace& baked, std::uint64_t source_hash) {
-    if (baked.metadata().source_hash != source_hash) return map.source + " has changed since";
-    const double d0 = baked_d0(baked.metadata());
-    if (std::abs(d0 - map.d0) > 1e-5) return "it was baked with d0 " + std::to_string(d0);
-    return {};
-}
 
 std::string percent(const bake::Progress& progress) {
     std::string text = "baking: " + std::string(progress.stage);
@@ -92,45 +72,32 @@ bool MapLoader::open_if_current(const config::Map& map) {
         open(map, 0.0);
         return true;
     }
-    const auto hash = scene::hash_source(map.source);
-    const auto opened = freespace::Freespace::open(map.file);
-    if (!hash && !opened) {
-        set_failed(map, hash.error());
+    const auto freshness = examine(map);
+    if (!freshness) {
+        set_failed(map, freshness.error());
         return true;
     }
-    if (!hash) spdlog::warn("map {}: {}: {} is used as it is", map.name, hash.error().message, map.file);
-    const std::string stale = !opened ? opened.error().message : !hash ? "" : staleness(map, *opened, *hash);
-    if (stale.empty()) {
+    if (!freshness->warning.empty()) spdlog::warn("map {}: {}", map.name, freshness->warning);
+    if (freshness->stale.empty()) {
         open(map, 0.0);
         return true;
     }
-    spdlog::info("map {}: will be baked: {}", map.name, stale);
+    spdlog::info("map {}: will be baked: {}", map.name, freshness->stale);
     library_.set_loading(map.name, "waits to be baked");
     return false;
 }
 
 void MapLoader::bake_and_open(const config::Map& map, const std::stop_token& stop) {
+    spdlog::info("map {}: baking {}", map.name, map.source);
+    library_.set_loading(map.name, "baking");
     const auto begin = std::chrono::steady_clock::now();
-    const auto baked = bake(map, stop);
+    const auto show = [&](const bake::Progress& p) { library_.set_loading(map.name, percent(p)); };
+    const auto baked = bake_map(map, {}, show, stop);
     if (!baked && baked.error().code == ErrorCode::interrupted) return;
     if (!baked) return set_failed(map, baked.error());
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
     spdlog::info("map {}: baked in {:.1f} s", map.name, seconds.count());
     open(map, seconds.count());
-}
-
-Result<void> MapLoader::bake(const config::Map& map, const std::stop_token& stop) {
-    spdlog::info("map {}: baking {}", map.name, map.source);
-    library_.set_loading(map.name, "baking");
-    const auto scene = scene::load(map.source);
-    if (!scene) return tl::unexpected(scene.error());
-    bake::Parameters parameters;
-    parameters.d0 = map.d0;
-    const auto baked = bake::bake(
-        *scene, parameters,
-        [&](const bake::Progress& progress) { library_.set_loading(map.name, percent(progress)); }, stop);
-    if (!baked) return tl::unexpected(baked.error());
-    return write_file(map.file, freespace::encode(baked->contents));
 }
 
 void MapLoader::open(const config::Map& map, double bake_seconds) {

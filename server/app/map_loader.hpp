@@ -44,7 +44,6 @@ class MapLoader {
     void work(const std::stop_token& stop, const std::vector<config::Map>& maps);
     bool open_if_current(const config::Map& map);
     void bake_and_open(const config::Map& map, const std::stop_token& stop);
-    Result<void> bake(const config::Map& map, const std::stop_token& stop);
     void open(const config::Map& map, double bake_seconds);
     void set_failed(const config::Map& map, const Error& error);
     [[nodiscard]] bool unchanged(const config::Map& map) const;

@@ -9,8 +9,11 @@
 
 namespace camdir::app {
 
-// One line on standard error that is rewritten in place: what is done, a bar, the seconds since the line was
-// made. Nothing when standard error is no terminal. Thread-safe.
+// `[#####     ] 52 %`; `total` > 0.
+[[nodiscard]] std::string bar(std::uint64_t done, std::uint64_t total);
+
+// One line on standard error that is rewritten in place and cut to the terminal's width. Nothing when
+// standard error is no terminal. Thread-safe.
 class ProgressLine {
   public:
     ProgressLine();
@@ -18,8 +21,11 @@ class ProgressLine {
     ProgressLine& operator=(const ProgressLine&) = delete;
     ~ProgressLine() { clear(); }
 
-    // `total` 0 = unknown.
+    // What is done, a bar, the seconds since the line was made. `total` 0 = unknown.
     void show(std::string_view what, std::uint64_t done, std::uint64_t total);
+
+    // Any text and these seconds.
+    void show(std::string_view text);
 
     // Before something else is printed.
     void clear();

@@ -80,6 +80,7 @@ nlohmann::ordered_json result_json(const Options& options, const freespace::Meta
     }
     json["tightness"] = result.tightness;
     json["overestimates"] = {{"points", result.overestimates}, {"largest", result.largest_overestimate}};
+    json["components"] = result.components;
     json["spawn_points"] = {{"count", result.spawn_points},
                             {"covered", result.covered_spawn_points},
                             {"in_one_component", result.joined_spawn_points}};
@@ -115,8 +116,9 @@ void print_table(const Options& options, const Verification& result, double seco
         << " points with more distance reported than there is";
     if (result.overestimates > 0) out << ", by up to " << result.largest_overestimate;
     out << "\nspawn points " << result.spawn_points << ", covered " << result.covered_spawn_points
-        << ", in one component of the roadmap " << result.joined_spawn_points << "\nseed "
-        << options.parameters.seed << ", " << std::setprecision(3) << seconds << " s\n"
+        << ", in one component of the roadmap " << result.joined_spawn_points << " (of " << result.components
+        << " components)"
+        << "\nseed " << options.parameters.seed << ", " << std::setprecision(3) << seconds << " s\n"
         << (result.has_violation() ? "VIOLATED: the representation reaches into obstacles\n"
                                    : "no violation found\n");
     std::cerr << out.str();

@@ -170,15 +170,18 @@ freespace::Metadata describe(const scene::Scene& scene, const Parameters& parame
     metadata.source_hash = scene.source_hash;
     metadata.metres_per_unit = static_cast<float>(scene.metres_per_unit);
     metadata.d0 = static_cast<float>(d0);
-    metadata.parameters = "{\"d0\": " + std::to_string(parameters.d0) +
-                          ", \"loss\": " + std::to_string(parameters.loss) +
-                          ", \"triangles\": " + std::to_string(parameters.triangles) + "}";
+    metadata.parameters = to_json(parameters);
     for (const StageReport& report : reports)
         metadata.counts.insert(metadata.counts.end(), report.counts.begin(), report.counts.end());
     return metadata;
 }
 
 }  // namespace
+
+std::string to_json(const Parameters& parameters) {
+    return "{\"d0\": " + std::to_string(parameters.d0) + ", \"loss\": " + std::to_string(parameters.loss) +
+           ", \"triangles\": " + std::to_string(parameters.triangles) + "}";
+}
 
 Result<Baked> bake(const scene::Scene& scene, const Parameters& parameters, const ProgressSink& progress,
                    std::stop_token stop, const ReportSink& finished) {

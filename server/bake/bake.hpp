@@ -27,6 +27,9 @@ struct Parameters {
     std::uint64_t triangles = 0;  // > 0: reduction ends as soon as no more than these are left
 };
 
+// The parameters that decide the result, as a JSON object: what Metadata::parameters keeps.
+[[nodiscard]] std::string to_json(const Parameters& parameters);
+
 // How far a stage is; injected so that baking knows no terminal. Called from one thread at a time.
 struct Progress {
     std::string_view stage;

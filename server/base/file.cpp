@@ -1,6 +1,7 @@
 #include "base/file.hpp"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -99,6 +100,64 @@ Result<void> write_file(const std::filesystem::path& path, std::span<const std::
 
 Result<void> write_file(const std::filesystem::path& path, const std::string& content) {
     return write_file(path, std::as_bytes(std::span(content)));
+}
+
+namespace {
+
+std::filesystem::path part_of(const std::filesystem::path& path) {
+    return path.string() + ".part";
+}
+
+// Whether the name still stands for the open file: another process may have renamed or removed it.
+bool is_named(int fd, const std::filesystem::path& name) {
+    struct stat open_file {};
+    struct stat named {};
+    return ::fstat(fd, &open_file) == 0 && ::stat(name.c_str(), &named) == 0 &&
+           open_file.st_dev == named.st_dev && open_file.st_ino == named.st_ino;
+}
+
+}  // namespace
+
+Result<std::optional<PendingFile>> PendingFile::begin(const std::filesystem::path& path) {
+    const std::filesystem::path part = part_of(path);
+    for (;;) {
+        const int fd = ::open(part.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0644);
+        if (fd < 0) return fail(part.string() + ": cannot create: " + reason(errno));
+        PendingFile pending(path, fd);
+        if (::flock(fd, LOCK_EX | LOCK_NB) != 0) {
+            const int error = errno;
+            pending.release();
+            if (error == EWOULDBLOCK) return std::nullopt;
+            return fail(part.string() + ": cannot lock: " + reason(error));
+        }
+        if (is_named(fd, part)) return pending;
+        pending.release();
+    }
+}
+
+PendingFile::PendingFile(PendingFile&& other) noexcept
+    : path_(std::move(other.path_)), descriptor_(std::exchange(other.descriptor_, -1)) {}
+
+PendingFile::~PendingFile() {
+    if (descriptor_ < 0) return;
+    ::unlink(part_of(path_).c_str());
+    release();
+}
+
+void PendingFile::release() {
+    ::close(std::exchange(descriptor_, -1));
+}
+
+Result<void> PendingFile::finish(std::span<const std::byte> content) && {
+    const bool written = ::ftruncate(descriptor_, 0) == 0 && write_all(descriptor_, content) &&
+                         ::fchmod(descriptor_, 0644) == 0 && ::fsync(descriptor_) == 0 &&
+                         ::rename(part_of(path_).c_str(), path_.c_str()) == 0;
+    if (!written) {
+        const int error = errno;
+        return fail(path_.string() + ": cannot write: " + reason(error));
+    }
+    release();
+    return {};
 }
 
 Result<MappedFile> MappedFile::open(const std::filesystem::path& path) {

@@ -3,8 +3,10 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/error.hpp"
@@ -21,6 +23,30 @@ using Bytes = std::vector<std::byte>;
 // The path "-" writes to standard output.
 [[nodiscard]] Result<void> write_file(const std::filesystem::path& path, std::span<const std::byte> content);
 [[nodiscard]] Result<void> write_file(const std::filesystem::path& path, const std::string& content);
+
+// A file that takes long to make, and that several processes or threads may want to make at once. While it is
+// made, `path`.part exists and is locked; whoever comes meanwhile can wait until the file is there. A process
+// that is killed leaves at most an unlocked `path`.part, which the next one takes over. Movable.
+class PendingFile {
+  public:
+    // Nothing: somebody else is making the file now.
+    [[nodiscard]] static Result<std::optional<PendingFile>> begin(const std::filesystem::path& path);
+    PendingFile(PendingFile&& other) noexcept;
+    PendingFile& operator=(PendingFile&&) = delete;
+    // Removes `path`.part; `path` is as it was before unless finish succeeded.
+    ~PendingFile();
+
+    // Writes, syncs and renames over `path`, once: a reader sees the old content or all of the new one.
+    [[nodiscard]] Result<void> finish(std::span<const std::byte> content) &&;
+
+  private:
+    PendingFile(std::filesystem::path path, int descriptor)
+        : path_(std::move(path)), descriptor_(descriptor) {}
+    void release();
+
+    std::filesystem::path path_;
+    int descriptor_ = -1;  // of the locked path_.part; -1: moved from
+};
 
 // A read-only memory mapping of a regular file. Movable; the bytes live as long as the object.
 class MappedFile {

@@ -37,7 +37,10 @@ struct Map {
     std::string name;    // as in MatchInfo.map_name
     std::string file;    // MAP.vfs
     std::string source;  // when set, `file` is baked from it when missing or stale
-    double d0 = 16.0;    // bake::Parameters::d0
+    // Of bake::Parameters, by the same names.
+    double d0 = 16.0;
+    double loss = 0.0;
+    std::int64_t triangles = 0;
     bool strict = false;
 
     bool operator==(const Map&) const = default;

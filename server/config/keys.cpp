@@ -109,8 +109,8 @@ void add_maps(std::vector<Key>& table) {
         {section,
          "source",
          in_map(&Map::source),
-         "The map, or `archive.pk3:maps/name.bsp`. When given, `file` is baked from it at start if it is "
-         "missing, damaged, or made from other bytes or another d0.",
+         "The map, or `archive.pk3:maps/name.bsp`. When given, `file` is baked from it at start, or by `bake "
+         "--config`, if it is missing, damaged, or made from other bytes or with other parameters.",
          "",
          0,
          4095,
@@ -124,6 +124,28 @@ void add_maps(std::vector<Key>& table) {
                      "0.0254 m",
                      2,
                      256,
+                     {},
+                     false,
+                     true});
+    table.push_back(
+        {section,
+         "loss",
+         in_map(&Map::loss),
+         "Mesh reduction of that bake: free distance that the centre of a ball may lose, of itself "
+         "and of 6 d0; 0 keeps the whole mesh.",
+         "%",
+         0,
+         50,
+         {},
+         false,
+         true});
+    table.push_back({section,
+                     "triangles",
+                     in_map(&Map::triangles),
+                     "The reduction ends at this many triangles; 0: only the loss ends it.",
+                     "",
+                     0,
+                     1e9,
                      {},
                      false,
                      true});

@@ -36,6 +36,14 @@ class Components {
         return freespace::none;
     }
 
+    // Those with a free vertex.
+    [[nodiscard]] std::uint64_t count() const {
+        std::uint64_t count = 0;
+        for (std::uint32_t vertex = 0; vertex < parents_.size(); ++vertex)
+            if (parents_[vertex] == vertex && is_free(vertex)) ++count;
+        return count;
+    }
+
   private:
     [[nodiscard]] bool is_free(std::uint32_t vertex) const {
         return freespace_.vertices()[vertex].free_distance > 0.0F;
@@ -58,6 +66,7 @@ class Components {
 void verify_spawn_points(const freespace::Freespace& freespace, const scene::Scene& scene,
                          Verification& result) {
     Components components(freespace);
+    result.components = components.count();
     std::vector<std::uint32_t> entries;
     for (const scene::SpawnPoint& spawn : scene.spawn_points) {
         const freespace::Distance distance =

@@ -59,6 +59,7 @@ struct Verification {
     std::uint64_t overestimates = 0;  // points where the query reports more than the clearance
     double largest_overestimate = 0.0;
 
+    std::uint64_t components = 0;  // of the roadmap
     std::uint64_t spawn_points = 0;
     std::uint64_t covered_spawn_points = 0;
     std::uint64_t joined_spawn_points = 0;  // of those the most that lie in one component of the roadmap

@@ -50,7 +50,8 @@ TEST(Bake, OnlyWhatIsMissingOrStaleIsBaked) {
     EXPECT_THAT(log_of_a_start(folder, with_room()),
                 AllOf(HasSubstr("will be baked"), HasSubstr("baked in")));
     EXPECT_THAT(log_of_a_start(folder, with_room()), Not(HasSubstr("baked")));
-    EXPECT_THAT(log_of_a_start(folder, with_room(48.0)), HasSubstr("it was baked with d0 64"));
+    EXPECT_THAT(log_of_a_start(folder, with_room(48.0)),
+                HasSubstr("it was baked with d0 64.0 instead of 48.0"));
     write(folder, "room.bsp", room(320.0));
     EXPECT_THAT(log_of_a_start(folder, with_room(48.0)), HasSubstr("room.bsp has changed since"));
     folder.write("room.vfs", "damaged");
@@ -59,6 +60,15 @@ TEST(Bake, OnlyWhatIsMissingOrStaleIsBaked) {
     std::filesystem::remove(folder / "room.bsp");
     EXPECT_THAT(log_of_a_start(folder, with_room(48.0)),
                 AllOf(HasSubstr("is used as it is"), Not(HasSubstr("baking"))));
+}
+
+TEST(Bake, WhatBakeConfigMadeIsNotBakedAgain) {
+    const Folder folder;
+    write(folder, "room.bsp", room(256.0));
+    folder.write("config.json", with_room().dump());
+    const Ran ran = run_director({"bake", "--config", folder / "config.json"});
+    ASSERT_EQ(ran.exit_code, 0) << ran.errors;
+    EXPECT_THAT(log_of_a_start(folder, with_room()), Not(HasSubstr("baked")));
 }
 
 TEST(Bake, IsNotReadyMeanwhileAndStopsAtOnce) {

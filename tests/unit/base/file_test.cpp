@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <string_view>
+#include <utility>
 
 namespace camdir {
 namespace {
@@ -71,6 +73,59 @@ TEST_F(FileTest, FailedReplacementKeepsWhatWasThere) {
     std::ofstream(target / "inside") << "kept";
     EXPECT_FALSE(write_file(target, std::string("x")));
     EXPECT_TRUE(fs::exists(target / "inside"));
+    EXPECT_EQ(entries(), 1U);
+}
+
+TEST_F(FileTest, PendingFileAppearsWhenItIsFinished) {
+    const fs::path path = folder_ / "made";
+    ASSERT_TRUE(write_file(path, std::string("older, and longer than what follows")));
+    {
+        auto pending = PendingFile::begin(path).value();
+        ASSERT_TRUE(pending);
+        EXPECT_EQ(text(read_file(path).value()).substr(0, 5), "older");
+        ASSERT_TRUE(std::move(*pending).finish(std::as_bytes(std::span(std::string_view("newer")))));
+    }
+    EXPECT_EQ(text(read_file(path).value()), "newer");
+    EXPECT_EQ(entries(), 1U);
+}
+
+TEST_F(FileTest, PendingFileThatIsGivenUpLeavesNothing) {
+    { ASSERT_TRUE(PendingFile::begin(folder_ / "made").value()); }
+    EXPECT_EQ(entries(), 0U);
+}
+
+TEST_F(FileTest, PendingFileIsMadeByOneAtATime) {
+    const fs::path path = folder_ / "made";
+    auto first = PendingFile::begin(path).value();
+    ASSERT_TRUE(first);
+    EXPECT_FALSE(PendingFile::begin(path).value()) << "locked";
+    EXPECT_TRUE(PendingFile::begin(folder_ / "other").value());
+    first.reset();
+    EXPECT_TRUE(PendingFile::begin(path).value()) << "free again";
+}
+
+TEST_F(FileTest, PendingFileTakesOverWhatAKilledProcessLeft) {
+    const fs::path path = folder_ / "made";
+    ASSERT_TRUE(write_file(path.string() + ".part", std::string("half of something longer")));
+    auto pending = PendingFile::begin(path).value();
+    ASSERT_TRUE(pending);
+    ASSERT_TRUE(std::move(*pending).finish(std::as_bytes(std::span(std::string_view("whole")))));
+    pending.reset();
+    EXPECT_EQ(text(read_file(path).value()), "whole");
+    EXPECT_EQ(entries(), 1U);
+}
+
+TEST_F(FileTest, PendingFileErrorsNameThePathAndTheReason) {
+    const fs::path nowhere = folder_ / "no" / "such" / "folder";
+    EXPECT_THAT(PendingFile::begin(nowhere).error().message,
+                testing::AllOf(testing::HasSubstr(nowhere.string()), testing::HasSubstr("No such file")));
+    const fs::path folder = folder_ / "folder";
+    fs::create_directory(folder);
+    auto pending = PendingFile::begin(folder).value();
+    ASSERT_TRUE(pending);
+    const auto finished = std::move(*pending).finish({});
+    EXPECT_THAT(finished.error().message, testing::HasSubstr(folder.string()));
+    pending.reset();
     EXPECT_EQ(entries(), 1U);
 }
 

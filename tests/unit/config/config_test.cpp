@@ -35,13 +35,16 @@ TEST(Config, EmptyObjectGivesTheDefaults) {
 TEST(Config, ReadsWhatIsThere) {
     const Config config = good(R"({
         "dds": {"domain": 7, "peers": ["a", "b:7411"]},
-        "maps": [{"name": "dm1", "file": "dm1.vfs", "source": "/maps/pak.pk3:maps/dm1.bsp", "d0": 24.5}],
+        "maps": [{"name": "dm1", "file": "dm1.vfs", "source": "/maps/pak.pk3:maps/dm1.bsp",
+                  "d0": 24.5, "loss": 3, "triangles": 5000}],
         "profiles": {"close": {"distance": 60}},
         "matches": {"default_profile": "close"}})");
     EXPECT_EQ(config.dds.domain, 7);
     EXPECT_THAT(config.dds.peers, ElementsAre("a", "b:7411"));
     ASSERT_EQ(config.maps.size(), 1U);
     EXPECT_EQ(config.maps[0].d0, 24.5);
+    EXPECT_EQ(config.maps[0].loss, 3.0);
+    EXPECT_EQ(config.maps[0].triangles, 5000);
     EXPECT_EQ(config.profiles.at("close").distance, 60.0F);
     EXPECT_EQ(config.matches.default_profile, "close");
 }

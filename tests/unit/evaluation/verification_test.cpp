@@ -85,6 +85,7 @@ TEST_F(VerificationTest, SafeRepresentationPasses) {
     EXPECT_EQ(result.spawn_points, 2U);
     EXPECT_EQ(result.covered_spawn_points, 2U);
     EXPECT_EQ(result.joined_spawn_points, 2U);
+    EXPECT_EQ(result.components, 1U);
 }
 
 TEST_F(VerificationTest, ToleranceIsTwoHundredthsOfAUnit) {
@@ -164,6 +165,7 @@ TEST_F(VerificationTest, SpawnPointsInDifferentComponentsAreTold) {
     const Verification apart = run(contents);
     EXPECT_EQ(apart.covered_spawn_points, 2U);
     EXPECT_EQ(apart.joined_spawn_points, 1U);
+    EXPECT_EQ(apart.components, 2U);
     // A triangle whose far corner is not free does not join them.
     contents.vertices.push_back({0.0F, 0.0F, middle, -1.0F});
     contents.triangles.push_back({1, 4, 8});
@@ -171,6 +173,7 @@ TEST_F(VerificationTest, SpawnPointsInDifferentComponentsAreTold) {
     EXPECT_EQ(run(contents).joined_spawn_points, 1U);
     contents.vertices[1].free_distance = 50.0F;
     EXPECT_EQ(run(contents).joined_spawn_points, 2U);
+    EXPECT_EQ(run(contents).components, 1U) << "the vertex that is not free is none";
 }
 
 void expect_equal(const BallCounts& a, const BallCounts& b) {
