@@ -13,6 +13,7 @@ build_packages=(
     libspdlog-dev nlohmann-json3-dev libcli11-dev
     libcpp-httplib-dev prometheus-cpp-dev libcurl4-openssl-dev zlib1g-dev libsystemd-dev
     libgtest-dev libgmock-dev librapidcheck-dev  # the tests, which are configured with the rest
+    libqhull-dev                             # the benchmarks: the paper's Voronoi engine
 )
 # What the demo plays on.
 map_packages=(openarena-081-maps)

@@ -16,6 +16,7 @@
 #include "app/commands.hpp"
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
+#include "app/writable.hpp"
 #include "base/file.hpp"
 
 namespace camdir::app {

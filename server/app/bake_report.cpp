@@ -1,9 +1,7 @@
 #include "app/bake_report.hpp"
 
 #include <sys/resource.h>
-#include <unistd.h>
 
-#include <filesystem>
 #include <iomanip>
 #include <sstream>
 
@@ -67,15 +65,6 @@ std::string line_of(const bake::StageReport& stage) {
         separator = ", ";
     }
     return line.str();
-}
-
-Result<void> check_writable(const std::string& file) {
-    if (file.empty() || file == "-") return {};
-    std::filesystem::path folder = std::filesystem::path(file).parent_path();
-    if (folder.empty()) folder = ".";
-    if (::access(folder.c_str(), W_OK | X_OK) != 0)
-        return fail(file + ": cannot write into the folder " + folder.string());
-    return {};
 }
 
 std::uint64_t peak_memory_bytes() {

@@ -39,9 +39,6 @@ struct BakeReport {
 // `12.30 s`
 [[nodiscard]] std::string seconds_text(double seconds);
 
-// Whether a file (or none, or "-") can be written into its folder; asked before long work, not after it.
-[[nodiscard]] Result<void> check_writable(const std::string& file);
-
 // Of this process, since it began.
 [[nodiscard]] std::uint64_t peak_memory_bytes();
 

@@ -1,0 +1,81 @@
+#include "bench/paper/judgement.hpp"
+
+#include "evaluation/verification.hpp"
+#include "freespace/freespace.hpp"
+#include "oracle/oracle.hpp"
+
+namespace camdir::paper {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const Cost& cost) {
+    return {{"seconds", cost.seconds}, {"cpu_seconds", cost.cpu_seconds}};
+}
+
+Json to_json(const Figures& figures) {
+    Json json;
+    Cost all;
+    for (const Part& part : figures.parts) {
+        json["parts"][part.name] = to_json(part.cost);
+        all += part.cost;
+    }
+    json["all"] = to_json(all);
+    json["samples"] = figures.samples;
+    json["voronoi_vertices"] = figures.voronoi_vertices;
+    json["inner_vertices"] = figures.inner_vertices;
+    if (figures.inner_faces > 0) json["inner_faces"] = figures.inner_faces;
+    json["inner_triangles"] = figures.inner_triangles;
+    return json;
+}
+
+Json to_json(const evaluation::Verification& found) {
+    const auto tested =
+        found.by_area.tested + found.by_triangle.tested + found.at_vertices.tested + found.at_edges.tested;
+    return {{"coverage", found.coverage[0].share()},
+            {"coverage_above_d0", found.coverage[1].share()},
+            {"tightness", found.tightness},
+            {"balls", tested},
+            {"unsafe_balls", found.unsafe_balls()},
+            {"overestimates", found.overestimates},
+            {"spawn_points", found.spawn_points},
+            {"covered_spawn_points", found.covered_spawn_points},
+            {"joined_spawn_points", found.joined_spawn_points}};
+}
+
+}  // namespace
+
+Result<Json> measure(const Method& method, const scene::Scene& scene, const Settings& settings,
+                     std::uint64_t balls) {
+    auto product = method.run(scene, settings);
+    if (!product) return tl::unexpected(std::move(product.error()));
+    const std::vector<std::byte> bytes = freespace::encode(product->contents);
+    Json json{{"key", method.key}, {"title", method.title}};
+    json.update(to_json(product->figures));
+    json["peak_memory_bytes"] = peak_memory_bytes();  // before the judge takes more
+    json["vertices"] = product->contents.vertices.size();
+    json["triangles"] = product->contents.triangles.size();
+    json["ratio"] = static_cast<double>(product->figures.inner_triangles) /
+                    static_cast<double>(product->contents.triangles.size());
+    json["bytes"] = bytes.size();
+
+    const auto freespace = freespace::Freespace::parse(bytes, std::string(method.key));
+    if (!freespace) return tl::unexpected(freespace.error());
+    evaluation::VerificationParameters parameters;
+    parameters.balls = balls;
+    const oracle::Oracle oracle(scene);
+    const auto found = evaluation::verify(*freespace, scene, oracle, parameters,
+                                          [](std::string_view, std::uint64_t, std::uint64_t) {}, {});
+    if (!found) return tl::unexpected(found.error());
+    json.update(to_json(*found));
+    return json;
+}
+
+Json to_json(const Engines& engines) {
+    const auto engine = [](const EngineCost& cost) {
+        return Json{{"diagram", to_json(cost.diagram)}, {"faces", to_json(cost.faces)}};
+    };
+    return {{"points", engines.points}, {"qhull", engine(engines.qhull)}, {"cgal", engine(engines.cgal)}};
+}
+
+}  // namespace camdir::paper
