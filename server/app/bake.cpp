@@ -127,6 +127,15 @@ void add_bake(CLI::App& root, Run& run) {
         ->add_option("--triangles", options->parameters.triangles,
                      "End the reduction at this many triangles; 0 goes on to the allowed loss")
         ->capture_default_str();
+    command
+        ->add_option_function<std::string>(
+            "--sampling",
+            [options](const std::string& name) {
+                options->parameters.sampling = bake::sampling_named(name).value();
+            },
+            "adaptive: sparse where the free space is wide; uniform: d0 everywhere")
+        ->check(CLI::IsMember({"adaptive", "uniform"}))
+        ->default_str(std::string(name_of(bake::Sampling::adaptive)));
     command->add_option("--threads", options->parameters.threads, "0 is one a core")
         ->check(CLI::Range(0U, 1024U))
         ->capture_default_str();

@@ -45,6 +45,7 @@ Result<PendingFile> claim(const std::string& file, const bake::ProgressSink& pro
 bake::Parameters parameters_of(const config::Map& map) {
     bake::Parameters parameters;
     parameters.d0 = map.d0;
+    parameters.sampling = bake::sampling_named(map.sampling).value();
     parameters.loss = map.loss;
     parameters.triangles = static_cast<std::uint64_t>(map.triangles);
     return parameters;

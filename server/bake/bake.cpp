@@ -13,11 +13,13 @@
 #include "bake/delaunay.hpp"
 #include "bake/free_distance.hpp"
 #include "bake/inside.hpp"
+#include "bake/medial_axis.hpp"
 #include "bake/medial_mesh.hpp"
 #include "bake/obstacles.hpp"
 #include "bake/pack.hpp"
 #include "bake/reduce.hpp"
 #include "bake/sample.hpp"
+#include "bake/sampling_distance.hpp"
 #include "bake/solids.hpp"
 #include "bake/stage.hpp"
 #include "bake/triangulate.hpp"
@@ -39,12 +41,14 @@ class Bake {
           unit_(unit),
           d0_(parameters.d0 * unit),
           obstacles_(scene),
-          solids_(scene) {}
+          solids_(scene),
+          distance_(d0_) {}
 
     Result<void> run(const ProgressSink& progress, const std::stop_token& stop, const ReportSink& finished);
     [[nodiscard]] Baked take() && { return {std::move(contents_), std::move(reports_)}; }
 
   private:
+    Result<void> medial_axis(Stage& stage);
     Result<void> sample(Stage& stage);
     Result<void> weld(Stage& stage);
     Result<void> delaunay(Stage& stage);
@@ -66,7 +70,9 @@ class Bake {
     double d0_;    // map units
     Obstacles obstacles_;
     Solids solids_;
+    SamplingDistance distance_;
     std::vector<Vec3d> samples_;
+    std::vector<double> distances_;
     Delaunay delaunay_;
     VoronoiFaces faces_;
     MedialMesh mesh_;
@@ -87,7 +93,8 @@ Result<void> keep(Result<T> result, T& place) {
 Result<void> Bake::run(const ProgressSink& progress, const std::stop_token& stop,
                        const ReportSink& finished) {
     using Run = Result<void> (Bake::*)(Stage&);
-    constexpr std::array<std::pair<const char*, Run>, 11> stages{{
+    constexpr std::array<std::pair<const char*, Run>, 12> stages{{
+        {"medial axis", &Bake::medial_axis},
         {"sample", &Bake::sample},
         {"weld", &Bake::weld},
         {"delaunay", &Bake::delaunay},
@@ -109,23 +116,37 @@ Result<void> Bake::run(const ProgressSink& progress, const std::stop_token& stop
     return {};
 }
 
+// Uniform sampling asks no medial axis.
+Result<void> Bake::medial_axis(Stage& stage) {
+    if (parameters_.sampling == Sampling::uniform) return {};
+    const double coarsest = parameters_.coarsest * d0_;
+    const Probing probing{2.0 * d0_, SamplingDistance::reach(coarsest)};
+    auto points = bake::medial_axis(obstacles_, solids_, probing, stage);
+    if (!points) return tl::unexpected(std::move(points.error()));
+    distance_ = SamplingDistance(d0_, coarsest, std::move(*points));
+    return {};
+}
+
 Result<void> Bake::sample(Stage& stage) {
-    return keep(bake::sample(scene_, d0_ - weld_distance(), stage), samples_);
+    return keep(bake::sample(scene_, distance_, weld_distance(), stage), samples_);
 }
 
 Result<void> Bake::weld(Stage& stage) {
-    return keep(bake::weld(std::move(samples_), weld_distance(), stage), samples_);
+    auto done = keep(bake::weld(std::move(samples_), weld_distance(), stage), samples_);
+    if (!done) return done;
+    return keep(distances_at(samples_, distance_, stage), distances_);
 }
 
 Result<void> Bake::delaunay(Stage& stage) {
     if (samples_.size() < 4) return fail(scene_.source + ": the obstacles have fewer than 4 samples");
-    return keep(bake::delaunay(samples_, 2.0 * d0_, stage), delaunay_);
+    return keep(bake::delaunay(samples_, distances_, stage), delaunay_);
 }
 
 Result<void> Bake::voronoi(Stage& stage) {
     auto done = keep(voronoi_faces(samples_, delaunay_, scene_.bounds, 0.01 * unit_, stage), faces_);
     delaunay_ = {};
     samples_ = {};
+    distances_ = {};
     return done;
 }
 
@@ -179,14 +200,29 @@ freespace::Metadata describe(const scene::Scene& scene, const Parameters& parame
 }  // namespace
 
 std::string to_json(const Parameters& parameters) {
-    return "{\"d0\": " + std::to_string(parameters.d0) + ", \"loss\": " + std::to_string(parameters.loss) +
+    return "{\"d0\": " + std::to_string(parameters.d0) + ", \"sampling\": \"" +
+           std::string(name_of(parameters.sampling)) +
+           "\", \"coarsest\": " + std::to_string(parameters.coarsest) +
+           ", \"loss\": " + std::to_string(parameters.loss) +
            ", \"triangles\": " + std::to_string(parameters.triangles) + "}";
+}
+
+std::string_view name_of(Sampling sampling) {
+    return sampling == Sampling::adaptive ? "adaptive" : "uniform";
+}
+
+std::optional<Sampling> sampling_named(std::string_view name) {
+    for (const Sampling sampling : {Sampling::adaptive, Sampling::uniform})
+        if (name == name_of(sampling)) return sampling;
+    return std::nullopt;
 }
 
 Result<Baked> bake(const scene::Scene& scene, const Parameters& parameters, const ProgressSink& progress,
                    std::stop_token stop, const ReportSink& finished) {
     if (!(parameters.d0 >= min_d0 && parameters.d0 <= max_d0))
         return fail("d0 = " + std::to_string(parameters.d0) + ": expected a distance from 2 to 256 units");
+    if (!(parameters.coarsest >= 1.0 && parameters.coarsest <= max_coarsest))
+        return fail("coarsest = " + std::to_string(parameters.coarsest) + ": expected a number from 1 to 64");
     if (scene.triangles.empty()) return fail(scene.source + ": the scene has no obstacles");
 
     const double unit = metres_of_nominal_unit / scene.metres_per_unit;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <string_view>
@@ -17,6 +18,16 @@ namespace camdir::bake {
 inline constexpr double min_d0 = 2.0;
 inline constexpr double max_d0 = 256.0;
 inline constexpr double max_loss = 50.0;
+inline constexpr double max_coarsest = 64.0;
+
+enum class Sampling : std::uint8_t {
+    adaptive,  // dense where the free space is narrow, sparse where it is wide
+    uniform,   // the same distance everywhere
+};
+
+// "adaptive" or "uniform": the name in files, in the configuration and on the command line.
+[[nodiscard]] std::string_view name_of(Sampling sampling);
+[[nodiscard]] std::optional<Sampling> sampling_named(std::string_view name);
 
 struct Parameters {
     double d0 = 16.0;  // sampling distance in units of 0.0254 m: sets which openings exist. min_d0 .. max_d0
@@ -25,6 +36,8 @@ struct Parameters {
     // distance and of 6 d0. 0 keeps the whole mesh. 0 .. max_loss
     double loss = 0.0;
     std::uint64_t triangles = 0;  // > 0: reduction ends as soon as no more than these are left
+    Sampling sampling = Sampling::adaptive;
+    double coarsest = 8.0;  // adaptive: no sampling distance is more than this times d0. 1 .. max_coarsest
 };
 
 // The parameters that decide the result, as a JSON object: what Metadata::parameters keeps.

@@ -10,6 +10,7 @@
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
+#include <cassert>
 #include <tuple>
 #include <utility>
 
@@ -72,14 +73,15 @@ struct LongEdge {
     Triangulation::Edge edge;
 };
 
-Result<std::vector<LongEdge>> long_edges(const Triangulation& triangulation, double min_length,
-                                         Stage& stage) {
+Result<std::vector<LongEdge>> long_edges(const Triangulation& triangulation,
+                                         const std::vector<double>& distances, Stage& stage) {
     std::vector<LongEdge> edges;
     std::size_t seen = 0;
     for (const auto& [cell, i, j] : triangulation.finite_edges()) {
         if (++seen % 65536 == 0 && !stage.advance(0, 0)) return stage.interrupted();
         const auto a = cell->vertex(i);
         const auto b = cell->vertex(j);
+        const double min_length = 2.0 * std::min(distances[a->info()], distances[b->info()]);
         if (CGAL::squared_distance(a->point(), b->point()) < min_length * min_length) continue;
         if (a->info() < b->info())
             edges.push_back({a->info(), b->info(), {cell, i, j}});
@@ -111,7 +113,9 @@ void append_ring(const Triangulation& triangulation, const Triangulation::Edge& 
 
 }  // namespace
 
-Result<Delaunay> delaunay(const std::vector<Vec3d>& samples, double min_length, Stage& stage) {
+Result<Delaunay> delaunay(const std::vector<Vec3d>& samples, const std::vector<double>& distances,
+                          Stage& stage) {
+    assert(distances.size() == samples.size());
     Triangulation triangulation;
     if (!insert(samples, triangulation, stage)) return stage.interrupted();
     if (triangulation.dimension() < 3) return fail("all samples of the obstacles lie in one plane");
@@ -120,7 +124,7 @@ Result<Delaunay> delaunay(const std::vector<Vec3d>& samples, double min_length, 
     if (!cells) return tl::unexpected(std::move(cells.error()));
     Delaunay result;
     result.cells = std::move(*cells);
-    const auto edges = long_edges(triangulation, min_length, stage);
+    const auto edges = long_edges(triangulation, distances, stage);
     if (!edges) return tl::unexpected(edges.error());
     for (std::size_t i = 0; i < edges->size(); ++i) {
         if (i % 4096 == 0 && !stage.advance(i, edges->size())) return stage.interrupted();

@@ -25,8 +25,10 @@ struct Delaunay {
     }
 };
 
-// Rings only for edges of length >= `min_length` whose Voronoi face is bounded. Exact, also for samples in
+// Rings only for edges whose Voronoi face is bounded and that are at least twice as long as the smaller of
+// the `distances` of their two samples (one a sample: the sampling distance). Exact, also for samples in
 // special position: the result depends on nothing but the samples. At least 4 samples, not all in one plane.
-[[nodiscard]] Result<Delaunay> delaunay(const std::vector<Vec3d>& samples, double min_length, Stage& stage);
+[[nodiscard]] Result<Delaunay> delaunay(const std::vector<Vec3d>& samples,
+                                        const std::vector<double>& distances, Stage& stage);
 
 }  // namespace camdir::bake

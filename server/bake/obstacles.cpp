@@ -25,15 +25,24 @@ Obstacles::Obstacles(const scene::Scene& scene) : tree_(boxes_of(scene)) {
         triangles_.push_back(triangle_of(scene, index));
 }
 
-double Obstacles::distance(const Vec3d& point, double at_most) const {
-    double nearest2 = at_most * at_most;
+std::optional<Vec3d> Obstacles::nearest(const Vec3d& point, double within) const {
+    double nearest2 = within * within;
+    std::optional<Vec3d> nearest;
     tree_.visit_by([&](const Box3d& box) { return box.squaredExteriorDistance(point); },
                    [&] { return nearest2; },
                    [&](std::uint32_t position) {
                        const Vec3d q = closest_point(triangles_[position], point);
-                       nearest2 = std::min(nearest2, (q - point).squaredNorm());
+                       const double distance2 = (q - point).squaredNorm();
+                       if (distance2 >= nearest2) return;
+                       nearest2 = distance2;
+                       nearest = q;
                    });
-    return std::sqrt(nearest2);
+    return nearest;
+}
+
+double Obstacles::distance(const Vec3d& point, double at_most) const {
+    const std::optional<Vec3d> q = nearest(point, at_most);
+    return q ? (*q - point).norm() : at_most;
 }
 
 }  // namespace camdir::bake

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "bake/box_tree.hpp"
@@ -18,6 +19,9 @@ class Obstacles {
     // In the tree's order: positions handed out by tree() index them.
     [[nodiscard]] const std::vector<Triangle3d>& triangles() const { return triangles_; }
     [[nodiscard]] const BoxTree& tree() const { return tree_; }
+
+    // The obstacle point nearest to `point`, when one is nearer than `within`.
+    [[nodiscard]] std::optional<Vec3d> nearest(const Vec3d& point, double within) const;
 
     // Exact distance to the nearest obstacle, or `at_most` when there is none nearer.
     [[nodiscard]] double distance(const Vec3d& point,

@@ -1,9 +1,10 @@
-// Sampling of the obstacles: the paper's section 4.1, uniform.
+// Sampling of the obstacles: the paper's section 4.1.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
+#include "bake/sampling_distance.hpp"
 #include "bake/stage.hpp"
 #include "bake/triangle.hpp"
 
@@ -15,10 +16,16 @@ inline constexpr std::uint64_t max_samples = 20'000'000;
 // Largest distance from a point of the triangle to the nearest of its corners.
 [[nodiscard]] double covering_radius(const Triangle3d& triangle);
 
-// Points on the scene's triangles, each triangle's corners included, such that every obstacle point has a
-// sample nearer than `distance`, and triangles of samples have edges shorter than 2 * distance. (The
-// paper's rule, edges alone, misses its own sampling condition by up to 14 %.) Points of shared edges repeat.
-// Fails with more than max_samples.
-[[nodiscard]] Result<std::vector<Vec3d>> sample(const scene::Scene& scene, double distance, Stage& stage);
+// Points on the scene's triangles, each triangle's corners included, that satisfy the sampling condition of
+// `distance` (sampling_distance.hpp), also after every sample was moved, or replaced by another one, by less
+// than `slack`. Triangles of samples p have edges shorter than twice the least covering() of their corners.
+// (The paper's rule, edges alone, misses its own sampling condition by up to 14 %.) Points of shared edges
+// repeat. Fails with more than max_samples.
+[[nodiscard]] Result<std::vector<Vec3d>> sample(const scene::Scene& scene, const SamplingDistance& distance,
+                                                double slack, Stage& stage);
+
+// d_s at each sample.
+[[nodiscard]] Result<std::vector<double>> distances_at(const std::vector<Vec3d>& samples,
+                                                       const SamplingDistance& distance, Stage& stage);
 
 }  // namespace camdir::bake

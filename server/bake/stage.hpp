@@ -52,7 +52,7 @@ class Stage {
 template <class Body>
 bool Stage::for_each(std::uint64_t count, const Body& body) {
     // Slices, so that one thread tells the progress between them; grains, so that a stop is seen soon.
-    constexpr std::uint64_t slice = 16384;
+    const std::uint64_t slice = std::clamp<std::uint64_t>(count / 64, 256, 16384);
     const std::uint64_t grain = std::clamp<std::uint64_t>(count / 64, 1, 64);
     for (std::uint64_t first = 0; first < count; first += slice) {
         const std::uint64_t last = std::min(first + slice, count);

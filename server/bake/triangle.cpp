@@ -4,6 +4,27 @@
 
 namespace camdir::bake {
 
+int longest_edge(const Triangle3d& t) {
+    int longest = 0;
+    double length2 = -1.0;
+    for (int i = 0; i < 3; ++i) {
+        const double candidate = (t[(i + 1) % 3] - t[i]).squaredNorm();
+        if (candidate <= length2) continue;
+        longest = i;
+        length2 = candidate;
+    }
+    return longest;
+}
+
+std::array<Triangle3d, 2> halves(const Triangle3d& t) {
+    const int from = longest_edge(t);
+    const Vec3d& a = t[from];
+    const Vec3d& b = t[(from + 1) % 3];
+    const Vec3d& c = t[(from + 2) % 3];
+    const Vec3d middle = 0.5 * (a + b);
+    return {{{a, middle, c}, {middle, b, c}}};
+}
+
 Vec3d closest_point(const Vec3d& a, const Vec3d& b, const Vec3d& p) {
     const Vec3d along = b - a;
     const double length2 = along.squaredNorm();

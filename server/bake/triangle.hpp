@@ -16,6 +16,12 @@ using Triangle3d = std::array<Vec3d, 3>;
     return box;
 }
 
+// The corner from which the longest edge leads to the next corner; of equal ones the first.
+[[nodiscard]] int longest_edge(const Triangle3d& triangle);
+
+// Cut through the middle of the longest edge, with the triangle's orientation.
+[[nodiscard]] std::array<Triangle3d, 2> halves(const Triangle3d& triangle);
+
 // The point of the closed segment nearest to `p`. The segment may be a point.
 [[nodiscard]] Vec3d closest_point(const Vec3d& a, const Vec3d& b, const Vec3d& p);
 

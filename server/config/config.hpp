@@ -39,6 +39,7 @@ struct Map {
     std::string source;  // when set, `file` is baked from it when missing or stale
     // Of bake::Parameters, by the same names.
     double d0 = 16.0;
+    std::string sampling = "adaptive";
     double loss = 0.0;
     std::int64_t triangles = 0;
     bool strict = false;

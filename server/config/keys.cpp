@@ -127,6 +127,16 @@ void add_maps(std::vector<Key>& table) {
                      {},
                      false,
                      true});
+    table.push_back({section,
+                     "sampling",
+                     in_map(&Map::sampling),
+                     "Samples of that bake: `adaptive`, sparse where the free space is wide, or `uniform`.",
+                     "",
+                     0,
+                     255,
+                     {"adaptive", "uniform"},
+                     false,
+                     true});
     table.push_back(
         {section,
          "loss",

@@ -45,6 +45,7 @@ TEST_F(BakeCommand, BadUsageExitsWith2) {
         {"map.bsp", "-o", output_, "--d0", "1"},
         {"map.bsp", "-o", output_, "--d0", "much"},
         {"map.bsp", "-o", output_, "--threads", "-1"},
+        {"map.bsp", "-o", output_, "--sampling", "random"},
         {"map.bsp", "-o", output_, "--no-such-option"},
         {"map.bsp", "other.bsp", "-o", output_},
     };

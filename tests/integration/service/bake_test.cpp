@@ -52,6 +52,10 @@ TEST(Bake, OnlyWhatIsMissingOrStaleIsBaked) {
     EXPECT_THAT(log_of_a_start(folder, with_room()), Not(HasSubstr("baked")));
     EXPECT_THAT(log_of_a_start(folder, with_room(48.0)),
                 HasSubstr("it was baked with d0 64.0 instead of 48.0"));
+    json uniform = with_room(48.0);
+    uniform["maps"][0]["sampling"] = "uniform";
+    EXPECT_THAT(log_of_a_start(folder, uniform), HasSubstr("it was baked with sampling "));
+    EXPECT_THAT(log_of_a_start(folder, uniform), Not(HasSubstr("baked")));
     write(folder, "room.bsp", room(320.0));
     EXPECT_THAT(log_of_a_start(folder, with_room(48.0)), HasSubstr("room.bsp has changed since"));
     folder.write("room.vfs", "damaged");

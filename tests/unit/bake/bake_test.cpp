@@ -8,6 +8,8 @@
 #include <random>
 
 #include "bake/certificate.hpp"
+#include "scene/load.hpp"
+#include "support/openarena.hpp"
 #include "support/solid_scenes.hpp"
 
 namespace camdir::bake {
@@ -17,6 +19,20 @@ using test::SolidScene;
 
 Baked baked(const SolidScene& scene, double d0, unsigned threads = 0) {
     return bake(scene.scene(), {d0, threads}, {}, {}).value();
+}
+
+Baked baked(const scene::Scene& scene, double d0, Sampling sampling) {
+    Parameters parameters;
+    parameters.d0 = d0;
+    parameters.sampling = sampling;
+    return bake(scene, parameters, {}, {}).value();
+}
+
+double count_of(const Baked& baked, const std::string& stage, const std::string& what) {
+    for (const freespace::Count& count : baked.contents.metadata.counts)
+        if (count.stage == stage && count.what == what) return count.value;
+    ADD_FAILURE() << "nothing counted as " << stage << ": " << what;
+    return 0.0;
 }
 
 std::vector<Slab> slabs_of(const freespace::Contents& contents) {
@@ -121,6 +137,71 @@ TEST(Bake, LargeD0ClosesTheDoor) {
         ASSERT_LT(v.x, 8.0F);
 }
 
+// Two halls of 640 x 640 x 480 joined by a door of 48 x 80 in a wall of 16.
+TEST(Bake, AdaptiveSamplingKeepsASmallDoorBetweenWideHalls) {
+    SolidScene halls(Box3d(Vec3d(-648, -320, 0), Vec3d(648, 320, 480)));
+    halls.add(Box3d(Vec3d(-8, -320, 0), Vec3d(8, -24, 480)));
+    halls.add(Box3d(Vec3d(-8, 24, 0), Vec3d(8, 320, 480)));
+    halls.add(Box3d(Vec3d(-8, -24, 80), Vec3d(8, 24, 480)));
+    halls.spawn({-300, 0, 50});
+    const Baked adaptive = baked(halls.scene(), 16.0, Sampling::adaptive);
+    expect_safe(halls, adaptive.contents);
+    for (const Box3d& hall :
+         {Box3d(Vec3d(-648, -320, 0), Vec3d(-8, 320, 480)), Box3d(Vec3d(8, -320, 0), Vec3d(648, 320, 480))})
+        EXPECT_GE(coverage(halls, adaptive.contents, hall, 16.0).share(), 0.998);
+    const Box3d door(Vec3d(-8, -24, 0), Vec3d(8, 24, 80));
+    EXPECT_EQ(coverage(halls, adaptive.contents, door, 16.0).share(), 1.0);
+
+    const Baked uniform = baked(halls.scene(), 16.0, Sampling::uniform);
+    EXPECT_LT(1.2 * count_of(adaptive, "weld", "samples"), count_of(uniform, "weld", "samples"));
+}
+
+TEST(Bake, AdaptiveSamplesOfAHallGrowSlowerThanItsArea) {
+    const auto samples_of = [](double side, Sampling sampling) {
+        SolidScene hall(Box3d(Vec3d(0, 0, 0), Vec3d::Constant(side)));
+        hall.spawn(Vec3d::Constant(0.5 * side));
+        return count_of(baked(hall.scene(), 32.0, sampling), "weld", "samples");
+    };
+    EXPECT_GT(samples_of(2048.0, Sampling::uniform), 12.0 * samples_of(512.0, Sampling::uniform));
+    EXPECT_LT(samples_of(2048.0, Sampling::adaptive), 9.0 * samples_of(512.0, Sampling::adaptive));
+}
+
+TEST(Bake, TheCoarsestSamplingDistanceIsLimited) {
+    Parameters parameters;
+    parameters.coarsest = 1.0;
+    const SolidScene room = test::box_room();
+    const Baked limited = bake(room.scene(), parameters, {}, {}).value();
+    EXPECT_EQ(count_of(limited, "weld", "samples"),
+              count_of(baked(room.scene(), 16.0, Sampling::uniform), "weld", "samples"));
+    for (const double coarsest : {0.5, 65.0, std::numeric_limits<double>::quiet_NaN()}) {
+        parameters.coarsest = coarsest;
+        EXPECT_THAT(bake(room.scene(), parameters, {}, {}).error().message,
+                    testing::HasSubstr("from 1 to 64"));
+    }
+}
+
+TEST(Bake, AdaptiveSamplingOfARealMapFindsWhatUniformFinds) {
+    const auto map = test::openarena_map("oa_dm1");
+    if (!map) GTEST_SKIP() << "oa_dm1 of package openarena-081-maps is missing";
+    const scene::Scene scene = scene::load(*map).value();
+    const Baked adaptive = baked(scene, 32.0, Sampling::adaptive);
+    const Baked uniform = baked(scene, 32.0, Sampling::uniform);
+    EXPECT_LE(count_of(adaptive, "weld", "samples"), count_of(uniform, "weld", "samples"));
+    EXPECT_LE(adaptive.contents.triangles.size(), uniform.contents.triangles.size());
+    EXPECT_EQ(count_of(adaptive, "pack", "covered spawn points"),
+              count_of(uniform, "pack", "covered spawn points"));
+    EXPECT_EQ(count_of(adaptive, "inside", "connected spawn points"),
+              count_of(uniform, "inside", "connected spawn points"));
+    EXPECT_EQ(count_of(adaptive, "crossing", "crossing triangles"), 0.0);
+}
+
+TEST(Sampling, IsNamed) {
+    EXPECT_EQ(sampling_named("adaptive"), Sampling::adaptive);
+    EXPECT_EQ(sampling_named("uniform"), Sampling::uniform);
+    EXPECT_EQ(sampling_named("Uniform"), std::nullopt);
+    EXPECT_EQ(name_of(Sampling::uniform), "uniform");
+}
+
 TEST(Bake, WorksInAnyUnit) {
     const SolidScene room = test::box_room();
     scene::Scene metres = room.scene();
@@ -156,8 +237,8 @@ TEST(Bake, ReportsEveryStageAndItsProgress) {
     ASSERT_TRUE(result);
     EXPECT_EQ(shown, finished);
     EXPECT_THAT(finished,
-                testing::ElementsAre("sample", "weld", "delaunay", "voronoi", "triangulate", "clearance",
-                                     "crossing", "inside", "certify", "reduce", "pack"));
+                testing::ElementsAre("medial axis", "sample", "weld", "delaunay", "voronoi", "triangulate",
+                                     "clearance", "crossing", "inside", "certify", "reduce", "pack"));
     const auto& counts = result->contents.metadata.counts;
     const auto covered_spawns = std::find_if(counts.begin(), counts.end(), [](const freespace::Count& count) {
         return count.stage == "pack" && count.what == "covered spawn points";
@@ -168,8 +249,8 @@ TEST(Bake, ReportsEveryStageAndItsProgress) {
 
 TEST(Bake, StopsInWhicheverStageItIsAsked) {
     const SolidScene room = test::box_room();
-    for (const char* stage : {"sample", "weld", "delaunay", "voronoi", "triangulate", "clearance", "crossing",
-                              "inside", "certify", "reduce", "pack"}) {
+    for (const char* stage : {"medial axis", "sample", "weld", "delaunay", "voronoi", "triangulate",
+                              "clearance", "crossing", "inside", "certify", "reduce", "pack"}) {
         std::stop_source stop;
         const auto request = [&](const Progress& p) {
             if (p.stage == stage) stop.request_stop();

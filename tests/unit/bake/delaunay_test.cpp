@@ -32,7 +32,7 @@ std::vector<Vec3d> grid_points(int side) {
 
 Delaunay triangulated(const std::vector<Vec3d>& points, double min_length) {
     Stage stage("delaunay", {}, {});
-    return delaunay(points, min_length, stage).value();
+    return delaunay(points, std::vector<double>(points.size(), 0.5 * min_length), stage).value();
 }
 
 void expect_empty_spheres(const std::vector<Vec3d>& points, const Delaunay& result) {
@@ -46,6 +46,20 @@ void expect_empty_spheres(const std::vector<Vec3d>& points, const Delaunay& resu
     }
 }
 
+// The two samples that all cells of a ring share.
+std::pair<std::uint32_t, std::uint32_t> edge_of(const Delaunay& result, std::size_t ring) {
+    const Cell& first = result.cells[result.ring(ring)[0]];
+    std::vector<std::uint32_t> shared(first.begin(), first.end());
+    for (const std::uint32_t i : result.ring(ring)) {
+        const Cell& cell = result.cells[i];
+        std::erase_if(shared, [&](std::uint32_t sample) {
+            return std::find(cell.begin(), cell.end(), sample) == cell.end();
+        });
+    }
+    EXPECT_EQ(shared.size(), 2U);
+    return {shared.front(), shared.back()};
+}
+
 // Every ring goes around one edge: its cells share two samples, neighbours in it share a third.
 void expect_rings_around_edges(const std::vector<Vec3d>& points, const Delaunay& result, double min_length) {
     std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
@@ -53,7 +67,6 @@ void expect_rings_around_edges(const std::vector<Vec3d>& points, const Delaunay&
         const auto ring = result.ring(i);
         ASSERT_GE(ring.size(), 3U);
         EXPECT_EQ(ring[0], *std::min_element(ring.begin(), ring.end()));
-        std::vector<std::uint32_t> shared(result.cells[ring[0]].begin(), result.cells[ring[0]].end());
         for (std::size_t k = 0; k < ring.size(); ++k) {
             const Cell& cell = result.cells[ring[k]];
             const Cell& next = result.cells[ring[(k + 1) % ring.size()]];
@@ -61,14 +74,10 @@ void expect_rings_around_edges(const std::vector<Vec3d>& points, const Delaunay&
             std::set_intersection(cell.begin(), cell.end(), next.begin(), next.end(),
                                   std::back_inserter(facet));
             EXPECT_EQ(facet.size(), 3U);
-            std::vector<std::uint32_t> both;
-            std::set_intersection(shared.begin(), shared.end(), cell.begin(), cell.end(),
-                                  std::back_inserter(both));
-            shared = both;
         }
-        ASSERT_EQ(shared.size(), 2U);
-        EXPECT_GE((points[shared[0]] - points[shared[1]]).norm(), min_length);
-        EXPECT_TRUE(edges.emplace(shared[0], shared[1]).second) << "each edge once";
+        const auto [a, b] = edge_of(result, i);
+        EXPECT_GE((points[a] - points[b]).norm(), min_length);
+        EXPECT_TRUE(edges.emplace(a, b).second) << "each edge once";
     }
 }
 
@@ -87,6 +96,29 @@ TEST(Delaunay, SpheresOfAGridAreEmpty) {
     expect_empty_spheres(points, result);
     EXPECT_GT(result.ring_count(), 0U);
     expect_rings_around_edges(points, result, 1.2);
+}
+
+TEST(Delaunay, TheSmallerDistanceDecidesWhichEdgesAreLong) {
+    std::mt19937 random(12);
+    const auto points = random_points(random, 300);
+    std::vector<double> distances;
+    for (std::size_t i = 0; i < points.size(); ++i)
+        distances.push_back(random() % 2 == 0 ? 5.0 : 15.0);
+    const auto edges_of = [&](const std::vector<double>& of) {
+        Stage stage("delaunay", {}, {});
+        const Delaunay result = delaunay(points, of, stage).value();
+        std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
+        for (std::size_t i = 0; i < result.ring_count(); ++i)
+            edges.push_back(edge_of(result, i));
+        return edges;
+    };
+    auto expected = edges_of(std::vector<double>(points.size(), 0.0));
+    std::erase_if(expected, [&](const auto& edge) {
+        const auto [a, b] = edge;
+        return (points[a] - points[b]).norm() < 2.0 * std::min(distances[a], distances[b]);
+    });
+    EXPECT_THAT(expected, testing::Not(testing::IsEmpty()));
+    EXPECT_EQ(edges_of(distances), expected);
 }
 
 TEST(Delaunay, OfShuffledPointsIsTheSameUpToNames) {
@@ -115,7 +147,7 @@ TEST(Delaunay, RefusesSamplesInOnePlane) {
     for (int i = 0; i < 20; ++i)
         points.emplace_back(i % 5, i / 5, 7.0);
     Stage stage("delaunay", {}, {});
-    const auto refused = delaunay(points, 1.0, stage);
+    const auto refused = delaunay(points, std::vector<double>(points.size(), 0.5), stage);
     ASSERT_FALSE(refused);
     EXPECT_THAT(refused.error().message, testing::HasSubstr("one plane"));
 }

@@ -2,10 +2,12 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <random>
 
+#include "bake/weld.hpp"
 #include "support/bake_twins.hpp"
 
 namespace camdir::bake {
@@ -79,7 +81,7 @@ TEST(Sample, EveryObstaclePointHasASampleNearerThanTheDistance) {
         const Triangle3d t = random_triangle(random, 40.0);
         const double distance = 4.0;
         Stage stage("sample", {}, {});
-        const auto samples = sample(scene_of(t), distance, stage).value();
+        const auto samples = sample(scene_of(t), SamplingDistance(distance), 0.0, stage).value();
         for (const Vec3d& p : dense_points(t, 120))
             ASSERT_LT(to_nearest(p, samples), distance) << "round " << round;
         for (const Vec3d& s : samples)
@@ -88,16 +90,111 @@ TEST(Sample, EveryObstaclePointHasASampleNearerThanTheDistance) {
     }
 }
 
+// Twenty triangles around the origin.
+scene::Scene random_soup(std::mt19937& random) {
+    scene::Scene scene;
+    scene.source = "made.map";
+    for (std::uint32_t i = 0; i < 20; ++i) {
+        const Triangle3d t = random_triangle(random, 40.0);
+        scene.vertices.insert(scene.vertices.end(), t.begin(), t.end());
+        scene.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+    }
+    return scene;
+}
+
+SamplingDistance random_distance(std::mt19937& random) {
+    std::uniform_real_distribution<double> coordinate(-60.0, 60.0);
+    std::vector<Vec3d> medial_axis;
+    for (int i = 0; i < 10; ++i)
+        medial_axis.emplace_back(coordinate(random), coordinate(random), coordinate(random));
+    return {2.0, 30.0, medial_axis};
+}
+
+TEST(Sample, NearestSamplesAreNearerThanTheirSamplingDistance) {
+    std::mt19937 random(3);
+    for (int round = 0; round < 20; ++round) {
+        const scene::Scene soup = random_soup(random);
+        const SamplingDistance distance = random_distance(random);
+        Stage stage("sample", {}, {});
+        const double welded = 0.1;
+        const auto samples = weld(sample(soup, distance, welded, stage).value(), welded, stage).value();
+        for (const auto& [a, b, c] : soup.triangles)
+            for (const Vec3d& x : dense_points({soup.vertices[a], soup.vertices[b], soup.vertices[c]}, 40)) {
+                const double nearest = to_nearest(x, samples);
+                for (const Vec3d& p : samples) {
+                    if ((p - x).norm() > nearest + 1e-9) continue;
+                    ASSERT_LT(nearest, distance.at(p)) << "round " << round;
+                }
+            }
+    }
+}
+
+TEST(Sample, IsSparseFarFromTheMedialAxis) {
+    std::mt19937 random(4);
+    const scene::Scene soup = random_soup(random);
+    const SamplingDistance adaptive = random_distance(random);
+    Stage stage("sample", {}, {});
+    const auto sparse = sample(soup, adaptive, 0.0, stage).value();
+    const auto dense = sample(soup, SamplingDistance(adaptive.finest()), 0.0, stage).value();
+    EXPECT_LT(3 * sparse.size(), dense.size());
+}
+
+TEST(Sample, TrianglesWithACommonEdgeHaveTheSameSamplesThere) {
+    std::mt19937 random(5);
+    for (int round = 0; round < 20; ++round) {
+        scene::Scene pair = random_soup(random);
+        // The second one has the first one's edge, in the other direction.
+        pair.triangles = {{0, 1, 2}, {1, 0, 3}};
+        const SamplingDistance distance = random_distance(random);
+        Stage stage("sample", {}, {});
+        const auto samples = sample(pair, distance, 0.0, stage).value();
+        const Vec3d& a = pair.vertices[0];
+        const Vec3d& b = pair.vertices[1];
+        // Samples of the common edge are midpoints of midpoints of it: none but those lie this near to it.
+        std::vector<double> along;
+        for (const Vec3d& p : samples)
+            if ((closest_point(a, b, p) - p).norm() < 1e-9) along.push_back((p - a).norm() / (b - a).norm());
+        std::sort(along.begin(), along.end());
+        along.erase(std::unique(along.begin(), along.end()), along.end());
+        for (std::size_t i = 1; i < along.size(); ++i)
+            ASSERT_GT(along[i] - along[i - 1], 1e-6) << "almost the same point twice, round " << round;
+    }
+}
+
+TEST(Sample, IsTheSameForAnyNumberOfThreads) {
+    std::mt19937 random(6);
+    const scene::Scene soup = random_soup(random);
+    const SamplingDistance distance = random_distance(random);
+    const auto sampled = [&](int threads) {
+        return tbb::task_arena(threads).execute([&] {
+            Stage stage("sample", {}, {});
+            return sample(soup, distance, 0.0, stage).value();
+        });
+    };
+    EXPECT_EQ(sampled(1), sampled(2));
+}
+
+TEST(SamplingDistance, IsThreeQuartersOfTheDistanceToTheMedialAxisWithinItsLimits) {
+    const SamplingDistance distance(4.0, 20.0, {Vec3d(0, 0, 0), Vec3d(100, 0, 0)});
+    EXPECT_EQ(distance.at({0, 0, 0}), 4.0);
+    EXPECT_EQ(distance.at({0, 5, 0}), 4.0);
+    EXPECT_EQ(distance.at({0, 20, 0}), 15.0);
+    EXPECT_EQ(distance.at({84, 0, 0}), 12.0);
+    EXPECT_EQ(distance.at({0, 500, 0}), 20.0);
+    EXPECT_EQ(SamplingDistance(4.0).at({1, 2, 3}), 4.0);
+}
+
 TEST(Sample, TrianglesThatAreFineEnoughGiveTheirCorners) {
     const Triangle3d t{Vec3d(0, 0, 0), Vec3d(5, 0, 0), Vec3d(0, 5, 0)};
     Stage stage("sample", {}, {});
-    EXPECT_THAT(sample(scene_of(t), 4.0, stage).value(), testing::UnorderedElementsAre(t[0], t[1], t[2]));
+    EXPECT_THAT(sample(scene_of(t), SamplingDistance(4.0), 0.0, stage).value(),
+                testing::UnorderedElementsAre(t[0], t[1], t[2]));
 }
 
 TEST(Sample, RefusesWhatNeedsTooManySamples) {
     const Triangle3d t{Vec3d(0, 0, 0), Vec3d(1e6, 0, 0), Vec3d(0, 1e6, 0)};
     Stage stage("sample", {}, {});
-    const auto refused = sample(scene_of(t), 4.0, stage);
+    const auto refused = sample(scene_of(t), SamplingDistance(4.0), 0.0, stage);
     ASSERT_FALSE(refused);
     EXPECT_THAT(refused.error().message, testing::HasSubstr("made.map"));
     EXPECT_THAT(refused.error().message, testing::HasSubstr("the limit is 20 million"));

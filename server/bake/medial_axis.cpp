@@ -1,0 +1,82 @@
+#include "bake/medial_axis.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace camdir::bake {
+namespace {
+
+class Prober {
+  public:
+    Prober(const Obstacles& obstacles, const Solids& solids, const Probing& probing, const Stage& stage)
+        : obstacles_(obstacles), solids_(solids), probing_(probing), stage_(stage) {}
+
+    void probe(const Triangle3d& t, std::vector<Vec3d>& centres) const {
+        const Vec3d normal = (t[1] - t[0]).cross(t[2] - t[0]).normalized();
+        if (normal.allFinite()) probe(t, normal, centres);
+    }
+
+  private:
+    void probe(const Triangle3d& t, const Vec3d& normal, std::vector<Vec3d>& centres) const {
+        if (stage_.stopping()) return;
+        const Vec3d q = (t[0] + t[1] + t[2]) / 3.0;
+        const double above = radius(q, normal);
+        const double below = radius(q, -normal);
+        const double extent = std::sqrt(
+            std::max({(t[0] - q).squaredNorm(), (t[1] - q).squaredNorm(), (t[2] - q).squaredNorm()}));
+        const double smallest =
+            std::min(above > 0.0 ? above : probing_.reach, below > 0.0 ? below : probing_.reach);
+        const bool hidden = above == 0.0 && below == 0.0;
+        if (extent > std::max(probing_.finest, hidden ? 0.0 : 0.5 * smallest)) {
+            for (const Triangle3d& half : halves(t))
+                probe(half, normal, centres);
+            return;
+        }
+        if (above > 0.0 && above < probing_.reach) centres.push_back(q + above * normal);
+        if (below > 0.0 && below < probing_.reach) centres.push_back(q - below * normal);
+    }
+
+    // 0 when the side is in a solid.
+    [[nodiscard]] double radius(const Vec3d& q, const Vec3d& normal) const {
+        if (solids_.contain(q + 0.001 * probing_.finest * normal)) return 0.0;
+        return tangent_radius(q, normal, probing_.reach, obstacles_);
+    }
+
+    const Obstacles& obstacles_;
+    const Solids& solids_;
+    const Probing& probing_;
+    const Stage& stage_;
+};
+
+}  // namespace
+
+// Shrinks the ball to the one through `q` and the obstacle point deepest inside, until none is.
+double tangent_radius(const Vec3d& q, const Vec3d& normal, double reach, const Obstacles& obstacles) {
+    constexpr int max_steps = 64;
+    constexpr double rounding = 1.0 - 1e-4;
+    double radius = reach;
+    for (int step = 0; step < max_steps; ++step) {
+        const auto inside = obstacles.nearest(q + radius * normal, radius * rounding);
+        if (!inside) break;
+        const Vec3d to_inside = *inside - q;
+        radius = std::min(radius * rounding, to_inside.squaredNorm() / (2.0 * normal.dot(to_inside)));
+    }
+    return radius;
+}
+
+Result<std::vector<Vec3d>> medial_axis(const Obstacles& obstacles, const Solids& solids,
+                                       const Probing& probing, Stage& stage) {
+    const std::vector<Triangle3d>& triangles = obstacles.triangles();
+    const Prober prober(obstacles, solids, probing, stage);
+    std::vector<std::vector<Vec3d>> centres_of(triangles.size());
+    const bool done =
+        stage.for_each(triangles.size(), [&](std::uint64_t i) { prober.probe(triangles[i], centres_of[i]); });
+    if (!done) return stage.interrupted();
+    std::vector<Vec3d> centres;
+    for (const std::vector<Vec3d>& of_one : centres_of)
+        centres.insert(centres.end(), of_one.begin(), of_one.end());
+    stage.count("points", static_cast<double>(centres.size()));
+    return centres;
+}
+
+}  // namespace camdir::bake
