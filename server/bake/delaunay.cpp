@@ -7,12 +7,13 @@
 #include <CGAL/Triangulation_vertex_base_with_info_3.h>
 #include <CGAL/property_map.h>
 #include <CGAL/spatial_sort.h>
-#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <cassert>
 #include <tuple>
 #include <utility>
+
+#include "base/parallel.hpp"
 
 namespace camdir::bake {
 namespace {
@@ -57,8 +58,8 @@ Result<std::vector<Cell>> number_cells(const Triangulation& triangulation, Stage
         std::sort(cell.begin(), cell.end());
         entries.emplace_back(cell, handle);
     }
-    tbb::parallel_sort(entries.begin(), entries.end(),
-                       [](const Entry& a, const Entry& b) { return a.first < b.first; });
+    parallel_sort(entries.begin(), entries.end(),
+                  [](const Entry& a, const Entry& b) { return a.first < b.first; });
     std::vector<Cell> cells;
     cells.reserve(entries.size());
     for (const auto& [cell, handle] : entries) {
@@ -88,7 +89,7 @@ Result<std::vector<LongEdge>> long_edges(const Triangulation& triangulation,
         else
             edges.push_back({b->info(), a->info(), {cell, j, i}});
     }
-    tbb::parallel_sort(edges.begin(), edges.end(), [](const LongEdge& a, const LongEdge& b) {
+    parallel_sort(edges.begin(), edges.end(), [](const LongEdge& a, const LongEdge& b) {
         return std::tie(a.from, a.to) < std::tie(b.from, b.to);
     });
     return edges;

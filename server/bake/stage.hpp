@@ -1,9 +1,6 @@
 // A running stage of the bake: how far it is, what it counted, and whether the user asked to stop.
 #pragma once
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
@@ -12,6 +9,7 @@
 #include <vector>
 
 #include "bake/bake.hpp"
+#include "base/parallel.hpp"
 
 namespace camdir::bake {
 
@@ -56,12 +54,11 @@ bool Stage::for_each(std::uint64_t count, const Body& body) {
     const std::uint64_t grain = std::clamp<std::uint64_t>(count / 64, 1, 64);
     for (std::uint64_t first = 0; first < count; first += slice) {
         const std::uint64_t last = std::min(first + slice, count);
-        tbb::parallel_for(tbb::blocked_range<std::uint64_t>(first, last, grain),
-                          [&](const tbb::blocked_range<std::uint64_t>& range) {
-                              if (stop_.stop_requested()) return;
-                              for (std::uint64_t i = range.begin(); i != range.end(); ++i)
-                                  body(i);
-                          });
+        parallel_for_ranges(first, last, grain, [&](std::uint64_t begin, std::uint64_t end) {
+            if (stop_.stop_requested()) return;
+            for (std::uint64_t i = begin; i != end; ++i)
+                body(i);
+        });
         if (!advance(last, count)) return false;
     }
     return !stop_.stop_requested();

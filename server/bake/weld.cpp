@@ -1,11 +1,11 @@
 #include "bake/weld.hpp"
 
-#include <tbb/parallel_sort.h>
-
 #include <cmath>
 #include <cstdint>
 #include <tuple>
 #include <unordered_map>
+
+#include "base/parallel.hpp"
 
 namespace camdir::bake {
 namespace {
@@ -65,7 +65,7 @@ class Grid {
 }  // namespace
 
 Result<std::vector<Vec3d>> weld(std::vector<Vec3d> samples, double distance, Stage& stage) {
-    tbb::parallel_sort(samples.begin(), samples.end(), [](const Vec3d& a, const Vec3d& b) {
+    parallel_sort(samples.begin(), samples.end(), [](const Vec3d& a, const Vec3d& b) {
         return std::tuple(a.x(), a.y(), a.z()) < std::tuple(b.x(), b.y(), b.z());
     });
     samples.erase(std::unique(samples.begin(), samples.end()), samples.end());

@@ -1,7 +1,5 @@
 #include "render/draw.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -9,6 +7,7 @@
 #include <new>
 #include <numbers>
 
+#include "base/parallel.hpp"
 #include "render/ray_scene.hpp"
 
 namespace camdir::render {
@@ -160,7 +159,7 @@ Picture paint(const Painter& painter, int width, int height, const ProgressSink&
     Picture picture{width, height, {}};
     picture.pixels.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
     std::atomic<std::uint64_t> rows = 0;
-    tbb::parallel_for(0, height, [&](int y) {
+    parallel_for(0, height, [&](int y) {
         if (stop.stop_requested()) return;
         const std::size_t row = static_cast<std::size_t>(y) * static_cast<std::size_t>(width);
         for (int x = 0; x < width; ++x)
