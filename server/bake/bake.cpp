@@ -174,8 +174,7 @@ Result<void> Bake::certify(Stage& stage) {
 
 Result<void> Bake::reduce(Stage& stage) {
     if (!(parameters_.loss > 0.0)) return {};
-    const double share = parameters_.loss / 100.0;
-    const Reduction reduction{share * 6.0 * d0_, share, parameters_.triangles};
+    const Reduction reduction{parameters_.loss / 100.0 * d0_, parameters_.triangles};
     return bake::reduce(mesh_, free_distance_, scene_, obstacles_, reduction, stage);
 }
 

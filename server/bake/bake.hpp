@@ -17,7 +17,7 @@ namespace camdir::bake {
 
 inline constexpr double min_d0 = 2.0;
 inline constexpr double max_d0 = 256.0;
-inline constexpr double max_loss = 50.0;
+inline constexpr double max_loss = 100.0;
 inline constexpr double max_coarsest = 64.0;
 
 enum class Sampling : std::uint8_t {
@@ -32,8 +32,8 @@ enum class Sampling : std::uint8_t {
 struct Parameters {
     double d0 = 16.0;  // sampling distance in units of 0.0254 m: sets which openings exist. min_d0 .. max_d0
     unsigned threads = 0;  // 0 = one a core, which is also the most. Never changes the result
-    // Mesh reduction: how much of its free distance the centre of a ball may lose, as percent of that
-    // distance and of 6 d0. 0 keeps the whole mesh. 0 .. max_loss
+    // Mesh reduction: how much free distance the centre of a ball may lose, as percent of d0. 0 keeps the
+    // whole mesh. 0 .. max_loss
     double loss = 0.0;
     std::uint64_t triangles = 0;  // > 0: reduction ends as soon as no more than these are left
     Sampling sampling = Sampling::adaptive;

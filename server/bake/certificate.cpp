@@ -83,7 +83,18 @@ double Slab::margin_at_least(const Box3d& box) const {
     return direction.dot(nearest) - reach(direction);
 }
 
+double Slab::margin_at_least_by_plane(const Triangle3d& obstacle) const {
+    const Vec3d normal = (obstacle[1] - obstacle[0]).cross(obstacle[2] - obstacle[0]);
+    const double length = normal.norm();
+    const double side = normal.dot(middle_ - obstacle[0]);
+    if (!(length > 0.0)) return -std::numeric_limits<double>::infinity();
+    const Vec3d direction = normal / (side < 0.0 ? length : -length);
+    return direction.dot(obstacle[0]) - reach(direction);
+}
+
 double Slab::margin_at_least(const Triangle3d& obstacle) const {
+    const double by_plane = margin_at_least_by_plane(obstacle);
+    if (by_plane >= 0.0) return by_plane;
     const Vec3d nearest = closest_point(obstacle, middle_);
     const Vec3d to_obstacle = nearest - middle_;
     const double distance = to_obstacle.norm();
@@ -91,7 +102,7 @@ double Slab::margin_at_least(const Triangle3d& obstacle) const {
     const Vec3d direction = to_obstacle / distance;
     const double lowest =
         std::min({direction.dot(obstacle[0]), direction.dot(obstacle[1]), direction.dot(obstacle[2])});
-    return lowest - reach(direction);
+    return std::max(by_plane, lowest - reach(direction));
 }
 
 Margin Slab::from_edge_to_point(int edge, const Vec3d& q) const {
@@ -197,16 +208,24 @@ Margin margin(const Slab& slab, const Obstacles& obstacles, double enough) {
     return worst;
 }
 
+std::uint32_t find_violated(const Slab& slab, const Obstacles& obstacles, std::uint32_t suspect) {
+    const auto violates = [&](std::uint32_t position) {
+        const Triangle3d& obstacle = obstacles.triangles()[position];
+        return slab.margin_at_least(obstacle) < 0.0 && slab.margin(obstacle).value < 0.0;
+    };
+    if (suspect != freespace::none && violates(suspect)) return suspect;
+    std::uint32_t found = freespace::none;
+    obstacles.tree().visit_by(
+        [&](const Box3d& box) { return slab.margin_at_least(box); },
+        [&] { return found == freespace::none ? 0.0 : -std::numeric_limits<double>::infinity(); },
+        [&](std::uint32_t position) {
+            if (found == freespace::none && violates(position)) found = position;
+        });
+    return found;
+}
+
 bool is_certified(const Slab& slab, const Obstacles& obstacles) {
-    bool certified = true;
-    obstacles.tree().visit_by([&](const Box3d& box) { return slab.margin_at_least(box); },
-                              [&] { return certified ? 0.0 : -std::numeric_limits<double>::infinity(); },
-                              [&](std::uint32_t position) {
-                                  const Triangle3d& obstacle = obstacles.triangles()[position];
-                                  certified = certified && (slab.margin_at_least(obstacle) >= 0.0 ||
-                                                            slab.margin(obstacle).value >= 0.0);
-                              });
-    return certified;
+    return find_violated(slab, obstacles) == freespace::none;
 }
 
 }  // namespace camdir::bake

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <limits>
 
 #include "bake/obstacles.hpp"
 #include "bake/triangle.hpp"
+#include "freespace/freespace.hpp"
 
 namespace camdir::bake {
 
@@ -38,6 +40,9 @@ class Slab {
     [[nodiscard]] double reach(const Vec3d& direction) const;
 
   private:
+    // Both of the obstacle's normals as the direction.
+    [[nodiscard]] double margin_at_least_by_plane(const Triangle3d& obstacle) const;
+
     // The best m towards one point: the maximiser of r(m) - |m - q|. By the closed form on a tilted slab.
     [[nodiscard]] Margin towards_point(const Vec3d& q) const;
     [[nodiscard]] Margin from_edge_to_point(int edge, const Vec3d& q) const;
@@ -57,6 +62,11 @@ class Slab {
 
 // The smallest margin towards any obstacle as far as it lies below `enough`; otherwise some value >= enough.
 [[nodiscard]] Margin margin(const Slab& slab, const Obstacles& obstacles, double enough);
+
+// The position of an obstacle that a ball of the slab reaches into, or none. `suspect` is tried first:
+// whoever asks for similar slabs knows one that was found before.
+[[nodiscard]] std::uint32_t find_violated(const Slab& slab, const Obstacles& obstacles,
+                                          std::uint32_t suspect = freespace::none);
 
 // No ball of the slab reaches into an obstacle: margin() would be at least 0.
 [[nodiscard]] bool is_certified(const Slab& slab, const Obstacles& obstacles);

@@ -13,18 +13,15 @@
 namespace camdir::bake {
 
 struct Reduction {
-    // How much free distance may be lost at the centre of any ball of the unreduced mesh: absolute (map
-    // units) plus a share of the ball's radius.
-    double loss_absolute = 0.0;
-    double loss_relative = 0.0;
-    std::uint64_t triangles = 0;  // > 0: stop as soon as no more than these are left
+    double loss = 0.0;            // how much free distance the centre of a ball may lose, map units
+    std::uint64_t triangles = 0;  // > 0: stop soon after no more than these are left
 };
 
-// Removes vertices by merging them into neighbours, those first that lose the least freespace volume.
-// Afterwards, as before:
+// Removes vertices by merging them into neighbours, those first that lose the least freespace volume. Part of
+// the loss is spent beforehand: lower free distances let many more collapses keep clear of the obstacles; the
+// vertices that are left get back what their slabs allow. Afterwards, as before:
 // - every slab is certified against the obstacles;
-// - each vertex that was removed, and each spawn point, is in a slab that gives it the free distance it had,
-//   less the loss;
+// - each vertex, and each spawn point, has the free distance it had, less the loss, if that is positive;
 // - the mesh has the same connected parts, holes and branches, no edge without a triangle, and the roadmap
 //   (edges between vertices of positive free distance) is connected where it was.
 // The result does not depend on the number of threads. Drops the vertices that nobody uses.

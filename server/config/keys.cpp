@@ -141,11 +141,11 @@ void add_maps(std::vector<Key>& table) {
         {section,
          "loss",
          in_map(&Map::loss),
-         "Mesh reduction of that bake: free distance that the centre of a ball may lose, of itself "
-         "and of 6 d0; 0 keeps the whole mesh.",
+         "Mesh reduction of that bake: free distance that the centre of a ball may lose, in percent of "
+         "d0; 0 keeps the whole mesh.",
          "%",
          0,
-         50,
+         100,
          {},
          false,
          true});

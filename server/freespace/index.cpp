@@ -78,9 +78,10 @@ class Builder {
 
     IndexNode make_node(Range range, std::uint32_t& node_count, std::vector<Range>& next,
                         std::vector<std::uint32_t>& triangle_order) {
-        const auto [left, right] = split(range);
-        const auto [first, second] = split(left);
-        const auto [third, fourth] = split(right);
+        const std::uint32_t full = full_child(range);
+        const auto [left, right] = split(range, full);
+        const auto [first, second] = split(left, full);
+        const auto [third, fourth] = split(right, full);
         const std::array<Range, IndexNode::width> children = {first, second, third, fourth};
         IndexNode node{};
         for (std::uint32_t k = 0; k < IndexNode::width; ++k) {
@@ -101,17 +102,25 @@ class Builder {
         return node;
     }
 
-    // Two halves; the first is a multiple of the leaf size, so that leaves are full. Ties go by number and
-    // leaves are sorted, so that the result does not depend on the library's selection algorithm.
-    std::pair<Range, Range> split(Range range) {
-        if (range.size() <= IndexChild::leaf_capacity) return {range, {range.end, range.end}};
+    // How many triangles a child holds that is full, as all children but the last are: so there are as few
+    // nodes as the triangles allow.
+    static std::uint32_t full_child(Range range) {
+        std::uint32_t size = IndexChild::leaf_capacity;
+        while (size * IndexNode::width < range.size())
+            size *= IndexNode::width;
+        return size;
+    }
+
+    // Two parts, the first of full children. Ties go by number and leaves are sorted, so that the result does
+    // not depend on the library's selection algorithm.
+    std::pair<Range, Range> split(Range range, std::uint32_t full) {
+        if (range.size() <= full) return {range, {range.end, range.end}};
         Extent extent;
         for (std::uint32_t i = range.begin; i < range.end; ++i)
             extent.enclose(centroids_[order_[i]]);
         const std::size_t axis = extent.widest_axis();
-        const std::uint32_t leaves =
-            (range.size() + IndexChild::leaf_capacity - 1) / IndexChild::leaf_capacity;
-        const std::uint32_t middle = range.begin + (leaves / 2) * IndexChild::leaf_capacity;
+        const std::uint32_t children = (range.size() + full - 1) / full;
+        const std::uint32_t middle = range.begin + (children / 2) * full;
         const auto before = [&](std::uint32_t a, std::uint32_t b) {
             return std::pair(centroids_[a][axis], a) < std::pair(centroids_[b][axis], b);
         };

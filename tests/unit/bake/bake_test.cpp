@@ -17,8 +17,9 @@ namespace {
 
 using test::SolidScene;
 
+// The whole mesh; reduce_test.cpp looks at reduced ones.
 Baked baked(const SolidScene& scene, double d0, unsigned threads = 0) {
-    return bake(scene.scene(), {d0, threads}, {}, {}).value();
+    return bake(scene.scene(), {d0, threads, 0.0, 0}, {}, {}).value();
 }
 
 Baked baked(const scene::Scene& scene, double d0, Sampling sampling) {
@@ -211,7 +212,7 @@ TEST(Bake, WorksInAnyUnit) {
     metres.bounds = Box3d(metres.bounds.min() * 0.0254, metres.bounds.max() * 0.0254);
     metres.brushes.clear();
     metres.spawn_points[0].eye *= 0.0254;
-    const Baked result = bake(metres, {16.0, 0}, {}, {}).value();
+    const Baked result = bake(metres, {16.0, 0, 0.0, 0}, {}, {}).value();
     EXPECT_NEAR(result.contents.metadata.d0, 16.0 * 0.0254, 1e-6);
     const Baked expected = baked(room, 16.0);
     EXPECT_NEAR(static_cast<double>(result.contents.triangles.size()),

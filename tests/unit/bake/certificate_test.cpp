@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -122,6 +123,36 @@ TEST(Certificate, MarginTowardsASceneIsTheSmallestOfAllOrEnough) {
         ASSERT_DOUBLE_EQ(margin(slab, obstacles, 1000.0).value, smallest) << "round " << round;
         ASSERT_EQ(margin(slab, obstacles, smallest - 1.0).value, smallest - 1.0) << "round " << round;
     }
+}
+
+TEST(Certificate, IsThatOfEveryObstacleWhateverIsSuspected) {
+    std::mt19937 random(16);
+    const test::SolidScene room = test::pillar_room();
+    const Obstacles obstacles(room.scene());
+    const auto count = static_cast<std::uint32_t>(obstacles.triangles().size());
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    int violating = 0;
+    for (int round = 0; round < 2000; ++round) {
+        const Vec3d middle(256.0 * unit(random), 192.0 * unit(random), 128.0 * unit(random));
+        Triangle3d corners;
+        for (Vec3d& p : corners)
+            p = middle + 40.0 * Vec3d(unit(random), unit(random), unit(random));
+        const Slab slab(corners, {30.0 * unit(random), 30.0 * unit(random), 30.0 * unit(random)});
+        const bool violates =
+            std::any_of(obstacles.triangles().begin(), obstacles.triangles().end(),
+                        [&](const Triangle3d& obstacle) { return slab.margin(obstacle).value < 0.0; });
+        violating += violates;
+        const auto suspect =
+            static_cast<std::uint32_t>(random() % (count + 1)) == count ? freespace::none : random() % count;
+        const std::uint32_t found = find_violated(slab, obstacles, static_cast<std::uint32_t>(suspect));
+        ASSERT_EQ(found != freespace::none, violates) << "round " << round;
+        ASSERT_EQ(is_certified(slab, obstacles), !violates) << "round " << round;
+        if (violates) {
+            ASSERT_LT(slab.margin(obstacles.triangles()[found]).value, 0.0) << "round " << round;
+        }
+    }
+    EXPECT_GT(violating, 400);
+    EXPECT_LT(violating, 1600);
 }
 
 }  // namespace

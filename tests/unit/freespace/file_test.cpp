@@ -10,6 +10,7 @@
 #include <filesystem>
 
 #include "freespace/freespace.hpp"
+#include "freespace/index.hpp"
 #include "support/freespace_meshes.hpp"
 
 namespace camdir::freespace {
@@ -82,6 +83,15 @@ TEST(File, IncidenceIsTheTrianglesOfEachVertex) {
             if (a == v || b == v || c == v) expected.push_back(t);
         }
         EXPECT_THAT(freespace.incident(v), testing::ElementsAreArray(expected)) << "vertex " << v;
+    }
+}
+
+TEST(File, NodesOfTheIndexAreFull) {
+    std::mt19937 random(7);
+    for (const int loose : {3, 17, 100, 400, 1607, 5000}) {
+        const Freespace freespace = make_freespace(random_contents(random, 3, 3, loose));
+        const std::size_t leaves = (freespace.triangles().size() + IndexChild::leaf_capacity - 1) / 4;
+        EXPECT_LE(freespace.mesh().index.size(), leaves / 3 + 8) << loose;
     }
 }
 

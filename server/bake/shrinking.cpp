@@ -1,0 +1,62 @@
+#include "bake/shrinking.hpp"
+
+#include <algorithm>
+
+#include "freespace/slab.hpp"
+
+namespace camdir::bake {
+namespace {
+
+constexpr double slack_of_loss = 0.3;
+constexpr double most_slack = 0.25;  // of the free distance: what has a ball keeps one
+
+}  // namespace
+
+Home find_home(std::span<const freespace::Vertex> vertices, std::span<const freespace::Triangle> triangles,
+               const Vec3d& point) {
+    const freespace::MeshView mesh{vertices, triangles, {}, {}, {}, {}};
+    freespace::SlabPoint best;
+    freespace::improve_range(mesh, point.cast<float>(), 0, static_cast<std::uint32_t>(triangles.size()),
+                             best);
+    if (best.triangle == freespace::none) return {};
+    const freespace::Ball ball = freespace::ball_at(mesh, best);
+    return {best.triangle, ball.radius - (point - ball.centre).norm()};
+}
+
+Shrinking::Shrinking(const MedialMesh& mesh, const std::vector<float>& free_distance,
+                     const scene::Scene& scene, const Obstacles& around, const Reduction& wanted)
+    : whole_distance(free_distance),
+      obstacles(around),
+      reduction(wanted),
+      complex(mesh),
+      witnesses(mesh.triangles.size()),
+      certified(mesh.vertices.size()),
+      suspect(mesh.vertices.size(), freespace::none) {
+    vertices.reserve(mesh.vertices.size());
+    for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+        const Vec3f& p = mesh.vertices[i];
+        vertices.push_back({p.x(), p.y(), p.z(), free_distance[i]});
+    }
+    for (std::uint32_t vertex = 0; vertex < vertices.size(); ++vertex) {
+        const auto star = complex.star(vertex);
+        const double distance = vertices[vertex].free_distance;
+        if (distance > 0.0 && !star.empty()) witnesses[star.front()].push_back({position(vertex), distance});
+    }
+    for (const scene::SpawnPoint& spawn : scene.spawn_points) {
+        const Home home = find_home(vertices, mesh.triangles, spawn.eye);
+        if (home.distance > 0.0) witnesses[home.position].push_back({spawn.eye, home.distance});
+    }
+}
+
+void Shrinking::give_slack(double share) {
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        const double whole = whole_distance[i];
+        if (!(whole > 0.0)) continue;
+        const double slack = std::min(slack_of_loss * reduction.loss, most_slack * whole);
+        vertices[i].free_distance =
+            std::min(vertices[i].free_distance, static_cast<float>(whole - share * slack));
+        certified[i].clear();
+    }
+}
+
+}  // namespace camdir::bake
