@@ -7,6 +7,7 @@ build_packages=(
     libcgal-dev libtbb-dev                   # Delaunay triangulation, parallel stages
     libflatbuffers-dev flatbuffers-compiler  # MAP.vfs
     libxxhash-dev libzip-dev zipcmp zipmerge ziptool  # hashes, pk3 archives
+    libassimp-dev liblzf-dev libnanoflann-dev  # meshes, compressed PCD, neighbours in point clouds
     libembree-dev                            # the exact oracle
     libcairo2-dev                            # lettering and PNG of pictures
     cyclonedds-dev cyclonedds-tools          # the wire

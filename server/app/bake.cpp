@@ -7,6 +7,7 @@
 #include "app/commands.hpp"
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
+#include "app/source.hpp"
 #include "app/writable.hpp"
 #include "bake/bake.hpp"
 #include "base/file.hpp"
@@ -21,12 +22,21 @@ struct Options {
     std::string output;
     std::string report;
     bake::Parameters parameters;
+    scene::ReadOptions read;
     bool quiet = false;
     // Of a whole configuration.
     std::string config;
     std::uint64_t memory_mib = 0;
     bool force = false;
 };
+
+void print_source(const scene::Scene& scene, const bake::Parameters& parameters) {
+    const double d0 = bake::sampling_distance(scene, parameters);
+    std::cerr << scene.source << ": " << scene.kind << ", "
+              << (scene.points.empty() ? scene.triangles.size() : scene.points.size())
+              << (scene.points.empty() ? " triangles" : " points") << ", " << scene.spawn_points.size()
+              << " spawn points, d0 " << d0 * scene.metres_per_unit << " m\n";
+}
 
 Result<bake::Baked> bake_shown(const scene::Scene& scene, const Options& options,
                                const std::stop_token& stop) {
@@ -45,8 +55,9 @@ Result<void> bake_to_file(const Options& options) {
     for (const std::string& file : {options.output, options.report})
         if (auto writable = check_writable(file); !writable) return writable;
 
-    const auto scene = scene::load(options.map);
+    const auto scene = scene::load(options.map, options.read);
     if (!scene) return tl::unexpected(scene.error());
+    if (!options.quiet) print_source(*scene, options.parameters);
     const auto baked = bake_shown(*scene, options, interruption.token());
     if (!baked) return tl::unexpected(baked.error());
     const std::vector<std::byte> bytes = freespace::encode(baked->contents);
@@ -109,13 +120,19 @@ void add_bake(CLI::App& root, Run& run) {
     auto options = std::make_shared<Options>();
     CLI::App* command = root.add_subcommand(
         "bake", "Make a MAP.vfs, the freespace of a map, or those of all maps of a configuration");
-    command->add_option("MAP", options->map, "Map file, or archive.pk3:maps/name.bsp");
+    command->add_option(
+        "MAP", options->map,
+        "Map file, or archive.pk3:maps/name.bsp: a BSP, a mesh (OBJ, PLY, STL, glTF) or a point "
+        "cloud (PCD, PLY, XYZ, LAS)");
     command->add_option("-o,--output", options->output, "File to write; - is standard output");
     command
-        ->add_option("--d0", options->parameters.d0,
-                     "Sampling distance in units of 0.0254 m: openings narrower than about twice of it close")
-        ->check(CLI::Range(bake::min_d0, bake::max_d0))
-        ->capture_default_str();
+        ->add_option(
+            "--d0", options->parameters.d0,
+            "Sampling distance in units of 0.0254 m: openings narrower than about twice of it close. "
+            "Default: 16; for a point cloud, whose surfaces it keeps away from, twice the points' "
+            "spacing")
+        ->check(CLI::Range(bake::min_d0, bake::max_d0));
+    add_read_options(*command, options->read);
     command
         ->add_option(
             "--loss", options->parameters.loss,

@@ -12,13 +12,11 @@
 
 #include "app/bake_schedule.hpp"
 #include "app/map_bake.hpp"
+#include "app/source.hpp"
 #include "freespace/freespace.hpp"
-#include "scene/load.hpp"
 
 namespace camdir::app {
 namespace {
-
-constexpr double metres_of_nominal_unit = 0.0254;
 
 void describe_file(const std::string& file, MapOutcome& outcome) {
     const auto opened = freespace::Freespace::open(file);
@@ -30,9 +28,9 @@ void describe_file(const std::string& file, MapOutcome& outcome) {
 }
 
 Result<std::uint64_t> memory_for(const config::Map& map) {
-    const auto scene = scene::load(map.source);
+    const auto scene = load_source(map);
     if (!scene) return tl::unexpected(scene.error());
-    return estimate_memory(*scene, map.d0 * metres_of_nominal_unit / scene->metres_per_unit);
+    return estimate_memory(*scene, bake::sampling_distance(*scene, parameters_of(map)));
 }
 
 class Batch {

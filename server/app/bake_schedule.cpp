@@ -24,8 +24,8 @@ std::uint64_t estimate_memory(const scene::Scene& scene, double d0) {
     constexpr double bytes_of_a_sample = 1500.0;
     constexpr double samples_on_square = 1.5;
     constexpr double most = 1e15;  // no sum of estimates overflows
-    const double samples =
-        samples_on_square * area_of(scene) / (d0 * d0) + static_cast<double>(scene.vertices.size());
+    const double samples = samples_on_square * area_of(scene) / (d0 * d0) +
+                           static_cast<double>(scene.vertices.size() + scene.points.size());
     return static_cast<std::uint64_t>(std::min(fixed + bytes_of_a_sample * samples, most));
 }
 

@@ -7,6 +7,7 @@
 #include "app/commands.hpp"
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
+#include "app/source.hpp"
 #include "base/file.hpp"
 #include "config/config.hpp"
 #include "evaluation/metrics.hpp"
@@ -56,6 +57,28 @@ Result<evaluation::Trace> read_trace(const Options& options) {
     auto resampled = evaluation::resample(*trace, options.output_hz);
     if (!resampled) return fail(options.trace + ": " + resampled.error().message);
     return resampled;
+}
+
+struct Map {
+    scene::Scene scene;
+    double point_radius = 0.0;  // of the obstacles in a cloud
+};
+
+// The baked file says how a mesh or a point cloud is to be read.
+Result<Map> open_map(const Options& options) {
+    if (options.freespace.empty()) {
+        auto scene = scene::load(options.map);
+        if (!scene) return tl::unexpected(scene.error());
+        if (scene->points.empty()) return Map{std::move(*scene)};
+        return fail(options.map +
+                    ": is a point cloud; name the FILE.vfs too, which says how far its "
+                    "surfaces may be from its points");
+    }
+    const auto freespace = freespace::Freespace::open(options.freespace);
+    if (!freespace) return tl::unexpected(freespace.error());
+    auto scene = load_source(*freespace, options.map);
+    if (!scene) return tl::unexpected(scene.error());
+    return Map{std::move(*scene), freespace->metadata().d0};
 }
 
 Result<camera::Profile> find_profile(const Options& options) {
@@ -133,12 +156,13 @@ Result<void> evaluate(const Options& options) {
     const auto trace = read_trace(options);
     if (!trace) return tl::unexpected(trace.error());
     line.show("reading " + options.map, 0, 0);
-    const auto scene = scene::load(options.map);
-    if (!scene) return tl::unexpected(scene.error());
+    const auto map = open_map(options);
+    if (!map) return tl::unexpected(map.error());
+    const scene::Scene* scene = &map->scene;
     const auto recording = make_cameras(options, *trace, *scene, line, interruption.token());
     if (!recording) return tl::unexpected(recording.error());
     line.show("judging", 0, 0);
-    const oracle::Oracle oracle(*scene);
+    const oracle::Oracle oracle(*scene, map->point_radius);
     const auto metrics =
         evaluation::measure(oracle, scene->metres_per_unit, *trace, recording->cameras, interruption.token());
     if (!metrics) return tl::unexpected(metrics.error());

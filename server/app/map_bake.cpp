@@ -5,6 +5,7 @@
 #include <thread>
 #include <utility>
 
+#include "app/source.hpp"
 #include "base/file.hpp"
 #include "config/json_text.hpp"
 #include "freespace/freespace.hpp"
@@ -18,14 +19,17 @@ using nlohmann::json;
 // The first parameter that differs: "d0 64.0 instead of 48.0".
 std::string difference(const std::string& baked, const std::string& wanted) {
     if (baked == wanted) return {};
-    const auto was = config::parse_json(baked);
+    auto was = config::parse_json(baked);
     const json want = json::parse(wanted);
     if (!was || !was->is_object()) return "parameters that this version does not know";
+    was->erase("kind");
     for (const auto& [name, value] : want.items()) {
-        if (!was->contains(name)) return "a version that had no parameter " + name;
+        if (!was->contains(name)) return "no " + name + " instead of " + value.dump();
         if ((*was)[name] != value) return name + " " + (*was)[name].dump() + " instead of " + value.dump();
     }
-    return was->size() == want.size() ? "" : "parameters that this version does not know";
+    for (const auto& [name, value] : was->items())
+        if (!want.contains(name)) return name + " " + value.dump() + " instead of none";
+    return {};
 }
 
 Result<PendingFile> claim(const std::string& file, const bake::ProgressSink& progress,
@@ -42,18 +46,9 @@ Result<PendingFile> claim(const std::string& file, const bake::ProgressSink& pro
     }
 }
 
-bake::Parameters parameters_of(const config::Map& map) {
-    bake::Parameters parameters;
-    parameters.d0 = map.d0;
-    parameters.sampling = bake::sampling_named(map.sampling).value();
-    parameters.loss = map.loss;
-    parameters.triangles = static_cast<std::uint64_t>(map.triangles);
-    return parameters;
-}
-
 Result<BakeReport> bake_into(PendingFile file, const config::Map& map, unsigned threads,
                              const bake::ProgressSink& progress, const std::stop_token& stop) {
-    const auto scene = scene::load(map.source);
+    const auto scene = load_source(map);
     if (!scene) return tl::unexpected(scene.error());
     bake::Parameters parameters = parameters_of(map);
     parameters.threads = threads;
@@ -66,6 +61,15 @@ Result<BakeReport> bake_into(PendingFile file, const config::Map& map, unsigned 
 
 }  // namespace
 
+bake::Parameters parameters_of(const config::Map& map) {
+    bake::Parameters parameters;
+    parameters.d0 = map.d0;
+    parameters.sampling = bake::sampling_named(map.sampling).value();
+    parameters.loss = map.loss;
+    parameters.triangles = static_cast<std::uint64_t>(map.triangles);
+    return parameters;
+}
+
 Result<Freshness> examine(const config::Map& map) {
     const auto hash = scene::hash_source(map.source);
     const auto opened = freespace::Freespace::open(map.file);
@@ -73,7 +77,10 @@ Result<Freshness> examine(const config::Map& map) {
     if (!opened) return Freshness{opened.error().message, ""};
     if (!hash) return Freshness{"", hash.error().message + ": " + map.file + " is used as it is"};
     if (opened->metadata().source_hash != *hash) return Freshness{map.source + " has changed since", ""};
-    const std::string other = difference(opened->metadata().parameters, bake::to_json(parameters_of(map)));
+    const auto options = read_options_of(map);
+    if (!options) return tl::unexpected(options.error());
+    const std::string other =
+        difference(opened->metadata().parameters, bake::to_json(parameters_of(map), *options));
     return Freshness{other.empty() ? "" : "it was baked with " + other, ""};
 }
 

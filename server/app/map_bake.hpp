@@ -11,6 +11,9 @@
 
 namespace camdir::app {
 
+// The configured map's, but for the number of threads.
+[[nodiscard]] bake::Parameters parameters_of(const config::Map& map);
+
 // Whether a map's file has to be baked.
 struct Freshness {
     std::string stale;    // why; empty: the file holds the map as it is configured

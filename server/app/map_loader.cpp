@@ -6,6 +6,7 @@
 #include <set>
 
 #include "app/map_bake.hpp"
+#include "app/source.hpp"
 #include "scene/load.hpp"
 
 namespace camdir::app {
@@ -28,6 +29,8 @@ Result<void> check_map(const config::Map& map) {
     } else {
         const auto hash = scene::hash_source(map.source);
         if (!hash) return tl::unexpected(hash.error());
+        const auto options = read_options_of(map);
+        if (!options) return tl::unexpected(options.error());
     }
     return {};
 }

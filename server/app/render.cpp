@@ -10,6 +10,7 @@
 #include "app/interrupt.hpp"
 #include "app/picture_layers.hpp"
 #include "app/progress.hpp"
+#include "app/source.hpp"
 #include "app/writable.hpp"
 #include "base/file.hpp"
 #include "render/draw.hpp"
@@ -154,7 +155,7 @@ Result<void> render_file(const Options& options) {
         if (auto writable = check_writable(file); !writable) return writable;
     const auto freespace = Freespace::open(options.file);
     if (!freespace) return tl::unexpected(freespace.error());
-    const auto map = scene::load(options.map);
+    const auto map = load_source(*freespace, options.map);
     if (!map) return tl::unexpected(map.error());
     const bool same_source = freespace->metadata().source_hash == map->source_hash;
     if (!same_source)

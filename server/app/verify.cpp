@@ -10,11 +10,11 @@
 #include "app/commands.hpp"
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
+#include "app/source.hpp"
 #include "base/file.hpp"
 #include "evaluation/verification.hpp"
 #include "freespace/freespace.hpp"
 #include "oracle/oracle.hpp"
-#include "scene/load.hpp"
 
 namespace camdir::app {
 namespace {
@@ -128,7 +128,7 @@ Result<int> verify(const Options& options) {
     const Interruption interruption;
     const auto freespace = freespace::Freespace::open(options.file);
     if (!freespace) return tl::unexpected(freespace.error());
-    const auto scene = scene::load(options.map);
+    const auto scene = load_source(*freespace, options.map);
     if (!scene) return tl::unexpected(scene.error());
     const bool same_source = freespace->metadata().source_hash == scene->source_hash;
     if (!same_source)
@@ -140,7 +140,7 @@ Result<int> verify(const Options& options) {
         line.show(stage, done, total);
     };
     const auto start = std::chrono::steady_clock::now();
-    const oracle::Oracle oracle(*scene);
+    const oracle::Oracle oracle(*scene, freespace->metadata().d0);
     const auto result =
         evaluation::verify(*freespace, *scene, oracle, options.parameters, show, interruption.token());
     line.clear();

@@ -5,7 +5,12 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <map>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "bake/clearance.hpp"
@@ -32,6 +37,11 @@ namespace {
 // Lengths of the parameters and of the project's definitions are given for units of this many metres.
 constexpr double metres_of_nominal_unit = 0.0254;
 
+constexpr double default_d0 = 16.0;
+// A point cloud is thinned to half of d0. Of its default d0 the other half is for the gaps between the
+// points.
+constexpr double spacings_in_d0 = 2.0;
+
 // What the stages hand to each other. A stage clears what nobody needs after it.
 class Bake {
   public:
@@ -39,7 +49,7 @@ class Bake {
         : scene_(scene),
           parameters_(parameters),
           unit_(unit),
-          d0_(parameters.d0 * unit),
+          d0_(sampling_distance(scene, parameters)),
           obstacles_(scene),
           solids_(scene),
           distance_(d0_) {}
@@ -61,8 +71,11 @@ class Bake {
     Result<void> reduce(Stage& stage);
     Result<void> pack(Stage& stage);
 
+    [[nodiscard]] bool is_cloud() const { return !scene_.points.empty(); }
     // Dropped samples must not break the sampling condition: sampling is finer by this distance.
-    [[nodiscard]] double weld_distance() const { return d0_ / 64.0; }
+    [[nodiscard]] double weld_distance() const { return is_cloud() ? d0_ / 2.0 : d0_ / 64.0; }
+    // What is free around a cloud's points: surface lies up to d0 away from them.
+    [[nodiscard]] double margin() const { return is_cloud() ? d0_ : 0.0; }
 
     const scene::Scene& scene_;
     const Parameters& parameters_;
@@ -90,10 +103,22 @@ Result<void> keep(Result<T> result, T& place) {
     return {};
 }
 
+// What the reader left out, told like a stage.
+StageReport left_out_of(const scene::Scene& scene) {
+    std::map<std::string, double> counts;
+    for (const scene::LeftOut& left_out : scene.left_out)
+        counts[left_out.reason] += static_cast<double>(left_out.count);
+    StageReport report{"left out", 0.0, {}};
+    for (const auto& [reason, count] : counts)
+        report.counts.push_back({report.stage, reason, count});
+    return report;
+}
+
 Result<void> Bake::run(const ProgressSink& progress, const std::stop_token& stop,
                        const ReportSink& finished) {
     using Run = Result<void> (Bake::*)(Stage&);
-    constexpr std::array<std::pair<const char*, Run>, 12> stages{{
+    using Named = std::pair<const char*, Run>;
+    static constexpr std::array<Named, 12> of_surfaces{{
         {"medial axis", &Bake::medial_axis},
         {"sample", &Bake::sample},
         {"weld", &Bake::weld},
@@ -107,7 +132,24 @@ Result<void> Bake::run(const ProgressSink& progress, const std::stop_token& stop
         {"reduce", &Bake::reduce},
         {"pack", &Bake::pack},
     }};
-    for (const auto& [name, stage_of] : stages) {
+    // Points sample themselves, and nothing crosses a point. What is connected depends on the margin.
+    static constexpr std::array<Named, 9> of_points{{
+        {"thin", &Bake::weld},
+        {"delaunay", &Bake::delaunay},
+        {"voronoi", &Bake::voronoi},
+        {"triangulate", &Bake::triangulate},
+        {"clearance", &Bake::clearance},
+        {"certify", &Bake::certify},
+        {"inside", &Bake::inside},
+        {"reduce", &Bake::reduce},
+        {"pack", &Bake::pack},
+    }};
+    samples_ = scene_.points;
+    if (!scene_.left_out.empty()) {
+        reports_.push_back(left_out_of(scene_));
+        if (finished) finished(reports_.back());
+    }
+    for (const auto& [name, stage_of] : is_cloud() ? std::span<const Named>(of_points) : of_surfaces) {
         Stage stage(name, progress, stop);
         if (auto done = (this->*stage_of)(stage); !done) return done;
         reports_.push_back(std::move(stage).finish());
@@ -165,11 +207,20 @@ Result<void> Bake::crossing(Stage& stage) {
 }
 
 Result<void> Bake::inside(Stage& stage) {
-    return keep_inside(mesh_, clearance_, scene_, solids_, stage);
+    if (!is_cloud()) return keep_inside(mesh_, clearance_, scene_, solids_, stage);
+    return keep_inside_cloud(mesh_, clearance_, free_distance_, margin(), scene_, stage);
 }
 
 Result<void> Bake::certify(Stage& stage) {
     return keep(free_distances(mesh_, clearance_, obstacles_, 0.005 * unit_, stage), free_distance_);
+}
+
+// Rounded down, so that the ball stays free.
+float less(float distance, double margin) {
+    const double exact = static_cast<double>(distance) - margin;
+    const auto rounded = static_cast<float>(exact);
+    if (static_cast<double>(rounded) <= exact) return rounded;
+    return std::nextafter(rounded, -std::numeric_limits<float>::infinity());
 }
 
 Result<void> Bake::reduce(Stage& stage) {
@@ -179,7 +230,32 @@ Result<void> Bake::reduce(Stage& stage) {
 }
 
 Result<void> Bake::pack(Stage& stage) {
+    for (float& distance : free_distance_)
+        distance = less(distance, margin());
     return keep(bake::pack(mesh_, free_distance_, scene_, stage), contents_);
+}
+
+std::string number(double value) {
+    std::array<char, 32> text{};
+    const auto end = std::to_chars(text.data(), text.data() + text.size(), value);
+    return {text.data(), end.ptr};
+}
+
+std::string triple(const Vec3d& p) {
+    return "[" + number(p.x()) + ", " + number(p.y()) + ", " + number(p.z()) + "]";
+}
+
+// As far as it was given.
+std::string json_of(const scene::ReadOptions& options) {
+    std::string json;
+    if (options.metres_per_unit) json += ", \"metres_per_unit\": " + number(*options.metres_per_unit);
+    if (options.up) json += *options.up == scene::UpAxis::y ? ", \"up\": \"y\"" : ", \"up\": \"z\"";
+    if (options.origin != Vec3d::Zero()) json += ", \"origin\": " + triple(options.origin);
+    if (options.seeds.empty()) return json;
+    std::string seeds;
+    for (const Vec3d& seed : options.seeds)
+        seeds += (seeds.empty() ? "" : ", ") + triple(seed);
+    return json + ", \"seeds\": [" + seeds + "]";
 }
 
 freespace::Metadata describe(const scene::Scene& scene, const Parameters& parameters, double d0,
@@ -190,7 +266,8 @@ freespace::Metadata describe(const scene::Scene& scene, const Parameters& parame
     metadata.source_hash = scene.source_hash;
     metadata.metres_per_unit = static_cast<float>(scene.metres_per_unit);
     metadata.d0 = static_cast<float>(d0);
-    metadata.parameters = to_json(parameters);
+    metadata.parameters = to_json(parameters, scene.options);
+    metadata.parameters.insert(1, "\"kind\": \"" + scene.kind + "\", ");
     for (const StageReport& report : reports)
         metadata.counts.insert(metadata.counts.end(), report.counts.begin(), report.counts.end());
     return metadata;
@@ -198,12 +275,12 @@ freespace::Metadata describe(const scene::Scene& scene, const Parameters& parame
 
 }  // namespace
 
-std::string to_json(const Parameters& parameters) {
+std::string to_json(const Parameters& parameters, const scene::ReadOptions& options) {
     return "{\"d0\": " + std::to_string(parameters.d0) + ", \"sampling\": \"" +
            std::string(name_of(parameters.sampling)) +
            "\", \"coarsest\": " + std::to_string(parameters.coarsest) +
            ", \"loss\": " + std::to_string(parameters.loss) +
-           ", \"triangles\": " + std::to_string(parameters.triangles) + "}";
+           ", \"triangles\": " + std::to_string(parameters.triangles) + json_of(options) + "}";
 }
 
 std::string_view name_of(Sampling sampling) {
@@ -216,16 +293,24 @@ std::optional<Sampling> sampling_named(std::string_view name) {
     return std::nullopt;
 }
 
+double sampling_distance(const scene::Scene& scene, const Parameters& parameters) {
+    const double unit = metres_of_nominal_unit / scene.metres_per_unit;
+    if (parameters.d0 > 0.0) return parameters.d0 * unit;
+    if (scene.points.empty()) return default_d0 * unit;
+    return std::clamp(spacings_in_d0 * scene.point_spacing, min_d0 * unit, max_d0 * unit);
+}
+
 Result<Baked> bake(const scene::Scene& scene, const Parameters& parameters, const ProgressSink& progress,
                    std::stop_token stop, const ReportSink& finished) {
-    if (!(parameters.d0 >= min_d0 && parameters.d0 <= max_d0))
+    if (parameters.d0 != 0.0 && !(parameters.d0 >= min_d0 && parameters.d0 <= max_d0))
         return fail("d0 = " + std::to_string(parameters.d0) + ": expected a distance from 2 to 256 units");
     if (!(parameters.coarsest >= 1.0 && parameters.coarsest <= max_coarsest))
         return fail("coarsest = " + std::to_string(parameters.coarsest) + ": expected a number from 1 to 64");
-    if (scene.triangles.empty()) return fail(scene.source + ": the scene has no obstacles");
+    if (scene.triangles.empty() && scene.points.empty())
+        return fail(scene.source + ": the scene has no obstacles");
 
     const double unit = metres_of_nominal_unit / scene.metres_per_unit;
-    const double d0 = parameters.d0 * unit;
+    const double d0 = sampling_distance(scene, parameters);
     const auto cores = static_cast<unsigned>(tbb::info::default_concurrency());
     const unsigned threads = parameters.threads == 0 ? cores : std::min(parameters.threads, cores);
     return tbb::task_arena(static_cast<int>(threads)).execute([&]() -> Result<Baked> {

@@ -30,7 +30,9 @@ enum class Sampling : std::uint8_t {
 [[nodiscard]] std::optional<Sampling> sampling_named(std::string_view name);
 
 struct Parameters {
-    double d0 = 16.0;  // sampling distance in units of 0.0254 m: sets which openings exist. min_d0 .. max_d0
+    // Sampling distance in units of 0.0254 m: sets which openings exist. min_d0 .. max_d0, or 0: 16, and for
+    // a point cloud twice the points' spacing.
+    double d0 = 0.0;
     unsigned threads = 0;  // 0 = one a core, which is also the most. Never changes the result
     // Mesh reduction: how much free distance the centre of a ball may lose, as percent of d0. 0 keeps the
     // whole mesh. 0 .. max_loss
@@ -40,8 +42,9 @@ struct Parameters {
     double coarsest = 8.0;  // adaptive: no sampling distance is more than this times d0. 1 .. max_coarsest
 };
 
-// The parameters that decide the result, as a JSON object: what Metadata::parameters keeps.
-[[nodiscard]] std::string to_json(const Parameters& parameters);
+// What decides the result beside the source, as a JSON object: Metadata::parameters is it, and "kind", what
+// the source is.
+[[nodiscard]] std::string to_json(const Parameters& parameters, const scene::ReadOptions& options);
 
 // How far a stage is; injected so that baking knows no terminal. Called from one thread at a time.
 struct Progress {
@@ -62,6 +65,9 @@ struct Baked {
     freespace::Contents contents;
     std::vector<StageReport> stages;
 };
+
+// The sampling distance that is used, map units.
+[[nodiscard]] double sampling_distance(const scene::Scene& scene, const Parameters& parameters);
 
 // Runs all stages; tells `finished` about each when it is done. Fails with ErrorCode::interrupted soon after
 // `stop` is requested, and with `failed` when the scene has no obstacles, no spawn point in free space, or

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "bake/disjoint_sets.hpp"
 
@@ -30,7 +31,7 @@ Result<std::vector<char>> parts_with_spawn_points(const MedialMesh& mesh,
         for (const std::uint32_t vertex : {t.a, t.b, t.c})
             for (std::size_t spawn = 0; spawn < connected.size(); ++spawn) {
                 const Vec3d to_eye = scene.spawn_points[spawn].eye - mesh.position(vertex);
-                if (to_eye.squaredNorm() >= clearance[vertex] * clearance[vertex]) continue;
+                if (to_eye.norm() >= clearance[vertex]) continue;
                 wanted[parts.find(vertex)] = 1;
                 connected[spawn] = 1;
             }
@@ -50,13 +51,27 @@ double area(const Triangle3d& t) {
 
 std::vector<char> largest_part(const MedialMesh& mesh, DisjointSets& parts) {
     std::map<std::uint32_t, double> areas;
-    for (const freespace::Triangle& t : mesh.triangles)
-        areas[parts.find(t.a)] += area(mesh.corners(t));
+    for (const freespace::Triangle& t : mesh.triangles) {
+        for (const std::uint32_t part : std::set{parts.find(t.a), parts.find(t.b), parts.find(t.c)})
+            areas[part] += area(mesh.corners(t));
+    }
     std::vector<char> wanted(mesh.vertices.size());
     const auto largest = std::max_element(areas.begin(), areas.end(),
                                           [](const auto& a, const auto& b) { return a.second < b.second; });
     if (largest != areas.end()) wanted[largest->first] = 1;
     return wanted;
+}
+
+// Keeps the wanted parts' triangles.
+void keep_parts(MedialMesh& mesh, const std::vector<char>& wanted, DisjointSets& parts, Stage& stage) {
+    std::vector<char> keep(mesh.triangles.size());
+    for (std::size_t i = 0; i < keep.size(); ++i) {
+        const freespace::Triangle& t = mesh.triangles[i];
+        for (const std::uint32_t vertex : {t.a, t.b, t.c})
+            keep[i] = keep[i] || wanted[parts.find(vertex)];
+    }
+    keep_triangles(mesh, keep);
+    stage.count("inside triangles", static_cast<double>(mesh.triangles.size()));
 }
 
 }  // namespace
@@ -68,13 +83,8 @@ Result<void> keep_inside(MedialMesh& mesh, const std::vector<double>& clearance,
     if (!scene.spawn_points.empty()) wanted = parts_with_spawn_points(mesh, clearance, scene, parts, stage);
     if (!wanted) return tl::unexpected(wanted.error());
 
+    keep_parts(mesh, *wanted, parts, stage);
     std::vector<char> keep(mesh.triangles.size());
-    for (std::size_t i = 0; i < keep.size(); ++i)
-        keep[i] = (*wanted)[parts.find(mesh.triangles[i].a)];
-    keep_triangles(mesh, keep);
-    stage.count("inside triangles", static_cast<double>(mesh.triangles.size()));
-
-    keep.resize(mesh.triangles.size());
     const bool done = stage.for_each(keep.size(), [&](std::uint64_t i) {
         const auto& [a, b, c] = mesh.triangles[i];
         keep[i] = !solids.contain(mesh.position(a)) && !solids.contain(mesh.position(b)) &&
@@ -83,6 +93,32 @@ Result<void> keep_inside(MedialMesh& mesh, const std::vector<double>& clearance,
     if (!done) return stage.interrupted();
     keep_triangles(mesh, keep);
     stage.count("triangles", static_cast<double>(mesh.triangles.size()));
+    return {};
+}
+
+Result<void> keep_inside_cloud(MedialMesh& mesh, const std::vector<double>& clearance,
+                               const std::vector<float>& free_distance, double margin,
+                               const scene::Scene& scene, Stage& stage) {
+    const auto is_free = [&](std::uint32_t vertex) { return free_distance[vertex] > margin; };
+    DisjointSets parts(mesh.vertices.size());
+    std::vector<char> keep(mesh.triangles.size());
+    for (std::size_t i = 0; i < keep.size(); ++i) {
+        const auto& [a, b, c] = mesh.triangles[i];
+        keep[i] = is_free(a) || is_free(b) || is_free(c);
+        if (is_free(a) && is_free(b)) parts.unite(a, b);
+        if (is_free(b) && is_free(c)) parts.unite(b, c);
+        if (is_free(c) && is_free(a)) parts.unite(c, a);
+    }
+    keep_triangles(mesh, keep);
+    // Of a vertex that is not free nothing is known to be connected.
+    std::vector<double> free(mesh.vertices.size());
+    for (std::uint32_t vertex = 0; vertex < free.size(); ++vertex)
+        free[vertex] = is_free(vertex) ? clearance[vertex] - margin : 0.0;
+
+    Result<std::vector<char>> wanted = largest_part(mesh, parts);
+    if (!scene.spawn_points.empty()) wanted = parts_with_spawn_points(mesh, free, scene, parts, stage);
+    if (!wanted) return tl::unexpected(wanted.error());
+    keep_parts(mesh, *wanted, parts, stage);
     return {};
 }
 

@@ -5,13 +5,19 @@
 namespace camdir::bake {
 namespace {
 
+// A cloud's obstacles are points: triangles without extent.
+std::size_t obstacle_count(const scene::Scene& scene) {
+    return scene.points.empty() ? scene.triangles.size() : scene.points.size();
+}
+
 Triangle3d triangle_of(const scene::Scene& scene, std::size_t index) {
+    if (!scene.points.empty()) return {scene.points[index], scene.points[index], scene.points[index]};
     const auto& corners = scene.triangles[index];
     return {scene.vertices[corners[0]], scene.vertices[corners[1]], scene.vertices[corners[2]]};
 }
 
 std::vector<Box3d> boxes_of(const scene::Scene& scene) {
-    std::vector<Box3d> boxes(scene.triangles.size());
+    std::vector<Box3d> boxes(obstacle_count(scene));
     for (std::size_t i = 0; i < boxes.size(); ++i)
         boxes[i] = box_of(triangle_of(scene, i));
     return boxes;
@@ -20,7 +26,7 @@ std::vector<Box3d> boxes_of(const scene::Scene& scene) {
 }  // namespace
 
 Obstacles::Obstacles(const scene::Scene& scene) : tree_(boxes_of(scene)) {
-    triangles_.reserve(scene.triangles.size());
+    triangles_.reserve(obstacle_count(scene));
     for (const std::uint32_t index : tree_.order())
         triangles_.push_back(triangle_of(scene, index));
 }

@@ -1,4 +1,4 @@
-// The scene's obstacle triangles under a spatial index.
+// The scene's obstacles under a spatial index: its triangles, or the points of a cloud.
 #pragma once
 
 #include <limits>
@@ -16,7 +16,8 @@ class Obstacles {
   public:
     explicit Obstacles(const scene::Scene& scene);
 
-    // In the tree's order: positions handed out by tree() index them.
+    // In the tree's order: positions handed out by tree() index them. A point is a triangle whose corners
+    // coincide.
     [[nodiscard]] const std::vector<Triangle3d>& triangles() const { return triangles_; }
     [[nodiscard]] const BoxTree& tree() const { return tree_; }
 

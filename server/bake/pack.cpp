@@ -23,6 +23,13 @@ bool covered(const Vec3d& point, const freespace::Contents& contents) {
     return std::any_of(contents.triangles.begin(), contents.triangles.end(), holds);
 }
 
+freespace::SpawnPoint widest_place(const freespace::Contents& contents) {
+    const auto widest =
+        std::max_element(contents.vertices.begin(), contents.vertices.end(),
+                         [](const auto& a, const auto& b) { return a.free_distance < b.free_distance; });
+    return {widest->position(), 0.0F};
+}
+
 }  // namespace
 
 Result<freespace::Contents> pack(const MedialMesh& mesh, const std::vector<float>& free_distance,
@@ -49,6 +56,7 @@ Result<freespace::Contents> pack(const MedialMesh& mesh, const std::vector<float
         contents.spawn_points.push_back({spawn.eye.cast<float>(), static_cast<float>(spawn.yaw)});
         covered_spawn_points += covered(spawn.eye, contents);
     }
+    if (contents.spawn_points.empty()) contents.spawn_points.push_back(widest_place(contents));
     stage.count("vertices", static_cast<double>(contents.vertices.size()));
     stage.count("triangles", static_cast<double>(contents.triangles.size()));
     stage.count("covered spawn points", static_cast<double>(covered_spawn_points));

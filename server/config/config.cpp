@@ -11,6 +11,9 @@
 namespace camdir::config {
 namespace {
 
+// As bake::min_d0.
+constexpr double min_d0 = 2.0;
+
 using nlohmann::json;
 namespace fs = std::filesystem;
 
@@ -115,6 +118,8 @@ void read_maps(const json& list, Config& config, Problems& problems) {
         const std::string pointer = "/maps/" + std::to_string(i);
         Map map;
         read_object("/maps/*", pointer, list[i], {nullptr, &map, nullptr}, problems);
+        if (map.d0 > 0.0 && map.d0 < min_d0)
+            problems.add(pointer + "/d0", map.d0, "a number from 2 to 256, or 0");
         if (!map.name.empty() && !names.insert(map.name).second)
             problems.add(pointer + "/name", map.name, "a name that no other map has");
         if (!map.file.empty() && !files.insert(normal(map.file)).second)

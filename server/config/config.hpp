@@ -38,10 +38,15 @@ struct Map {
     std::string file;    // MAP.vfs
     std::string source;  // when set, `file` is baked from it when missing or stale
     // Of bake::Parameters, by the same names.
-    double d0 = 16.0;
+    double d0 = 0.0;
     std::string sampling = "adaptive";
     double loss = 0.0;
     std::int64_t triangles = 0;
+    // scene::ReadOptions
+    double metres_per_unit = 0.0;
+    std::string up;
+    std::string origin;
+    std::vector<std::string> seeds;
     bool strict = false;
 
     bool operator==(const Map&) const = default;

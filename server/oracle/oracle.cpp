@@ -1,8 +1,10 @@
 #include "oracle/oracle.hpp"
 
+#include <cassert>
 #include <mutex>
 #include <optional>
 
+#include "oracle/points.hpp"
 #include "oracle/reached_grid.hpp"
 #include "oracle/surfaces.hpp"
 #include "oracle/volumes.hpp"
@@ -16,16 +18,24 @@ constexpr int max_climbs = 32;
 }  // namespace
 
 struct Oracle::Structures {
-    explicit Structures(const scene::Scene& scene)
+    Structures(const scene::Scene& scene, double point_radius)
         : device(make_device()),
           surfaces(device.get(), scene),
+          points(device.get(), scene, point_radius),
           volumes(device.get(), scene),
           bounds(scene.bounds),
           pitch(grid_pitch(scene)),
           seeds(spawn_eyes(scene)) {}
 
+    [[nodiscard]] Nearest nearest(const Vec3d& point, double limit) const {
+        const Nearest surface = surfaces.nearest(point, limit);
+        const Nearest ball = points.nearest(point, limit);
+        return ball.distance < surface.distance ? ball : surface;
+    }
+
     Device device;
     Surfaces surfaces;
+    Points points;
     Volumes volumes;
     Box3d bounds;
     double pitch;
@@ -34,7 +44,10 @@ struct Oracle::Structures {
     std::optional<ReachedGrid> grid;
 };
 
-Oracle::Oracle(const scene::Scene& scene) : structures_(std::make_unique<Structures>(scene)) {}
+Oracle::Oracle(const scene::Scene& scene, double point_radius)
+    : structures_(std::make_unique<Structures>(scene, point_radius)) {
+    assert(scene.points.empty() || point_radius > 0.0);
+}
 Oracle::Oracle(Oracle&&) noexcept = default;
 Oracle& Oracle::operator=(Oracle&&) noexcept = default;
 Oracle::~Oracle() = default;
@@ -42,19 +55,21 @@ Oracle::~Oracle() = default;
 double Oracle::clearance(const Vec3d& point, double limit) const {
     if (!point.allFinite()) return -infinity;
     const double depth = structures_->volumes.depth(point);
-    return depth >= 0.0 ? -depth : structures_->surfaces.nearest(point, limit).distance;
+    return depth >= 0.0 ? -depth : structures_->nearest(point, limit).distance;
 }
 
 bool Oracle::segment_clear(const Vec3d& from, const Vec3d& to) const {
-    return from.allFinite() && to.allFinite() && structures_->surfaces.segment_clear(from, to);
+    return from.allFinite() && to.allFinite() && structures_->surfaces.segment_clear(from, to) &&
+           structures_->points.segment_clear(from, to);
 }
 
 bool Oracle::in_solid(const Vec3d& point) const {
-    return structures_->volumes.depth(point) >= 0.0;
+    return structures_->volumes.depth(point) >= 0.0 ||
+           structures_->points.nearest(point, 0.0).distance <= 0.0;
 }
 
 bool Oracle::ball_clear(const Vec3d& centre, double radius) const {
-    return centre.allFinite() && structures_->surfaces.nearest(centre, radius).distance == infinity &&
+    return centre.allFinite() && structures_->nearest(centre, radius).distance == infinity &&
            structures_->volumes.ball_clear(centre, radius);
 }
 
@@ -70,9 +85,9 @@ bool Oracle::reachable(const Vec3d& point) const {
     Vec3d place = point;
     for (int climb = 0; climb < max_climbs; ++climb) {
         if (structures_->grid->joined(place)) return true;
-        const Nearest nearest = structures_->surfaces.nearest(place, infinity);
-        if (nearest.distance == infinity || nearest.distance == 0.0) return false;
-        place += (place - nearest.point) * 0.5;
+        const Nearest nearest = structures_->nearest(place, infinity);
+        if (nearest.distance == infinity || nearest.distance <= 0.0) return false;
+        place += (place - nearest.point).normalized() * (0.5 * nearest.distance);
     }
     return false;
 }

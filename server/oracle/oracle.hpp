@@ -1,5 +1,5 @@
-// Exact clearance and visibility against the source scene. It never looks at a VFS-rep: verify, evaluate
-// and the tests judge with it.
+// Exact clearance and visibility against the source scene. The obstacles of a point cloud are balls around
+// its points: a solid each. It never looks at a VFS-rep: verify, evaluate and the tests judge with it.
 #pragma once
 
 #include <limits>
@@ -14,26 +14,27 @@ namespace camdir::oracle {
 // free space: clearance -infinity, nothing clear, not reachable.
 class Oracle {
   public:
-    explicit Oracle(const scene::Scene& scene);
+    // `point_radius`: of the balls around a cloud's points, > 0 for clouds; MAP.vfs says it (d0).
+    explicit Oracle(const scene::Scene& scene, double point_radius = 0.0);
     Oracle(Oracle&&) noexcept;
     Oracle& operator=(Oracle&&) noexcept;
     ~Oracle();
 
-    // Distance from `point` to the nearest obstacle triangle, map units; inside a solid brush the
-    // negative depth below the brush's surface (never positive there). Infinity when nothing is nearer than
+    // Distance from `point` to the nearest obstacle, map units; inside a solid the negative depth below its
+    // surface (never positive there). Infinity when nothing is nearer than
     // `limit`: a small limit makes the query cheaper.
     [[nodiscard]] double clearance(const Vec3d& point,
                                    double limit = std::numeric_limits<double>::infinity()) const;
 
-    // No obstacle triangle crosses or touches the closed segment. Exact up to the rounding of
+    // No obstacle crosses or touches the closed segment. Exact up to the rounding of
     // coordinates to float: what comes nearer than that counts as a touch.
     [[nodiscard]] bool segment_clear(const Vec3d& from, const Vec3d& to) const;
 
-    // Inside a brush or on its surface, by the brushes' planes alone; always false for scenes without
-    // brushes.
+    // Inside a solid or on its surface: of brushes by their planes alone; always false for meshes, which have
+    // none.
     [[nodiscard]] bool in_solid(const Vec3d& point) const;
 
-    // Neither a triangle nor a brush reaches into the ball. May be false for a ball that a brush's edge only
+    // No obstacle reaches into the ball. May be false for a ball that a brush's edge only
     // comes near.
     [[nodiscard]] bool ball_clear(const Vec3d& centre, double radius) const;
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/geometry.hpp"
+#include "scene/read_options.hpp"
 
 namespace camdir::scene {
 
@@ -41,18 +42,25 @@ struct Scene {
     std::string name;               // the map's name: file name without folder and extension
     std::string source;             // as the user named it: path, or archive.pk3:member
     std::uint64_t source_hash = 0;  // xxh3-64 of the map file's (or member's) bytes
+    std::string kind;               // what it was read from: BSP, mesh (OBJ), point cloud (PCD), ...
+    ReadOptions options;            // how
     double metres_per_unit = 1.0;
 
     // The obstacles' surfaces, welded: every index < vertices.size(), no triangle of zero area.
     std::vector<Vec3d> vertices;
     std::vector<std::array<std::uint32_t, 3>> triangles;
 
+    // Instead of triangles, of a point cloud: points of the surfaces, ascending, no two alike. Neighbours lie
+    // about `point_spacing` apart: for 95 % of the points the mean distance to the nearest 8 is at most that.
+    std::vector<Vec3d> points;
+    double point_spacing = 0.0;
+
     // The obstacles' volumes where the format knows them, else empty: Quake 3's brushes, the solid leaves of
     // Quake's and GoldSrc's trees.
     std::vector<Plane> planes;
     std::vector<Brush> brushes;
 
-    Box3d bounds;  // of the playable world; encloses `vertices`
+    Box3d bounds;  // of the playable world; encloses `vertices` and `points`
     std::vector<SpawnPoint> spawn_points;
     std::vector<LeftOut> left_out;
 };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstring>
 #include <filesystem>
 #include <memory>
@@ -111,7 +112,17 @@ Result<Source> read_source(const std::string& source) {
     Result<Bytes> bytes = member ? read_member(*member, source) : read_plain(source);
     if (!bytes) return tl::unexpected(bytes.error());
     const fs::path name = member ? member->member : source;
-    return Source{name.stem().string(), std::move(*bytes)};
+    std::string extension = name.extension().string();
+    for (char& c : extension)
+        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return Source{name.stem().string(), std::move(extension), std::move(*bytes)};
+}
+
+std::string beside(const std::string& source, const std::string& relative) {
+    const std::optional<MemberPath> member = is_file(source) ? std::nullopt : split_member(source);
+    if (!member) return (fs::path(source).parent_path() / relative).string();
+    const fs::path path = fs::path(member->member).parent_path() / relative;
+    return member->archive + ":" + path.lexically_normal().generic_string();
 }
 
 }  // namespace camdir::scene

@@ -13,12 +13,16 @@ namespace camdir::scene {
 inline constexpr std::size_t max_member_bytes = std::size_t{256} << 20;
 
 struct Source {
-    std::string map_name;  // file name without folder and extension
+    std::string map_name;   // file name without folder and extension
+    std::string extension;  // .bsp, in lower case
     Bytes bytes;
 };
 
 // `source` is a file, or `archive.pk3:member`. An existing file wins over the reading with a colon.
 // Errors name the file, the member and the reason.
 [[nodiscard]] Result<Source> read_source(const std::string& source);
+
+// The source at a path relative to this one: in the same folder, or in the same archive.
+[[nodiscard]] std::string beside(const std::string& source, const std::string& relative);
 
 }  // namespace camdir::scene

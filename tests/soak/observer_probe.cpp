@@ -225,6 +225,10 @@ int probe(const Options& options, const std::stop_token& stop) {
             std::cerr << "observer-probe: " << scene.error().message << '\n';
             return 1;
         }
+        if (!scene->points.empty()) {
+            std::cerr << "observer-probe: " << options.map << ": cameras are not judged in point clouds\n";
+            return 1;
+        }
         oracle = std::make_unique<oracle::Oracle>(*scene);
     }
     const camera_director::Context context({.domain = options.network.domain,

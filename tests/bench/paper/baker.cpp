@@ -8,13 +8,11 @@ namespace {
 
 // The part of the work that a stage of the baker belongs to.
 std::string part_of(const std::string& stage) {
-    static const std::map<std::string, std::string> parts{{"sample", "sampling"},
-                                                          {"weld", "sampling"},
-                                                          {"delaunay", "Voronoi diagram"},
-                                                          {"voronoi", "Voronoi diagram"},
-                                                          {"certify", "free distance"},
-                                                          {"reduce", "reduction"},
-                                                          {"pack", "packing"}};
+    static const std::map<std::string, std::string> parts{
+        {"medial axis", "sampling"},    {"sample", "sampling"},
+        {"weld", "sampling"},           {"delaunay", "Voronoi diagram"},
+        {"voronoi", "Voronoi diagram"}, {"certify", "free distance"},
+        {"reduce", "reduction"},        {"pack", "packing"}};
     const auto found = parts.find(stage);
     return found == parts.end() ? "inner mesh" : found->second;
 }
@@ -26,7 +24,7 @@ Result<Product> run_baker(bool adaptive, const scene::Scene& scene, const Settin
     parameters.d0 = settings.d0;
     parameters.threads = settings.threads;
     parameters.loss = settings.loss;
-    (void)adaptive;
+    parameters.sampling = adaptive ? bake::Sampling::adaptive : bake::Sampling::uniform;
 
     Figures figures;
     for (const std::string& name : part_names())

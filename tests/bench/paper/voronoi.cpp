@@ -27,7 +27,8 @@ Result<Faces> voronoi_by_cgal(const std::vector<Vec3d>& samples, double min_dist
                               double weld_distance) {
     Stopwatch stopwatch;
     bake::Stage stage("voronoi", {}, {});
-    const auto delaunay = bake::delaunay(samples, min_distance, stage);
+    const auto delaunay =
+        bake::delaunay(samples, std::vector<double>(samples.size(), 0.5 * min_distance), stage);
     if (!delaunay) return tl::unexpected(delaunay.error());
     const Cost diagram = stopwatch.lap();
     auto faces = bake::voronoi_faces(samples, *delaunay, bounds, weld_distance, stage);

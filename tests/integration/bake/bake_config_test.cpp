@@ -260,9 +260,11 @@ TEST_F(BakeConfig, TwoProcessesShareTheWork) {
     EXPECT_EQ(one.wait(), 0) << one.errors();
     EXPECT_EQ(two.wait(), 0) << two.errors();
     std::map<std::string, int> times_baked;
-    for (const std::string& output : {one.output(), two.output()})
-        for (const json& map : json::parse(output).at("maps"))
+    for (const std::string& output : {one.output(), two.output()}) {
+        const json report = json::parse(output);
+        for (const json& map : report.at("maps"))
             times_baked[map.at("map")] += map.at("state") == "baked" ? 1 : 0;
+    }
     EXPECT_THAT(times_baked, UnorderedElementsAre(Pair("a", 1), Pair("b", 1), Pair("c", 1), Pair("d", 1)));
     EXPECT_EQ(run().exit_code, 0);
     EXPECT_THAT(files_ending_with(".part"), ElementsAre());

@@ -270,7 +270,7 @@ TEST(Bake, RefusesWhatItCannotBake) {
                 testing::HasSubstr("made.map: the scene has no obstacles"));
 
     const scene::Scene room = test::box_room().scene();
-    for (const double d0 : {0.0, 1.9, 257.0, -1.0, std::numeric_limits<double>::quiet_NaN()})
+    for (const double d0 : {0.1, 1.9, 257.0, -1.0, std::numeric_limits<double>::quiet_NaN()})
         EXPECT_THAT(bake(room, {d0, 0}, {}, {}).error().message, testing::HasSubstr("from 2 to 256"));
     EXPECT_THAT(bake(room, {200.0, 0}, {}, {}).error().message, testing::HasSubstr("spawn points"));
 

@@ -121,9 +121,11 @@ TEST(Keys, WhatIsAssignedIsRead) {
     for (const Key& key : keys()) {
         if (type_name(key) != "integer") continue;
         Config config;
-        ASSERT_TRUE(assign(key, static_cast<std::int64_t>(key.maximum), {&config, nullptr, nullptr}));
-        EXPECT_EQ(value_of(key, {&config, nullptr, nullptr}), static_cast<std::int64_t>(key.maximum))
-            << key.name;
+        Map map;
+        camera::Profile profile;
+        const Target target{&config, &map, &profile};
+        ASSERT_TRUE(assign(key, static_cast<std::int64_t>(key.maximum), target));
+        EXPECT_EQ(value_of(key, target), static_cast<std::int64_t>(key.maximum)) << key.name;
     }
 }
 

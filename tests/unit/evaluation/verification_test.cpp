@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <random>
 
+#include "support/clouds.hpp"
 #include "support/freespace_meshes.hpp"
 #include "support/oracle_twins.hpp"
 #include "support/q3_maps.hpp"
@@ -216,6 +217,45 @@ TEST_F(VerificationTest, SceneWithoutAFreeSpawnPointIsRefused) {
     const auto result = run(contents_with({0, 0, middle}, 100.0F, 60.0F), {});
     ASSERT_FALSE(result);
     EXPECT_THAT(result.error().message, testing::HasSubstr("no spawn point"));
+}
+
+// A room of points 16 apart, obstacles to a distance of d0 around each.
+class CloudVerification : public testing::Test {
+  protected:
+    CloudVerification() {
+        scene_.metres_per_unit = 0.0254;
+        scene_.points = test::walls_of(room, 16.0);
+        scene_.bounds = room;
+        scene_.spawn_points.push_back({Vec3d(0.0, 0.0, middle), 0.0, "seed"});
+    }
+    [[nodiscard]] Verification run(const Vec3f& centre, float radius) const {
+        const oracle::Oracle oracle(scene_, d0);
+        return verify(test::make_freespace(contents_with(centre, 100.0F, radius)), scene_, oracle,
+                      {2000, 2000, 3}, [](std::string_view, std::uint64_t, std::uint64_t) {}, {})
+            .value();
+    }
+    scene::Scene scene_;
+};
+
+TEST_F(CloudVerification, BallsMayComeAsNearAsD0ToAPoint) {
+    const Verification result = run({0, 0, middle}, middle - d0);
+    EXPECT_FALSE(result.has_violation());
+    EXPECT_EQ(result.by_area.tested, 1000U);
+    EXPECT_GT(result.coverage[1].points, 0U);
+    EXPECT_GT(result.coverage[1].covered, 0U);
+    EXPECT_LT(result.coverage[1].covered, result.coverage[1].points);
+}
+
+TEST_F(CloudVerification, BallsThatComeNearerAreUnsafe) {
+    const Verification result = run({0, 0, middle}, middle - d0 + 1.0F);
+    EXPECT_GT(result.unsafe_balls(), 0U);
+    EXPECT_GT(result.overestimates, 0U);
+}
+
+TEST_F(CloudVerification, CentresInAPointsBallAreUnsafe) {
+    const Verification result = run({0, 0, 10.0F}, 5.0F);
+    EXPECT_EQ(result.at_vertices.unsafe_count(), result.at_vertices.tested);
+    EXPECT_GT(result.by_area.unsafe[in_solid], 0U);
 }
 
 }  // namespace

@@ -1,0 +1,33 @@
+// How the commands say, and remember, the way in which a map's source is read.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "config/config.hpp"
+#include "freespace/freespace.hpp"
+#include "scene/read_options.hpp"
+#include "scene/scene.hpp"
+
+namespace camdir::app {
+
+// Adds --metres-per-unit, --up, --origin and --seed; `options` must outlive the parsing.
+void add_read_options(CLI::App& command, scene::ReadOptions& options);
+
+// Those of a configured map. Errors name the key.
+[[nodiscard]] Result<scene::ReadOptions> read_options_of(const config::Map& map);
+
+// Those that a file was baked with; what its baker did not write is as by default.
+[[nodiscard]] scene::ReadOptions read_options_of(const freespace::Metadata& metadata);
+
+// Reads the source of a configured map.
+[[nodiscard]] Result<scene::Scene> load_source(const config::Map& map);
+
+// Reads the source as it was read for the bake. A source without spawn points gets those of the file: the
+// place that the bake chose.
+[[nodiscard]] Result<scene::Scene> load_source(const freespace::Freespace& baked, const std::string& map);
+
+}  // namespace camdir::app

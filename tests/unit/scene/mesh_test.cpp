@@ -1,0 +1,147 @@
+// Meshes: every format gives the same triangles, each where its node puts it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "scene/load.hpp"
+#include "support/clouds.hpp"
+
+namespace camdir::scene {
+namespace {
+
+using testing::HasSubstr;
+using testing::UnorderedElementsAre;
+
+class Mesh : public testing::Test {
+  protected:
+    void SetUp() override {
+        const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+        folder_ = std::filesystem::path(testing::TempDir()) / (std::string("mesh_") + test->name());
+        std::filesystem::create_directories(folder_);
+    }
+    void TearDown() override { std::filesystem::remove_all(folder_); }
+
+    std::string write(const std::string& name, const std::string& bytes) {
+        const auto path = folder_ / name;
+        std::ofstream(path, std::ios::binary) << bytes;
+        return path.string();
+    }
+    std::string refusal(const std::string& path, const ReadOptions& options = {}) {
+        const auto scene = load(path, options);
+        return scene ? "nothing refused" : scene.error().message;
+    }
+
+    std::filesystem::path folder_;
+};
+
+// A right triangle at z = 2: (0,0), (4,0), (0,1).
+const std::string obj = "mtllib absent.mtl\nv 0 0 2\nv 4 0 2\nv 0 1 2\nv 0 0 2\nf 1 2 3\nf 1 1 2\n";
+const std::string ply =
+    "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+    "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 2\n4 0 2\n0 1 2\n3 0 1 2\n";
+const std::string ascii_stl =
+    "solid made\nfacet normal 0 0 1\nouter loop\nvertex 0 0 2\nvertex 4 0 2\nvertex 0 1 "
+    "2\nendloop\nendfacet\n"
+    "endsolid made\n";
+
+std::string binary_stl() {
+    std::string bytes(80, '\0');
+    test::append(bytes, std::uint32_t{1});
+    for (const float number : {0.F, 0.F, 1.F, 0.F, 0.F, 2.F, 4.F, 0.F, 2.F, 0.F, 1.F, 2.F})
+        test::append(bytes, number);
+    test::append(bytes, std::uint16_t{0});
+    return bytes;
+}
+
+// y up, the node moves by (0, 10, 0): corners (0,10,2), (4,10,2), (0,11,2) in its own axes.
+std::string gltf(const std::string& uri) {
+    return R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+        "nodes": [{"mesh": 0, "translation": [0, 10, 0]}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+                       "min": [0, 0, 2], "max": [4, 1, 2]}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}],
+        "buffers": [{"byteLength": 36, "uri": ")" +
+           uri + "\"}]}";
+}
+
+std::string corners() {
+    std::string bytes;
+    for (const float number : {0.F, 0.F, 2.F, 4.F, 0.F, 2.F, 0.F, 1.F, 2.F})
+        test::append(bytes, number);
+    return bytes;
+}
+
+TEST_F(Mesh, EveryFormatGivesTheSameTriangle) {
+    for (const std::string& path :
+         {write("a.obj", obj), write("b.ply", ply), write("c.stl", ascii_stl), write("d.stl", binary_stl()),
+          write("e", obj), write("f.dat", binary_stl())}) {
+        const Scene scene = load(path).value();
+        ASSERT_EQ(scene.triangles.size(), 1U) << path;
+        EXPECT_THAT(scene.vertices, UnorderedElementsAre(Vec3d(0, 0, 2), Vec3d(4, 0, 2), Vec3d(0, 1, 2)));
+        EXPECT_TRUE(scene.points.empty());
+        EXPECT_EQ(scene.metres_per_unit, 1.0);
+        EXPECT_TRUE(scene.spawn_points.empty());
+    }
+}
+
+TEST_F(Mesh, GltfIsTurnedAndItsNodesArePlaced) {
+    write("the corners.bin", corners());
+    const Scene scene = load(write("a.gltf", gltf("the%20corners.bin"))).value();
+    EXPECT_THAT(scene.vertices, UnorderedElementsAre(Vec3d(2, 0, 10), Vec3d(2, 4, 10), Vec3d(2, 0, 11)));
+    ReadOptions unturned;
+    unturned.up = UpAxis::z;
+    const Scene other = load((folder_ / "a.gltf").string(), unturned).value();
+    EXPECT_THAT(other.vertices, UnorderedElementsAre(Vec3d(0, 10, 2), Vec3d(4, 10, 2), Vec3d(0, 11, 2)));
+}
+
+TEST_F(Mesh, HashCoversTheBuffersOfAGltf) {
+    const std::string path = write("a.gltf", gltf("a.bin"));
+    write("a.bin", corners());
+    const std::uint64_t before = hash_source(path).value();
+    EXPECT_EQ(load(path).value().source_hash, before);
+    write("a.bin", corners() + "more");
+    EXPECT_NE(hash_source(path).value(), before);
+}
+
+TEST_F(Mesh, RefusesGltfWithoutItsBuffer) {
+    EXPECT_THAT(refusal(write("a.gltf", gltf("absent.bin"))), HasSubstr("absent.bin"));
+    write("short.bin", "123");
+    EXPECT_THAT(refusal(write("b.gltf", gltf("short.bin"))), HasSubstr("ends after 3 bytes"));
+    EXPECT_THAT(refusal(write("c.gltf", gltf("../a.bin"))), HasSubstr("/buffers/0/uri"));
+    EXPECT_THAT(refusal(write("d.gltf", gltf("/etc/hostname"))), HasSubstr("/buffers/0/uri"));
+    EXPECT_THAT(refusal(write("e.gltf", std::string(100000, '['))), HasSubstr("nested deeper"));
+    EXPECT_THAT(refusal(write("f.gltf", "{\"a\":" + std::string(100000, '['))), HasSubstr("nested deeper"));
+}
+
+TEST_F(Mesh, RefusesWhatIsNoMesh) {
+    EXPECT_THAT(refusal(write("a.obj", "v 0 0 0\nv 1 0 0\n")), HasSubstr("a.obj"));
+    EXPECT_THAT(refusal(write("b.obj", "v 0 0 0\nv 1 0 0\nv nan 1 0\nf 1 2 3\n")), HasSubstr("b.obj"));
+    EXPECT_THAT(refusal(write("c.stl", binary_stl().substr(0, 100))), HasSubstr("c.stl"));
+    EXPECT_THAT(refusal(write("d.txt", "good evening\n")), HasSubstr("unknown format"));
+    EXPECT_THAT(refusal(write("e.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n")),
+                HasSubstr("no triangle with an area"));
+}
+
+TEST_F(Mesh, SeedsJoinTheSpawnPoints) {
+    ReadOptions options;
+    options.seeds = {{1.0, 0.5, 2.0}};
+    const Scene scene = load(write("a.obj", obj), options).value();
+    ASSERT_EQ(scene.spawn_points.size(), 1U);
+    EXPECT_EQ(scene.spawn_points[0].eye, options.seeds[0]);
+    EXPECT_EQ(scene.options, options);
+    options.seeds = {{1.0, 0.5, 20.0}};
+    EXPECT_THAT(refusal(write("a.obj", obj), options), HasSubstr("outside the map's box"));
+}
+
+TEST_F(Mesh, CountsWhatItLeavesOut) {
+    const Scene scene = load(write("a.obj", obj)).value();
+    ASSERT_EQ(scene.left_out.size(), 1U);
+    EXPECT_EQ(scene.left_out[0].count, 1U);
+}
+
+}  // namespace
+}  // namespace camdir::scene
