@@ -91,9 +91,10 @@ TEST(CloudBake, SaysWhatItWasMadeFrom) {
     const freespace::Metadata metadata = bake_of(scene, {.d0 = 8.0}).metadata();
     EXPECT_NE(metadata.parameters.find(R"json("kind": "point cloud (XYZ)")json"), std::string::npos);
     EXPECT_NE(metadata.parameters.find(R"("seeds": [[0.5, 0, 1]])"), std::string::npos);
-    EXPECT_TRUE(std::any_of(metadata.counts.begin(), metadata.counts.end(), [](const freespace::Count& count) {
-        return count.stage == "left out" && count.what == "outliers" && count.value == 3.0;
-    }));
+    EXPECT_TRUE(
+        std::any_of(metadata.counts.begin(), metadata.counts.end(), [](const freespace::Count& count) {
+            return count.stage == "left out" && count.what == "outliers" && count.value == 3.0;
+        }));
     EXPECT_NEAR(metadata.d0, 8.0 * 0.0254, 1e-6);
 }
 
