@@ -41,6 +41,9 @@ constexpr double default_d0 = 16.0;
 // A point cloud is thinned to half of d0. Of its default d0 the other half is for the gaps between the
 // points.
 constexpr double spacings_in_d0 = 2.0;
+// Nominal units: half the width of the narrowest gap between a cloud's points that joins two places. There
+// are always some that a hair would pass.
+constexpr double passage = 5.5;
 
 // What the stages hand to each other. A stage clears what nobody needs after it.
 class Bake {
@@ -208,7 +211,7 @@ Result<void> Bake::crossing(Stage& stage) {
 
 Result<void> Bake::inside(Stage& stage) {
     if (!is_cloud()) return keep_inside(mesh_, clearance_, scene_, solids_, stage);
-    return keep_inside_cloud(mesh_, clearance_, free_distance_, margin(), scene_, stage);
+    return keep_inside_cloud(mesh_, clearance_, free_distance_, margin(), passage * unit_, scene_, stage);
 }
 
 Result<void> Bake::certify(Stage& stage) {

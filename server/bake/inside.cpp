@@ -97,23 +97,23 @@ Result<void> keep_inside(MedialMesh& mesh, const std::vector<double>& clearance,
 }
 
 Result<void> keep_inside_cloud(MedialMesh& mesh, const std::vector<double>& clearance,
-                               const std::vector<float>& free_distance, double margin,
+                               const std::vector<float>& free_distance, double margin, double passage,
                                const scene::Scene& scene, Stage& stage) {
-    const auto is_free = [&](std::uint32_t vertex) { return free_distance[vertex] > margin; };
+    const auto is_wide = [&](std::uint32_t vertex) { return free_distance[vertex] > margin + passage; };
     DisjointSets parts(mesh.vertices.size());
     std::vector<char> keep(mesh.triangles.size());
     for (std::size_t i = 0; i < keep.size(); ++i) {
         const auto& [a, b, c] = mesh.triangles[i];
-        keep[i] = is_free(a) || is_free(b) || is_free(c);
-        if (is_free(a) && is_free(b)) parts.unite(a, b);
-        if (is_free(b) && is_free(c)) parts.unite(b, c);
-        if (is_free(c) && is_free(a)) parts.unite(c, a);
+        keep[i] = is_wide(a) || is_wide(b) || is_wide(c);
+        if (is_wide(a) && is_wide(b)) parts.unite(a, b);
+        if (is_wide(b) && is_wide(c)) parts.unite(b, c);
+        if (is_wide(c) && is_wide(a)) parts.unite(c, a);
     }
     keep_triangles(mesh, keep);
-    // Of a vertex that is not free nothing is known to be connected.
+    // Nothing is known to be connected with the other vertices.
     std::vector<double> free(mesh.vertices.size());
     for (std::uint32_t vertex = 0; vertex < free.size(); ++vertex)
-        free[vertex] = is_free(vertex) ? clearance[vertex] - margin : 0.0;
+        free[vertex] = is_wide(vertex) ? clearance[vertex] - margin : 0.0;
 
     Result<std::vector<char>> wanted = largest_part(mesh, parts);
     if (!scene.spawn_points.empty()) wanted = parts_with_spawn_points(mesh, free, scene, parts, stage);

@@ -17,10 +17,10 @@ namespace camdir::bake {
                                        const scene::Scene& scene, const Solids& solids, Stage& stage);
 
 // The same among the points of a cloud, where a place is free when it is further than `margin` from all of
-// them: parts are connected over edges that are free. `clearance` and `free_distance` are those towards the
-// points. Without spawn points the part of the largest free area stays.
+// them: parts are connected over edges whose ends have `passage` more than that. `clearance` and
+// `free_distance` are those towards the points. Without spawn points the part of the largest free area stays.
 [[nodiscard]] Result<void> keep_inside_cloud(MedialMesh& mesh, const std::vector<double>& clearance,
                                              const std::vector<float>& free_distance, double margin,
-                                             const scene::Scene& scene, Stage& stage);
+                                             double passage, const scene::Scene& scene, Stage& stage);
 
 }  // namespace camdir::bake

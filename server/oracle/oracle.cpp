@@ -24,7 +24,8 @@ struct Oracle::Structures {
           points(device.get(), scene, point_radius),
           volumes(device.get(), scene),
           bounds(scene.bounds),
-          pitch(grid_pitch(scene)),
+          // Between the points of a cloud the passages are narrower.
+          pitch(scene.points.empty() ? grid_pitch(scene) : grid_pitch(scene) / 2.0),
           seeds(spawn_eyes(scene)) {}
 
     [[nodiscard]] Nearest nearest(const Vec3d& point, double limit) const {

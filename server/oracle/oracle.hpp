@@ -40,7 +40,7 @@ class Oracle {
 
     // In no solid, and joined to a spawn point by free space: not outside the sealed map. True is proved by
     // a chain of overlapping free balls and free segments; false may be wrong for a point in a crack
-    // narrower than 8 units (of 0.0254 m). The first call explores the map and takes longer.
+    // narrower than 8 units (of 0.0254 m; 4 in a cloud). The first call explores the map and takes longer.
     [[nodiscard]] bool reachable(const Vec3d& point) const;
 
   private:

@@ -180,7 +180,10 @@ TEST_P(Scan, IsReadWhole) {
     for (const LeftOut& left_out : scene.left_out)
         count += left_out.count;
     EXPECT_EQ(count, GetParam().second);
-    EXPECT_GT(scene.points.size(), count * 95 / 100);
+    for (const LeftOut& left_out : scene.left_out) {
+        EXPECT_LT(left_out.reason == "outliers" ? left_out.count : 0U, count / 1000);
+    }
+    EXPECT_GT(scene.points.size(), count * 45 / 100) << "one of them has every second point twice";
     EXPECT_LT(scene.bounds.sizes().maxCoeff(), 30.0);
 }
 
