@@ -17,7 +17,7 @@
 namespace camdir::app {
 namespace {
 
-struct Options {
+struct BakeOptions {
     std::string map;
     std::string output;
     std::string report;
@@ -38,7 +38,7 @@ void print_source(const scene::Scene& scene, const bake::Parameters& parameters)
               << " spawn points, d0 " << d0 * scene.metres_per_unit << " m\n";
 }
 
-Result<bake::Baked> bake_shown(const scene::Scene& scene, const Options& options,
+Result<bake::Baked> bake_shown(const scene::Scene& scene, const BakeOptions& options,
                                const std::stop_token& stop) {
     if (options.quiet) return bake::bake(scene, options.parameters, {}, stop);
     ProgressLine line;
@@ -50,7 +50,7 @@ Result<bake::Baked> bake_shown(const scene::Scene& scene, const Options& options
     return bake::bake(scene, options.parameters, show, stop, finished);
 }
 
-Result<void> bake_to_file(const Options& options) {
+Result<void> bake_to_file(const BakeOptions& options) {
     const Interruption interruption;
     for (const std::string& file : {options.output, options.report})
         if (auto writable = check_writable(file); !writable) return writable;
@@ -89,7 +89,7 @@ void check_usage(const CLI::App& command) {
             throw CLI::ExcludesError("--config", option->get_name());
 }
 
-int run_bake(const Options& options) {
+int run_bake(const BakeOptions& options) {
     if (!options.config.empty())
         return bake_config({options.config, options.report, options.parameters.threads, options.memory_mib,
                             options.force, options.quiet});
@@ -98,7 +98,7 @@ int run_bake(const Options& options) {
 }
 
 // For --config.
-void add_config_options(CLI::App& command, Options& options) {
+void add_config_options(CLI::App& command, BakeOptions& options) {
     auto* config = command
                        .add_option("--config", options.config,
                                    "Bake what is missing or stale of the maps of this configuration instead: "
@@ -117,7 +117,7 @@ void add_config_options(CLI::App& command, Options& options) {
 }  // namespace
 
 void add_bake(CLI::App& root, Run& run) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<BakeOptions>();
     CLI::App* command = root.add_subcommand(
         "bake", "Make a MAP.vfs, the freespace of a map, or those of all maps of a configuration");
     command->add_option(

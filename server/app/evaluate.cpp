@@ -25,7 +25,7 @@ namespace {
 
 constexpr const char* tracker = "tracker";
 
-struct Options {
+struct EvaluateOptions {
     std::string freespace;
     std::string map;
     std::string trace;
@@ -41,7 +41,7 @@ struct Options {
     [[nodiscard]] bool tracks() const { return judge.empty() && camera == tracker; }
 };
 
-void check_usage(const Options& options) {
+void check_usage(const EvaluateOptions& options) {
     if (options.tracks() && options.freespace.empty())
         throw CLI::RequiredError("FILE.vfs, or --camera with another camera than the tracker, or --judge");
     if (!options.tracks() && !options.terms.empty())
@@ -51,7 +51,7 @@ void check_usage(const Options& options) {
         throw CLI::ValidationError("only one of --cameras, --terms and --json can be standard output");
 }
 
-Result<evaluation::Trace> read_trace(const Options& options) {
+Result<evaluation::Trace> read_trace(const EvaluateOptions& options) {
     auto trace = evaluation::read_trace(options.trace);
     if (!trace || options.output_hz == 0.0) return trace;
     auto resampled = evaluation::resample(*trace, options.output_hz);
@@ -65,7 +65,7 @@ struct Map {
 };
 
 // The baked file says how a mesh or a point cloud is to be read.
-Result<Map> open_map(const Options& options) {
+Result<Map> open_map(const EvaluateOptions& options) {
     if (options.freespace.empty()) {
         auto scene = scene::load(options.map);
         if (!scene) return tl::unexpected(scene.error());
@@ -81,7 +81,7 @@ Result<Map> open_map(const Options& options) {
     return Map{std::move(*scene), freespace->metadata().d0};
 }
 
-Result<camera::Profile> find_profile(const Options& options) {
+Result<camera::Profile> find_profile(const EvaluateOptions& options) {
     if (options.config.empty()) return camera::Profile{};
     const auto config = config::load(options.config);
     if (!config) return tl::unexpected(config.error());
@@ -93,7 +93,7 @@ Result<camera::Profile> find_profile(const Options& options) {
     return fail(options.config + ": /profiles has no \"" + options.profile + "\"; it has" + names);
 }
 
-Result<evaluation::Recording> run_tracker(const Options& options, const evaluation::Trace& trace,
+Result<evaluation::Recording> run_tracker(const EvaluateOptions& options, const evaluation::Trace& trace,
                                           std::uint64_t map_hash, ProgressLine& line,
                                           const std::stop_token& stop) {
     const auto profile = find_profile(options);
@@ -110,7 +110,7 @@ Result<evaluation::Recording> run_tracker(const Options& options, const evaluati
 }
 
 // The cameras to judge; those that are not the tracker's have neither terms nor times.
-Result<evaluation::Recording> make_cameras(const Options& options, const evaluation::Trace& trace,
+Result<evaluation::Recording> make_cameras(const EvaluateOptions& options, const evaluation::Trace& trace,
                                            const scene::Scene& scene, ProgressLine& line,
                                            const std::stop_token& stop) {
     if (options.tracks()) return run_tracker(options, trace, scene.source_hash, line, stop);
@@ -126,7 +126,7 @@ Result<evaluation::Recording> make_cameras(const Options& options, const evaluat
     return recording;
 }
 
-void print(const Options& options, const evaluation::Trace& trace, const evaluation::Metrics& metrics,
+void print(const EvaluateOptions& options, const evaluation::Trace& trace, const evaluation::Metrics& metrics,
            const evaluation::Recording& recording) {
     std::cerr << options.trace << ": " << trace.players.size() << " players, " << trace.frames.size()
               << " frames\n"
@@ -138,7 +138,7 @@ void print(const Options& options, const evaluation::Trace& trace, const evaluat
               << " ns of CPU time an update\n";
 }
 
-Result<void> write_results(const Options& options, const evaluation::Trace& trace,
+Result<void> write_results(const EvaluateOptions& options, const evaluation::Trace& trace,
                            const evaluation::Metrics& metrics, const evaluation::Recording& recording) {
     Result<void> written;
     if (written && !options.cameras.empty())
@@ -149,7 +149,7 @@ Result<void> write_results(const Options& options, const evaluation::Trace& trac
     return written;
 }
 
-Result<void> evaluate(const Options& options) {
+Result<void> evaluate(const EvaluateOptions& options) {
     const Interruption interruption;
     ProgressLine line;
     line.show("reading " + options.trace, 0, 0);
@@ -174,7 +174,7 @@ Result<void> evaluate(const Options& options) {
 }  // namespace
 
 void add_evaluate(CLI::App& root, Run& run) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<EvaluateOptions>();
     CLI::App* command =
         root.add_subcommand("evaluate", "Run cameras over a recorded match and judge them against its map.");
     command->add_option("FILE.vfs", options->freespace, "The map's baked freespace; what the tracker sees");

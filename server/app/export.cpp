@@ -11,17 +11,17 @@
 namespace camdir::app {
 namespace {
 
-struct Options {
+struct ExportOptions {
     std::string file, ply, glb;
 };
 
-void check_usage(const Options& options) {
+void check_usage(const ExportOptions& options) {
     if (options.ply.empty() && options.glb.empty()) throw CLI::RequiredError("--ply or --glb");
     if (options.ply == "-" && options.glb == "-")
         throw CLI::ValidationError("only one of --ply and --glb can be standard output");
 }
 
-Result<void> export_mesh(const Options& options) {
+Result<void> export_mesh(const ExportOptions& options) {
     for (const std::string& file : {options.ply, options.glb})
         if (auto writable = check_writable(file); !writable) return writable;
     const auto freespace = freespace::Freespace::open(options.file);
@@ -37,7 +37,7 @@ Result<void> export_mesh(const Options& options) {
 }  // namespace
 
 void add_export(CLI::App& root, Run& run) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<ExportOptions>();
     CLI::App* command =
         root.add_subcommand("export", "Write the medial mesh of a baked map for mesh viewers.");
     command->add_option("FILE.vfs", options->file, "Baked map")->required();

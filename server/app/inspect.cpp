@@ -100,10 +100,10 @@ int inspect(const std::string& file, const std::string& json) {
 }  // namespace
 
 void add_inspect(CLI::App& root, Run& run) {
-    struct Options {
+    struct InspectOptions {
         std::string file, json;
     };
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<InspectOptions>();
     CLI::App* command = root.add_subcommand("inspect", "Show what a baked map holds.");
     command->add_option("FILE.vfs", options->file, "Baked map")->required();
     command->add_option("--json", options->json,

@@ -23,7 +23,7 @@ namespace {
 using freespace::Freespace;
 using render::KeyEntry;
 
-struct Options {
+struct RenderOptions {
     std::string file;
     std::string map;
     std::string output;
@@ -68,7 +68,7 @@ Box3d box_of(const Freespace& freespace, const scene::Scene& map) {
     return {box.min() - margin, box.max() + margin};
 }
 
-render::Legend make_legend(const Options& options, const Freespace& freespace) {
+render::Legend make_legend(const RenderOptions& options, const Freespace& freespace) {
     const freespace::Metadata& metadata = freespace.metadata();
     render::Legend legend;
     legend.title = metadata.map_name;
@@ -91,14 +91,15 @@ struct Composition {
     [[nodiscard]] int height() const { return render::picture_height(page); }
 };
 
-Result<render::View> make_view(const Options& options, const Box3d& box, const render::PageSize& page) {
+Result<render::View> make_view(const RenderOptions& options, const Box3d& box, const render::PageSize& page) {
     const double aspect = static_cast<double>(page.width) / render::picture_height(page);
     auto view = render::parse_view(options.view, box, aspect);
     if (view) view->top = options.cut;
     return view;
 }
 
-Result<Composition> compose(const Options& options, const Freespace& freespace, const scene::Scene& map) {
+Result<Composition> compose(const RenderOptions& options, const Freespace& freespace,
+                            const scene::Scene& map) {
     const auto page = parse_size(options.size);
     if (!page) return tl::unexpected(page.error());
     const Box3d box = box_of(freespace, map);
@@ -149,7 +150,7 @@ std::string to_json(const Composition& made, const Freespace& freespace, bool sa
     return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
-Result<void> render_file(const Options& options) {
+Result<void> render_file(const RenderOptions& options) {
     const Interruption interruption;
     for (const std::string& file : {options.output, options.json})
         if (auto writable = check_writable(file); !writable) return writable;
@@ -186,7 +187,7 @@ std::function<std::string(const std::string&)> checked(Parse parse) {
     };
 }
 
-void add_way_options(CLI::App& command, Options& options) {
+void add_way_options(CLI::App& command, RenderOptions& options) {
     auto* trace = command.add_option("--trace", options.ways.trace,
                                      "Draw the players' ways of this recorded match, CSV or CSV.gz");
     command.add_option("--cameras", options.ways.cameras, "Draw the cameras that `evaluate --cameras` wrote")
@@ -202,7 +203,7 @@ void add_way_options(CLI::App& command, Options& options) {
         ->needs(trace);
 }
 
-void check_usage(Options& options) {
+void check_usage(RenderOptions& options) {
     if (options.output == "-" && options.json == "-")
         throw CLI::ValidationError("only one of --output and --json can be standard output");
     if (options.between.empty()) return;
@@ -215,7 +216,7 @@ void check_usage(Options& options) {
 }  // namespace
 
 void add_render(CLI::App& root, Run& run) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<RenderOptions>();
     CLI::App* command =
         root.add_subcommand("render", "Draw a baked map: obstacles, medial mesh, roadmap, recorded ways.");
     command->add_option("FILE.vfs", options->file, "Baked map")->required();

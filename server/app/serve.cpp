@@ -11,7 +11,7 @@
 namespace camdir::app {
 namespace {
 
-struct Options {
+struct ServeOptions {
     std::string config;
     bool check = false;
     bool print_schema = false;
@@ -32,7 +32,7 @@ int check(const config::Config& config, const std::string& file) {
     return exit_done;
 }
 
-int serve(const Options& options) {
+int serve(const ServeOptions& options) {
     if (options.print_schema || options.print_reference) {
         std::cout << (options.print_schema ? config::schema() : config::reference());
         return exit_done;
@@ -55,7 +55,7 @@ int serve(const Options& options) {
 }  // namespace
 
 void add_serve(CLI::App& root, Run& run) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<ServeOptions>();
     CLI::App& command =
         *root.add_subcommand("serve", "Serve cameras until SIGTERM; SIGHUP reloads maps and profiles.");
     auto* config =

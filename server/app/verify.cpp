@@ -23,7 +23,7 @@ using evaluation::BallCounts;
 using evaluation::Verification;
 using evaluation::VerificationParameters;
 
-struct Options {
+struct VerifyOptions {
     std::string file;
     std::string map;
     std::string json;
@@ -60,7 +60,7 @@ nlohmann::ordered_json counts_json(const BallCounts& counts) {
     return json;
 }
 
-nlohmann::ordered_json result_json(const Options& options, const freespace::Metadata& metadata,
+nlohmann::ordered_json result_json(const VerifyOptions& options, const freespace::Metadata& metadata,
                                    bool same_source, const Verification& result) {
     nlohmann::ordered_json json = {{"file", options.file},
                                    {"map", options.map},
@@ -87,7 +87,7 @@ nlohmann::ordered_json result_json(const Options& options, const freespace::Meta
     return json;
 }
 
-void print_table(const Options& options, const Verification& result, double seconds) {
+void print_table(const VerifyOptions& options, const Verification& result, double seconds) {
     std::ostringstream out;
     out << std::left << std::setw(16) << "balls" << std::right << std::setw(12) << "tested" << std::setw(12)
         << "skipped" << std::setw(10) << "unsafe" << '\n';
@@ -124,7 +124,7 @@ void print_table(const Options& options, const Verification& result, double seco
     std::cerr << out.str();
 }
 
-Result<int> verify(const Options& options) {
+Result<int> verify(const VerifyOptions& options) {
     const Interruption interruption;
     const auto freespace = freespace::Freespace::open(options.file);
     if (!freespace) return tl::unexpected(freespace.error());
@@ -158,7 +158,7 @@ Result<int> verify(const Options& options) {
 }  // namespace
 
 void add_verify(CLI::App& root, Run& run) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<VerifyOptions>();
     CLI::App* command = root.add_subcommand("verify",
                                             "Test a baked file against its map: no ball may reach "
                                             "into an obstacle; how much free space it knows.");

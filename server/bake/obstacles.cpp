@@ -16,7 +16,7 @@ Triangle3d triangle_of(const scene::Scene& scene, std::size_t index) {
     return {scene.vertices[corners[0]], scene.vertices[corners[1]], scene.vertices[corners[2]]};
 }
 
-std::vector<Box3d> boxes_of(const scene::Scene& scene) {
+std::vector<Box3d> boxes_of_obstacles(const scene::Scene& scene) {
     std::vector<Box3d> boxes(obstacle_count(scene));
     for (std::size_t i = 0; i < boxes.size(); ++i)
         boxes[i] = box_of(triangle_of(scene, i));
@@ -25,7 +25,7 @@ std::vector<Box3d> boxes_of(const scene::Scene& scene) {
 
 }  // namespace
 
-Obstacles::Obstacles(const scene::Scene& scene) : tree_(boxes_of(scene)) {
+Obstacles::Obstacles(const scene::Scene& scene) : tree_(boxes_of_obstacles(scene)) {
     triangles_.reserve(obstacle_count(scene));
     for (const std::uint32_t index : tree_.order())
         triangles_.push_back(triangle_of(scene, index));

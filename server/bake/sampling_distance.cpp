@@ -6,7 +6,7 @@
 namespace camdir::bake {
 namespace {
 
-std::vector<Box3d> boxes_of(const std::vector<Vec3d>& points) {
+std::vector<Box3d> boxes_of_points(const std::vector<Vec3d>& points) {
     std::vector<Box3d> boxes;
     boxes.reserve(points.size());
     for (const Vec3d& p : points)
@@ -17,7 +17,7 @@ std::vector<Box3d> boxes_of(const std::vector<Vec3d>& points) {
 }  // namespace
 
 SamplingDistance::SamplingDistance(double d0, double coarsest, std::vector<Vec3d> medial_axis)
-    : d0_(d0), coarsest_(coarsest), tree_(boxes_of(medial_axis)) {
+    : d0_(d0), coarsest_(coarsest), tree_(boxes_of_points(medial_axis)) {
     medial_axis_.reserve(medial_axis.size());
     for (const std::uint32_t index : tree_.order())
         medial_axis_.push_back(medial_axis[index]);

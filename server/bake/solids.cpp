@@ -5,7 +5,7 @@
 namespace camdir::bake {
 namespace {
 
-std::vector<Box3d> boxes_of(const scene::Scene& scene) {
+std::vector<Box3d> boxes_of_brushes(const scene::Scene& scene) {
     std::vector<Box3d> boxes;
     boxes.reserve(scene.brushes.size());
     for (const scene::Brush& brush : scene.brushes)
@@ -21,7 +21,7 @@ bool contains(const scene::Scene& scene, const scene::Brush& brush, const Vec3d&
 
 }  // namespace
 
-Solids::Solids(const scene::Scene& scene) : scene_(scene), tree_(boxes_of(scene)) {}
+Solids::Solids(const scene::Scene& scene) : scene_(scene), tree_(boxes_of_brushes(scene)) {}
 
 bool Solids::contain(const Vec3d& point) const {
     bool inside = false;

@@ -10,10 +10,10 @@
 namespace camdir::bake {
 namespace {
 
-using Cell = std::array<std::int64_t, 3>;
+using GridCell = std::array<std::int64_t, 3>;
 
-struct CellHash {
-    std::size_t operator()(const Cell& cell) const {
+struct GridCellHash {
+    std::size_t operator()(const GridCell& cell) const {
         std::uint64_t hash = 0;
         for (const std::int64_t i : cell)
             hash = (hash ^ static_cast<std::uint64_t>(i)) * 0x9e3779b97f4a7c15ULL + (hash >> 29);
@@ -28,7 +28,7 @@ class Grid {
     explicit Grid(double distance) : distance_(distance) {}
 
     [[nodiscard]] bool has_near(const Vec3d& point, const std::vector<Vec3d>& kept) const {
-        const Cell centre = cell_of(point);
+        const GridCell centre = cell_of(point);
         for (std::int64_t x = -1; x <= 1; ++x)
             for (std::int64_t y = -1; y <= 1; ++y)
                 for (std::int64_t z = -1; z <= 1; ++z) {
@@ -51,14 +51,14 @@ class Grid {
   private:
     static constexpr std::uint32_t end = 0xffffffffU;
 
-    [[nodiscard]] Cell cell_of(const Vec3d& point) const {
+    [[nodiscard]] GridCell cell_of(const Vec3d& point) const {
         return {static_cast<std::int64_t>(std::floor(point.x() / distance_)),
                 static_cast<std::int64_t>(std::floor(point.y() / distance_)),
                 static_cast<std::int64_t>(std::floor(point.z() / distance_))};
     }
 
     double distance_;
-    std::unordered_map<Cell, std::uint32_t, CellHash> first_;
+    std::unordered_map<GridCell, std::uint32_t, GridCellHash> first_;
     std::vector<std::uint32_t> next_;
 };
 

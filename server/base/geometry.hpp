@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <numbers>
 
 namespace camdir {
 
@@ -11,5 +12,8 @@ using Vec3d = Eigen::Vector3d;  // baking and the exact oracle
 using Quatf = Eigen::Quaternionf;
 using Box3f = Eigen::AlignedBox3f;
 using Box3d = Eigen::AlignedBox3d;
+
+template <class Real>
+inline constexpr Real radians_of_a_degree = std::numbers::pi_v<Real> / Real(180);
 
 }  // namespace camdir

@@ -1,7 +1,6 @@
 #include "camera/profile.hpp"
 
 #include <array>
-#include <numbers>
 #include <string_view>
 
 namespace camdir::camera {
@@ -16,7 +15,6 @@ constexpr const char* per_second = "1/s";
 constexpr const char* number = "";
 
 constexpr float metres_of_a_profile_unit = 0.0254F;
-constexpr float radians_of_a_degree = std::numbers::pi_v<float> / 180.0F;
 
 constexpr std::array keys = {
     ProfileKey{"distance", units, 20.0F, 2000.0F, "desired distance between the camera and the player's eye",
@@ -81,7 +79,7 @@ static_assert(keys.size() * sizeof(float) == sizeof(Profile), "every member has 
 
 float scale(std::string_view unit, float profile_units_to_map) {
     if (unit == units || unit == units_per_second) return profile_units_to_map;
-    if (unit == degrees || unit == degrees_per_second) return radians_of_a_degree;
+    if (unit == degrees || unit == degrees_per_second) return radians_of_a_degree<float>;
     return 1.0F;
 }
 

@@ -14,6 +14,9 @@ namespace camdir::camera {
 // anyway, but no more than the player has.
 [[nodiscard]] float beam_radius(const MapProfile& profile, const PlayerTrack& track);
 
+// How far before the end of a free beam a place lies, in units of 0.0254 m.
+inline constexpr float inside_beam = 2.0F;
+
 // Where a step starts.
 struct Start {
     Vec3f position;

@@ -3,19 +3,22 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <numbers>
 
 #include "freespace/visibility.hpp"
 
 namespace camdir::camera {
 namespace {
 
-constexpr float radian = std::numbers::pi_v<float> / 180.0F;
-constexpr std::array swings = {0.0F,           -3.0F * radian,  3.0F * radian,
-                               -7.0F * radian, 7.0F * radian,   -14.0F * radian,
-                               14.0F * radian, -25.0F * radian, 25.0F * radian};
+constexpr std::array swings = {0.0F,
+                               -3.0F * radians_of_a_degree<float>,
+                               3.0F * radians_of_a_degree<float>,
+                               -7.0F * radians_of_a_degree<float>,
+                               7.0F * radians_of_a_degree<float>,
+                               -14.0F * radians_of_a_degree<float>,
+                               14.0F * radians_of_a_degree<float>,
+                               -25.0F * radians_of_a_degree<float>,
+                               25.0F * radians_of_a_degree<float>};
 constexpr std::array retreats = {0.1F, 0.25F, 0.5F, 0.75F, 1.0F};
-constexpr float inside_beam = 2.0F;  // units: how far before the end of a free beam a place lies
 
 // The least costly candidate so far. One with the minimum clearance beats any without.
 class Choice {

@@ -13,12 +13,11 @@
 namespace camdir::camera {
 namespace {
 
-constexpr float radian = std::numbers::pi_v<float> / 180.0F;
-constexpr float steepest = 80.0F * radian;
-constexpr float yaw_step = 15.0F * radian;
+constexpr float steepest = 80.0F * radians_of_a_degree<float>;
+constexpr float yaw_step = 15.0F * radians_of_a_degree<float>;
 constexpr int yaw_steps = 12;  // to each side
-constexpr std::array elevations = {0.0F * radian, 20.0F * radian, -20.0F * radian, 45.0F * radian};
-constexpr float inside_beam = 2.0F;    // units: how far before the end of a free beam a spot lies
+constexpr std::array elevations = {0.0F * radians_of_a_degree<float>, 20.0F * radians_of_a_degree<float>,
+                                   -20.0F * radians_of_a_degree<float>, 45.0F * radians_of_a_degree<float>};
 constexpr float turn_cost = 0.2F;      // of leaving the camera's direction, against angle's own
 constexpr float fan_interval = 0.06F;  // s
 constexpr float cut_distance_weight = 2.0F;

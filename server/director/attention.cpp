@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "director/clock.hpp"
+
 namespace camdir::director {
 namespace {
 
@@ -34,9 +36,9 @@ Worth worth(const MatchEvent& event) {
     }
 }
 
-// Never negative; no overflow whatever a game server sends.
-double seconds_between(std::int64_t from, std::int64_t to) {
-    return std::max(0.0, (static_cast<double>(to) - static_cast<double>(from)) * 1e-9);
+// Never negative.
+double seconds_since(std::int64_t from, std::int64_t to) {
+    return std::max(0.0, seconds_between(from, to));
 }
 
 bool lives(const PlayerPose& pose) {
@@ -74,7 +76,7 @@ double Attention::score(std::uint32_t player, std::int64_t now, double half_life
     const auto found = std::find_if(scores_.begin(), scores_.end(),
                                     [&](const Score& score) { return score.player == player; });
     if (found == scores_.end()) return 0.0;
-    return found->value * std::exp2(-seconds_between(found->at, now) / half_life_s);
+    return found->value * std::exp2(-seconds_since(found->at, now) / half_life_s);
 }
 
 void Attention::choose(AutomaticTarget& target, std::span<const std::uint32_t> group,
@@ -100,11 +102,11 @@ void Attention::choose(AutomaticTarget& target, std::span<const std::uint32_t> g
     if (current != nullptr && !lives(*current)) {
         if (!target.dead) target.died_at = now;
         target.dead = true;
-        if (!lives(*best) || seconds_between(target.died_at, now) < seconds_of_a_death) return;
+        if (!lives(*best) || seconds_since(target.died_at, now) < seconds_of_a_death) return;
     } else if (current != nullptr) {
         target.dead = false;
         const double lead = best_score - score(target.player, now, rules.automatic_half_life_s);
-        if (seconds_between(target.chosen_at, now) < rules.automatic_hold_s) return;
+        if (seconds_since(target.chosen_at, now) < rules.automatic_hold_s) return;
         if (lead <= 0.0 || lead < rules.automatic_lead) return;
     }
     target = {best->player_id, now, now, !lives(*best)};

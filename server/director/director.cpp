@@ -8,16 +8,13 @@
 #include <shared_mutex>
 #include <unordered_map>
 
+#include "director/clock.hpp"
 #include "director/match.hpp"
 
 namespace camdir::director {
 namespace {
 
 constexpr std::chrono::milliseconds housekeeping_period{20};
-
-std::int64_t now_ns() {
-    return std::chrono::steady_clock::now().time_since_epoch() / std::chrono::nanoseconds(1);
-}
 
 std::size_t worker_count(const config::Limits& limits) {
     if (limits.workers > 0) return static_cast<std::size_t>(limits.workers);

@@ -8,6 +8,8 @@
 #include <utility>
 #include <variant>
 
+#include "director/clock.hpp"
+
 namespace camdir::director {
 namespace {
 
@@ -15,10 +17,6 @@ constexpr double usual_rate_hz = 30.0;  // of a game server that tells none
 constexpr std::size_t most_controls_besides_requests = 64;
 
 constexpr const char* no_server = "no game server runs this match";
-
-std::int64_t now_ns() {
-    return std::chrono::steady_clock::now().time_since_epoch() / std::chrono::nanoseconds(1);
-}
 
 std::string joined(const std::vector<std::string>& names) {
     std::string list;

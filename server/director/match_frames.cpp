@@ -14,11 +14,6 @@ std::int64_t ns(Clock::duration duration) {
     return duration / std::chrono::nanoseconds(1);
 }
 
-// No overflow whatever a game server sends.
-double seconds_between(std::int64_t from, std::int64_t to) {
-    return (static_cast<double>(to) - static_cast<double>(from)) * 1e-9;
-}
-
 camera::Pose tracker_pose(const PlayerPose& pose, bool gap) {
     return {pose.eye, pose.orientation, pose.velocity, (pose.flags & pose_alive) != 0,
             gap || (pose.flags & pose_discontinuity) != 0};

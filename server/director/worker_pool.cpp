@@ -8,14 +8,12 @@
 #include <cerrno>
 #include <string>
 
+#include "director/clock.hpp"
+
 namespace camdir::director {
 namespace {
 
 constexpr std::size_t word_bits = 64;
-
-std::int64_t now_ns() {
-    return std::chrono::steady_clock::now().time_since_epoch() / std::chrono::nanoseconds(1);
-}
 
 }  // namespace
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
 
 #include "base/file.hpp"
 #include "evaluation/csv.hpp"
@@ -139,9 +138,8 @@ class Assembly {
 }  // namespace
 
 Eigen::Quaterniond quake_orientation(double pitch_degrees, double yaw_degrees, double roll_degrees) {
-    constexpr double radians = std::numbers::pi / 180.0;
     const auto turn = [](double degrees, const Vec3d& axis) {
-        return Eigen::AngleAxisd(std::remainder(degrees, 360.0) * radians, axis);
+        return Eigen::AngleAxisd(std::remainder(degrees, 360.0) * radians_of_a_degree<double>, axis);
     };
     return turn(yaw_degrees, Vec3d::UnitZ()) * turn(pitch_degrees, Vec3d::UnitY()) *
            turn(roll_degrees, Vec3d::UnitX());

@@ -6,8 +6,6 @@
 namespace camdir::oracle {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 void bounds_of_point(const RTCBoundsFunctionArguments* arguments) {
     const auto& points = *static_cast<const std::vector<Vec3d>*>(arguments->geometryUserPtr);
     const Vec3d& point = points[arguments->primID];
@@ -34,7 +32,7 @@ Points::Points(RTCDevice device, const scene::Scene& scene, double radius)
 }
 
 Nearest Points::nearest(const Vec3d& point, double limit) const {
-    Nearest nearest{infinity, Vec3d::Zero()};
+    Nearest nearest{std::numeric_limits<double>::infinity(), Vec3d::Zero()};
     if (!scene_) return nearest;
     visit_near(scene_.get(), point, limit + radius_, [&](unsigned index, double& search) {
         const double distance = (points_[index] - point).norm() - radius_;

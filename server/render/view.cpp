@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <sstream>
 
 namespace camdir::render {
@@ -11,7 +10,6 @@ namespace {
 
 constexpr double margin = 1.04;   // of the picture around the box
 constexpr double farthest = 1e7;  // map units
-constexpr double degree = std::numbers::pi / 180.0;
 
 Vec3d direction(double yaw, double pitch) {
     return {std::cos(yaw) * std::cos(pitch), std::sin(yaw) * std::cos(pitch), std::sin(pitch)};
@@ -60,10 +58,10 @@ Result<View> viewpoint(const std::string& text) {
     if (!(stream >> std::ws).eof()) return fail("view '" + text + "': text after the fifth number");
     View view;
     view.position = {numbers[0], numbers[1], numbers[2]};
-    const double yaw = numbers[3] * degree;
-    view.forward = direction(yaw, numbers[4] * degree);
+    const double yaw = numbers[3] * radians_of_a_degree<double>;
+    view.forward = direction(yaw, numbers[4] * radians_of_a_degree<double>);
     view.up = up_for(view.forward, yaw);
-    view.half_height = std::tan(37.5 * degree);
+    view.half_height = std::tan(37.5 * radians_of_a_degree<double>);
     return view;
 }
 
@@ -105,10 +103,10 @@ View plan_view(const Box3d& box, double aspect) {
 View overview(const Box3d& box, double aspect) {
     View view;
     view.cut_away = true;
-    const double yaw = 60.0 * degree;
-    view.forward = direction(yaw, -50.0 * degree);
+    const double yaw = 60.0 * radians_of_a_degree<double>;
+    view.forward = direction(yaw, -50.0 * radians_of_a_degree<double>);
     view.up = up_for(view.forward, yaw);
-    view.half_height = std::tan(17.5 * degree);
+    view.half_height = std::tan(17.5 * radians_of_a_degree<double>);
     view.position = box.center() - view.forward * distance_to_fit(view, box, aspect);
     return view;
 }

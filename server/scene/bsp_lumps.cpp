@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "scene/entities.hpp"
+
 namespace camdir::scene {
 
 Lumps::Place Lumps::place(std::size_t lump) const {

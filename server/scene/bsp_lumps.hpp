@@ -51,8 +51,6 @@ class Lumps {
     std::span<const LumpFormat> formats_;
 };
 
-// What a file's numbers must keep to, so that no sum of them overflows or loses the precision of the bake.
-inline constexpr float max_coordinate = 1 << 20;
 [[nodiscard]] bool is_coordinate(float value);
 [[nodiscard]] bool is_position(const std::array<float, 3>& position);
 [[nodiscard]] bool is_plane(const std::array<float, 3>& normal, float distance);  // length 1 within 1 %

@@ -4,12 +4,9 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <numbers>
 
 namespace camdir::scene {
 namespace {
-
-constexpr double max_coordinate = 1 << 20;
 
 class Text {
   public:
@@ -99,7 +96,7 @@ double Entity::yaw() const {
     const std::optional<Vec3d> angles = three_numbers(value("angles"));
     std::string_view text = value("angle");
     const double degrees = angles ? angles->y() : next_number(text).value_or(0.0);
-    return std::remainder(degrees, 360.0) * std::numbers::pi / 180.0;
+    return std::remainder(degrees, 360.0) * radians_of_a_degree<double>;
 }
 
 std::optional<std::size_t> Entity::brush_model() const {

@@ -14,6 +14,9 @@
 
 namespace camdir::scene {
 
+// What a file's numbers must keep to, so that no sum of them overflows or loses the precision of the bake.
+inline constexpr float max_coordinate = 1 << 20;
+
 // Views into the text that was parsed.
 struct Entity {
     std::size_t number;  // place in the text, from 0

@@ -20,7 +20,7 @@ struct Field {
     std::uint64_t count = 1;
 };
 
-struct Header {
+struct PcdHeader {
     std::vector<Field> fields;
     std::optional<std::uint64_t> width, height, points;
     std::string_view data;
@@ -48,7 +48,7 @@ using Words = std::vector<std::string_view>;
 
 // One word a field after the keyword.
 template <class Set>
-Result<void> set_fields(const Words& words, const Lines& lines, Header& header, const Set& set) {
+Result<void> set_fields(const Words& words, const Lines& lines, PcdHeader& header, const Set& set) {
     if (words.size() != header.fields.size() + 1)
         return lines.bad_line(std::to_string(words.size() - 1) + " values for " +
                               std::to_string(header.fields.size()) + " fields");
@@ -73,7 +73,7 @@ Result<void> set_count(const Words& words, const Lines& lines, std::optional<std
     return {};
 }
 
-Result<void> read_entry(const Words& words, const Lines& lines, Header& header) {
+Result<void> read_entry(const Words& words, const Lines& lines, PcdHeader& header) {
     const std::string_view key = words[0];
     if (key == "FIELDS" || key == "COLUMNS") {
         if (words.size() - 1 > max_fields) return lines.bad_line("more than 256 fields");
@@ -100,8 +100,8 @@ Result<void> read_entry(const Words& words, const Lines& lines, Header& header) 
     return lines.bad_line("'" + std::string(key.substr(0, 40)) + "'; expected a keyword of a PCD header");
 }
 
-Result<Header> read_header(Lines& lines) {
-    Header header;
+Result<PcdHeader> read_pcd_header(Lines& lines) {
+    PcdHeader header;
     while (const auto line = lines.next()) {
         const Words words = words_of(*line);
         if (words.empty() || words[0].starts_with('#')) continue;
@@ -114,7 +114,7 @@ Result<Header> read_header(Lines& lines) {
     return fail("the header has no DATA line");
 }
 
-Result<std::uint64_t> point_count(const Header& header) {
+Result<std::uint64_t> point_count(const PcdHeader& header) {
     std::uint64_t count = header.points.value_or(0);
     if (!header.points) {
         const std::uint64_t width = header.width.value_or(0);
@@ -129,7 +129,7 @@ Result<std::uint64_t> point_count(const Header& header) {
     return count;
 }
 
-std::array<std::size_t, 3> coordinates(const Header& header) {
+std::array<std::size_t, 3> coordinates(const PcdHeader& header) {
     std::array<std::size_t, 3> places{};
     constexpr std::array<std::string_view, 3> names = {"x", "y", "z"};
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -144,7 +144,7 @@ std::size_t width_of(const Field& field) {
     return field.size * field.count;
 }
 
-std::size_t record_size(const Header& header) {
+std::size_t record_size(const PcdHeader& header) {
     std::size_t size = 0;
     for (const Field& field : header.fields)
         size += width_of(field);
@@ -152,7 +152,7 @@ std::size_t record_size(const Header& header) {
 }
 
 // Binary data holds point after point, compressed data field after field.
-Columns columns_of(const Header& header, const std::array<std::size_t, 3>& places, bool by_field,
+Columns columns_of(const PcdHeader& header, const std::array<std::size_t, 3>& places, bool by_field,
                    std::size_t count) {
     Columns columns{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -187,7 +187,7 @@ Result<std::vector<std::byte>> decompress(std::span<const std::byte> data, std::
     return bytes;
 }
 
-Result<std::vector<Vec3d>> read_binary(std::span<const std::byte> data, const Header& header,
+Result<std::vector<Vec3d>> read_binary(std::span<const std::byte> data, const PcdHeader& header,
                                        const std::array<std::size_t, 3>& places, std::size_t count) {
     const bool compressed = header.data == "binary_compressed";
     const std::size_t needed = record_size(header) * count;
@@ -203,7 +203,7 @@ Result<std::vector<Vec3d>> read_binary(std::span<const std::byte> data, const He
 }
 
 // Where in a line of text the coordinates are: a field may be several words.
-std::array<std::size_t, 3> words_before(const Header& header, const std::array<std::size_t, 3>& places) {
+std::array<std::size_t, 3> words_before(const PcdHeader& header, const std::array<std::size_t, 3>& places) {
     std::array<std::size_t, 3> words{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
         for (std::size_t i = 0; i < places[axis]; ++i)
@@ -225,7 +225,7 @@ bool is_pcd(std::span<const std::byte> bytes) {
 
 Result<std::vector<Vec3d>> read_pcd(std::span<const std::byte> bytes) {
     Lines lines(text_of(bytes));
-    const auto header = read_header(lines);
+    const auto header = read_pcd_header(lines);
     if (!header) return tl::unexpected(header.error());
     const auto count = point_count(*header);
     if (!count) return tl::unexpected(count.error());

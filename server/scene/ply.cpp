@@ -21,7 +21,7 @@ struct Element {
     std::vector<Property> properties;
 };
 
-struct Header {
+struct PlyHeader {
     std::string_view format;
     std::vector<Element> elements;
 };
@@ -42,7 +42,7 @@ std::optional<NumberType> number_type(std::string_view name) {
 
 using Words = std::vector<std::string_view>;
 
-Result<void> add_element(const Words& words, const Lines& lines, Header& header) {
+Result<void> add_element(const Words& words, const Lines& lines, PlyHeader& header) {
     const auto count = words.size() == 3 ? whole_number(words[2]) : std::nullopt;
     if (!count) return lines.bad_line("expected `element NAME COUNT`");
     if (header.elements.size() == max_properties) return lines.bad_line("more than 256 elements");
@@ -50,7 +50,7 @@ Result<void> add_element(const Words& words, const Lines& lines, Header& header)
     return {};
 }
 
-Result<void> add_property(const Words& words, const Lines& lines, Header& header) {
+Result<void> add_property(const Words& words, const Lines& lines, PlyHeader& header) {
     if (header.elements.empty()) return lines.bad_line("a property before any element");
     std::vector<Property>& properties = header.elements.back().properties;
     if (properties.size() == max_properties) return lines.bad_line("more than 256 properties");
@@ -64,8 +64,8 @@ Result<void> add_property(const Words& words, const Lines& lines, Header& header
     return {};
 }
 
-Result<Header> read_header(Lines& lines) {
-    Header header;
+Result<PlyHeader> read_ply_header(Lines& lines) {
+    PlyHeader header;
     if (lines.next() != "ply") return lines.bad_line("expected `ply`");
     while (const auto line = lines.next()) {
         const Words words = words_of(*line);
@@ -111,7 +111,7 @@ Result<std::array<std::size_t, 3>> coordinates(const Element& vertex) {
     return places;
 }
 
-Result<std::vector<Vec3d>> read_text(Lines& lines, const Header& header, const Element* vertex,
+Result<std::vector<Vec3d>> read_text(Lines& lines, const PlyHeader& header, const Element* vertex,
                                      const std::array<std::size_t, 3>& places) {
     for (const Element* before = header.elements.data(); before != vertex; ++before) {
         for (std::uint64_t i = 0; i < before->count && lines.next(); ++i) {
@@ -120,7 +120,7 @@ Result<std::vector<Vec3d>> read_text(Lines& lines, const Header& header, const E
     return read_lines(lines, places, vertex->count);
 }
 
-Result<std::vector<Vec3d>> read_binary(std::span<const std::byte> data, const Header& header,
+Result<std::vector<Vec3d>> read_binary(std::span<const std::byte> data, const PlyHeader& header,
                                        const Element* vertex, const std::array<std::size_t, 3>& places) {
     const auto skip = [&](const Element& element) -> Result<void> {
         const auto size = row_size(element);
@@ -156,7 +156,7 @@ bool is_ply(std::span<const std::byte> bytes) {
 
 Result<std::uint64_t> ply_face_count(std::span<const std::byte> bytes) {
     Lines lines(text_of(bytes));
-    const auto header = read_header(lines);
+    const auto header = read_ply_header(lines);
     if (!header) return tl::unexpected(header.error());
     std::uint64_t count = 0;
     for (const Element& element : header->elements) {
@@ -167,7 +167,7 @@ Result<std::uint64_t> ply_face_count(std::span<const std::byte> bytes) {
 
 Result<std::vector<Vec3d>> read_ply_points(std::span<const std::byte> bytes) {
     Lines lines(text_of(bytes));
-    const auto header = read_header(lines);
+    const auto header = read_ply_header(lines);
     if (!header) return tl::unexpected(header.error());
     const auto vertex = std::find_if(header->elements.begin(), header->elements.end(),
                                      [](const Element& element) { return element.name == "vertex"; });

@@ -1,6 +1,7 @@
 #include "support/bake_twins.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace camdir::test {
@@ -49,6 +50,13 @@ double searched_margin(const Triangle3d& corners, const std::array<double, 3>& f
 
 double searched_distance(const Vec3d& point, const Triangle3d& triangle) {
     return searched_margin({point, point, point}, {0.0, 0.0, 0.0}, triangle);
+}
+
+double distance_to_nearest(const Vec3d& point, const std::vector<Vec3d>& points) {
+    double nearest2 = std::numeric_limits<double>::infinity();
+    for (const Vec3d& p : points)
+        nearest2 = std::min(nearest2, (p - point).squaredNorm());
+    return std::sqrt(nearest2);
 }
 
 }  // namespace camdir::test

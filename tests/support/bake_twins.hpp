@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "bake/triangle.hpp"
 
@@ -17,5 +18,8 @@ namespace camdir::test {
 
 // The same for the distance of a point.
 [[nodiscard]] double searched_distance(const Vec3d& point, const bake::Triangle3d& triangle);
+
+// From one point to the nearest of many.
+[[nodiscard]] double distance_to_nearest(const Vec3d& point, const std::vector<Vec3d>& points);
 
 }  // namespace camdir::test

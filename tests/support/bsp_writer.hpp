@@ -9,8 +9,15 @@
 #include <utility>
 
 #include "base/file.hpp"
+#include "base/geometry.hpp"
 
 namespace camdir::test {
+
+inline constexpr double wall = 16.0;  // thickness, map units
+
+[[nodiscard]] inline std::array<float, 3> floats(const Vec3d& v) {
+    return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+}
 
 class BspWriter {
   public:

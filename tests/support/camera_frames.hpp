@@ -9,6 +9,8 @@
 
 namespace camdir::test {
 
+inline constexpr std::int64_t ms = 1'000'000;  // in ns
+
 // Owns the arrays of a sample. A new one is a valid frame without cameras.
 struct CameraFrameArrays {
     std::string match_id;

@@ -14,18 +14,12 @@
 namespace camdir::test {
 namespace {
 
-constexpr double wall = 16.0;
-
 q3::Shader shader(const std::string& name, std::int32_t flags, std::int32_t contents) {
     q3::Shader shader{};
     std::memcpy(shader.name.data(), name.data(), name.size());
     shader.surface_flags = flags;
     shader.contents = contents;
     return shader;
-}
-
-std::array<float, 3> floats(const Vec3d& v) {
-    return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
 }
 
 std::int32_t count(std::size_t size) {

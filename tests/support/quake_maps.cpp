@@ -14,15 +14,9 @@ namespace {
 
 namespace quake = scene::quake;
 
-constexpr double wall = 16.0;
-
 template <class Element>
 std::int32_t count(const std::vector<Element>& elements) {
     return static_cast<std::int32_t>(elements.size());
-}
-
-std::array<float, 3> floats(const Vec3d& v) {
-    return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
 }
 
 class Compiler {

@@ -7,6 +7,7 @@
 #include <limits>
 #include <random>
 
+#include "support/bake_twins.hpp"
 #include "support/solid_scenes.hpp"
 
 namespace camdir::bake {
@@ -19,13 +20,6 @@ std::vector<Vec3d> medial_axis_of(const scene::Scene& scene, const Probing& prob
     const Solids solids(scene);
     Stage stage("medial axis", {}, {});
     return medial_axis(obstacles, solids, probing, stage).value();
-}
-
-double to_nearest(const Vec3d& point, const std::vector<Vec3d>& points) {
-    double nearest2 = std::numeric_limits<double>::infinity();
-    for (const Vec3d& p : points)
-        nearest2 = std::min(nearest2, (p - point).squaredNorm());
-    return std::sqrt(nearest2);
 }
 
 TEST(TangentRadius, IsThatOfTheLargestEmptyBallThatTouches) {
@@ -72,9 +66,9 @@ TEST(MedialAxis, ComesNearEveryPointOfItAsDenselyAsItIsNarrow) {
     std::mt19937 random(31);
     std::uniform_real_distribution<double> along(64.0, 128.0);
     for (int round = 0; round < 100; ++round) {
-        EXPECT_LT(to_nearest({along(random) + 32.0, 96.0, 64.0}, points), 40.0);
+        EXPECT_LT(test::distance_to_nearest({along(random) + 32.0, 96.0, 64.0}, points), 40.0);
         const double t = along(random) / 4.0;
-        EXPECT_LT(to_nearest({along(random), t, t}, points), 24.0);
+        EXPECT_LT(test::distance_to_nearest({along(random), t, t}, points), 24.0);
     }
 }
 
@@ -84,7 +78,7 @@ TEST(MedialAxis, IsFoundInsideADoorThatIsSmallOnItsWall) {
     rooms.add(Box3d(Vec3d(-8, 24, 0), Vec3d(8, 500, 400)));
     rooms.add(Box3d(Vec3d(-8, -24, 80), Vec3d(8, 24, 400)));
     const auto points = medial_axis_of(rooms.scene(), {32.0, 256.0});
-    EXPECT_LT(to_nearest({0, 0, 40}, points), 20.0);
+    EXPECT_LT(test::distance_to_nearest({0, 0, 40}, points), 20.0);
 }
 
 TEST(MedialAxis, KnowsNoPointsBeyondTheReach) {

@@ -31,13 +31,6 @@ scene::Scene scene_of(const Triangle3d& t) {
     return scene;
 }
 
-double to_nearest(const Vec3d& point, const std::vector<Vec3d>& samples) {
-    double nearest2 = std::numeric_limits<double>::infinity();
-    for (const Vec3d& s : samples)
-        nearest2 = std::min(nearest2, (s - point).squaredNorm());
-    return std::sqrt(nearest2);
-}
-
 // The points of a fine barycentric grid.
 std::vector<Vec3d> dense_points(const Triangle3d& t, int steps) {
     std::vector<Vec3d> points;
@@ -57,7 +50,7 @@ TEST(CoveringRadius, IsTheLargestDistanceToTheNearestCorner) {
         const std::vector<Vec3d> corners(t.begin(), t.end());
         double largest = 0.0;
         for (const Vec3d& p : dense_points(t, 200))
-            largest = std::max(largest, to_nearest(p, corners));
+            largest = std::max(largest, test::distance_to_nearest(p, corners));
         EXPECT_GE(covering_radius(t), largest - 1e-9) << "round " << round;
         EXPECT_LE(covering_radius(t), largest + 0.2) << "round " << round;
     }
@@ -83,7 +76,7 @@ TEST(Sample, EveryObstaclePointHasASampleNearerThanTheDistance) {
         Stage stage("sample", {}, {});
         const auto samples = sample(scene_of(t), SamplingDistance(distance), 0.0, stage).value();
         for (const Vec3d& p : dense_points(t, 120))
-            ASSERT_LT(to_nearest(p, samples), distance) << "round " << round;
+            ASSERT_LT(test::distance_to_nearest(p, samples), distance) << "round " << round;
         for (const Vec3d& s : samples)
             ASSERT_LT((closest_point(t, s) - s).norm(), 1e-9)
                 << "samples lie on the triangle, round " << round;
@@ -120,7 +113,7 @@ TEST(Sample, NearestSamplesAreNearerThanTheirSamplingDistance) {
         const auto samples = weld(sample(soup, distance, welded, stage).value(), welded, stage).value();
         for (const auto& [a, b, c] : soup.triangles)
             for (const Vec3d& x : dense_points({soup.vertices[a], soup.vertices[b], soup.vertices[c]}, 40)) {
-                const double nearest = to_nearest(x, samples);
+                const double nearest = test::distance_to_nearest(x, samples);
                 for (const Vec3d& p : samples) {
                     if ((p - x).norm() > nearest + 1e-9) continue;
                     ASSERT_LT(nearest, distance.at(p)) << "round " << round;

@@ -8,7 +8,7 @@
 namespace camdir::dds {
 namespace {
 
-director::CameraFrame random_frame(std::size_t count, std::uint32_t seed) {
+director::CameraFrame random_camera_frame(std::size_t count, std::uint32_t seed) {
     std::mt19937 random(seed);
     std::normal_distribution<float> normal;
     director::CameraFrame frame;
@@ -36,7 +36,8 @@ RC_GTEST_PROP(EncodeCameraFrame, EveryNumberIsWhereTheContractSays, (std::uint32
     // The second frame must not show anything of the first.
     for (int round = 0; round < 2; ++round) {
         const auto count = *rc::gen::inRange<std::size_t>(0, 257);
-        const director::CameraFrame frame = random_frame(count, seed + static_cast<std::uint32_t>(round));
+        const director::CameraFrame frame =
+            random_camera_frame(count, seed + static_cast<std::uint32_t>(round));
         const camera_director_CameraFrame& sample = encoder.encode(frame, 99);
         RC_ASSERT(std::string(sample.match_id) == "cup-7");
         RC_ASSERT(sample.director_id == 42U);
@@ -66,8 +67,8 @@ RC_GTEST_PROP(EncodeCameraFrame, EveryNumberIsWhereTheContractSays, (std::uint32
 
 TEST(EncodeCameraFrame, UsesTheSameMemoryForEveryFrame) {
     CameraFrameEncoder encoder("m", 1);
-    const float* const before = encoder.encode(random_frame(3, 1), 0).position._buffer;
-    const camera_director_CameraFrame& after = encoder.encode(random_frame(256, 2), 0);
+    const float* const before = encoder.encode(random_camera_frame(3, 1), 0).position._buffer;
+    const camera_director_CameraFrame& after = encoder.encode(random_camera_frame(256, 2), 0);
     EXPECT_EQ(after.position._buffer, before);
     EXPECT_FALSE(after.position._release) << "DDS must not free it";
 }

@@ -7,10 +7,13 @@
 #include <cstdlib>
 #include <random>
 
+#include "support/camera_frames.hpp"
+
 namespace camdir::sdk {
 namespace {
 
-constexpr std::int64_t ms = 1'000'000;
+using test::ms;
+
 constexpr std::int64_t delay = 50 * ms;
 constexpr std::int64_t period = 16 * ms;
 constexpr std::int64_t start = 123'456'789 * ms;  // of the host's clock, when frame_time is 0

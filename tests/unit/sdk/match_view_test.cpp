@@ -16,8 +16,7 @@ namespace camdir::sdk {
 namespace {
 
 using test::CameraFrameArrays;
-
-constexpr std::int64_t ms = 1'000'000;
+using test::ms;
 
 CameraFrameArrays frame_of(std::uint64_t epoch, std::uint32_t number) {
     CameraFrameArrays frame{.match_id = "cup"};
