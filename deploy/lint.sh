@@ -3,7 +3,8 @@
 # ever, so server/bake is left out where it includes them.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-cmake --preset release >/dev/null
+cmake --preset debug >/dev/null
+cmake --build --preset debug --target camdir_wire camdir_freespace_schema_generated >/dev/null
 files=("$@")
 [ $# -gt 0 ] || mapfile -t files < <(git ls-files 'server/*.cpp' 'client-sdk/*.cpp' 'tests/unit/*.cpp')
 without_cgal=()
@@ -11,4 +12,4 @@ for file in "${files[@]}"; do
     grep -q 'CGAL/' "$file" || without_cgal+=("$file")
 done
 printf '%s\0' "${without_cgal[@]}" |
-    xargs -0 -n 4 -P "$(nproc)" clang-tidy-14 --quiet -p build/release --extra-arg=-Wno-unknown-warning-option
+    xargs -0 -n 4 -P "$(nproc)" clang-tidy-14 --quiet -p build/debug --extra-arg=-Wno-unknown-warning-option

@@ -25,6 +25,7 @@ Baked baked(const SolidScene& scene, double d0, unsigned threads = 0) {
 Baked baked(const scene::Scene& scene, double d0, Sampling sampling) {
     Parameters parameters;
     parameters.d0 = d0;
+    parameters.loss = 0.0;
     parameters.sampling = sampling;
     return bake(scene, parameters, {}, {}).value();
 }

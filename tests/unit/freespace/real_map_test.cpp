@@ -24,7 +24,7 @@ class RealMap : public testing::Test {
         if (!std::filesystem::exists(archive)) return;
         const auto scene = scene::load(std::string(archive) + ":maps/oa_dm1.bsp");
         ASSERT_TRUE(scene) << scene.error().message;
-        const auto baked = bake::bake(*scene, bake::Parameters{}, {}, {});
+        const auto baked = bake::bake(*scene, {.loss = 0.0}, {}, {});
         ASSERT_TRUE(baked) << baked.error().message;
         freespace_.emplace(test::make_freespace(baked->contents));
         oracle_.emplace(*scene);

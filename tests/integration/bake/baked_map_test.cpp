@@ -1,0 +1,167 @@
+// camera-director inspect, export and render as users of a baked map run them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string_view>
+
+#include "base/file.hpp"
+#include "freespace/freespace.hpp"
+#include "support/child_process.hpp"
+#include "support/q3_maps.hpp"
+
+namespace camdir {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using test::ChildProcess;
+using testing::HasSubstr;
+
+std::uint32_t u32_at(std::string_view bytes, std::size_t offset) {
+    std::uint32_t value = 0;
+    std::memcpy(&value, bytes.data() + offset, sizeof value);
+    return value;
+}
+
+// Of a PNG file.
+std::uint32_t big_endian_at(std::string_view bytes, std::size_t offset) {
+    std::uint32_t value = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+        value = value << 8U | static_cast<unsigned char>(bytes[offset + i]);
+    return value;
+}
+
+// A room of 512 x 512 x 256 with a pool and one spawn point, baked at d0 = 32.
+class BakedMap : public testing::Test {
+  protected:
+    void SetUp() override {
+        std::string pattern = (fs::temp_directory_path() / "camdir-baked-XXXXXX").string();
+        folder_ = ::mkdtemp(pattern.data());
+        map_ = folder_ / "room.bsp";
+        baked_ = folder_ / "room.vfs";
+        scene::q3::Bsp bsp = test::room_map(Box3d(Vec3d(0.0, 0.0, 0.0), Vec3d(512.0, 512.0, 256.0)));
+        test::add_box(bsp, Box3d(Vec3d(0.0, 0.0, 0.0), Vec3d(64.0, 64.0, 16.0)), test::water);
+        test::add_spawn_point(bsp, Vec3d(256.0, 256.0, 40.0));
+        ASSERT_TRUE(write_file(map_, test::encode(bsp)));
+        ChildProcess bake({CAMERA_DIRECTOR, "bake", map_, "-o", baked_, "--d0", "32", "--quiet"});
+        ASSERT_EQ(bake.wait(), 0) << bake.errors();
+        freespace_.emplace(freespace::Freespace::open(baked_).value());
+    }
+    void TearDown() override { fs::remove_all(folder_); }
+
+    // What it printed; it must exit with 0.
+    static std::string printed(std::vector<std::string> command) {
+        command.insert(command.begin(), CAMERA_DIRECTOR);
+        ChildProcess process(command);
+        EXPECT_EQ(process.wait(), 0) << process.errors();
+        return process.output();
+    }
+
+    static void expect_refused(std::vector<std::string> command, const std::string& reason) {
+        command.insert(command.begin(), CAMERA_DIRECTOR);
+        ChildProcess process(command);
+        EXPECT_EQ(process.wait(), 1);
+        EXPECT_THAT(process.errors(), HasSubstr(reason));
+    }
+
+    fs::path folder_;
+    std::string map_, baked_;
+    std::optional<freespace::Freespace> freespace_;
+};
+
+TEST_F(BakedMap, InspectTellsWhatTheFileHoldsAndWhatTheBakeLeftOut) {
+    const json told = json::parse(printed({"inspect", baked_, "--json", "-"}));
+    EXPECT_EQ(told.at("map_name"), "room");
+    EXPECT_EQ(told.at("source_name"), map_);
+    EXPECT_EQ(told.at("d0"), 32.0);
+    EXPECT_EQ(told.at("vertices"), freespace_->vertices().size());
+    EXPECT_EQ(told.at("triangles"), freespace_->triangles().size());
+    EXPECT_EQ(told.at("bytes"), fs::file_size(baked_));
+    EXPECT_EQ(told.at("spawn_points").size(), 1U);
+    EXPECT_THAT(told.at("counts"),
+                testing::Contains(json{{"stage", "left out"}, {"what", "liquid"}, {"value", 1.0}}));
+}
+
+TEST_F(BakedMap, AnotherFileIsRefusedWithTheReason) {
+    const std::string picture = folder_ / "x.png";
+    for (const std::vector<std::string>& command : {std::vector<std::string>{"inspect", map_},
+                                                    {"export", map_, "--ply", folder_ / "x.ply"},
+                                                    {"render", map_, "--map", map_, "-o", picture}})
+        expect_refused(command, map_);
+    EXPECT_FALSE(fs::exists(picture));
+    EXPECT_FALSE(fs::exists(folder_ / "x.ply"));
+}
+
+TEST_F(BakedMap, ExportedGltfHoldsTheMeshTheRoadmapAndTheSpawnPoint) {
+    const std::string glb = printed({"export", baked_, "--glb", "-"});
+    ASSERT_GT(glb.size(), 28U);
+    EXPECT_EQ(glb.substr(0, 4), "glTF");
+    EXPECT_EQ(u32_at(glb, 4), 2U);
+    EXPECT_EQ(u32_at(glb, 8), glb.size());
+    const std::size_t text_size = u32_at(glb, 12);
+    const json gltf = json::parse(glb.substr(20, text_size));
+    const std::string_view buffer = std::string_view(glb).substr(28 + text_size);
+    ASSERT_EQ(gltf.at("buffers").at(0).at("byteLength"), buffer.size());
+
+    const json& accessors = gltf.at("accessors");
+    const auto element = [&](const json& accessor, std::size_t index, std::size_t size) {
+        const json& view = gltf.at("bufferViews").at(accessor.at("bufferView").get<std::size_t>());
+        return buffer.substr(view.at("byteOffset").get<std::size_t>() + index * size, size);
+    };
+    const json& mesh = gltf.at("meshes").at(0).at("primitives").at(0);
+    const json& position = accessors.at(mesh.at("attributes").at("POSITION").get<std::size_t>());
+    const json& distance = accessors.at(mesh.at("attributes").at("_FREE_DISTANCE").get<std::size_t>());
+    const json& index = accessors.at(mesh.at("indices").get<std::size_t>());
+    ASSERT_EQ(position.at("count"), freespace_->vertices().size());
+    ASSERT_EQ(index.at("count"), 3 * freespace_->triangles().size());
+    for (std::size_t v = 0; v < freespace_->vertices().size(); ++v) {
+        const freespace::Vertex& vertex = freespace_->vertices()[v];
+        const std::array<float, 3> expected{vertex.x, vertex.y, vertex.z};
+        EXPECT_EQ(std::memcmp(element(position, v, 12).data(), expected.data(), 12), 0);
+        EXPECT_EQ(std::memcmp(element(distance, v, 4).data(), &vertex.free_distance, 4), 0);
+    }
+    for (std::size_t t = 0; t < freespace_->triangles().size(); ++t) {
+        const freespace::Triangle& triangle = freespace_->triangles()[t];
+        const std::array<std::uint32_t, 3> expected{triangle.a, triangle.b, triangle.c};
+        EXPECT_EQ(std::memcmp(element(index, 3 * t, 4).data(), expected.data(), 12), 0);
+    }
+
+    const json& roadmap = gltf.at("meshes").at(1).at("primitives").at(0);
+    EXPECT_EQ(roadmap.at("mode"), 1) << "lines";
+    const json& nodes = gltf.at("nodes");
+    EXPECT_TRUE(std::any_of(nodes.begin(), nodes.end(), [](const json& node) {
+        return node.at("name") == "spawn point 0" && node.at("translation").at(0) == 256.0;
+    }));
+}
+
+TEST_F(BakedMap, ExportedPlyHoldsAllVerticesAndTriangles) {
+    const std::string ply = printed({"export", baked_, "--ply", "-"});
+    EXPECT_THAT(ply, testing::StartsWith("ply\nformat binary_little_endian 1.0\n"));
+    EXPECT_THAT(ply, HasSubstr("element vertex " + std::to_string(freespace_->vertices().size()) + "\n"));
+    EXPECT_THAT(ply, HasSubstr("element face " + std::to_string(freespace_->triangles().size()) + "\n"));
+}
+
+TEST_F(BakedMap, RenderDrawsAPngOfTheAskedSizeFromEachViewpoint) {
+    std::vector<std::string> pictures;
+    for (const std::string view : {"plan", "auto", "100,100,100,45,-10"}) {
+        const std::string picture =
+            printed({"render", baked_, "--map", map_, "-o", "-", "--size", "320x240", "--view", view});
+        ASSERT_GT(picture.size(), 24U) << view;
+        EXPECT_EQ(picture.substr(0, 8), "\x89PNG\r\n\x1a\n");
+        EXPECT_EQ(big_endian_at(picture, 16), 320U);
+        EXPECT_EQ(big_endian_at(picture, 20), 240U);
+        EXPECT_THAT(pictures, testing::Not(testing::Contains(picture))) << view;
+        pictures.push_back(picture);
+    }
+    expect_refused({"render", baked_, "--map", map_, "-o", "-", "--view", "sideways"}, "sideways");
+}
+
+}  // namespace
+}  // namespace camdir
