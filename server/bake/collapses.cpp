@@ -150,7 +150,7 @@ bool Collapses::find_homes(std::uint32_t from, std::uint32_t to) {
     for (const std::uint32_t triangle : all_.complex.star(from)) {
         for (const Witness& witness : all_.witnesses[triangle]) {
             const Home home = find_home(all_.vertices, homes_, witness.point);
-            if (!(home.distance >= witness.free_distance - most_loss_)) return false;
+            if (!(home.distance >= std::max(witness.free_distance - most_loss_, witness.least))) return false;
             settled_.emplace_back(home_ids_[home.position], witness);
         }
     }

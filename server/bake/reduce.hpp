@@ -21,7 +21,8 @@ struct Reduction {
 // the loss is spent beforehand: lower free distances let many more collapses keep clear of the obstacles; the
 // vertices that are left get back what their slabs allow. Afterwards, as before:
 // - every slab is certified against the obstacles;
-// - each vertex, and each spawn point, has the free distance it had, less the loss, if that is positive;
+// - each vertex, and each spawn point, has the free distance it had, less the loss, if that is positive; a
+//   spawn point also half of what it had;
 // - the mesh has the same connected parts, holes and branches, no edge without a triangle, and the roadmap
 //   (edges between vertices of positive free distance) is connected where it was.
 // The result does not depend on the number of threads. Drops the vertices that nobody uses.

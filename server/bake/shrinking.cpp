@@ -9,6 +9,7 @@ namespace {
 
 constexpr double slack_of_loss = 0.3;
 constexpr double most_slack = 0.25;  // of the free distance: what has a ball keeps one
+constexpr double spawn_share = 0.5;  // of its free distance that a spawn point keeps
 
 }  // namespace
 
@@ -44,14 +45,26 @@ Shrinking::Shrinking(const MedialMesh& mesh, const std::vector<float>& free_dist
     }
     for (const scene::SpawnPoint& spawn : scene.spawn_points) {
         const Home home = find_home(vertices, mesh.triangles, spawn.eye);
-        if (home.distance > 0.0) witnesses[home.position].push_back({spawn.eye, home.distance});
+        if (home.distance > 0.0)
+            witnesses[home.position].push_back({spawn.eye, home.distance, spawn_share * home.distance});
     }
 }
 
+std::vector<bool> Shrinking::bound_vertices() const {
+    std::vector<bool> bound(vertices.size());
+    for (std::uint32_t triangle = 0; triangle < witnesses.size(); ++triangle)
+        for (const Witness& witness : witnesses[triangle])
+            if (witness.least > 0.0)
+                for (const std::uint32_t corner : complex.corners(triangle))
+                    bound[corner] = true;
+    return bound;
+}
+
 void Shrinking::give_slack(double share) {
+    const std::vector<bool> bound = bound_vertices();
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         const double whole = whole_distance[i];
-        if (!(whole > 0.0)) continue;
+        if (!(whole > 0.0) || bound[i]) continue;
         const double slack = std::min(slack_of_loss * reduction.loss, most_slack * whole);
         vertices[i].free_distance =
             std::min(vertices[i].free_distance, static_cast<float>(whole - share * slack));

@@ -19,7 +19,8 @@ namespace camdir::bake {
 // A point that must stay covered: a vertex of the unreduced mesh, or a spawn point.
 struct Witness {
     Vec3d point;
-    double free_distance;  // in the unreduced mesh
+    double free_distance;                                     // in the unreduced mesh
+    double least = -std::numeric_limits<double>::infinity();  // that it keeps whatever the loss
 };
 
 // The slab that gives the most free distance to a point.
@@ -50,7 +51,8 @@ struct Shrinking {
     }
 
     // Lowers the free distances by `share` of the slack that the loss has for them, and forgets what was
-    // refused for want of it. A witness has lost at most `share` of the loss afterwards if it had before.
+    // refused for want of it. A witness has lost at most `share` of the loss afterwards if it had before; one
+    // with a least free distance loses nothing.
     void give_slack(double share);
 
     // Whether the slabs that a collapse would make were found free.
@@ -58,6 +60,9 @@ struct Shrinking {
         std::uint32_t to;
         bool free;
     };
+
+    // The corners of triangles whose witnesses have a least free distance.
+    [[nodiscard]] std::vector<bool> bound_vertices() const;
 
     std::vector<freespace::Vertex> vertices;
     const std::vector<float>& whole_distance;  // of the vertices in the unreduced mesh

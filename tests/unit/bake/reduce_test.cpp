@@ -129,6 +129,18 @@ TEST(Reduce, IsSafeAndKeepsTheRoadmapWhateverTheRoom) {
     }
 }
 
+TEST(Reduce, SpawnPointsKeepHalfOfTheirDistanceWhateverTheLoss) {
+    for (const Vec3d& spawn :
+         {Vec3d(12.0, 96.0, 12.0), Vec3d(128.0, 182.0, 64.0), Vec3d(244.0, 12.0, 20.0)}) {
+        SolidScene room(Box3d(Vec3d(0, 0, 0), Vec3d(256, 192, 128)));
+        room.spawn(spawn);
+        const double before = distance(slabs_of(baked(room, 0.0).contents), spawn);
+        ASSERT_GT(before, 0.0);
+        ASSERT_LT(before, 16.0) << "or the loss alone keeps it covered";
+        EXPECT_GE(distance(slabs_of(baked(room, 100.0).contents), spawn), 0.5 * before);
+    }
+}
+
 TEST(Reduce, MoreLossLeavesFewerTriangles) {
     const SolidScene room = test::pillar_room();
     std::size_t before = baked(room, 0.0).contents.triangles.size();
