@@ -15,14 +15,11 @@ work=$(mktemp -d)
 trap 'rm -r "$work"' EXIT
 
 "$director" bake "$map" -o "$work/whole.vfs" --loss 0 --quiet
-"$director" bake "$map" -o "$work/reduced.vfs" --loss 65 --quiet
+"$director" bake "$map" -o "$work/reduced.vfs" --quiet
 "$director" evaluate "$work/reduced.vfs" --map "$map" --trace "$trace" --cameras "$work/cameras.csv" >/dev/null
 
-draw() { "$director" render "$work/$1.vfs" --map "$map" -o "$here/$2.png" --size 1000x750 "${@:3}"; }
-draw reduced overview --view auto --no-mesh
-draw reduced samples --view auto --no-mesh --samples
-draw reduced reduced --view auto
-inside=-200,-250,150,45,-15
-draw whole inside-whole --view "$inside"
-draw reduced inside-reduced --view "$inside"
-draw reduced paths --view plan --no-mesh --trace "$trace" --cameras "$work/cameras.csv" --between 5,20 --players 0,3,5
+draw() { "$director" render "$work/$1.vfs" --map "$map" -o "$here/$2.png" "${@:3}"; }
+for picture in "whole map --no-mesh" "whole samples --no-mesh --samples" "whole whole" "reduced reduced"; do
+    draw $picture --size 640x480 --view auto
+done
+draw reduced paths --size 1000x750 --view plan --no-mesh --trace "$trace" --cameras "$work/cameras.csv" --between 5,20 --players 0,3,5

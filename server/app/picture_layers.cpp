@@ -120,8 +120,10 @@ void add_spawn_points(const freespace::Freespace& freespace, float pixel, render
     render::Balls balls{{}, spawn_colour, 6.0F * pixel};
     for (const freespace::SpawnPoint& spawn : freespace.spawn_points())
         balls.centres.push_back(spawn.eye);
-    key.push_back(
-        {KeyEntry::Mark::disc, {spawn_colour}, std::to_string(balls.centres.size()) + " spawn points"});
+    key.push_back({KeyEntry::Mark::disc,
+                   {spawn_colour},
+                   std::to_string(balls.centres.size()) +
+                       (balls.centres.size() == 1 ? " spawn point" : " spawn points")});
     layers.balls.push_back(std::move(balls));
 }
 

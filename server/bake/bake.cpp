@@ -38,9 +38,6 @@ namespace {
 constexpr double metres_of_nominal_unit = 0.0254;
 
 constexpr double default_d0 = 16.0;
-// A point cloud is thinned to half of d0. Of its default d0 the other half is for the gaps between the
-// points.
-constexpr double spacings_in_d0 = 2.0;
 // Nominal units: half the width of the narrowest gap between a cloud's points that joins two places. There
 // are always some that a hair would pass.
 constexpr double passage = 5.5;
@@ -300,7 +297,7 @@ double sampling_distance(const scene::Scene& scene, const Parameters& parameters
     const double unit = metres_of_nominal_unit / scene.metres_per_unit;
     if (parameters.d0 > 0.0) return parameters.d0 * unit;
     if (scene.points.empty()) return default_d0 * unit;
-    return std::clamp(spacings_in_d0 * scene.point_spacing, min_d0 * unit, max_d0 * unit);
+    return std::clamp(scene.point_spacing, min_d0 * unit, max_d0 * unit);
 }
 
 Result<Baked> bake(const scene::Scene& scene, const Parameters& parameters, const ProgressSink& progress,

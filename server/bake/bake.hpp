@@ -31,7 +31,7 @@ enum class Sampling : std::uint8_t {
 
 struct Parameters {
     // Sampling distance in units of 0.0254 m: sets which openings exist. min_d0 .. max_d0, or 0: 16, and for
-    // a point cloud twice the points' spacing.
+    // a point cloud the points' spacing.
     double d0 = 0.0;
     unsigned threads = 0;  // 0 = one a core, which is also the most. Never changes the result
     // Mesh reduction: how much free distance the centre of a ball may lose, as percent of d0. 0 keeps the

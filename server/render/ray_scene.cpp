@@ -113,10 +113,10 @@ void RayScene::add(RTCGeometry geometry, Hit::Kind kind, std::uint32_t layer) {
 }
 
 void RayScene::add_map(const scene::Scene& scene) {
-    if (scene.triangles.empty()) {
+    if (!scene.points.empty()) {
         std::vector<Vec3f> points;
-        for (const Vec3d& vertex : scene.vertices)
-            points.push_back(vertex.cast<float>());
+        for (const Vec3d& point : scene.points)
+            points.push_back(point.cast<float>());
         return add_balls(points, layers_.map_point_radius, Hit::cloud, 0);
     }
     RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);

@@ -40,8 +40,8 @@ TEST(CloudBake, RoomsCentreHasTheDistanceToItsWallsLessD0) {
     const scene::Scene scene = scene_of(test::walls_of(room, spacing));
     const freespace::Freespace baked = bake_of(scene);
     const double d0 = baked.metadata().d0;
-    EXPECT_NEAR(d0, 2.0 * scene.point_spacing, 1e-6);
-    EXPECT_LT(d0, 3.0 * spacing);
+    EXPECT_NEAR(d0, scene.point_spacing, 1e-6);
+    EXPECT_LT(d0, 1.5 * spacing);
 
     const auto centre = freespace::distance_everywhere(baked, room.center().cast<float>());
     const double truth = distance_to(scene.points, room.center()) - d0;

@@ -148,15 +148,15 @@ TEST(Draw, BreaksAPathWhereItsPointsAreNotFinite) {
 
 TEST(Draw, ShowsACloudsPoints) {
     scene::Scene cloud;
-    cloud.vertices = {{30.0, 30.0, 0.0}, {70.0, 70.0, 0.0}};
+    cloud.points = {{30.0, 30.0, 0.0}, {70.0, 70.0, 0.0}};
     cloud.bounds = box;
     Layers layers;
     layers.map = &cloud;
     layers.map_point_radius = 10.0F;
     const View view = plan();
     const Picture picture = draw(layers, view, width, height).value();
-    expect_grey(pixel_at(picture, view, cloud.vertices[0]));
-    expect_grey(pixel_at(picture, view, cloud.vertices[1]));
+    expect_grey(pixel_at(picture, view, cloud.points[0]));
+    expect_grey(pixel_at(picture, view, cloud.points[1]));
     expect_colour(pixel_at(picture, view, {50.0, 50.0, 0.0}), {1.0F, 1.0F, 1.0F});
 }
 
