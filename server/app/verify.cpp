@@ -169,6 +169,11 @@ void add_verify(CLI::App& root, Run& run) {
                      "Balls to draw; every vertex and edge midpoint comes on top")
         ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{10'000'000'000}))
         ->capture_default_str();
+    command
+        ->add_option("--points", options->parameters.points,
+                     "Reachable free points to draw for coverage and tightness")
+        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}))
+        ->capture_default_str();
     command->add_option("--seed-rng", options->parameters.seed, "Seed of the random numbers")
         ->capture_default_str();
     command->add_option("--json", options->json,

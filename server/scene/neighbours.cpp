@@ -1,12 +1,11 @@
 #include "scene/neighbours.hpp"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <array>
 #include <cassert>
 #include <cmath>
 #include <nanoflann.hpp>
+
+#include "base/parallel.hpp"
 
 namespace camdir::scene {
 namespace {
@@ -47,11 +46,11 @@ std::vector<double> neighbour_distances(const std::vector<Vec3d>& points, std::s
     const Points adapted{points};
     const Tree tree(3, adapted, nanoflann::KDTreeSingleIndexAdaptorParams(16));
     std::vector<double> distances(points.size());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), 1024),
-                      [&](const tbb::blocked_range<std::size_t>& range) {
-                          for (std::size_t i = range.begin(); i != range.end(); ++i)
-                              distances[i] = mean_distance(tree, points[i], count);
-                      });
+    parallel_for_ranges(std::size_t{0}, points.size(), std::size_t{1024},
+                        [&](std::size_t begin, std::size_t end) {
+                            for (std::size_t i = begin; i != end; ++i)
+                                distances[i] = mean_distance(tree, points[i], count);
+                        });
     return distances;
 }
 

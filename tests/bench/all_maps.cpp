@@ -70,6 +70,8 @@ int main(int argc, char** argv) {
         ->capture_default_str();
     app.add_option("--only", options.only, "Only maps whose name contains this");
     app.add_option("--balls", options.parameters.balls, "Balls to draw on each map")->capture_default_str();
+    app.add_option("--points", options.parameters.points, "Free points to draw on each map")
+        ->capture_default_str();
     app.add_option("--bake-options", options.bake_options,
                    "More for the command line of the bake, such as \"--loss 3\"");
     app.add_flag("--check-threads", options.parameters.check_threads,

@@ -136,7 +136,8 @@ void Measurement::bake_with_one_and_two_threads() {
 
 void Measurement::verify() {
     test::ChildProcess process({director_, "verify", file_, "--map", map_.source, "--balls",
-                                std::to_string(parameters_.balls), "--json", "-"});
+                                std::to_string(parameters_.balls), "--points",
+                                std::to_string(parameters_.points), "--json", "-"});
     process.wait();
     const json result = json::parse(process.output(), nullptr, false);
     if (result.is_discarded()) {

@@ -16,6 +16,7 @@ struct MeasureParameters {
     std::filesystem::path work;             // MAP.vfs and the reports stay here
     std::vector<std::string> bake_options;  // more of the bake's command line
     std::uint64_t balls = 0;
+    std::uint64_t points = 100'000;
     bool check_threads = false;
 };
 

@@ -37,9 +37,9 @@ class AllMaps : public testing::Test {
     }
 
     [[nodiscard]] std::vector<std::string> command(const std::vector<std::string>& more) const {
-        std::vector<std::string> words{BENCH_ALL_MAPS,   folder_ / "maps", "--openarena", "",
-                                       "--work",         folder_ / "work", "--balls",     "1000",
-                                       "--bake-options", "--d0 32"};
+        std::vector<std::string> words{BENCH_ALL_MAPS, folder_ / "maps", "--openarena",    "",
+                                       "--work",       folder_ / "work", "--balls",        "1000",
+                                       "--points",     "1000",           "--bake-options", "--d0 32"};
         words.insert(words.end(), more.begin(), more.end());
         return words;
     }

@@ -39,5 +39,6 @@ int main(void) {
     check("wait", cdir_observer_wait(observer, 5000000000)); /* the match's own info */
     check("poll", cdir_observer_poll(observer, NULL));
     if (cdir_observer_match_info(observer, &info, NULL, 0, NULL) != CDIR_OK) return EXIT_FAILURE;
-    return pthread_create(&thread, NULL, wait_for_ever, &observer);
+    if (pthread_create(&thread, NULL, wait_for_ever, &observer) != 0) return EXIT_FAILURE;
+    return pthread_detach(thread);
 }
