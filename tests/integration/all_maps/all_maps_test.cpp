@@ -29,10 +29,10 @@ class AllMaps : public testing::Test {
 
     // Two rooms without a door between them, a spawn point in the first or in both.
     void add_rooms(const std::string& name, bool both) const {
-        q3::Bsp bsp = test::room_map(Box3d(Vec3d(0.0, 0.0, 0.0), Vec3d(1024.0, 512.0, 256.0)));
-        test::add_box(bsp, Box3d(Vec3d(504.0, 0.0, 0.0), Vec3d(520.0, 512.0, 256.0)), test::stone);
-        test::add_spawn_point(bsp, Vec3d(256.0, 256.0, 40.0));
-        if (both) test::add_spawn_point(bsp, Vec3d(768.0, 256.0, 40.0));
+        q3::Bsp bsp = test::room_map(Box3d(Vec3d(0.0, 0.0, 0.0), Vec3d(512.0, 256.0, 128.0)));
+        test::add_box(bsp, Box3d(Vec3d(248.0, 0.0, 0.0), Vec3d(264.0, 256.0, 128.0)), test::stone);
+        test::add_spawn_point(bsp, Vec3d(128.0, 128.0, 40.0));
+        if (both) test::add_spawn_point(bsp, Vec3d(384.0, 128.0, 40.0));
         ASSERT_TRUE(write_file(folder_ / "maps" / (name + ".bsp"), test::encode(bsp)));
     }
 

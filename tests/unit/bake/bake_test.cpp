@@ -11,6 +11,7 @@
 #include "scene/load.hpp"
 #include "support/openarena.hpp"
 #include "support/solid_scenes.hpp"
+#include "unit/bake/safety.hpp"
 
 namespace camdir::bake {
 namespace {
@@ -37,47 +38,11 @@ double count_of(const Baked& baked, const std::string& stage, const std::string&
     return 0.0;
 }
 
-std::vector<Slab> slabs_of(const freespace::Contents& contents) {
-    std::vector<Slab> slabs;
-    for (const freespace::Triangle& t : contents.triangles) {
-        Triangle3d corners;
-        std::array<double, 3> free_distance{};
-        const std::array<std::uint32_t, 3> ids{t.a, t.b, t.c};
-        for (int i = 0; i < 3; ++i) {
-            corners[i] = contents.vertices[ids[i]].position().cast<double>();
-            free_distance[i] = contents.vertices[ids[i]].free_distance;
-        }
-        slabs.emplace_back(corners, free_distance);
-    }
-    return slabs;
-}
-
 bool covered(const std::vector<Slab>& slabs, const Vec3d& p) {
     return std::any_of(slabs.begin(), slabs.end(), [&](const Slab& slab) {
         return slab.margin_at_least(Triangle3d{p, p, p}) < 0.0 &&
                slab.margin(Triangle3d{p, p, p}).value < 0.0;
     });
-}
-
-// Draws balls from every slab and compares them with the scene's closed form.
-void expect_safe(const SolidScene& scene, const freespace::Contents& contents) {
-    std::mt19937 random(17);
-    std::uniform_real_distribution<double> unit(0.0, 1.0);
-    for (const freespace::Triangle& t : contents.triangles) {
-        const freespace::Vertex& a = contents.vertices[t.a];
-        const freespace::Vertex& b = contents.vertices[t.b];
-        const freespace::Vertex& c = contents.vertices[t.c];
-        ASSERT_GT(std::max({a.free_distance, b.free_distance, c.free_distance}), 0.0F);
-        for (int i = 0; i < 20; ++i) {
-            const double u = unit(random);
-            const double v = unit(random) * (1.0 - u);
-            const Vec3d m = (1.0 - u - v) * a.position().cast<double>() + u * b.position().cast<double>() +
-                            v * c.position().cast<double>();
-            const double r = (1.0 - u - v) * a.free_distance + u * b.free_distance + v * c.free_distance;
-            ASSERT_LE(r, scene.clearance(m) + 1e-9);
-            ASSERT_TRUE(r <= 0.0 || scene.scene().bounds.contains(m));
-        }
-    }
 }
 
 struct Coverage {

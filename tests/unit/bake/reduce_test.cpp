@@ -10,13 +10,14 @@
 #include "bake/certificate.hpp"
 #include "bake/disjoint_sets.hpp"
 #include "support/solid_scenes.hpp"
+#include "unit/bake/safety.hpp"
 
 namespace camdir::bake {
 namespace {
 
 using test::SolidScene;
 
-Baked baked(const SolidScene& scene, double loss, std::uint64_t triangles = 0, unsigned threads = 0) {
+Baked reduced_bake(const SolidScene& scene, double loss, std::uint64_t triangles = 0, unsigned threads = 0) {
     Parameters parameters;
     parameters.loss = loss;
     parameters.triangles = triangles;
@@ -24,24 +25,11 @@ Baked baked(const SolidScene& scene, double loss, std::uint64_t triangles = 0, u
     return bake(scene.scene(), parameters, {}, {}).value();
 }
 
-Slab slab_of(const freespace::Contents& contents, const freespace::Triangle& t) {
-    const auto at = [&](std::uint32_t v) -> Vec3d { return contents.vertices[v].position().cast<double>(); };
-    const auto r = [&](std::uint32_t v) -> double { return contents.vertices[v].free_distance; };
-    return {{at(t.a), at(t.b), at(t.c)}, {r(t.a), r(t.b), r(t.c)}};
-}
-
 double distance(const std::vector<Slab>& slabs, const Vec3d& point) {
     double best = -std::numeric_limits<double>::infinity();
     for (const Slab& slab : slabs)
         best = std::max(best, slab.distance(point));
     return best;
-}
-
-std::vector<Slab> slabs_of(const freespace::Contents& contents) {
-    std::vector<Slab> slabs;
-    for (const freespace::Triangle& t : contents.triangles)
-        slabs.push_back(slab_of(contents, t));
-    return slabs;
 }
 
 // A room with boxes at random places in it, and a spawn point where none are.
@@ -70,25 +58,6 @@ std::size_t roadmap_parts(const freespace::Contents& contents) {
     return found.size();
 }
 
-// Draws balls from every slab and compares them with the scene's closed form.
-void expect_safe(const SolidScene& scene, const freespace::Contents& contents) {
-    std::mt19937 random(20);
-    std::uniform_real_distribution<double> unit(0.0, 1.0);
-    for (const freespace::Triangle& t : contents.triangles) {
-        const freespace::Vertex& a = contents.vertices[t.a];
-        const freespace::Vertex& b = contents.vertices[t.b];
-        const freespace::Vertex& c = contents.vertices[t.c];
-        for (int i = 0; i < 50; ++i) {
-            const double u = unit(random);
-            const double v = unit(random) * (1.0 - u);
-            const Vec3d m = (1.0 - u - v) * a.position().cast<double>() + u * b.position().cast<double>() +
-                            v * c.position().cast<double>();
-            const double r = (1.0 - u - v) * a.free_distance + u * b.free_distance + v * c.free_distance;
-            ASSERT_LE(r, scene.clearance(m) + 1e-9);
-        }
-    }
-}
-
 // Every centre of the whole mesh keeps its free distance less the loss.
 void expect_kept(const freespace::Contents& whole, const freespace::Contents& reduced, double loss) {
     const std::vector<Slab> slabs = slabs_of(reduced);
@@ -103,8 +72,8 @@ class Reduce : public testing::TestWithParam<double> {};
 
 TEST_P(Reduce, LosesNoMoreThanAllowed) {
     const SolidScene rooms = test::two_rooms();
-    const freespace::Contents whole = baked(rooms, 0.0).contents;
-    const freespace::Contents reduced = baked(rooms, GetParam()).contents;
+    const freespace::Contents whole = reduced_bake(rooms, 0.0).contents;
+    const freespace::Contents reduced = reduced_bake(rooms, GetParam()).contents;
     EXPECT_LT(reduced.triangles.size(), whole.triangles.size() / 2);
     expect_kept(whole, reduced, GetParam() / 100.0 * 16.0);
     expect_safe(rooms, reduced);
@@ -120,8 +89,8 @@ TEST(Reduce, IsSafeAndKeepsTheRoadmapWhateverTheRoom) {
     for (unsigned seed = 1; seed <= 6; ++seed) {
         SCOPED_TRACE(seed);
         const SolidScene room = random_room(seed);
-        const freespace::Contents whole = baked(room, 0.0).contents;
-        const freespace::Contents reduced = baked(room, loss).contents;
+        const freespace::Contents whole = reduced_bake(room, 0.0).contents;
+        const freespace::Contents reduced = reduced_bake(room, loss).contents;
         expect_kept(whole, reduced, loss / 100.0 * 16.0);
         expect_safe(room, reduced);
         EXPECT_EQ(roadmap_parts(reduced), roadmap_parts(whole));
@@ -134,18 +103,18 @@ TEST(Reduce, SpawnPointsKeepHalfOfTheirDistanceWhateverTheLoss) {
          {Vec3d(12.0, 96.0, 12.0), Vec3d(128.0, 182.0, 64.0), Vec3d(244.0, 12.0, 20.0)}) {
         SolidScene room(Box3d(Vec3d(0, 0, 0), Vec3d(256, 192, 128)));
         room.spawn(spawn);
-        const double before = distance(slabs_of(baked(room, 0.0).contents), spawn);
+        const double before = distance(slabs_of(reduced_bake(room, 0.0).contents), spawn);
         ASSERT_GT(before, 0.0);
         ASSERT_LT(before, 16.0) << "or the loss alone keeps it covered";
-        EXPECT_GE(distance(slabs_of(baked(room, 100.0).contents), spawn), 0.5 * before);
+        EXPECT_GE(distance(slabs_of(reduced_bake(room, 100.0).contents), spawn), 0.5 * before);
     }
 }
 
 TEST(Reduce, MoreLossLeavesFewerTriangles) {
     const SolidScene room = test::pillar_room();
-    std::size_t before = baked(room, 0.0).contents.triangles.size();
+    std::size_t before = reduced_bake(room, 0.0).contents.triangles.size();
     for (const double loss : {1.0, 10.0, 65.0}) {
-        const std::size_t left = baked(room, loss).contents.triangles.size();
+        const std::size_t left = reduced_bake(room, loss).contents.triangles.size();
         EXPECT_LT(left, before);
         before = left;
     }
@@ -153,10 +122,10 @@ TEST(Reduce, MoreLossLeavesFewerTriangles) {
 
 TEST(Reduce, EndsNearTheWantedNumberOfTriangles) {
     const SolidScene room = test::pillar_room();
-    const std::size_t whole = baked(room, 0.0).contents.triangles.size();
-    const std::size_t least = baked(room, 65.0).contents.triangles.size();
+    const std::size_t whole = reduced_bake(room, 0.0).contents.triangles.size();
+    const std::size_t least = reduced_bake(room, 65.0).contents.triangles.size();
     for (const std::size_t wanted : {(whole + least) / 2, 2 * least}) {
-        const std::size_t left = baked(room, 65.0, wanted).contents.triangles.size();
+        const std::size_t left = reduced_bake(room, 65.0, wanted).contents.triangles.size();
         EXPECT_LE(left, wanted);
         EXPECT_GT(left, wanted - wanted / 10);
     }
@@ -164,8 +133,8 @@ TEST(Reduce, EndsNearTheWantedNumberOfTriangles) {
 
 TEST(Reduce, IsTheSameForAnyNumberOfThreads) {
     const SolidScene rooms = test::two_rooms();
-    EXPECT_EQ(freespace::encode(baked(rooms, 65.0, 0, 1).contents),
-              freespace::encode(baked(rooms, 65.0, 0, 2).contents));
+    EXPECT_EQ(freespace::encode(reduced_bake(rooms, 65.0, 0, 1).contents),
+              freespace::encode(reduced_bake(rooms, 65.0, 0, 2).contents));
 }
 
 }  // namespace
