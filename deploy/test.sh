@@ -15,6 +15,15 @@ esac
 
 step() { printf '\n== %s (%s s)\n' "$1" "$SECONDS"; }
 
+# One line that counts on a terminal; in a log only what failed, with its output, and the summary.
+run_tests() {
+    if [[ -t 1 ]]; then
+        ctest --progress "$@"
+    else
+        ctest "$@" | grep -vE '^ +Start +[0-9]+: |^ *[0-9]+/[0-9]+ Test .*( Passed |\*\*\*Skipped )'
+    fi
+}
+
 step "Packages"
 groups=(build map test)
 $all && groups+=(lint)
@@ -28,18 +37,18 @@ cmake --preset release
 cmake --build --preset release
 
 step "Release tests: unit, integration, soak"
-ctest --preset release
+run_tests --preset release
 
 step "Address and undefined-behaviour sanitizers: unit tests"
 cmake --preset asan
 cmake --build --preset asan --target unit-tests
-ctest --preset asan --label-regex '^unit$'
+run_tests --preset asan --label-regex '^unit$'
 
 if $all; then
     step "Thread sanitizer: unit and integration tests"
     cmake --preset tsan
     cmake --build --preset tsan
-    ctest --preset tsan --label-regex '^(unit|integration)$'
+    run_tests --preset tsan --label-regex '^(unit|integration)$'
 
     step "clang-tidy"
     deploy/lint.sh

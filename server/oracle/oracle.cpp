@@ -60,8 +60,16 @@ double Oracle::clearance(const Vec3d& point, double limit) const {
 }
 
 bool Oracle::segment_clear(const Vec3d& from, const Vec3d& to) const {
-    return from.allFinite() && to.allFinite() && structures_->surfaces.segment_clear(from, to) &&
-           structures_->points.segment_clear(from, to);
+    const double largest = std::max(from.cwiseAbs().maxCoeff(), to.cwiseAbs().maxCoeff());
+    return end_clear(from, largest) && end_clear(to, largest) && between_clear(from, to);
+}
+
+bool Oracle::end_clear(const Vec3d& end, double largest) const {
+    return end.allFinite() && structures_->surfaces.end_clear(end, largest);
+}
+
+bool Oracle::between_clear(const Vec3d& from, const Vec3d& to) const {
+    return structures_->surfaces.between_clear(from, to) && structures_->points.segment_clear(from, to);
 }
 
 bool Oracle::in_solid(const Vec3d& point) const {

@@ -30,6 +30,12 @@ class Oracle {
     // coordinates to float: what comes nearer than that counts as a touch.
     [[nodiscard]] bool segment_clear(const Vec3d& from, const Vec3d& to) const;
 
+    // Its parts, for many segments with an end in common: segment_clear() is end_clear() of both ends, with
+    // the `largest` coordinate of the two, and between_clear(). Clearance beyond 2^-20 `largest` makes a
+    // clear end.
+    [[nodiscard]] bool end_clear(const Vec3d& end, double largest) const;
+    [[nodiscard]] bool between_clear(const Vec3d& from, const Vec3d& to) const;
+
     // Inside a solid or on its surface: of brushes by their planes alone; always false for meshes, which have
     // none.
     [[nodiscard]] bool in_solid(const Vec3d& point) const;

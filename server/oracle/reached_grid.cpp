@@ -66,6 +66,7 @@ ReachedGrid::ReachedGrid(const Oracle& oracle, const Box3d& bounds, const std::v
       bounds_(bounds),
       pitch_(pitch),
       min_clearance_(min_clearance),
+      largest_(std::max(bounds.min().cwiseAbs().maxCoeff(), bounds.max().cwiseAbs().maxCoeff())),
       sight_(3.0 * min_clearance + 2.0 * pitch),
       near_(offsets_within(sight_ / pitch)) {
     std::vector<Cell> frontier;
@@ -82,10 +83,11 @@ bool ReachedGrid::reached(const Vec3d& point) const {
 
 bool ReachedGrid::joined(const Vec3d& point) const {
     if (!joined_box_.contains(point) || oracle_->in_solid(point)) return false;
+    if (!oracle_->end_clear(point, largest_)) return false;
     const Cell home = cell_of(point);
     const auto sees = [&](const Cell& offset) {
         const Cell cell = home + offset;
-        return reached(cell) && oracle_->segment_clear(point, centre_of(cell));
+        return reached(cell) && oracle_->between_clear(point, centre_of(cell));
     };
     const auto farther = near_.begin() + 27;  // after the cell and those around it
     return std::any_of(near_.begin(), farther, sees) ||
@@ -162,14 +164,14 @@ void ReachedGrid::find_open(const Cell& first, int size, Slices& open) const {
 }
 
 void ReachedGrid::seed(const Vec3d& point, std::vector<Cell>& frontier) {
-    if (!bounds_.contains(point) || oracle_->in_solid(point)) return;
+    if (!bounds_.contains(point) || oracle_->in_solid(point) || !oracle_->end_clear(point, largest_)) return;
     for (const Cell& offset : near_) {
         const Cell cell = cell_of(point) + offset;
         if (!is_inside(cell)) continue;
         const Place place(cell);
         Block& block = block_at(place.block);
         const std::uint64_t open = block.open[place.slice] & ~block.reached[place.slice];
-        if ((open & place.bit) == 0 || !oracle_->segment_clear(point, centre_of(cell))) continue;
+        if ((open & place.bit) == 0 || !oracle_->between_clear(point, centre_of(cell))) continue;
         block.reached[place.slice] |= place.bit;
         frontier.push_back(place.block);
     }

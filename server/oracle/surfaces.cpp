@@ -70,13 +70,13 @@ Nearest Surfaces::nearest(const Vec3d& point, double limit) const {
     return nearest;
 }
 
-bool Surfaces::segment_clear(const Vec3d& from, const Vec3d& to) const {
-    if (!scene_) return true;
-    const double largest = std::max(from.cwiseAbs().maxCoeff(), to.cwiseAbs().maxCoeff());
+bool Surfaces::end_clear(const Vec3d& end, double largest) const {
     const double hidden = rounding_ + rounding_of(largest);
-    for (const Vec3d& end : {from, to}) {
-        if (nearest(end, hidden).distance <= hidden) return false;
-    }
+    return nearest(end, hidden).distance > hidden;
+}
+
+bool Surfaces::between_clear(const Vec3d& from, const Vec3d& to) const {
+    if (!scene_) return true;
     const Vec3d way = to - from;
     RTCRay ray{};
     ray.org_x = static_cast<float>(from.x());

@@ -26,9 +26,11 @@ class Surfaces {
     // Embree only finds the candidates.
     [[nodiscard]] Nearest nearest(const Vec3d& point, double limit) const;
 
-    // Embree's watertight test, on vertices rounded to float; an end that comes as near to a triangle as that
-    // rounding may hide counts as a touch.
-    [[nodiscard]] bool segment_clear(const Vec3d& from, const Vec3d& to) const;
+    // No triangle comes as near to `end` as the rounding to float of coordinates up to `largest` may hide.
+    [[nodiscard]] bool end_clear(const Vec3d& end, double largest) const;
+
+    // Embree's watertight test, on vertices rounded to float, of a segment whose ends are clear.
+    [[nodiscard]] bool between_clear(const Vec3d& from, const Vec3d& to) const;
 
   private:
     std::vector<Vec3d> vertices_;

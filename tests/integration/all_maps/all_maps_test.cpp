@@ -1,13 +1,13 @@
 // bench-all-maps on made maps.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 
 #include "base/file.hpp"
 #include "support/child_process.hpp"
 #include "support/q3_maps.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace camdir {
 namespace {
@@ -20,12 +20,7 @@ using testing::HasSubstr;
 
 class AllMaps : public testing::Test {
   protected:
-    void SetUp() override {
-        std::string pattern = (fs::temp_directory_path() / "camdir-all-maps-XXXXXX").string();
-        folder_ = ::mkdtemp(pattern.data());
-        fs::create_directory(folder_ / "maps");
-    }
-    void TearDown() override { fs::remove_all(folder_); }
+    void SetUp() override { fs::create_directory(folder_ / "maps"); }
 
     // Two rooms without a door between them, a spawn point in the first or in both.
     void add_rooms(const std::string& name, bool both) const {
@@ -39,12 +34,12 @@ class AllMaps : public testing::Test {
     [[nodiscard]] std::vector<std::string> command(const std::vector<std::string>& more) const {
         std::vector<std::string> words{BENCH_ALL_MAPS, folder_ / "maps", "--openarena",    "",
                                        "--work",       folder_ / "work", "--balls",        "1000",
-                                       "--points",     "1000",           "--bake-options", "--d0 32"};
+                                       "--points",     "1000",           "--bake-options", "--d0 16"};
         words.insert(words.end(), more.begin(), more.end());
         return words;
     }
 
-    fs::path folder_;
+    test::TemporaryFolder folder_;
 };
 
 TEST_F(AllMaps, PassesWhenEveryLimitHolds) {

@@ -1,7 +1,6 @@
 // camera-director bake as its users run it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <csignal>
 #include <filesystem>
@@ -12,6 +11,7 @@
 #include "freespace/freespace.hpp"
 #include "support/child_process.hpp"
 #include "support/openarena.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace camdir {
 namespace {
@@ -22,20 +22,13 @@ using testing::HasSubstr;
 
 class BakeCommand : public testing::Test {
   protected:
-    void SetUp() override {
-        std::string pattern = (fs::temp_directory_path() / "camdir-bake-XXXXXX").string();
-        folder_ = ::mkdtemp(pattern.data());
-        output_ = (folder_ / "map.vfs").string();
-    }
-    void TearDown() override { fs::remove_all(folder_); }
-
     static std::vector<std::string> command(std::vector<std::string> arguments) {
         arguments.insert(arguments.begin(), {CAMERA_DIRECTOR, "bake"});
         return arguments;
     }
 
-    fs::path folder_;
-    std::string output_;
+    test::TemporaryFolder folder_;
+    std::string output_ = (folder_ / "map.vfs").string();
 };
 
 TEST_F(BakeCommand, BadUsageExitsWith2) {
@@ -54,13 +47,13 @@ TEST_F(BakeCommand, BadUsageExitsWith2) {
         EXPECT_EQ(process.wait(), 2) << process.errors();
         EXPECT_NE(process.errors(), "");
     }
-    EXPECT_TRUE(fs::is_empty(folder_));
+    EXPECT_TRUE(fs::is_empty(folder_.path()));
 }
 
 TEST_F(BakeCommand, BadInputExitsWith1AndLeavesNothing) {
     const std::string text = (folder_ / "text.bsp").string();
     ASSERT_TRUE(write_file(text, std::string("no map at all")));
-    for (const std::string& map : {text, (folder_ / "missing.bsp").string(), folder_.string()}) {
+    for (const std::string& map : {text, (folder_ / "missing.bsp").string(), folder_.path().string()}) {
         ChildProcess process(command({map, "-o", output_}));
         EXPECT_EQ(process.wait(), 1);
         EXPECT_THAT(process.errors(), HasSubstr(map));
@@ -118,7 +111,7 @@ TEST_F(BakeCommand, InterruptedExitsWith130AndKeepsWhatWasThere) {
         process.send_signal(signal);
         EXPECT_EQ(process.wait_for(std::chrono::minutes(2)), 130);
         EXPECT_THAT(process.errors(), HasSubstr("interrupted"));
-        EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
+        EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator()), 1);
         EXPECT_EQ(fs::file_size(output_), 5U);
     }
 }

@@ -1,7 +1,6 @@
 // camera-director bake --config as its users run it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <csignal>
@@ -15,6 +14,7 @@
 #include "support/child_process.hpp"
 #include "support/eventually.hpp"
 #include "support/q3_maps.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace camdir {
 namespace {
@@ -33,12 +33,6 @@ constexpr double slow_d0 = 2.0;  // of a room this takes minutes
 
 class BakeConfig : public testing::Test {
   protected:
-    void SetUp() override {
-        std::string pattern = (fs::temp_directory_path() / "camdir-bake-config-XXXXXX").string();
-        folder_ = ::mkdtemp(pattern.data());
-    }
-    void TearDown() override { fs::remove_all(folder_); }
-
     void write(const std::string& name, const std::string& content) const {
         ASSERT_TRUE(write_file(folder_ / name, content));
     }
@@ -88,7 +82,7 @@ class BakeConfig : public testing::Test {
 
     [[nodiscard]] std::vector<std::string> files_ending_with(const std::string& end) const {
         std::vector<std::string> names;
-        for (const auto& file : fs::directory_iterator(folder_))
+        for (const auto& file : fs::directory_iterator(folder_.path()))
             if (file.path().filename().string().ends_with(end)) names.push_back(file.path().filename());
         std::sort(names.begin(), names.end());
         return names;
@@ -106,7 +100,7 @@ class BakeConfig : public testing::Test {
         return process;
     }
 
-    fs::path folder_;
+    test::TemporaryFolder folder_;
     std::map<std::string, json> entries_;
 };
 

@@ -1,7 +1,6 @@
 // camera-director inspect, export and render as users of a baked map run them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -15,6 +14,7 @@
 #include "freespace/freespace.hpp"
 #include "support/child_process.hpp"
 #include "support/q3_maps.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace camdir {
 namespace {
@@ -42,8 +42,6 @@ std::uint32_t big_endian_at(std::string_view bytes, std::size_t offset) {
 class BakedMap : public testing::Test {
   protected:
     void SetUp() override {
-        std::string pattern = (fs::temp_directory_path() / "camdir-baked-XXXXXX").string();
-        folder_ = ::mkdtemp(pattern.data());
         map_ = folder_ / "room.bsp";
         baked_ = folder_ / "room.vfs";
         scene::q3::Bsp bsp = test::room_map(Box3d(Vec3d(0.0, 0.0, 0.0), Vec3d(512.0, 512.0, 256.0)));
@@ -54,7 +52,6 @@ class BakedMap : public testing::Test {
         ASSERT_EQ(bake.wait(), 0) << bake.errors();
         freespace_.emplace(freespace::Freespace::open(baked_).value());
     }
-    void TearDown() override { fs::remove_all(folder_); }
 
     // What it printed; it must exit with 0.
     static std::string printed(std::vector<std::string> command) {
@@ -71,7 +68,7 @@ class BakedMap : public testing::Test {
         EXPECT_THAT(process.errors(), HasSubstr(reason));
     }
 
-    fs::path folder_;
+    test::TemporaryFolder folder_;
     std::string map_, baked_;
     std::optional<freespace::Freespace> freespace_;
 };

@@ -21,10 +21,10 @@ class FailureTest : public testing::Test {
     // A game server in a process of its own: match "game-0", 4 players.
     std::unique_ptr<ChildProcess> game_process() {
         return std::make_unique<ChildProcess>(std::vector<std::string>{
-            CAMDIR_BIN_DIR "/synthetic-players", (folder_.path() / "hall.vfs").string(), "--domain",
+            CAMDIR_BIN_DIR "/synthetic-players", (folder_ / "hall.vfs").string(), "--domain",
             std::to_string(domain_.id()), "--match-prefix", "game", "--players", "4"});
     }
-    void SetUp() override { write_hall(folder_.path() / "hall.vfs"); }
+    void SetUp() override { write_hall(folder_ / "hall.vfs"); }
 
     TestDomain domain_;
     TemporaryFolder folder_;

@@ -14,17 +14,6 @@
 
 namespace camdir::test {
 
-TemporaryFolder::TemporaryFolder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "camdir-serve-XXXXXX").string();
-    if (::mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("cannot create a temporary folder");
-    path_ = pattern;
-}
-
-TemporaryFolder::~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-}
-
 void write_hall(const std::filesystem::path& file) {
     constexpr float w = hall_half_width;
     constexpr float h = hall_half_height;
@@ -43,9 +32,9 @@ void write_hall(const std::filesystem::path& file) {
 }
 
 Server::Server(std::uint32_t domain, const Options& options) {
-    write_hall(folder_.path() / "hall.vfs");
-    write_hall(folder_.path() / "yard.vfs");
-    const auto config = folder_.path() / "config.json";
+    write_hall(folder_ / "hall.vfs");
+    write_hall(folder_ / "yard.vfs");
+    const auto config = folder_ / "config.json";
     // A lease that a busy machine keeps.
     std::ofstream(config) << R"({"dds": {"domain": )" << domain << R"(, "participant_index": )"
                           << options.participant_index << R"(, "strength": )" << options.strength

@@ -10,19 +10,9 @@
 #include <thread>
 
 #include "support/child_process.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace camdir::test {
-
-// A folder that goes with the object.
-class TemporaryFolder {
-  public:
-    TemporaryFolder();
-    ~TemporaryFolder();
-    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
-  private:
-    std::filesystem::path path_;
-};
 
 // The hall: the plane z = 0 within +-1000 units, free 150 units up and down; made, not baked.
 inline constexpr float hall_half_width = 1000.0F;

@@ -13,7 +13,6 @@
 namespace camdir::test {
 namespace {
 
-namespace fs = std::filesystem;
 using nlohmann::json;
 
 void check(const Result<void>& written) {
@@ -22,23 +21,12 @@ void check(const Result<void>& written) {
 
 }  // namespace
 
-Folder::Folder() {
-    std::string pattern = (fs::temp_directory_path() / "camdir-serve-XXXXXX").string();
-    if (::mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("cannot create " + pattern);
-    path_ = pattern;
-}
-
-Folder::~Folder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-}
-
 void Folder::write(const std::string& name, const std::string& content) const {
-    check(write_file(path_ / name, content));
+    check(write_file(folder_ / name, content));
 }
 
 void Folder::write_square(const std::string& name) const {
-    check(write_file(path_ / name, freespace::encode(square_contents())));
+    check(write_file(folder_ / name, freespace::encode(square_contents())));
 }
 
 Ran run_director(const std::vector<std::string>& arguments) {

@@ -7,24 +7,20 @@
 #include <string>
 
 #include "support/child_process.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace camdir::test {
 
-// A folder of its own, removed at the end.
+// Where a director finds its configuration and maps.
 class Folder {
   public:
-    Folder();
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-    ~Folder();
-
-    [[nodiscard]] std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+    [[nodiscard]] std::filesystem::path operator/(const std::string& name) const { return folder_ / name; }
     void write(const std::string& name, const std::string& content) const;
     // The baked square of support/freespace_meshes.hpp.
     void write_square(const std::string& name) const;
 
   private:
-    std::filesystem::path path_;
+    TemporaryFolder folder_;
 };
 
 // Runs camera-director with these arguments to its end.

@@ -1,9 +1,9 @@
 #include "base/file.hpp"
+#include "support/temporary_folder.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -18,18 +18,12 @@ namespace fs = std::filesystem;
 
 class FileTest : public testing::Test {
   protected:
-    void SetUp() override {
-        std::string pattern = (fs::temp_directory_path() / "camdir-file-XXXXXX").string();
-        folder_ = ::mkdtemp(pattern.data());
-    }
-    void TearDown() override { fs::remove_all(folder_); }
-
     [[nodiscard]] std::size_t entries() const {
         return static_cast<std::size_t>(
-            std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+            std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator()));
     }
 
-    fs::path folder_;
+    test::TemporaryFolder folder_;
 };
 
 std::string text(std::span<const std::byte> bytes) {
@@ -56,7 +50,7 @@ TEST_F(FileTest, ErrorsNameThePathAndTheReason) {
     const fs::path missing = folder_ / "missing";
     EXPECT_THAT(read_file(missing).error().message, testing::HasSubstr(missing.string()));
     EXPECT_THAT(read_file(missing).error().message, testing::HasSubstr("No such file"));
-    EXPECT_THAT(MappedFile::open(folder_).error().message, testing::HasSubstr("not a regular file"));
+    EXPECT_THAT(MappedFile::open(folder_.path()).error().message, testing::HasSubstr("not a regular file"));
     const fs::path nowhere = folder_ / "no" / "such" / "folder";
     EXPECT_THAT(write_file(nowhere, std::string("x")).error().message, testing::HasSubstr(nowhere.string()));
 }

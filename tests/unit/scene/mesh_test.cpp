@@ -8,6 +8,7 @@
 
 #include "scene/load.hpp"
 #include "support/clouds.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace camdir::scene {
 namespace {
@@ -17,13 +18,6 @@ using testing::UnorderedElementsAre;
 
 class Mesh : public testing::Test {
   protected:
-    void SetUp() override {
-        const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-        folder_ = std::filesystem::path(testing::TempDir()) / (std::string("mesh_") + test->name());
-        std::filesystem::create_directories(folder_);
-    }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
-
     std::string write(const std::string& name, const std::string& bytes) {
         const auto path = folder_ / name;
         std::ofstream(path, std::ios::binary) << bytes;
@@ -34,7 +28,7 @@ class Mesh : public testing::Test {
         return scene ? "nothing refused" : scene.error().message;
     }
 
-    std::filesystem::path folder_;
+    test::TemporaryFolder folder_;
 };
 
 // A right triangle at z = 2: (0,0), (4,0), (0,1).

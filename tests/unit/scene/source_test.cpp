@@ -1,14 +1,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <cstdlib>
 #include <filesystem>
 
 #include "base/file.hpp"
 #include "scene/load.hpp"
 #include "scene/source.hpp"
 #include "support/q3_maps.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace camdir::scene {
 namespace {
@@ -18,19 +17,13 @@ using testing::HasSubstr;
 
 class SourceTest : public testing::Test {
   protected:
-    void SetUp() override {
-        std::string pattern = (fs::temp_directory_path() / "camdir-source-XXXXXX").string();
-        folder_ = ::mkdtemp(pattern.data());
-    }
-    void TearDown() override { fs::remove_all(folder_); }
-
     std::string write(const std::string& name, const Bytes& bytes) const {
         const fs::path path = folder_ / name;
         EXPECT_TRUE(write_file(path, bytes));
         return path.string();
     }
 
-    fs::path folder_;
+    test::TemporaryFolder folder_;
 };
 
 Bytes room() {
@@ -64,7 +57,7 @@ TEST_F(SourceTest, ErrorsNameFileMemberAndAnExample) {
     EXPECT_THAT(load(archive + ":maps/other.bsp").error().message,
                 testing::AllOf(HasSubstr("maps/other.bsp"), HasSubstr("maps/arena.bsp")));
     EXPECT_THAT(load((folder_ / "none.pk3:maps/a.bsp").string()).error().message, HasSubstr("No such file"));
-    EXPECT_THAT(load(folder_.string()).error().message, HasSubstr("not a regular file"));
+    EXPECT_THAT(load(folder_.path().string()).error().message, HasSubstr("not a regular file"));
     const std::string text = write("text", Bytes(100, std::byte{'x'}));
     EXPECT_THAT(load(text).error().message, HasSubstr("unknown format"));
     EXPECT_THAT(load(text + ":maps/a.bsp").error().message, HasSubstr("cannot open as a zip archive"));
