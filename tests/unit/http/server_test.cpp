@@ -41,7 +41,12 @@ class ServerTest : public testing::Test {
         server_ = std::move(*server);
     }
 
-    [[nodiscard]] httplib::Client client() const { return httplib::Client("127.0.0.1", server_->port()); }
+    [[nodiscard]] httplib::Client client() const {
+        httplib::Client http("127.0.0.1", server_->port());
+        http.set_connection_timeout(60);
+        http.set_read_timeout(60);
+        return http;
+    }
 
     config::Http config_;
     std::atomic<bool> healthy_{true};
@@ -129,9 +134,7 @@ TEST_F(ServerTest, ClientsThatDribbleDoNotKeepOthersOut) {
             std::this_thread::sleep_for(std::chrono::milliseconds(100));
         }
     });
-    auto http = client();
-    http.set_read_timeout(60);
-    const auto answer = http.Get("/healthz");
+    const auto answer = client().Get("/healthz");
     answered = true;
     dribble.join();
     EXPECT_TRUE(answer);
@@ -142,10 +145,7 @@ TEST_F(ServerTest, ManyClientsAtOnceAreServed) {
     std::atomic<int> good{0};
     for (int i = 0; i < 40; ++i)
         threads.emplace_back([&] {
-            auto http = client();
-            http.set_read_timeout(60);
-            http.set_connection_timeout(60);
-            const auto answer = http.Get("/metrics");
+            const auto answer = client().Get("/metrics");
             if (answer && answer->status == 200) ++good;
         });
     for (std::thread& thread : threads)
