@@ -3,6 +3,8 @@
 #include <array>
 #include <string_view>
 
+#include "base/geometry.hpp"
+
 namespace camdir::camera {
 namespace {
 
