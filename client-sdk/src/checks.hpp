@@ -9,6 +9,8 @@
 #include <span>
 #include <string>
 
+#include "failure.hpp"
+
 namespace camdir::sdk {
 
 // What a caller passes in. Each throws Failure CDIR_INVALID_ARGUMENT that says what was expected.
@@ -26,7 +28,7 @@ void check(const cdir_match_event& event);
 // struct_size is the first field of every parameter struct.
 template <class Struct>
 void check_struct(const char* name, const Struct* parameter) {
-    require(parameter != nullptr, (std::string(name) + " is null").c_str());
+    if (parameter == nullptr) throw Failure{CDIR_INVALID_ARGUMENT, std::string(name) + " is null"};
     require(parameter->struct_size == sizeof(Struct),
             (std::string(name) + ".struct_size is wrong: begin with its _default() function").c_str());
 }

@@ -5,8 +5,10 @@
 
 #include "app/commands.hpp"
 
-int main(int argc, char** argv) {
-    using namespace camdir::app;
+namespace camdir::app {
+namespace {
+
+int run_command(int argc, char** argv) {
     CLI::App root("Automatic cameras for spectators of live 3D games.", "camera-director");
     root.set_version_flag("--version", CAMERA_DIRECTOR_VERSION);
     root.require_subcommand(1);
@@ -18,16 +20,22 @@ int main(int argc, char** argv) {
     add_evaluate(root, run);
     add_render(root, run);
     add_serve(root, run);
-
     try {
         root.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
         return root.exit(error) == 0 ? exit_done : exit_usage;
     }
+    return run();
+}
+
+}  // namespace
+}  // namespace camdir::app
+
+int main(int argc, char** argv) {
     try {
-        return run();
+        return camdir::app::run_command(argc, argv);
     } catch (const std::exception& error) {
         std::cerr << "camera-director: " << error.what() << '\n';
-        return exit_failed;
+        return camdir::app::exit_failed;
     }
 }

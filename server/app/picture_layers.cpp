@@ -69,6 +69,7 @@ render::Path way_of(const evaluation::Trace& trace, std::uint32_t player, const 
 
 std::vector<Colour> colours_of(const std::vector<std::size_t>& players, float shade) {
     std::vector<Colour> colours;
+    colours.reserve(players.size());
     for (const std::size_t player : players)
         colours.push_back(render::player_colour(player) * shade);
     return colours;

@@ -106,6 +106,8 @@ Result<Scene> read_cloud_scene(std::span<const std::byte> bytes, CloudFormat for
         return fail(std::to_string(points->size()) + " different points; expected at least " +
                     std::to_string(min_points));
     drop_outliers(*points, scene);
+    if (!(scene.point_spacing > 0.0))
+        return fail("the distances between its points round to 0; expected points that lie apart");
     scene.points = std::move(*points);
     for (const Vec3d& point : scene.points)
         scene.bounds.extend(point);

@@ -139,6 +139,10 @@ TEST(Cloud, LeavesOutRepeatedMissingAndStrayPoints) {
 
 TEST(Cloud, RefusesWhatIsNoCloud) {
     EXPECT_THAT(refusal("1 2 3\n", CloudFormat::xyz), HasSubstr("1 different points"));
+    std::string near;  // their squared distances are 0
+    for (int i = 0; i < 20; ++i)
+        near += std::to_string(i) + "e-200 0 0\n";
+    EXPECT_THAT(refusal(near, CloudFormat::xyz), HasSubstr("round to 0"));
     EXPECT_THAT(refusal("1 2 3\n4 5\n", CloudFormat::xyz), HasSubstr("line 2"));
     EXPECT_THAT(refusal("1 2 3\n4 5 x\n", CloudFormat::xyz), HasSubstr("line 2: 'x'"));
     EXPECT_THAT(refusal(test::xyz_of(points) + "nan 1 2\n", CloudFormat::xyz), HasSubstr("point 6 at (nan"));
