@@ -1,15 +1,25 @@
 #!/usr/bin/env bash
-# clang-tidy over the sources; as arguments: only these files. CGAL's headers keep the analyser busy for
-# ever, so server/bake is left out where it includes them.
+# clang-tidy over the sources, a folder's files together as the release build compiles them; as arguments: only
+# these files. CGAL's headers keep the analyser busy for ever, so what includes them is left out.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-cmake --preset debug >/dev/null
-cmake --build --preset debug --target camdir_wire camdir_freespace_schema_generated >/dev/null
+
+preset=release
+[ $# -eq 0 ] || preset=debug
+cmake --preset "$preset" >/dev/null
+cmake --build --preset "$preset" --target camdir_wire camdir_freespace_schema_generated >/dev/null
+
+compiled() {
+    sed -n 's/^ *"file": "\(.*\)".*/\1/p' "build/$preset/compile_commands.json" |
+        grep -E "^$PWD/(build/$preset/)?(server|client-sdk|tests/unit)/.*\.(cpp|cxx)$" | sort -u
+}
 files=("$@")
-[ $# -gt 0 ] || mapfile -t files < <(git ls-files 'server/*.cpp' 'client-sdk/*.cpp' 'tests/unit/*.cpp')
+[ $# -gt 0 ] || mapfile -t files < <(compiled)
 without_cgal=()
 for file in "${files[@]}"; do
     grep -q 'CGAL/' "$file" || without_cgal+=("$file")
 done
+# Files that are compiled together are included as .cpp.
 printf '%s\0' "${without_cgal[@]}" |
-    xargs -0 -n 4 -P "$(nproc)" clang-tidy-14 --quiet -p build/debug --extra-arg=-Wno-unknown-warning-option
+    xargs -0 -n 1 -P "$(nproc)" clang-tidy-14 --quiet -p "build/$preset" --checks=-bugprone-suspicious-include \
+        --extra-arg=-Wno-unknown-warning-option

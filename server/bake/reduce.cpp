@@ -120,7 +120,7 @@ bool raise_round(Shrinking& shrinking, std::span<const Vec3f> positions, double 
 }
 
 void compact(MedialMesh& mesh, std::vector<float>& free_distance,
-             std::vector<freespace::Triangle> triangles) {
+             std::span<const freespace::Triangle> triangles) {
     std::vector<std::uint32_t> place(mesh.vertices.size(), freespace::none);
     MedialMesh left;
     std::vector<float> left_distance;

@@ -155,7 +155,7 @@ void Director::Impl::end_lost_and_remove_deserted(const std::vector<std::string>
 
 // False: it is wanted again, or has yet to say so.
 bool Director::Impl::remove_deserted(const std::string& match_id, Match& match) {
-    if (!pool.settled(match) || !match.deserted()) return false;
+    if (!WorkerPool::settled(match) || !match.deserted()) return false;
     pool.detach(match);
     match.counters().add_to(removed);
     wire.forget(match_id);
@@ -291,7 +291,7 @@ bool Director::responsive(std::chrono::milliseconds limit) const {
 void Director::settle() {
     const std::shared_lock lock(impl_->mutex);
     for (const auto& [match_id, entry] : impl_->matches)
-        impl_->pool.settle(*entry.match);
+        WorkerPool::settle(*entry.match);
 }
 
 void Director::drain() {

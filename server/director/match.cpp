@@ -44,7 +44,8 @@ Match::Match(std::string match_id, std::shared_ptr<const config::Config> config,
       no_map_(no_server),
       requests_(match_id_, wire, counters_) {}
 
-void Match::turn() noexcept {
+// Nothing here throws but for want of memory.
+void Match::turn() noexcept {  // NOLINT(bugprone-exception-escape)
     inbox_.take(content_);
     for (Control& control : content_.controls)
         std::visit([this](auto& message) { handle(message); }, control);

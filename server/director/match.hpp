@@ -43,7 +43,7 @@ class Match final : public Strand {
     // Poses come; they stopped; the game server's liveliness is lost; there is no game server.
     enum class Liveness { running, silent, lost, none };
 
-    void turn() noexcept override;
+    void turn() noexcept override;  // NOLINT(bugprone-exception-escape)
 
     void handle(MatchInfo& info);
     void handle(const ServerLost& lost);

@@ -95,7 +95,7 @@ std::uint64_t Verification::unsafe_balls() const {
 
 Result<Verification> verify(const freespace::Freespace& freespace, const scene::Scene& scene,
                             const oracle::Oracle& oracle, const VerificationParameters& parameters,
-                            const VerificationProgress& progress, std::stop_token stop) {
+                            const VerificationProgress& progress, const std::stop_token& stop) {
     const double tolerance = unsafe_depth / scene.metres_per_unit;
     Verification result;
     verify_spawn_points(freespace, scene, result);

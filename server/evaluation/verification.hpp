@@ -78,6 +78,6 @@ using VerificationProgress =
 [[nodiscard]] Result<Verification> verify(const freespace::Freespace& freespace, const scene::Scene& scene,
                                           const oracle::Oracle& oracle,
                                           const VerificationParameters& parameters,
-                                          const VerificationProgress& progress, std::stop_token stop);
+                                          const VerificationProgress& progress, const std::stop_token& stop);
 
 }  // namespace camdir::evaluation

@@ -135,8 +135,8 @@ struct Server::Listener {
 Result<std::unique_ptr<Server>> Server::start(const config::Http& config, Sources sources) {
     auto listener = std::make_unique<Listener>(std::move(sources));
     httplib::Server& server = listener->server;
-    listener->port = config.port == 0 ? server.bind_to_any_port(config.address.c_str())
-                     : server.bind_to_port(config.address.c_str(), static_cast<int>(config.port))
+    listener->port = config.port == 0 ? server.bind_to_any_port(config.address)
+                     : server.bind_to_port(config.address, static_cast<int>(config.port))
                          ? static_cast<int>(config.port)
                          : -1;
     if (listener->port < 0)

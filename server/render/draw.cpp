@@ -50,7 +50,8 @@ class Painter {
         Colour sum;
         for (int i = 0; i < samples_per_side * samples_per_side; ++i) {
             const double px = x + (i % samples_per_side + 0.5) / samples_per_side;
-            const double py = y + (i / samples_per_side + 0.5) / samples_per_side;
+            const int row = i / samples_per_side;
+            const double py = y + (row + 0.5) / samples_per_side;
             const Ray ray = ray_through(view_, 2.0 * px / width_ - 1.0, 1.0 - 2.0 * py / height_,
                                         static_cast<double>(width_) / height_);
             sum = sum + blend_along(ray, i);

@@ -16,7 +16,7 @@ namespace {
 const Box3d room(Vec3d(-2.0, -1.5, 0.0), Vec3d(2.0, 1.5, 2.0));
 constexpr double spacing = 0.1;
 
-scene::Scene scene_of(const std::vector<Vec3d>& points, std::vector<Vec3d> seeds = {}) {
+scene::Scene scene_of(const std::vector<Vec3d>& points, const std::vector<Vec3d>& seeds = {}) {
     auto scene =
         scene::read_cloud_scene(test::bytes_of(test::xyz_of(points)), scene::CloudFormat::xyz, {}).value();
     for (const Vec3d& seed : seeds)

@@ -45,7 +45,7 @@ TEST(TriangulateConvex, CoversThePolygonWithItsDelaunayTriangles) {
             // No corner inside the circle through three others: seen from it, the far edge's angle is not
             // wider.
             for (const auto& [a, b, c] : {std::array{i, j, k}, std::array{j, k, i}, std::array{k, i, j}}) {
-                const auto sees = [&](std::uint32_t from) {
+                const auto sees = [&, a = a, b = b](std::uint32_t from) {
                     const Vec3d to_a = (polygon[a] - polygon[from]).normalized();
                     const Vec3d to_b = (polygon[b] - polygon[from]).normalized();
                     return std::acos(std::clamp(to_a.dot(to_b), -1.0, 1.0));

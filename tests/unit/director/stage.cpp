@@ -73,7 +73,8 @@ freespace::Freespace Stage::square() {
     return test::make_freespace(test::square_contents());
 }
 
-MatchInfo Stage::info(const std::string& match_id, std::uint64_t epoch, std::vector<std::uint32_t> players) {
+MatchInfo Stage::info(const std::string& match_id, std::uint64_t epoch,
+                      const std::vector<std::uint32_t>& players) {
     MatchInfo info;
     info.match_id = match_id;
     info.epoch = epoch;

@@ -44,7 +44,7 @@ struct Stage {
     [[nodiscard]] static freespace::Freespace square();
 
     [[nodiscard]] static MatchInfo info(const std::string& match_id = "m", std::uint64_t epoch = 1,
-                                        std::vector<std::uint32_t> players = {1, 2, 3});
+                                        const std::vector<std::uint32_t>& players = {1, 2, 3});
     [[nodiscard]] static ObserverRequest request(const std::string& observer_id, std::uint32_t target = 1,
                                                  const std::string& match_id = "m");
     // Frame `number` at `number` times 50 ms: every player walks, all alive.

@@ -58,8 +58,8 @@ TEST(Patch, TrianglesStayWithinAUnitOfTheSurface) {
         const Box3d box(Vec3d::Constant(-scale), Vec3d::Constant(scale));
         std::vector<Vec3d> points;
         for (int i = 0; i < 15; ++i) {
-            points.push_back(Vec3d(200.0 * (i % 5), 200.0 * (i / 5), 0.0) +
-                             test::random_point_in(random, box));
+            const int row = i / 5;
+            points.push_back(Vec3d(200.0 * (i % 5), 200.0 * row, 0.0) + test::random_point_in(random, box));
         }
         const auto triangles = tessellated(patch_map(5, 3, points)).triangles();
         for (int sample = 0; sample < 60; ++sample) {
