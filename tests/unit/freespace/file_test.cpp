@@ -45,7 +45,8 @@ std::vector<std::array<Corner, 3>> shapes(std::span<const Vertex> vertices,
 std::size_t position_of(const Bytes& bytes, std::uint64_t value) {
     std::array<std::byte, sizeof value> pattern;
     std::memcpy(pattern.data(), &value, sizeof value);
-    return static_cast<std::size_t>(std::ranges::search(bytes, pattern).begin() - bytes.begin());
+    return static_cast<std::size_t>(std::search(bytes.begin(), bytes.end(), pattern.begin(), pattern.end()) -
+                                    bytes.begin());
 }
 
 TEST(File, KeepsEverything) {
