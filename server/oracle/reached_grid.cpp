@@ -66,7 +66,7 @@ ReachedGrid::ReachedGrid(const Oracle& oracle, const Box3d& bounds, const std::v
       bounds_(bounds),
       pitch_(pitch),
       min_clearance_(min_clearance),
-      largest_(std::max(bounds.min().cwiseAbs().maxCoeff(), bounds.max().cwiseAbs().maxCoeff())),
+      largest_coordinate_(std::max(bounds.min().cwiseAbs().maxCoeff(), bounds.max().cwiseAbs().maxCoeff())),
       sight_(3.0 * min_clearance + 2.0 * pitch),
       near_(offsets_within(sight_ / pitch)) {
     std::vector<Cell> frontier;
@@ -83,7 +83,7 @@ bool ReachedGrid::reached(const Vec3d& point) const {
 
 bool ReachedGrid::joined(const Vec3d& point) const {
     if (!joined_box_.contains(point) || oracle_->in_solid(point)) return false;
-    if (!oracle_->end_clear(point, largest_)) return false;
+    if (!oracle_->end_clear(point, largest_coordinate_)) return false;
     const Cell home = cell_of(point);
     const auto sees = [&](const Cell& offset) {
         const Cell cell = home + offset;
@@ -164,7 +164,9 @@ void ReachedGrid::find_open(const Cell& first, int size, Slices& open) const {
 }
 
 void ReachedGrid::seed(const Vec3d& point, std::vector<Cell>& frontier) {
-    if (!bounds_.contains(point) || oracle_->in_solid(point) || !oracle_->end_clear(point, largest_)) return;
+    if (!bounds_.contains(point) || oracle_->in_solid(point) ||
+        !oracle_->end_clear(point, largest_coordinate_))
+        return;
     for (const Cell& offset : near_) {
         const Cell cell = cell_of(point) + offset;
         if (!is_inside(cell)) continue;

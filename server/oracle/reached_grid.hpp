@@ -68,9 +68,9 @@ class ReachedGrid {
     Box3d bounds_;
     double pitch_;
     double min_clearance_;
-    double largest_;          // coordinate within the bounds
-    double sight_;            // how far away joined() looks for a centre
-    std::vector<Cell> near_;  // offsets of the cells that may lie so near, nearest first
+    double largest_coordinate_;  // within the bounds
+    double sight_;               // how far away joined() looks for a centre
+    std::vector<Cell> near_;     // offsets of the cells that may lie so near, nearest first
     struct Hash {
         std::size_t operator()(const Cell& cell) const;
     };
