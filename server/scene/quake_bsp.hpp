@@ -82,6 +82,10 @@ struct Bsp {
     // Limit of the planes around the volumes of solid leaves, which the file does not bound by itself. Real
     // maps stay below a tenth.
     [[nodiscard]] std::size_t max_volume_planes() const { return 65536 + byte_size; }
+
+    // Limit of the nodes and leaves that the faces of solid leaves are taken through to find the surface: all
+    // could cut each. Real maps stay below a tenth.
+    [[nodiscard]] std::size_t max_surface_steps() const { return 65536 + byte_size; }
 };
 
 // Afterwards: all lumps are inside the file, every reference between those read is in range, no node has two

@@ -56,9 +56,15 @@ Box3d box_of(const quake::Model& model) {
     return box;
 }
 
+Polygon translated(Polygon polygon, const Vec3d& translation) {
+    for (Vec3d& corner : polygon)
+        corner += translation;
+    return polygon;
+}
+
 class Reader {
   public:
-    explicit Reader(const quake::Bsp& bsp) : bsp_(bsp), collector_(box_of(bsp.models[0])) {}
+    explicit Reader(const quake::Bsp& bsp) : bsp_(bsp), tree_(bsp), collector_(box_of(bsp.models[0])) {}
 
     [[nodiscard]] Result<Scene> read();
 
@@ -66,13 +72,16 @@ class Reader {
     [[nodiscard]] Result<void> add_model(std::size_t number, const Vec3d& translation);
     [[nodiscard]] Result<void> add_volumes(const quake::Model& model, const Vec3d& translation);
     void leave_out_model(std::size_t number, std::string_view class_name);
-    [[nodiscard]] bool closes_solid(const quake::Face& face, const Polygon& polygon) const;
+    // Behind the face lies a solid leaf of its model.
+    [[nodiscard]] bool closes_solid(const quake::Model& model, const quake::Face& face,
+                                    const Polygon& polygon) const;
 
     [[nodiscard]] std::span<const quake::Face> faces_of(const quake::Model& model) const;
     [[nodiscard]] std::string_view texture_of(const quake::Face& face) const;
     [[nodiscard]] Polygon polygon_of(const quake::Face& face) const;
 
     const quake::Bsp& bsp_;
+    quake::Tree tree_;
     Collector collector_;
 };
 
@@ -97,34 +106,40 @@ Result<Scene> Reader::read() {
     return collector_.take(metres_per_unit);
 }
 
-// A model whose faces are all left out is no obstacle, and neither is its volume.
+// Faces that close what is solid are parts of its surface, which the volumes give without holes. A model
+// whose faces are all left out is no obstacle, and neither is its volume.
 Result<void> Reader::add_model(std::size_t number, const Vec3d& translation) {
     const quake::Model& model = bsp_.models[number];
     const bool is_world = number == 0;
-    bool has_surface = is_world;
+    bool is_obstacle = is_world;
     for (const quake::Face& face : faces_of(model)) {
-        Polygon polygon = polygon_of(face);
+        const Polygon polygon = polygon_of(face);
         const std::string_view texture = texture_of(face);
         const std::string name = lower_case(std::string(texture));
+        const bool closes = closes_solid(model, face, polygon);
         if (is_liquid(name)) {
             collector_.leave_out("liquid", texture, area(polygon));
-        } else if (is_tool(name) && !(is_world && closes_solid(face, polygon))) {
+        } else if (is_tool(name) && !(is_world && closes)) {
             collector_.leave_out("tool texture", texture, area(polygon));
         } else {
-            for (Vec3d& corner : polygon)
-                corner += translation;
-            collector_.add_surface(polygon);
-            has_surface = true;
+            if (!closes) collector_.add_surface(translated(polygon, translation));
+            is_obstacle = true;
         }
     }
-    return has_surface ? add_volumes(model, translation) : Result<void>();
+    return is_obstacle ? add_volumes(model, translation) : Result<void>();
 }
 
 Result<void> Reader::add_volumes(const quake::Model& model, const Vec3d& translation) {
     Box3d box = box_of(model);
     box.min() -= Vec3d::Ones();
     box.max() += Vec3d::Ones();
-    return quake::for_each_solid_leaf(bsp_, model.head_nodes[0], box, [&](const Solid& leaf) -> Result<void> {
+    const std::int32_t root = model.head_nodes[0];
+    const auto add_part = [&](const Polygon& part) { collector_.add_surface(translated(part, translation)); };
+    return tree_.for_each_solid_leaf(root, box, [&](const Solid& leaf) -> Result<void> {
+        for (const SolidFace& face : leaf.faces) {
+            const Result<void> added = tree_.for_each_open_part(root, face, add_part);
+            if (!added) return added;
+        }
         Solid moved = leaf;
         moved.bounds.translate(translation);
         for (Plane& plane : moved.planes)
@@ -143,14 +158,13 @@ void Reader::leave_out_model(std::size_t number, std::string_view class_name) {
         collector_.leave_out(reason, class_name, area(polygon_of(face)));
 }
 
-// Behind the face lies rock: without it there would be a hole in the wall.
-bool Reader::closes_solid(const quake::Face& face, const Polygon& polygon) const {
+bool Reader::closes_solid(const quake::Model& model, const quake::Face& face, const Polygon& polygon) const {
     if (polygon.empty()) return false;
     Vec3d middle = Vec3d::Zero();
     for (const Vec3d& corner : polygon)
         middle += corner / static_cast<double>(polygon.size());
     const Vec3d normal = quake::to_plane(bsp_.planes[face.plane]).normal * (face.side == 0 ? 1.0 : -1.0);
-    return quake::in_solid_leaf(bsp_, bsp_.models[0].head_nodes[0], middle - normal * behind);
+    return tree_.in_solid_leaf(model.head_nodes[0], middle - normal * behind);
 }
 
 std::span<const quake::Face> Reader::faces_of(const quake::Model& model) const {

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "scene/quake_scene.hpp"
+#include "support/bsp_writer.hpp"
 #include "support/quake_maps.hpp"
 
 namespace camdir::scene {
@@ -161,7 +162,8 @@ TEST(BrokenQuakeMap, DeepTreeNeedsNoStack) {
 TEST(BrokenQuakeMap, PlacesOfTooManyPlanesAreRefused) {
     quake::Bsp bsp = whole_map();
     const std::size_t first = bsp.nodes.size();
-    const std::uint16_t leaf = 65535;
+    bsp.leaves.push_back({quake::empty, {}});
+    const auto leaf = static_cast<std::uint16_t>(65536 - bsp.leaves.size());
     const std::size_t chain = 2000;
     for (std::size_t i = 0; i < chain; ++i) {
         const double height = 1.0 - 2.0 * (static_cast<double>(i) + 0.5) / static_cast<double>(chain);
@@ -180,6 +182,31 @@ TEST(BrokenQuakeMap, PlacesOfTooManyPlanesAreRefused) {
     }
     bsp.models[0].head_nodes[0] = static_cast<std::int32_t>(first);
     EXPECT_THAT(read_quake_scene(test::encode(bsp)).error().message, HasSubstr("more than 256 planes"));
+}
+
+// Slices of rock along y look across the plane x = 64 at slices of air along z: each face is cut by all of
+// them.
+TEST(BrokenQuakeMap, SurfacesOfTooManyPartsAreRefused) {
+    quake::Bsp bsp = whole_map();
+    const auto cut = [&](const Vec3d& normal, double distance, std::uint16_t front, std::uint16_t back) {
+        bsp.nodes.push_back({static_cast<std::int32_t>(bsp.planes.size()), {front, back}, {}, 0, 0});
+        bsp.planes.push_back({test::floats(normal), static_cast<float>(distance), 0});
+        return static_cast<std::uint16_t>(bsp.nodes.size() - 1);
+    };
+    const auto slices = [&](const Vec3d& normal, std::int32_t contents) {
+        bsp.leaves.push_back({contents, {}});
+        const auto leaf = static_cast<std::uint16_t>(65536 - bsp.leaves.size());
+        std::uint16_t child = leaf;
+        for (int i = 0; i < 1000; ++i)
+            child = cut(normal, 0.125 * i, leaf, child);
+        return child;
+    };
+    const std::uint16_t rock = slices(Vec3d::UnitY(), quake::solid);
+    const std::uint16_t air = slices(Vec3d::UnitZ(), quake::empty);
+    bsp.models[0].head_nodes[0] = cut(Vec3d::UnitX(), 64.0, rock, air);
+    const Result<Scene> scene = read_quake_scene(test::encode(bsp));
+    ASSERT_FALSE(scene);
+    EXPECT_THAT(scene.error().message, HasSubstr("in too many parts for a file of this size"));
 }
 
 }  // namespace

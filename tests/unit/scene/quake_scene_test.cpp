@@ -121,6 +121,28 @@ TEST_P(QuakeScene, ToolTexturesThatCloseRockStay) {
     EXPECT_TRUE(scene.left_out.empty());
 }
 
+TEST_P(QuakeScene, SurfacesAreClosedWhateverFacesTheCompilerKept) {
+    QuakeMap map = room();
+    map.boxes = {{crate}, {crate.translated(Vec3d(100.0, 0.0, 64.0)), "sky", quake::sky}};
+    map.entities = {{"func_wall", Vec3d(-150.0, 0.0, 0.0), {{crate}}}};
+    quake::Bsp bsp = test::bsp_of(map);
+    // One face stays, so that the entity has something to see.
+    bsp.models[0].face_count = 0;
+    bsp.models[1].face_count = 1;
+    const Result<Scene> scene = read_quake_scene(test::encode(bsp));
+    ASSERT_TRUE(scene.has_value()) << scene.error().message;
+    EXPECT_NEAR(area_of(*scene), surface_of(hall) + 3.0 * surface_of(crate), 1e-6);
+    EXPECT_TRUE(has_surface_at(*scene, crate_top - Vec3d(150.0, 0.0, 0.0)));
+}
+
+TEST_P(QuakeScene, FacesWithoutRockBehindThemAreSurfaces) {
+    QuakeMap map = room();
+    map.boxes = {{crate, "stone", quake::empty}};
+    const Scene scene = test::scene_of(map);
+    EXPECT_NEAR(area_of(scene), surface_of(hall) + surface_of(crate), 1e-6);
+    EXPECT_LT(depth_in_solid(scene, crate.center()), 0.0);
+}
+
 TEST_P(QuakeScene, SpawnPointsStandAtEyeHeight) {
     QuakeMap map = room();
     map.boxes = {{Box3d(Vec3d(50.0, 50.0, 40.0), Vec3d(150.0, 150.0, 60.0))}};
@@ -154,6 +176,10 @@ TEST_P(QuakeScene, VolumesAreTheRockAndNothingElse) {
             map.boxes.push_back({Box3d(box.min().array().floor(), box.max().array().ceil())});
         }
         const Scene scene = test::scene_of(map);
+        double surface = surface_of(hall);
+        for (const test::QuakeBox& box : map.boxes)
+            surface += surface_of(box.box);
+        EXPECT_NEAR(area_of(scene), surface, 1e-3);
         const Box3d around(hall.min() - Vec3d::Constant(15.0), hall.max() + Vec3d::Constant(15.0));
         for (int i = 0; i < 2000; ++i) {
             const Vec3d point = test::random_point_in(random, around);
