@@ -11,7 +11,7 @@ namespace camdir::freespace {
 [[nodiscard]] std::string find_mesh_flaw(std::span<const Vertex> vertices,
                                          std::span<const Triangle> triangles);
 
-// The same for all of `mesh`. Linear in its size; allocates nothing.
-[[nodiscard]] std::string find_flaw(const MeshView& mesh);
+// The same of the hints for a mesh of so many triangles.
+[[nodiscard]] std::string find_hints_flaw(const HintGrid& hints, std::size_t triangle_count);
 
 }  // namespace camdir::freespace

@@ -10,17 +10,18 @@
 #include "freespace/check.hpp"
 #include "freespace/freespace.hpp"
 #include "freespace/hints.hpp"
+#include "freespace/incidence.hpp"
 #include "freespace/index.hpp"
 #include "freespace_generated.h"
 
 namespace camdir::freespace {
 
-static_assert(sizeof(Vertex) == sizeof(wire::Vertex) && sizeof(Triangle) == sizeof(wire::Triangle) &&
-              sizeof(IndexNode) == sizeof(wire::IndexNode));
+static_assert(sizeof(Vertex) == sizeof(wire::Vertex) && sizeof(Triangle) == sizeof(wire::Triangle));
+static_assert(FLATBUFFERS_MAX_BUFFER_SIZE / sizeof(Triangle) < IndexChild::triangle_limit);
 
 namespace {
 
-constexpr std::uint32_t format_version = 1;
+constexpr std::uint32_t format_version = 2;
 constexpr flatbuffers::uoffset_t table_depth_limit = 4;
 constexpr flatbuffers::uoffset_t table_count_limit = 10'000;
 
@@ -44,27 +45,6 @@ std::vector<Vertex> reorder_vertices(const Contents& contents, std::span<const s
     for (std::uint32_t v = 0; v < contents.vertices.size(); ++v)
         append(v);
     return vertices;
-}
-
-struct Incidence {
-    std::vector<std::uint32_t> offsets;
-    std::vector<std::uint32_t> triangles;
-};
-
-Incidence build_incidence(std::size_t vertex_count, std::span<const Triangle> triangles) {
-    Incidence incidence;
-    incidence.offsets.assign(vertex_count + 1, 0);
-    for (const auto& [a, b, c] : triangles)
-        for (const std::uint32_t corner : {a, b, c})
-            ++incidence.offsets[corner + 1];
-    for (std::size_t v = 0; v < vertex_count; ++v)
-        incidence.offsets[v + 1] += incidence.offsets[v];
-    std::vector<std::uint32_t> next(incidence.offsets.begin(), incidence.offsets.end() - 1);
-    incidence.triangles.resize(3 * triangles.size());
-    for (std::uint32_t t = 0; t < triangles.size(); ++t)
-        for (const std::uint32_t corner : {triangles[t].a, triangles[t].b, triangles[t].c})
-            incidence.triangles[next[corner]++] = t;
-    return incidence;
 }
 
 Box3f bounds_of(std::span<const Vertex> vertices) {
@@ -101,15 +81,11 @@ auto copy_counts(flatbuffers::FlatBufferBuilder& builder, std::span<const Count>
 
 flatbuffers::DetachedBuffer build_file(const Metadata& metadata, std::span<const SpawnPoint> spawn_points,
                                        const std::vector<Vertex>& vertices,
-                                       const std::vector<Triangle>& triangles, const Index& index,
-                                       const Incidence& incidence, const Hints& hints) {
+                                       const std::vector<Triangle>& triangles, const Hints& hints) {
     flatbuffers::FlatBufferBuilder builder;
     // A buffer is written back to front: the large arrays go last in the file, behind the root.
     const auto wire_hints = builder.CreateVector(hints.triangles);
     const wire::Extent extent(hints.extent[0], hints.extent[1], hints.extent[2]);
-    const auto wire_index = copy_structs<wire::IndexNode>(builder, index.nodes);
-    const auto incident_triangles = builder.CreateVector(incidence.triangles);
-    const auto incident_offsets = builder.CreateVector(incidence.offsets);
     const auto wire_triangles = copy_structs<wire::Triangle>(builder, triangles);
     const auto wire_vertices = copy_structs<wire::Vertex>(builder, vertices);
     const auto wire_spawn_points = copy_spawn_points(builder, spawn_points);
@@ -120,10 +96,10 @@ flatbuffers::DetachedBuffer build_file(const Metadata& metadata, std::span<const
     const wire::Header header(format_version, 0, 0);
     const Box3f box = bounds_of(vertices);
     const wire::Box bounds(to_wire(box.min()), to_wire(box.max()));
-    const auto root = wire::CreateFreespace(
-        builder, &header, map_name, source_name, metadata.source_hash, metadata.metres_per_unit, metadata.d0,
-        parameters, &bounds, wire_vertices, wire_triangles, incident_offsets, incident_triangles, wire_index,
-        hints.cell_size, &extent, wire_hints, wire_spawn_points, counts);
+    const auto root = wire::CreateFreespace(builder, &header, map_name, source_name, metadata.source_hash,
+                                            metadata.metres_per_unit, metadata.d0, parameters, &bounds,
+                                            wire_vertices, wire_triangles, hints.cell_size, &extent,
+                                            wire_hints, wire_spawn_points, counts);
     wire::FinishFreespaceBuffer(builder, root);
     return builder.Release();
 }
@@ -172,7 +148,8 @@ std::string find_file_flaw(std::span<const std::byte> file) {
         return "was written by a newer version: format " + std::to_string(header.format_version()) +
                ", this program reads " + std::to_string(format_version);
     if (header.format_version() != format_version)
-        return "is damaged: format " + std::to_string(header.format_version()) + " does not exist";
+        return "was written by an older version: format " + std::to_string(header.format_version()) +
+               ", this program reads " + std::to_string(format_version) + "; bake the map again";
     if (header.byte_size() != file.size())
         return "is truncated or damaged: " + std::to_string(file.size()) + " bytes instead of " +
                std::to_string(header.byte_size());
@@ -200,15 +177,6 @@ HintGrid view_hints(const wire::Freespace& root) {
             root.hint_cell_size(),
             {extent.x(), extent.y(), extent.z()},
             view<std::uint32_t>(root.hints())};
-}
-
-MeshView view_mesh(const wire::Freespace& root) {
-    return {view<Vertex>(root.vertices()),
-            view<Triangle>(root.triangles()),
-            view<std::uint32_t>(root.incident_offsets()),
-            view<std::uint32_t>(root.incident_triangles()),
-            view<IndexNode>(root.index()),
-            view_hints(root)};
 }
 
 Metadata read_metadata(const wire::Freespace& root) {
@@ -249,7 +217,9 @@ struct Freespace::Storage {
     Metadata metadata;
     Box3f bounds;
     std::vector<SpawnPoint> spawn_points;
-    MeshView mesh;  // into file
+    Incidence incidence;
+    std::vector<IndexNode> index;
+    MeshView mesh;  // into file, incidence and index
 
     explicit Storage(std::variant<MappedFile, Bytes> source) : file(std::move(source)) {}
 
@@ -269,10 +239,17 @@ Result<Freespace> Freespace::read(std::shared_ptr<Storage> storage, const std::s
     storage->metadata = read_metadata(root);
     storage->spawn_points = read_spawn_points(root);
     storage->bounds = {to_vector(root.bounds()->min()), to_vector(root.bounds()->max())};
-    storage->mesh = view_mesh(root);
+    const auto vertices = view<Vertex>(root.vertices());
+    const auto triangles = view<Triangle>(root.triangles());
+    const HintGrid hints = view_hints(root);
     std::string flaw = find_metadata_flaw(storage->metadata, storage->spawn_points, storage->bounds);
-    if (flaw.empty()) flaw = find_flaw(storage->mesh);
+    if (flaw.empty()) flaw = find_mesh_flaw(vertices, triangles);
+    if (flaw.empty()) flaw = find_hints_flaw(hints, triangles.size());
     if (!flaw.empty()) return fail(name + ": is damaged: " + flaw);
+    storage->incidence = build_incidence(vertices.size(), triangles);
+    storage->index = build_index(vertices, triangles);
+    storage->mesh = {vertices,       triangles, storage->incidence.offsets, storage->incidence.triangles,
+                     storage->index, hints};
     return Freespace(std::move(storage));
 }
 
@@ -305,20 +282,18 @@ std::size_t Freespace::byte_size() const {
 std::vector<std::byte> encode(const Contents& contents) {
     assert(contents.triangles.size() < IndexChild::triangle_limit);
     assert(find_mesh_flaw(contents.vertices, contents.triangles).empty());
-    const Index index = build_index(contents.vertices, contents.triangles);
+    const std::vector<std::uint32_t> order = index_order(contents.vertices, contents.triangles);
     std::vector<std::uint32_t> new_number;
-    const std::vector<Vertex> vertices = reorder_vertices(contents, index.triangle_order, new_number);
+    const std::vector<Vertex> vertices = reorder_vertices(contents, order, new_number);
     std::vector<Triangle> triangles;
     triangles.reserve(contents.triangles.size());
-    for (const std::uint32_t t : index.triangle_order) {
+    for (const std::uint32_t t : order) {
         const auto [a, b, c] = contents.triangles[t];
         triangles.push_back({new_number[a], new_number[b], new_number[c]});
     }
-    const Incidence incidence = build_incidence(vertices.size(), triangles);
-    const Hints hints = build_hints(
-        {vertices, triangles, incidence.offsets, incidence.triangles, index.nodes, {}}, bounds_of(vertices));
-    const auto buffer =
-        build_file(contents.metadata, contents.spawn_points, vertices, triangles, index, incidence, hints);
+    const std::vector<IndexNode> index = build_index(vertices, triangles);
+    const Hints hints = build_hints({vertices, triangles, {}, {}, index, {}}, bounds_of(vertices));
+    const auto buffer = build_file(contents.metadata, contents.spawn_points, vertices, triangles, hints);
     const auto built = std::as_bytes(std::span(buffer.data(), buffer.size()));
     std::vector<std::byte> file(built.begin(), built.end());
     seal(file);

@@ -87,7 +87,7 @@ struct HintGrid {
     }
 };
 
-// The mesh as the file holds it.
+// The mesh and what queries need beside it.
 struct MeshView {
     std::span<const Vertex> vertices;
     std::span<const Triangle> triangles;
@@ -133,8 +133,8 @@ class Freespace {
     MeshView mesh_;  // into storage_
 };
 
-// The bytes of a MAP.vfs: adds incidence, query index and hash, and puts triangles and vertices in the order
-// of the index, so that what is near in space is near in memory. The same contents give the same bytes.
+// The bytes of a MAP.vfs: adds hints and hash, and puts triangles and vertices in the order of the query
+// index, so that what is near in space is near in memory. The same contents give the same bytes.
 // Preconditions (asserted): fewer than 2^28 triangles, indices in range, three different corners a triangle,
 // finite numbers within +-coordinate_limit.
 [[nodiscard]] std::vector<std::byte> encode(const Contents& contents);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <numeric>
+#include <utility>
 
 namespace camdir::freespace {
 namespace {
@@ -33,140 +35,182 @@ Point4 coordinates(const Vertex& vertex) {
     return {vertex.x, vertex.y, vertex.z, vertex.free_distance};
 }
 
-// A contiguous part of the order being built.
+// A run of the order.
 struct Range {
     std::uint32_t begin, end;
 
     [[nodiscard]] std::uint32_t size() const { return end - begin; }
 };
 
-class Builder {
+// How many triangles a child holds that is full, as all children but the last are: so there are as few
+// nodes as the triangles allow.
+std::uint32_t full_child(const Range& range) {
+    std::uint32_t size = IndexChild::leaf_capacity;
+    while (size * IndexNode::width < range.size())
+        size *= IndexNode::width;
+    return size;
+}
+
+// The first half is of full children; the second may be empty.
+std::array<Range, 2> halves_of(const Range& range, std::uint32_t full) {
+    if (range.size() <= full) return {range, Range{range.end, range.end}};
+    const std::uint32_t children = (range.size() + full - 1) / full;
+    const std::uint32_t middle = range.begin + (children / 2) * full;
+    return {Range{range.begin, middle}, Range{middle, range.end}};
+}
+
+std::array<Range, IndexNode::width> children_of(const Range& range) {
+    const std::uint32_t full = full_child(range);
+    const auto [left, right] = halves_of(range, full);
+    const auto [first, second] = halves_of(left, full);
+    const auto [third, fourth] = halves_of(right, full);
+    return {first, second, third, fourth};
+}
+
+// ---- The order ----
+
+class Order {
   public:
-    Builder(std::span<const Vertex> vertices, std::span<const Triangle> triangles)
-        : vertices_(vertices), triangles_(triangles), order_(triangles.size()) {
-        for (std::uint32_t i = 0; i < order_.size(); ++i)
-            order_[i] = i;
+    Order(std::span<const Vertex> vertices, std::span<const Triangle> triangles) : order_(triangles.size()) {
+        std::iota(order_.begin(), order_.end(), 0U);
         centroids_.reserve(triangles.size());
         for (const auto& [a, b, c] : triangles)
-            centroids_.push_back(centroid(a, b, c));
+            centroids_.push_back(centroid(vertices[a], vertices[b], vertices[c]));
     }
 
-    Index build() {
-        Index index;
-        if (triangles_.empty()) return index;
-        std::vector<Range> level = {{0, static_cast<std::uint32_t>(order_.size())}};
-        std::uint32_t node_count = 1;
-        while (!level.empty()) {
-            std::vector<Range> next;
-            for (const Range& range : level)
-                index.nodes.push_back(make_node(range, node_count, next, index.triangle_order));
-            level = std::move(next);
+    std::vector<std::uint32_t> make() {
+        std::vector<Range> open = {{0, static_cast<std::uint32_t>(order_.size())}};
+        while (!open.empty()) {
+            const Range range = open.back();
+            open.pop_back();
+            if (range.size() <= IndexChild::leaf_capacity) {
+                std::sort(order_.begin() + range.begin, order_.begin() + range.end);
+                continue;
+            }
+            const std::uint32_t full = full_child(range);
+            split(range, full);
+            for (const Range& half : halves_of(range, full))
+                split(half, full);
+            for (const Range& child : children_of(range))
+                open.push_back(child);
         }
-        return index;
+        return std::move(order_);
     }
 
   private:
-    [[nodiscard]] Point4 centroid(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
+    static Point4 centroid(const Vertex& a, const Vertex& b, const Vertex& c) {
         Point4 sum{};
-        for (const std::uint32_t corner : {a, b, c}) {
-            const Point4 point = coordinates(vertices_[corner]);
+        for (const Vertex& corner : {a, b, c}) {
+            const Point4 point = coordinates(corner);
             for (std::size_t axis = 0; axis < 4; ++axis)
                 sum[axis] += point[axis] / 3.0F;
         }
         return sum;
     }
 
-    IndexNode make_node(Range range, std::uint32_t& node_count, std::vector<Range>& next,
-                        std::vector<std::uint32_t>& triangle_order) {
-        const std::uint32_t full = full_child(range);
-        const auto [left, right] = split(range, full);
-        const auto [first, second] = split(left, full);
-        const auto [third, fourth] = split(right, full);
-        const std::array<Range, IndexNode::width> children = {first, second, third, fourth};
-        IndexNode node{};
-        for (std::uint32_t k = 0; k < IndexNode::width; ++k) {
-            const Range& child = children[k];
-            set_bounds(node, k, child);
-            if (child.size() > IndexChild::leaf_capacity) {
-                node.child[k] = IndexChild::node(node_count++).bits();
-                next.push_back(child);
-                continue;
-            }
-            const auto position = static_cast<std::uint32_t>(triangle_order.size());
-            node.child[k] = IndexChild::leaf(child.size() == 0 ? 0 : position, child.size()).bits();
-            const auto begin = order_.begin() + child.begin;
-            const auto end = order_.begin() + child.end;
-            std::sort(begin, end);
-            triangle_order.insert(triangle_order.end(), begin, end);
-        }
-        return node;
-    }
-
-    // How many triangles a child holds that is full, as all children but the last are: so there are as few
-    // nodes as the triangles allow.
-    static std::uint32_t full_child(Range range) {
-        std::uint32_t size = IndexChild::leaf_capacity;
-        while (size * IndexNode::width < range.size())
-            size *= IndexNode::width;
-        return size;
-    }
-
-    // Two parts, the first of full children. Ties go by number and leaves are sorted, so that the result does
-    // not depend on the library's selection algorithm.
-    std::pair<Range, Range> split(Range range, std::uint32_t full) {
-        if (range.size() <= full) return {range, {range.end, range.end}};
+    // Puts into each half what belongs there. Ties go by number and leaves are sorted, so that the result
+    // does not depend on the library's selection algorithm.
+    void split(const Range& range, std::uint32_t full) {
+        const std::uint32_t middle = halves_of(range, full)[0].end;
+        if (middle == range.end) return;
         Extent extent;
         for (std::uint32_t i = range.begin; i < range.end; ++i)
             extent.enclose(centroids_[order_[i]]);
         const std::size_t axis = extent.widest_axis();
-        const std::uint32_t children = (range.size() + full - 1) / full;
-        const std::uint32_t middle = range.begin + (children / 2) * full;
         const auto before = [&](std::uint32_t a, std::uint32_t b) {
             return std::pair(centroids_[a][axis], a) < std::pair(centroids_[b][axis], b);
         };
         const auto begin = order_.begin();
         std::nth_element(begin + range.begin, begin + middle, begin + range.end, before);
-        return {{range.begin, middle}, {middle, range.end}};
     }
 
-    void set_bounds(IndexNode& node, std::uint32_t k, Range range) const {
-        Extent box;
-        Extent reach;
-        for (std::uint32_t i = range.begin; i < range.end; ++i) {
-            const auto [a, b, c] = triangles_[order_[i]];
-            for (const std::uint32_t corner : {a, b, c}) {
-                const auto [x, y, z, free_distance] = coordinates(vertices_[corner]);
-                const float radius = std::max(free_distance, 0.0F);
-                box.enclose({x, y, z, free_distance});
-                reach.enclose({x - radius, y - radius, z - radius, radius});
-                reach.enclose({x + radius, y + radius, z + radius, radius});
-            }
-        }
-        node.min_x[k] = box.low[0];
-        node.min_y[k] = box.low[1];
-        node.min_z[k] = box.low[2];
-        node.max_x[k] = box.high[0];
-        node.max_y[k] = box.high[1];
-        node.max_z[k] = box.high[2];
-        node.reach_min_x[k] = reach.low[0];
-        node.reach_min_y[k] = reach.low[1];
-        node.reach_min_z[k] = reach.low[2];
-        node.reach_max_x[k] = reach.high[0];
-        node.reach_max_y[k] = reach.high[1];
-        node.reach_max_z[k] = reach.high[2];
-        node.max_radius[k] = box.high[3];
-    }
-
-    std::span<const Vertex> vertices_;
-    std::span<const Triangle> triangles_;
     std::vector<std::uint32_t> order_;
     std::vector<Point4> centroids_;
 };
 
+// ---- The nodes ----
+
+// Of the triangles below a child: their corners and the balls around these.
+struct Bounds {
+    Extent box;
+    Extent reach;
+
+    void enclose(const Vertex& corner) {
+        const auto [x, y, z, free_distance] = coordinates(corner);
+        const float radius = std::max(free_distance, 0.0F);
+        box.enclose({x, y, z, free_distance});
+        reach.enclose({x - radius, y - radius, z - radius, radius});
+        reach.enclose({x + radius, y + radius, z + radius, radius});
+    }
+    void enclose(const IndexNode& node) {
+        for (std::uint32_t k = 0; k < IndexNode::width; ++k) {
+            if (!(node.min_x[k] <= node.max_x[k])) continue;  // unused
+            box.enclose({node.min_x[k], node.min_y[k], node.min_z[k], node.max_radius[k]});
+            box.enclose({node.max_x[k], node.max_y[k], node.max_z[k], node.max_radius[k]});
+            reach.enclose({node.reach_min_x[k], node.reach_min_y[k], node.reach_min_z[k], 0.0F});
+            reach.enclose({node.reach_max_x[k], node.reach_max_y[k], node.reach_max_z[k], 0.0F});
+        }
+    }
+};
+
+void set_bounds(IndexNode& node, std::uint32_t k, const Bounds& bounds) {
+    node.min_x[k] = bounds.box.low[0];
+    node.min_y[k] = bounds.box.low[1];
+    node.min_z[k] = bounds.box.low[2];
+    node.max_x[k] = bounds.box.high[0];
+    node.max_y[k] = bounds.box.high[1];
+    node.max_z[k] = bounds.box.high[2];
+    node.reach_min_x[k] = bounds.reach.low[0];
+    node.reach_min_y[k] = bounds.reach.low[1];
+    node.reach_min_z[k] = bounds.reach.low[2];
+    node.reach_max_x[k] = bounds.reach.high[0];
+    node.reach_max_y[k] = bounds.reach.high[1];
+    node.reach_max_z[k] = bounds.reach.high[2];
+    node.max_radius[k] = bounds.box.high[3];
+}
+
+// Without bounds.
+std::vector<IndexNode> make_nodes(std::uint32_t triangle_count) {
+    std::vector<IndexNode> nodes;
+    std::vector<Range> ranges;  // of the nodes
+    if (triangle_count > 0) ranges.push_back({0, triangle_count});
+    for (std::size_t i = 0; i < ranges.size(); ++i) {
+        IndexNode& node = nodes.emplace_back();
+        std::uint32_t k = 0;
+        for (const Range& child : children_of(ranges[i])) {
+            const bool is_leaf = child.size() <= IndexChild::leaf_capacity;
+            const IndexChild made = is_leaf ? IndexChild::leaf(child.begin, child.size())
+                                            : IndexChild::node(static_cast<std::uint32_t>(ranges.size()));
+            node.child[k++] = made.bits();
+            if (!is_leaf) ranges.push_back(child);
+        }
+    }
+    return nodes;
+}
+
 }  // namespace
 
-Index build_index(std::span<const Vertex> vertices, std::span<const Triangle> triangles) {
-    return Builder(vertices, triangles).build();
+std::vector<std::uint32_t> index_order(std::span<const Vertex> vertices,
+                                       std::span<const Triangle> triangles) {
+    return Order(vertices, triangles).make();
+}
+
+std::vector<IndexNode> build_index(std::span<const Vertex> vertices, std::span<const Triangle> triangles) {
+    std::vector<IndexNode> nodes = make_nodes(static_cast<std::uint32_t>(triangles.size()));
+    for (std::size_t i = nodes.size(); i-- > 0;) {  // children come after their parents
+        for (std::uint32_t k = 0; k < IndexNode::width; ++k) {
+            const IndexChild child(nodes[i].child[k]);
+            Bounds bounds;
+            if (child.is_leaf())
+                for (const auto& [a, b, c] : triangles.subspan(child.first(), child.count()))
+                    for (const std::uint32_t corner : {a, b, c})
+                        bounds.enclose(vertices[corner]);
+            else
+                bounds.enclose(nodes[child.index()]);
+            set_bounds(nodes[i], k, bounds);
+        }
+    }
+    return nodes;
 }
 
 }  // namespace camdir::freespace

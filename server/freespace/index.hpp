@@ -32,9 +32,9 @@ class IndexChild {
     std::uint32_t bits_;
 };
 
-// Four children side by side; as on disk. Nodes are in breadth-first order, and the leaves' triangles in the
-// order of the leaves. An unused child is a leaf of no triangles with max_radius = -infinity.
-struct IndexNode {
+// Four children side by side. Nodes are in breadth-first order. An unused child is a leaf of no triangles
+// with max_radius = -infinity.
+struct alignas(16) IndexNode {
     static constexpr std::uint32_t width = 4;
 
     // The box of the triangles below.
@@ -47,15 +47,19 @@ struct IndexNode {
     std::uint32_t child[width];
 };
 
-// The deepest tree that queries walk; a mesh of 2^28 triangles needs 15.
-inline constexpr std::uint32_t index_depth_limit = 24;
+// The deepest tree that queries walk; 13 levels hold 4^14 triangles.
+inline constexpr std::uint32_t index_depth_limit = 13;
+static_assert(IndexChild::triangle_limit == 1U << 2U * (index_depth_limit + 1U));
 
-struct Index {
-    std::vector<IndexNode> nodes;
-    std::vector<std::uint32_t> triangle_order;  // position in the index -> triangle of the input
-};
+// The order in which an index is to find the triangles, split at the median along the widest of x, y, z and
+// free distance: position -> triangle.
+[[nodiscard]] std::vector<std::uint32_t> index_order(std::span<const Vertex> vertices,
+                                                     std::span<const Triangle> triangles);
 
-// Splits at the median along the widest of x, y, z and free distance.
-[[nodiscard]] Index build_index(std::span<const Vertex> vertices, std::span<const Triangle> triangles);
+// The nodes over the triangles in the order they have: right in any, good in index_order's. The tree's shape
+// depends on their number alone, fewer than triangle_limit. [0] is the root; empty without triangles. Linear
+// time.
+[[nodiscard]] std::vector<IndexNode> build_index(std::span<const Vertex> vertices,
+                                                 std::span<const Triangle> triangles);
 
 }  // namespace camdir::freespace
