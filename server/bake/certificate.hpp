@@ -28,7 +28,8 @@ class Slab {
     // The margin towards one obstacle triangle. The triangle may be a segment or a point.
     [[nodiscard]] Margin margin(const Triangle3d& obstacle) const;
 
-    // Lower bounds of the margin, cheap: a direction separates the slab from what lies beyond.
+    // Lower bounds of the margin, cheap: a direction separates the slab from what lies beyond. For a triangle
+    // the search for a direction ends with the first that gives 0 or more.
     [[nodiscard]] double margin_at_least(const Box3d& box) const;
     [[nodiscard]] double margin_at_least(const Triangle3d& obstacle) const;
 
@@ -40,6 +41,10 @@ class Slab {
     [[nodiscard]] double reach(const Vec3d& direction) const;
 
   private:
+    // Of the ball at a corner alone; and the corner where it is largest.
+    [[nodiscard]] double reach(const Vec3d& direction, std::size_t corner) const;
+    [[nodiscard]] std::size_t farthest(const Vec3d& direction) const;
+
     // Both of the obstacle's normals as the direction.
     [[nodiscard]] double margin_at_least_by_plane(const Triangle3d& obstacle) const;
 
