@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t region_size =
     4096;  // vertices: small enough to share out, large enough to have an inside
 // The allowed loss grows from round to round, so that the cheap collapses of the whole map come first.
-constexpr double first_share = 1.0 / 32.0;
+constexpr double first_share = 1.0 / 4.0;
 constexpr double share_factor = 2.0;
 constexpr int last_rounds = 3;  // with the whole loss allowed, each with its borders elsewhere
 constexpr std::array<double, 3> cuts{0.5, 0.36, 0.61};
