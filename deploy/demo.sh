@@ -29,7 +29,6 @@ bin=build/release/bin
 work=build/demo
 map=/usr/share/games/openarena/baseoa/pak1-maps.pk3:maps/oa_dm1.bsp
 mkdir -p "$work"
-[ -e "$work/oa_dm1.vfs" ] || "$bin/camera-director" bake "$map" -o "$work/oa_dm1.vfs"
 
 # A DDS domain of its own, held as long as this script runs.
 locks=${TMPDIR:-/tmp}/camera-director-test-domains
@@ -47,6 +46,7 @@ cat >"$work/demo.json" <<CONFIG
   "maps": [{"name": "oa_dm1", "file": "oa_dm1.vfs", "source": "$map"}]
 }
 CONFIG
+"$bin/camera-director" bake --config "$work/demo.json"
 
 started=()
 stop() {

@@ -60,11 +60,11 @@ cat >"$work/soak.json" <<CONFIG
 {
   "dds": {"domain": $domain},
   "http": {"enabled": false},
-  "maps": [{"name": "$map_name", "file": "$map_name.vfs"}],
+  "maps": [{"name": "$map_name", "file": "$map_name.vfs", "source": "$map"}],
   "log": {"level": "warning"}
 }
 CONFIG
-[ -s "$work/$map_name.vfs" ] || "$bin/camera-director" bake "$map" -o "$work/$map_name.vfs"
+"$bin/camera-director" bake --config "$work/soak.json"
 
 "$bin/camera-director" serve --config "$work/soak.json" 9>&- &
 server=$!
