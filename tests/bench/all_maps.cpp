@@ -75,7 +75,8 @@ int main(int argc, char** argv) {
     app.add_option("--bake-options", options.bake_options,
                    "More for the command line of the bake, such as \"--loss 3\"");
     app.add_flag("--check-threads", options.parameters.check_threads,
-                 "Bake also with 1 and with 2 threads and compare the bytes");
+                 "Bake also with 1 and with 2 threads, where that is not what a bake takes by itself, and "
+                 "compare the bytes");
     app.add_option("--work", options.parameters.work, "Folder where the baked maps stay")
         ->capture_default_str();
     try {
