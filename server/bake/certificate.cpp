@@ -72,7 +72,7 @@ double Slab::reach(const Vec3d& direction, std::size_t corner) const {
 }
 
 std::size_t Slab::farthest(const Vec3d& direction) const {
-    std::size_t corner = reach(direction, 1) > reach(direction, 0) ? 1 : 0;
+    const std::size_t corner = reach(direction, 1) > reach(direction, 0) ? 1 : 0;
     return reach(direction, 2) > reach(direction, corner) ? 2 : corner;
 }
 
