@@ -43,28 +43,21 @@ int run(Options& options) {
     fs::create_directories(options.parameters.work);
     const std::vector<MapSource> maps = maps_to_measure(options);
     std::vector<MeasuredMap> measured;
+    std::cout << head_of_table() << std::flush;
     for (const MapSource& map : maps) {
         std::cerr << measured.size() + 1 << " of " << maps.size() << ": " << map.name << std::flush;
         measured.push_back(measure(map, options.parameters));
         std::cerr << (measured.back().failures.empty() ? "" : ": " + measured.back().failures.front())
                   << '\n';
+        std::cout << row_of(measured.back()) << std::flush;
     }
-    std::cout << table_of(measured);
+    std::cout << end_of_table(measured);
     for (const MeasuredMap& map : measured)
         if (!map.failures.empty()) return 1;
     return measured.empty() ? 1 : 0;
 }
 
-}  // namespace
-}  // namespace camdir::bench
-
-int main(int argc, char** argv) {
-    camdir::bench::Options options;
-    options.parameters.programs = std::filesystem::read_symlink("/proc/self/exe").parent_path();
-    options.parameters.work = std::filesystem::temp_directory_path() / "camera-director-all-maps";
-    options.parameters.balls = 10'000'000;
-    CLI::App app("Bakes and verifies every map of openarena-081-maps and prints the table of their figures.",
-                 "bench-all-maps");
+void add_options(CLI::App& app, Options& options) {
     app.add_option("SOURCE", options.sources, "More maps: folders, archives, files");
     app.add_option("--openarena", options.openarena, "OpenArena's archive of maps; empty: without them")
         ->capture_default_str();
@@ -79,13 +72,30 @@ int main(int argc, char** argv) {
                  "compare the bytes");
     app.add_option("--work", options.parameters.work, "Folder where the baked maps stay")
         ->capture_default_str();
+}
+
+int parse_and_run(int argc, char** argv) {
+    Options options;
+    options.parameters.programs = fs::read_symlink("/proc/self/exe").parent_path();
+    options.parameters.work = fs::temp_directory_path() / "camera-director-all-maps";
+    options.parameters.balls = 10'000'000;
+    CLI::App app("Bakes and verifies every map of openarena-081-maps and prints the table of their figures.",
+                 "bench-all-maps");
+    add_options(app, options);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? 0 : 2;
     }
+    return run(options);
+}
+
+}  // namespace
+}  // namespace camdir::bench
+
+int main(int argc, char** argv) {
     try {
-        return camdir::bench::run(options);
+        return camdir::bench::parse_and_run(argc, argv);
     } catch (const std::exception& error) {
         std::cerr << "bench-all-maps: " << error.what() << '\n';
         return 1;

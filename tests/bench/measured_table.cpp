@@ -81,33 +81,37 @@ double worst(const std::vector<double>& sorted, Worst which) {
 
 }  // namespace
 
-std::string table_of(const std::vector<MeasuredMap>& maps) {
+std::string head_of_table() {
     std::string head = "| map |";
     std::string rule = "|---|";
-    std::string medians = "| **median** |";
-    std::string worsts = "| **worst** |";
-    std::vector<std::string> rows;
-    for (const MeasuredMap& map : maps)
-        rows.push_back("| " + map.name + " |");
     for (const Column& column : columns()) {
         head += " " + column.title + " |";
         rule += "---|";
-        for (std::size_t i = 0; i < maps.size(); ++i)
-            rows[i] += cell(column.value(maps[i]), column);
+    }
+    return head + '\n' + rule + '\n';
+}
+
+std::string row_of(const MeasuredMap& map) {
+    std::string row = "| " + map.name + " |";
+    for (const Column& column : columns())
+        row += cell(column.value(map), column);
+    return row + '\n';
+}
+
+std::string end_of_table(const std::vector<MeasuredMap>& maps) {
+    std::string medians = "| **median** |";
+    std::string worsts = "| **worst** |";
+    for (const Column& column : columns()) {
         const std::vector<double> values = sorted_values(maps, column);
         medians += cell(median(values), column);
         worsts += cell(worst(values, column.worst), column);
     }
-    std::string text = head + '\n' + rule + '\n';
-    for (const std::string& row : rows)
-        text += row + '\n';
-    text += medians + '\n' + worsts + "\n\n";
-
     std::string failures;
     for (const MeasuredMap& map : maps)
         for (const std::string& failure : map.failures)
             failures += "- " + map.name + ": " + failure + '\n';
-    return text + (failures.empty() ? "Every limit holds on all maps.\n" : "Failures:\n" + failures);
+    return medians + '\n' + worsts + "\n\n" +
+           (failures.empty() ? "Every limit holds on all maps.\n" : "Failures:\n" + failures);
 }
 
 }  // namespace camdir::bench

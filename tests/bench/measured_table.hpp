@@ -8,7 +8,9 @@
 
 namespace camdir::bench {
 
-// A table with a row a map, its median and worst rows, and the list of failures.
-[[nodiscard]] std::string table_of(const std::vector<MeasuredMap>& maps);
+// A table grows from its head by a row a map; its end has the median and worst rows and the list of failures.
+[[nodiscard]] std::string head_of_table();
+[[nodiscard]] std::string row_of(const MeasuredMap& map);
+[[nodiscard]] std::string end_of_table(const std::vector<MeasuredMap>& maps);
 
 }  // namespace camdir::bench
