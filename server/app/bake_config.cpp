@@ -48,6 +48,7 @@ class BatchDisplay {
     void progress(const std::string& map, const bake::Progress& progress) {
         std::string& text = running_[map];
         text = map + " " + std::string(progress.stage);
+        // A map alone has the bar for its stages.
         if (to_bake_ == 1 && !quiet_) return line_.show(text, progress.done, progress.total);
         if (progress.total > 0) text += " " + std::to_string(100 * progress.done / progress.total) + " %";
         draw();

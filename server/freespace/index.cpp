@@ -130,44 +130,40 @@ class Order {
 
 // ---- The nodes ----
 
-// Of the triangles below a child: their corners and the balls around these.
+Box3f box_at(const IndexNode::Boxes& boxes, std::uint32_t k) {
+    return {Vec3f(boxes.low[0][k], boxes.low[1][k], boxes.low[2][k]),
+            Vec3f(boxes.high[0][k], boxes.high[1][k], boxes.high[2][k])};
+}
+
+void set_box(IndexNode::Boxes& boxes, std::uint32_t k, const Box3f& box) {
+    for (int axis = 0; axis < 3; ++axis) {
+        boxes.low[axis][k] = box.min()[axis];
+        boxes.high[axis][k] = box.max()[axis];
+    }
+}
+
+// Of the triangles below a child: their corners and the balls around these. Empty boxes add nothing.
 struct Bounds {
-    Extent box;
-    Extent reach;
+    Box3f box;
+    Box3f reach;
+    float max_radius = -infinity;
 
     void enclose(const Vertex& corner) {
-        const auto [x, y, z, free_distance] = coordinates(corner);
-        const float radius = std::max(free_distance, 0.0F);
-        box.enclose({x, y, z, free_distance});
-        reach.enclose({x - radius, y - radius, z - radius, radius});
-        reach.enclose({x + radius, y + radius, z + radius, radius});
+        const Vec3f position = corner.position();
+        const Vec3f radius = Vec3f::Constant(std::max(corner.free_distance, 0.0F));
+        box.extend(position);
+        reach.extend(position - radius);
+        reach.extend(position + radius);
+        max_radius = std::max(max_radius, corner.free_distance);
     }
     void enclose(const IndexNode& node) {
         for (std::uint32_t k = 0; k < IndexNode::width; ++k) {
-            if (!(node.min_x[k] <= node.max_x[k])) continue;  // unused
-            box.enclose({node.min_x[k], node.min_y[k], node.min_z[k], node.max_radius[k]});
-            box.enclose({node.max_x[k], node.max_y[k], node.max_z[k], node.max_radius[k]});
-            reach.enclose({node.reach_min_x[k], node.reach_min_y[k], node.reach_min_z[k], 0.0F});
-            reach.enclose({node.reach_max_x[k], node.reach_max_y[k], node.reach_max_z[k], 0.0F});
+            box.extend(box_at(node.box, k));
+            reach.extend(box_at(node.reach, k));
+            max_radius = std::max(max_radius, node.max_radius[k]);
         }
     }
 };
-
-void set_bounds(IndexNode& node, std::uint32_t k, const Bounds& bounds) {
-    node.min_x[k] = bounds.box.low[0];
-    node.min_y[k] = bounds.box.low[1];
-    node.min_z[k] = bounds.box.low[2];
-    node.max_x[k] = bounds.box.high[0];
-    node.max_y[k] = bounds.box.high[1];
-    node.max_z[k] = bounds.box.high[2];
-    node.reach_min_x[k] = bounds.reach.low[0];
-    node.reach_min_y[k] = bounds.reach.low[1];
-    node.reach_min_z[k] = bounds.reach.low[2];
-    node.reach_max_x[k] = bounds.reach.high[0];
-    node.reach_max_y[k] = bounds.reach.high[1];
-    node.reach_max_z[k] = bounds.reach.high[2];
-    node.max_radius[k] = bounds.box.high[3];
-}
 
 // Without bounds.
 std::vector<IndexNode> make_nodes(std::uint32_t triangle_count) {
@@ -207,7 +203,9 @@ std::vector<IndexNode> build_index(std::span<const Vertex> vertices, std::span<c
                         bounds.enclose(vertices[corner]);
             else
                 bounds.enclose(nodes[child.index()]);
-            set_bounds(nodes[i], k, bounds);
+            set_box(nodes[i].box, k, bounds.box);
+            set_box(nodes[i].reach, k, bounds.reach);
+            nodes[i].max_radius[k] = bounds.max_radius;
         }
     }
     return nodes;

@@ -36,13 +36,13 @@ class IndexChild {
 // with max_radius = -infinity.
 struct alignas(16) IndexNode {
     static constexpr std::uint32_t width = 4;
+    struct Boxes {  // [axis][child]
+        float low[3][width];
+        float high[3][width];
+    };
 
-    // The box of the triangles below.
-    float min_x[width], min_y[width], min_z[width];
-    float max_x[width], max_y[width], max_z[width];
-    // The box of the balls around the corners below, and so of the slabs.
-    float reach_min_x[width], reach_min_y[width], reach_min_z[width];
-    float reach_max_x[width], reach_max_y[width], reach_max_z[width];
+    Boxes box;                // of the triangles below
+    Boxes reach;              // of the balls around the corners below, and so of the slabs
     float max_radius[width];  // the largest free distance of a corner below
     std::uint32_t child[width];
 };

@@ -28,13 +28,15 @@ Lanes bounds_of_children(const IndexNode& node, const Vec3f& point) {
     const Lanes px = broadcast(point.x());
     const Lanes py = broadcast(point.y());
     const Lanes pz = broadcast(point.z());
-    const Lanes x = gap(node.min_x, node.max_x, px);
-    const Lanes y = gap(node.min_y, node.max_y, py);
-    const Lanes z = gap(node.min_z, node.max_z, pz);
+    const auto& [low, high] = node.box;
+    const Lanes x = gap(low[0], high[0], px);
+    const Lanes y = gap(low[1], high[1], py);
+    const Lanes z = gap(low[2], high[2], pz);
     const Lanes by_radius = load(node.max_radius) - square_root(x * x + y * y + z * z);
-    const Lanes by_reach = smaller(
-        smaller(room(node.reach_min_x, node.reach_max_x, px), room(node.reach_min_y, node.reach_max_y, py)),
-        room(node.reach_min_z, node.reach_max_z, pz));
+    const auto& [reach_low, reach_high] = node.reach;
+    const Lanes by_reach =
+        smaller(smaller(room(reach_low[0], reach_high[0], px), room(reach_low[1], reach_high[1], py)),
+                room(reach_low[2], reach_high[2], pz));
     return smaller(by_radius, by_reach);
 }
 

@@ -13,6 +13,10 @@ double height_above(const Plane& plane, const Vec3d& point) {
 
 }  // namespace
 
+Plane flipped(const Plane& plane) {
+    return {-plane.normal, -plane.distance};
+}
+
 Polygon square_on(const Plane& plane, double half_side) {
     Eigen::Index thinnest = 0;
     plane.normal.cwiseAbs().minCoeff(&thinnest);

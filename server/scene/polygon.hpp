@@ -13,6 +13,9 @@ namespace camdir::scene {
 // Corners in order; empty: no polygon.
 using Polygon = std::vector<Vec3d>;
 
+// The same plane, with the solid on its other side.
+[[nodiscard]] Plane flipped(const Plane& plane);
+
 // A square in `plane`, counter-clockwise seen from where the normal points, with its centre at the point
 // of the plane nearest to the origin.
 [[nodiscard]] Polygon square_on(const Plane& plane, double half_side);

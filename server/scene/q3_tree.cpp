@@ -48,8 +48,7 @@ bool Tree::is_seen(const Polygon& polygon, const Vec3d& normal) const {
         const auto node = static_cast<std::size_t>(visit.child);
         const auto& [front, back] = bsp_.nodes[node].children;
         const scene::Plane& plane = planes_[node];
-        const scene::Plane flipped = {-plane.normal, -plane.distance};
-        Polygon before = cut_behind(visit.polygon, flipped, tolerance);
+        Polygon before = cut_behind(visit.polygon, flipped(plane), tolerance);
         Polygon behind = cut_behind(visit.polygon, plane, tolerance);
         // On the plane although it was moved: what stands on the plane looks along its own normal.
         if (before.empty() && behind.empty())

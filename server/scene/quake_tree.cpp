@@ -20,10 +20,6 @@ struct Part {
     Polygon polygon;
 };
 
-scene::Plane flipped(const scene::Plane& plane) {
-    return {-plane.normal, -plane.distance};
-}
-
 }  // namespace
 
 scene::Plane to_plane(const Plane& plane) {

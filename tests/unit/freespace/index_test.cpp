@@ -29,13 +29,16 @@ TEST(Incidence, IsTheTrianglesOfEachVertex) {
     }
 }
 
+Box3f box_of(const IndexNode::Boxes& boxes, std::uint32_t k) {
+    return {Vec3f(boxes.low[0][k], boxes.low[1][k], boxes.low[2][k]),
+            Vec3f(boxes.high[0][k], boxes.high[1][k], boxes.high[2][k])};
+}
+
 // The child's box holds the vertex, its reach the ball around it, and its radius is no smaller.
 bool encloses(const IndexNode& node, std::uint32_t k, const Vertex& vertex) {
     const float r = std::max(vertex.free_distance, 0.0F);
-    const Box3f box(Vec3f(node.min_x[k], node.min_y[k], node.min_z[k]),
-                    Vec3f(node.max_x[k], node.max_y[k], node.max_z[k]));
-    const Box3f reach(Vec3f(node.reach_min_x[k], node.reach_min_y[k], node.reach_min_z[k]),
-                      Vec3f(node.reach_max_x[k], node.reach_max_y[k], node.reach_max_z[k]));
+    const Box3f box = box_of(node.box, k);
+    const Box3f reach = box_of(node.reach, k);
     const Vec3f p = vertex.position();
     return box.contains(p) && reach.contains(Vec3f(p.array() - r)) && reach.contains(Vec3f(p.array() + r)) &&
            node.max_radius[k] >= vertex.free_distance;
@@ -107,8 +110,7 @@ double volume_of_leaves(const std::vector<IndexNode>& nodes) {
     for (const IndexNode& node : nodes)
         for (std::uint32_t k = 0; k < IndexNode::width; ++k)
             if (IndexChild(node.child[k]).is_leaf() && IndexChild(node.child[k]).count() > 0)
-                volume += double{node.max_x[k] - node.min_x[k]} * (node.max_y[k] - node.min_y[k]) *
-                          (node.max_z[k] - node.min_z[k]);
+                volume += double{box_of(node.box, k).volume()};
     return volume;
 }
 
