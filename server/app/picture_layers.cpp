@@ -131,7 +131,7 @@ void add_spawn_points(const freespace::Freespace& freespace, float pixel, render
 Result<void> add_samples(const scene::Scene& map, double d0, float pixel, render::Layers& layers,
                          std::vector<KeyEntry>& key) {
     bake::Stage stage("sample", {}, {});
-    const auto samples = bake::sample(map, bake::SamplingDistance(d0), 0.0, stage);
+    const auto samples = bake::sample(map, bake::Solids(map), bake::SamplingDistance(d0), 0.0, stage);
     if (!samples) return tl::unexpected(samples.error());
     render::Balls balls{{}, sample_colour, 1.1F * pixel};
     for (const Vec3d& sample : *samples)

@@ -170,7 +170,7 @@ Result<void> Bake::medial_axis(Stage& stage) {
 }
 
 Result<void> Bake::sample(Stage& stage) {
-    return keep(bake::sample(scene_, distance_, weld_distance(), stage), samples_);
+    return keep(bake::sample(scene_, solids_, distance_, weld_distance(), stage), samples_);
 }
 
 Result<void> Bake::weld(Stage& stage) {

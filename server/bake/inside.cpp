@@ -18,23 +18,31 @@ DisjointSets connect(const MedialMesh& mesh) {
     return parts;
 }
 
+// Those that a triangle has.
+std::vector<char> used_vertices(const MedialMesh& mesh) {
+    std::vector<char> used(mesh.vertices.size());
+    for (const auto& [a, b, c] : mesh.triangles)
+        used[a] = used[b] = used[c] = 1;
+    return used;
+}
+
 // The parts of the spawn points, marked at their representatives.
 Result<std::vector<char>> parts_with_spawn_points(const MedialMesh& mesh,
                                                   const std::vector<double>& clearance,
                                                   const scene::Scene& scene, DisjointSets& parts,
                                                   Stage& stage) {
+    const std::vector<char> used = used_vertices(mesh);
     std::vector<char> wanted(mesh.vertices.size());
     std::vector<char> connected(scene.spawn_points.size());
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-        if (i % 16384 == 0 && !stage.advance(i, mesh.triangles.size())) return stage.interrupted();
-        const freespace::Triangle& t = mesh.triangles[i];
-        for (const std::uint32_t vertex : {t.a, t.b, t.c})
-            for (std::size_t spawn = 0; spawn < connected.size(); ++spawn) {
-                const Vec3d to_eye = scene.spawn_points[spawn].eye - mesh.position(vertex);
-                if (to_eye.norm() >= clearance[vertex]) continue;
-                wanted[parts.find(vertex)] = 1;
-                connected[spawn] = 1;
-            }
+    for (std::uint32_t vertex = 0; vertex < used.size(); ++vertex) {
+        if (vertex % 16384 == 0 && !stage.advance(vertex, used.size())) return stage.interrupted();
+        if (!used[vertex]) continue;
+        for (std::size_t spawn = 0; spawn < connected.size(); ++spawn) {
+            const Vec3d to_eye = scene.spawn_points[spawn].eye - mesh.position(vertex);
+            if (to_eye.norm() >= clearance[vertex]) continue;
+            wanted[parts.find(vertex)] = 1;
+            connected[spawn] = 1;
+        }
     }
     const auto count = std::count(connected.begin(), connected.end(), 1);
     stage.count("spawn points", static_cast<double>(connected.size()));

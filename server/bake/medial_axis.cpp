@@ -18,7 +18,7 @@ class Prober {
 
   private:
     void probe(const Triangle3d& t, const Vec3d& normal, std::vector<Vec3d>& centres) const {
-        if (stage_.stopping()) return;
+        if (stage_.stopping() || solids_.conceal(t, offset())) return;
         const Vec3d q = (t[0] + t[1] + t[2]) / 3.0;
         const double above = radius(q, normal);
         const double below = radius(q, -normal);
@@ -38,9 +38,12 @@ class Prober {
 
     // 0 when the side is in a solid.
     [[nodiscard]] double radius(const Vec3d& q, const Vec3d& normal) const {
-        if (solids_.contain(q + 0.001 * probing_.finest * normal)) return 0.0;
+        if (solids_.contain(q + offset() * normal)) return 0.0;
         return tangent_radius(q, normal, probing_.reach, obstacles_);
     }
+
+    // Away from a surface, where it is asked what lies on that side.
+    [[nodiscard]] double offset() const { return 0.001 * probing_.finest; }
 
     const Obstacles& obstacles_;
     const Solids& solids_;

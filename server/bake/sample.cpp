@@ -11,12 +11,13 @@ namespace {
 // Refines obstacle triangles; one object for all threads.
 class Refinement {
   public:
-    Refinement(const SamplingDistance& distance, double slack, const Stage& stage)
-        : distance_(distance), slack_(slack), stage_(stage) {}
+    Refinement(const Solids& solids, const SamplingDistance& distance, double slack, const Stage& stage)
+        : solids_(solids), distance_(distance), slack_(slack), stage_(stage) {}
 
     // Appends the corners and the midpoints that bisecting the longest edges adds until the triangles are
     // fine enough. Leaves off when there are too many in all, or when the stage must end.
     void sample(const Triangle3d& t, std::vector<Vec3d>& samples) {
+        if (conceal(t)) return;
         samples.assign(t.begin(), t.end());
         refine(t, {distance_.at(t[0]), distance_.at(t[1]), distance_.at(t[2])}, samples);
     }
@@ -34,8 +35,15 @@ class Refinement {
         const Vec3d middle = 0.5 * (t[from] + t[to]);
         const double at_middle = distance_.at(middle);
         samples.push_back(middle);
-        refine({t[from], middle, t[apex]}, {at[from], at_middle, at[apex]}, samples);
-        refine({middle, t[to], t[apex]}, {at_middle, at[to], at[apex]}, samples);
+        const Triangle3d first{t[from], middle, t[apex]};
+        const Triangle3d second{middle, t[to], t[apex]};
+        if (!conceal(first)) refine(first, {at[from], at_middle, at[apex]}, samples);
+        if (!conceal(second)) refine(second, {at_middle, at[to], at[apex]}, samples);
+    }
+
+    // By solids that reach over a gap narrower than rounding may make one.
+    [[nodiscard]] bool conceal(const Triangle3d& t) const {
+        return solids_.conceal(t, 0.001 * distance_.finest());
     }
 
     // Counts in blocks, so that the threads seldom meet.
@@ -45,6 +53,7 @@ class Refinement {
         return total_ > max_samples;
     }
 
+    const Solids& solids_;
     const SamplingDistance& distance_;
     const double slack_;
     const Stage& stage_;
@@ -87,8 +96,8 @@ double covering_radius(const Triangle3d& t) {
     return std::max(from_a, from_b);
 }
 
-Result<std::vector<Vec3d>> sample(const scene::Scene& scene, const SamplingDistance& distance, double slack,
-                                  Stage& stage) {
+Result<std::vector<Vec3d>> sample(const scene::Scene& scene, const Solids& solids,
+                                  const SamplingDistance& distance, double slack, Stage& stage) {
     std::vector<Triangle3d> triangles;
     triangles.reserve(scene.triangles.size());
     double discs = 0.0;  // a sample covers at most a disc
@@ -98,7 +107,7 @@ Result<std::vector<Vec3d>> sample(const scene::Scene& scene, const SamplingDista
     }
     if (discs > static_cast<double>(max_samples)) return too_many(scene, distance.finest(), discs);
 
-    Refinement refinement(distance, slack, stage);
+    Refinement refinement(solids, distance, slack, stage);
     std::vector<std::vector<Vec3d>> samples_of(triangles.size());
     const bool done = stage.for_each(
         triangles.size(), [&](std::uint64_t i) { refinement.sample(triangles[i], samples_of[i]); });

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bake/sampling_distance.hpp"
+#include "bake/solids.hpp"
 #include "bake/stage.hpp"
 #include "bake/triangle.hpp"
 
@@ -16,13 +17,14 @@ inline constexpr std::uint64_t max_samples = 20'000'000;
 // Largest distance from a point of the triangle to the nearest of its corners.
 [[nodiscard]] double covering_radius(const Triangle3d& triangle);
 
-// Points on the scene's triangles, each triangle's corners included, that satisfy the sampling condition of
-// `distance` (sampling_distance.hpp), also after every sample was moved, or replaced by another one, by less
-// than `slack`. Triangles of samples p have edges shorter than twice the least covering() of their corners.
-// (The paper's rule, edges alone, misses its own sampling condition by up to 14 %.) Points of shared edges
-// repeat. Fails with more than max_samples.
-[[nodiscard]] Result<std::vector<Vec3d>> sample(const scene::Scene& scene, const SamplingDistance& distance,
-                                                double slack, Stage& stage);
+// Points on the scene's triangles that satisfy the sampling condition of `distance` (sampling_distance.hpp)
+// wherever the obstacles bound free space, also after every sample was moved, or replaced by another one, by
+// less than `slack`. What `solids` conceal needs no samples: whatever is free is nearer to something else.
+// Triangles of samples p have edges shorter than twice the least covering() of their corners. (The paper's
+// rule, edges alone, misses its own sampling condition by up to 14 %.) Points of shared edges repeat. Fails
+// with more than max_samples.
+[[nodiscard]] Result<std::vector<Vec3d>> sample(const scene::Scene& scene, const Solids& solids,
+                                                const SamplingDistance& distance, double slack, Stage& stage);
 
 // d_s at each sample.
 [[nodiscard]] Result<std::vector<double>> distances_at(const std::vector<Vec3d>& samples,

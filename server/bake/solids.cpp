@@ -24,12 +24,27 @@ bool contains(const scene::Scene& scene, const scene::Brush& brush, const Vec3d&
 Solids::Solids(const scene::Scene& scene) : scene_(scene), tree_(boxes_of_brushes(scene)) {}
 
 bool Solids::contain(const Vec3d& point) const {
-    bool inside = false;
-    tree_.visit_where([&](const Box3d& box) { return !inside && box.contains(point); },
-                      [&](std::uint32_t position) {
-                          inside = inside || contains(scene_, scene_.brushes[tree_.order()[position]], point);
-                      });
-    return inside;
+    return cover({point, point, point});
+}
+
+bool Solids::conceal(const Triangle3d& t, double offset) const {
+    const Vec3d normal = (t[1] - t[0]).cross(t[2] - t[0]);
+    if (!(normal.norm() > 0.0)) return false;
+    const Vec3d up = offset * normal.normalized();
+    return cover({t[0] + up, t[1] + up, t[2] + up}) && cover({t[0] - up, t[1] - up, t[2] - up});
+}
+
+bool Solids::cover(const Triangle3d& t) const {
+    bool covered = false;
+    const auto matters = [&](const Box3d& box) {
+        return !covered && box.contains(t[0]) && box.contains(t[1]) && box.contains(t[2]);
+    };
+    tree_.visit_where(matters, [&](std::uint32_t position) {
+        const scene::Brush& brush = scene_.brushes[tree_.order()[position]];
+        covered = covered ||
+                  std::all_of(t.begin(), t.end(), [&](const Vec3d& p) { return contains(scene_, brush, p); });
+    });
+    return covered;
 }
 
 }  // namespace camdir::bake

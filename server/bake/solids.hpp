@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bake/box_tree.hpp"
+#include "bake/triangle.hpp"
 #include "scene/scene.hpp"
 
 namespace camdir::bake {
@@ -14,7 +15,14 @@ class Solids {
     // Inside or on the surface of a brush; always false for scenes that know no volumes.
     [[nodiscard]] bool contain(const Vec3d& point) const;
 
+    // At `offset` from the triangle, on both sides, all is solid: it bounds no free space. Surely so when
+    // true; when false, several brushes may still conceal it together.
+    [[nodiscard]] bool conceal(const Triangle3d& triangle, double offset) const;
+
   private:
+    // One brush contains all of the triangle.
+    [[nodiscard]] bool cover(const Triangle3d& triangle) const;
+
     const scene::Scene& scene_;
     BoxTree tree_;
 };

@@ -21,18 +21,19 @@ struct GridCellHash {
     }
 };
 
-// The kept points, found by the cell of a grid of pitch `distance` that they lie in. Points in one cell
-// form a list through `next`.
+// The kept points, found by the cell of a grid of pitch 2 `distance` that they lie in: what is near
+// a point lies in at most 8 cells. Points in one cell form a list through `next`.
 class Grid {
   public:
     explicit Grid(double distance) : distance_(distance) {}
 
     [[nodiscard]] bool has_near(const Vec3d& point, const std::vector<Vec3d>& kept) const {
-        const GridCell centre = cell_of(point);
-        for (std::int64_t x = -1; x <= 1; ++x)
-            for (std::int64_t y = -1; y <= 1; ++y)
-                for (std::int64_t z = -1; z <= 1; ++z) {
-                    const auto found = first_.find({centre[0] + x, centre[1] + y, centre[2] + z});
+        const GridCell low = cell_of(point - Vec3d::Constant(distance_));
+        const GridCell high = cell_of(point + Vec3d::Constant(distance_));
+        for (std::int64_t x = low[0]; x <= high[0]; ++x)
+            for (std::int64_t y = low[1]; y <= high[1]; ++y)
+                for (std::int64_t z = low[2]; z <= high[2]; ++z) {
+                    const auto found = first_.find({x, y, z});
                     if (found == first_.end()) continue;
                     for (std::uint32_t i = found->second; i != end; i = next_[i])
                         if ((kept[i] - point).squaredNorm() <= distance_ * distance_) return true;
@@ -52,9 +53,10 @@ class Grid {
     static constexpr std::uint32_t end = 0xffffffffU;
 
     [[nodiscard]] GridCell cell_of(const Vec3d& point) const {
-        return {static_cast<std::int64_t>(std::floor(point.x() / distance_)),
-                static_cast<std::int64_t>(std::floor(point.y() / distance_)),
-                static_cast<std::int64_t>(std::floor(point.z() / distance_))};
+        const Vec3d cell = point / (2.0 * distance_);
+        return {static_cast<std::int64_t>(std::floor(cell.x())),
+                static_cast<std::int64_t>(std::floor(cell.y())),
+                static_cast<std::int64_t>(std::floor(cell.z()))};
     }
 
     double distance_;

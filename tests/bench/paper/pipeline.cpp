@@ -90,7 +90,7 @@ Result<void> Run::sample() {
         done = keep(paper::sample(scene_, d0_), samples_);
     } else {
         const double slack = d0_ / 64.0;  // what welding may take
-        done = keep(bake::sample(scene_, bake::SamplingDistance(d0_), slack, stage_), samples_);
+        done = keep(bake::sample(scene_, solids_, bake::SamplingDistance(d0_), slack, stage_), samples_);
         if (done) done = keep(bake::weld(std::move(samples_), slack, stage_), samples_);
     }
     product_.figures.samples = samples_.size();

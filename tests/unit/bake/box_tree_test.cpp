@@ -109,5 +109,18 @@ TEST(Solids, ContainTheirInsideAndSurface) {
     EXPECT_FALSE(Solids(scene::Scene{}).contain({0, 0, 0}));
 }
 
+// The pillar stands on the floor.
+TEST(Solids, ConcealWhatHasASolidOnBothSides) {
+    const test::SolidScene room = test::pillar_room();
+    const Solids solids(room.scene());
+    const double offset = 0.01;
+    EXPECT_TRUE(solids.conceal({Vec3d(150, 60, 0), Vec3d(182, 60, 0), Vec3d(182, 92, 0)}, offset));
+    EXPECT_TRUE(solids.conceal({Vec3d(182, 60, 0), Vec3d(150, 60, 0), Vec3d(182, 92, 0)}, offset));
+    EXPECT_FALSE(solids.conceal({Vec3d(149, 60, 0), Vec3d(182, 60, 0), Vec3d(182, 92, 0)}, offset));
+    EXPECT_FALSE(solids.conceal({Vec3d(150, 60, 0), Vec3d(150, 92, 0), Vec3d(150, 60, 50)}, offset));
+    EXPECT_FALSE(solids.conceal({Vec3d(150, 60, 0), Vec3d(150, 60, 0), Vec3d(182, 92, 0)}, offset))
+        << "a segment has no sides";
+}
+
 }  // namespace
 }  // namespace camdir::bake

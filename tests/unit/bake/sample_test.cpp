@@ -9,9 +9,13 @@
 
 #include "bake/weld.hpp"
 #include "support/bake_twins.hpp"
+#include "support/solid_scenes.hpp"
 
 namespace camdir::bake {
 namespace {
+
+const scene::Scene empty_scene;
+const Solids no_solids(empty_scene);
 
 Triangle3d random_triangle(std::mt19937& random, double size) {
     std::uniform_real_distribution<double> coordinate(-size, size);
@@ -74,7 +78,7 @@ TEST(Sample, EveryObstaclePointHasASampleNearerThanTheDistance) {
         const Triangle3d t = random_triangle(random, 40.0);
         const double distance = 4.0;
         Stage stage("sample", {}, {});
-        const auto samples = sample(scene_of(t), SamplingDistance(distance), 0.0, stage).value();
+        const auto samples = sample(scene_of(t), no_solids, SamplingDistance(distance), 0.0, stage).value();
         for (const Vec3d& p : dense_points(t, 120))
             ASSERT_LT(test::distance_to_nearest(p, samples), distance) << "round " << round;
         for (const Vec3d& s : samples)
@@ -110,7 +114,8 @@ TEST(Sample, NearestSamplesAreNearerThanTheirSamplingDistance) {
         const SamplingDistance distance = random_distance(random);
         Stage stage("sample", {}, {});
         const double welded = 0.1;
-        const auto samples = weld(sample(soup, distance, welded, stage).value(), welded, stage).value();
+        const auto samples =
+            weld(sample(soup, no_solids, distance, welded, stage).value(), welded, stage).value();
         for (const auto& [a, b, c] : soup.triangles)
             for (const Vec3d& x : dense_points({soup.vertices[a], soup.vertices[b], soup.vertices[c]}, 40)) {
                 const double nearest = test::distance_to_nearest(x, samples);
@@ -122,13 +127,36 @@ TEST(Sample, NearestSamplesAreNearerThanTheirSamplingDistance) {
     }
 }
 
+// The pillar's ends are concealed, and what of the floor and the ceiling is behind them.
+TEST(Sample, OnlyWhatBoundsFreeSpaceNeedsSamples) {
+    const test::SolidScene room = test::pillar_room();
+    const scene::Scene& scene = room.scene();
+    const Solids solids(scene);
+    const double distance = 4.0;
+    Stage stage("sample", {}, {});
+    const auto samples = sample(scene, solids, SamplingDistance(distance), 0.0, stage).value();
+    const auto everywhere = sample(scene, no_solids, SamplingDistance(distance), 0.0, stage).value();
+    EXPECT_LT(samples.size(), everywhere.size());
+    std::size_t bounding = 0;
+    for (const auto& [a, b, c] : scene.triangles) {
+        const Triangle3d t{scene.vertices[a], scene.vertices[b], scene.vertices[c]};
+        const Vec3d normal = (t[1] - t[0]).cross(t[2] - t[0]).normalized();
+        for (const Vec3d& p : dense_points(t, 40)) {
+            if (solids.contain(p + 0.1 * normal) && solids.contain(p - 0.1 * normal)) continue;
+            ++bounding;
+            ASSERT_LT(test::distance_to_nearest(p, samples), distance);
+        }
+    }
+    EXPECT_GT(bounding, 1000U);
+}
+
 TEST(Sample, IsSparseFarFromTheMedialAxis) {
     std::mt19937 random(4);
     const scene::Scene soup = random_soup(random);
     const SamplingDistance adaptive = random_distance(random);
     Stage stage("sample", {}, {});
-    const auto sparse = sample(soup, adaptive, 0.0, stage).value();
-    const auto dense = sample(soup, SamplingDistance(adaptive.finest()), 0.0, stage).value();
+    const auto sparse = sample(soup, no_solids, adaptive, 0.0, stage).value();
+    const auto dense = sample(soup, no_solids, SamplingDistance(adaptive.finest()), 0.0, stage).value();
     EXPECT_LT(3 * sparse.size(), dense.size());
 }
 
@@ -140,7 +168,7 @@ TEST(Sample, TrianglesWithACommonEdgeHaveTheSameSamplesThere) {
         pair.triangles = {{0, 1, 2}, {1, 0, 3}};
         const SamplingDistance distance = random_distance(random);
         Stage stage("sample", {}, {});
-        const auto samples = sample(pair, distance, 0.0, stage).value();
+        const auto samples = sample(pair, no_solids, distance, 0.0, stage).value();
         const Vec3d& a = pair.vertices[0];
         const Vec3d& b = pair.vertices[1];
         // Samples of the common edge are midpoints of midpoints of it: none but those lie this near to it.
@@ -161,7 +189,7 @@ TEST(Sample, IsTheSameForAnyNumberOfThreads) {
     const auto sampled = [&](int threads) {
         return tbb::task_arena(threads).execute([&] {
             Stage stage("sample", {}, {});
-            return sample(soup, distance, 0.0, stage).value();
+            return sample(soup, no_solids, distance, 0.0, stage).value();
         });
     };
     EXPECT_EQ(sampled(1), sampled(2));
@@ -180,14 +208,14 @@ TEST(SamplingDistance, IsThreeQuartersOfTheDistanceToTheMedialAxisWithinItsLimit
 TEST(Sample, TrianglesThatAreFineEnoughGiveTheirCorners) {
     const Triangle3d t{Vec3d(0, 0, 0), Vec3d(5, 0, 0), Vec3d(0, 5, 0)};
     Stage stage("sample", {}, {});
-    EXPECT_THAT(sample(scene_of(t), SamplingDistance(4.0), 0.0, stage).value(),
+    EXPECT_THAT(sample(scene_of(t), no_solids, SamplingDistance(4.0), 0.0, stage).value(),
                 testing::UnorderedElementsAre(t[0], t[1], t[2]));
 }
 
 TEST(Sample, RefusesWhatNeedsTooManySamples) {
     const Triangle3d t{Vec3d(0, 0, 0), Vec3d(1e6, 0, 0), Vec3d(0, 1e6, 0)};
     Stage stage("sample", {}, {});
-    const auto refused = sample(scene_of(t), SamplingDistance(4.0), 0.0, stage);
+    const auto refused = sample(scene_of(t), no_solids, SamplingDistance(4.0), 0.0, stage);
     ASSERT_FALSE(refused);
     EXPECT_THAT(refused.error().message, testing::HasSubstr("made.map"));
     EXPECT_THAT(refused.error().message, testing::HasSubstr("the limit is 20 million"));
