@@ -135,8 +135,8 @@ void add_bake(CLI::App& root, Run& run) {
     command
         ->add_option(
             "--loss", options->parameters.loss,
-            "Mesh reduction: free distance that the centre of a ball may lose, in percent of d0; 0 keeps the "
-            "whole mesh")
+            "Mesh reduction: free distance that the centre of a ball may lose, in percent of the mean over "
+            "the map, at most 3/2 d0; 0 keeps the whole mesh")
         ->check(CLI::Range(0.0, bake::max_loss))
         ->capture_default_str();
     command

@@ -38,6 +38,7 @@ namespace {
 constexpr double metres_of_nominal_unit = 0.0254;
 
 constexpr double default_d0 = 16.0;
+constexpr double most_loss = 1.5;  // of d0
 // Nominal units: half the width of the narrowest gap between a cloud's points that joins two places. There
 // are always some that a hair would pass.
 constexpr double passage = 5.5;
@@ -225,7 +226,11 @@ float less(float distance, double margin) {
 
 Result<void> Bake::reduce(Stage& stage) {
     if (!(parameters_.loss > 0.0)) return {};
-    const Reduction reduction{parameters_.loss / 100.0 * d0_, parameters_.triangles};
+    const double mean = mean_free_distance(mesh_, free_distance_) - margin();
+    const double loss = std::min(parameters_.loss / 100.0 * mean, most_loss * d0_);
+    stage.count("mean free distance", mean);
+    stage.count("allowed loss", loss);
+    const Reduction reduction{loss, parameters_.triangles};
     return bake::reduce(mesh_, free_distance_, scene_, obstacles_, reduction, stage);
 }
 

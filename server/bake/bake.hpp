@@ -34,9 +34,10 @@ struct Parameters {
     // a point cloud the points' spacing.
     double d0 = 0.0;
     unsigned threads = 0;  // 0 = one a core, which is also the most. Never changes the result
-    // Mesh reduction: how much free distance the centre of a ball may lose, as percent of d0. 0 keeps the
-    // whole mesh. 0 .. max_loss. The default keeps tightness above 0.93 with a thirtieth of the triangles
-    double loss = 65.0;
+    // Mesh reduction: how much free distance the centre of a ball may lose, as percent of the mean over the
+    // mesh, but at most 3/2 d0: what keeps 3/2 d0 away from the obstacles stays in free space. 0 keeps the
+    // whole mesh. 0 .. max_loss. The default keeps tightness above 0.93
+    double loss = 16.0;
     std::uint64_t triangles = 0;  // > 0: reduction ends as soon as no more than these are left
     Sampling sampling = Sampling::adaptive;
     double coarsest = 8.0;  // adaptive: no sampling distance is more than this times d0. 1 .. max_coarsest

@@ -1,6 +1,7 @@
 #include "bake/certificate.hpp"
 
 #include <algorithm>
+#include <boost/container/small_vector.hpp>
 #include <cmath>
 
 namespace camdir::bake {
@@ -41,12 +42,32 @@ Crossing cross(const Vec3d& a, const Vec3d& b, const Triangle3d& triangle) {
     return {true, t, {1.0 - weight_u - weight_v, weight_u, weight_v}};
 }
 
+struct Balls {
+    boost::container::small_vector<Vec3d, 16> centres;
+    boost::container::small_vector<double, 16> radii;
+};
+
+// Shared corners once.
+Balls balls_of(std::span<const Slab> slabs) {
+    Balls balls;
+    const auto contain = [&](const Vec3d& centre, double radius) {
+        for (std::size_t i = 0; i < balls.centres.size(); ++i)
+            if (balls.centres[i] == centre && balls.radii[i] == radius) return true;
+        return false;
+    };
+    for (const Slab& slab : slabs)
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (contain(slab.corners()[i], slab.free_distance()[i])) continue;
+            balls.centres.push_back(slab.corners()[i]);
+            balls.radii.push_back(slab.free_distance()[i]);
+        }
+    return balls;
+}
+
 }  // namespace
 
 Slab::Slab(const Triangle3d& corners, const std::array<double, 3>& free_distance)
-    : corners_(corners),
-      free_distance_(free_distance),
-      middle_((corners[0] + corners[1] + corners[2]) / 3.0) {
+    : corners_(corners), free_distance_(free_distance) {
     const Vec3d u = corners[1] - corners[0];
     const Vec3d v = corners[2] - corners[0];
     normal_ = u.cross(v);
@@ -65,63 +86,6 @@ Margin Slab::at(const std::array<double, 3>& weights, const Vec3d& q) const {
     const double r =
         weights[0] * free_distance_[0] + weights[1] * free_distance_[1] + weights[2] * free_distance_[2];
     return {(m - q).norm() - r, weights};
-}
-
-double Slab::reach(const Vec3d& direction, std::size_t corner) const {
-    return direction.dot(corners_[corner]) + free_distance_[corner];
-}
-
-std::size_t Slab::farthest(const Vec3d& direction) const {
-    const std::size_t corner = reach(direction, 1) > reach(direction, 0) ? 1 : 0;
-    return reach(direction, 2) > reach(direction, corner) ? 2 : corner;
-}
-
-double Slab::reach(const Vec3d& direction) const {
-    return std::max({reach(direction, 0), reach(direction, 1), reach(direction, 2)});
-}
-
-double Slab::margin_at_least(const Box3d& box) const {
-    const Vec3d nearest = middle_.cwiseMax(box.min()).cwiseMin(box.max());
-    const Vec3d to_box = nearest - middle_;
-    const double distance = to_box.norm();
-    if (!(distance > 0.0)) return -std::numeric_limits<double>::infinity();
-    const Vec3d direction = to_box / distance;
-    // The nearest point of a box to a point outside is also its lowest along the direction to it.
-    return direction.dot(nearest) - reach(direction);
-}
-
-double Slab::margin_at_least_by_plane(const Triangle3d& obstacle) const {
-    const Vec3d normal = (obstacle[1] - obstacle[0]).cross(obstacle[2] - obstacle[0]);
-    const double length = normal.norm();
-    const double side = normal.dot(middle_ - obstacle[0]);
-    if (!(length > 0.0)) return -std::numeric_limits<double>::infinity();
-    const Vec3d direction = normal / (side < 0.0 ? length : -length);
-    return direction.dot(obstacle[0]) - reach(direction);
-}
-
-// Walks from the middle towards the m of the smallest margin, in the manner of Frank and Wolfe: the direction
-// to the nearest point of the obstacle separates the two, or else the slab reaches farthest along it at one
-// of its corners, and the walk goes there. Three of four obstacles that the middle's own direction leaves are
-// told apart so at a fraction of what the margin costs.
-double Slab::margin_at_least(const Triangle3d& obstacle) const {
-    constexpr int max_steps = 8;
-    constexpr double stride = 0.4;
-    double bound = margin_at_least_by_plane(obstacle);
-    Vec3d m = middle_;
-    double r = (free_distance_[0] + free_distance_[1] + free_distance_[2]) / 3.0;
-    for (int step = 0; step < max_steps && bound < 0.0; ++step) {
-        const Vec3d to_obstacle = closest_point(obstacle, m) - m;
-        const double distance = to_obstacle.norm();
-        if (!(distance > std::max(r, 0.0))) break;  // nothing separates them
-        const Vec3d direction = to_obstacle / distance;
-        const double lowest =
-            std::min({direction.dot(obstacle[0]), direction.dot(obstacle[1]), direction.dot(obstacle[2])});
-        const std::size_t corner = farthest(direction);
-        bound = std::max(bound, lowest - reach(direction, corner));
-        m += stride * (corners_[corner] - m);
-        r += stride * (free_distance_[corner] - r);
-    }
-    return bound;
 }
 
 Margin Slab::from_edge_to_point(int edge, const Vec3d& q) const {
@@ -227,24 +191,32 @@ Margin margin(const Slab& slab, const Obstacles& obstacles, double enough) {
     return worst;
 }
 
-std::uint32_t find_violated(const Slab& slab, const Obstacles& obstacles, std::uint32_t suspect) {
+std::uint32_t find_violated(std::span<const Slab> slabs, const Obstacles& obstacles, std::uint32_t suspect) {
+    if (slabs.empty()) return freespace::none;
     const auto violates = [&](std::uint32_t position) {
         const Triangle3d& obstacle = obstacles.triangles()[position];
-        return slab.margin_at_least(obstacle) < 0.0 && slab.margin(obstacle).value < 0.0;
+        return std::any_of(slabs.begin(), slabs.end(), [&](const Slab& slab) {
+            return slab.margin_at_least(obstacle) < 0.0 && slab.margin(obstacle).value < 0.0;
+        });
     };
     if (suspect != freespace::none && violates(suspect)) return suspect;
+    const Balls balls = balls_of(slabs);
+    const BallHull<> hull({balls.centres.data(), balls.centres.size()},
+                          {balls.radii.data(), balls.radii.size()});
     std::uint32_t found = freespace::none;
     obstacles.tree().visit_by(
-        [&](const Box3d& box) { return slab.margin_at_least(box); },
+        [&](const Box3d& box) { return hull.margin_at_least(box); },
         [&] { return found == freespace::none ? 0.0 : -std::numeric_limits<double>::infinity(); },
         [&](std::uint32_t position) {
-            if (found == freespace::none && violates(position)) found = position;
+            if (found != freespace::none) return;
+            if (hull.margin_at_least(obstacles.triangles()[position]) < 0.0 && violates(position))
+                found = position;
         });
     return found;
 }
 
 bool is_certified(const Slab& slab, const Obstacles& obstacles) {
-    return find_violated(slab, obstacles) == freespace::none;
+    return find_violated({&slab, 1}, obstacles) == freespace::none;
 }
 
 }  // namespace camdir::bake

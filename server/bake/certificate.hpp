@@ -4,7 +4,9 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <span>
 
+#include "bake/ball_hull.hpp"
 #include "bake/obstacles.hpp"
 #include "bake/triangle.hpp"
 #include "freespace/freespace.hpp"
@@ -28,25 +30,24 @@ class Slab {
     // The margin towards one obstacle triangle. The triangle may be a segment or a point.
     [[nodiscard]] Margin margin(const Triangle3d& obstacle) const;
 
-    // Lower bounds of the margin, cheap: a direction separates the slab from what lies beyond. For a triangle
-    // the search for a direction ends with the first that gives 0 or more.
-    [[nodiscard]] double margin_at_least(const Box3d& box) const;
-    [[nodiscard]] double margin_at_least(const Triangle3d& obstacle) const;
+    // Lower bounds of the margin, cheap: those of the balls' hull.
+    [[nodiscard]] double margin_at_least(const Box3d& box) const { return hull().margin_at_least(box); }
+    [[nodiscard]] double margin_at_least(const Triangle3d& obstacle) const {
+        return hull().margin_at_least(obstacle);
+    }
 
     // The largest r(m) - |m - point| over the points m of the triangle: the free distance that the slab gives
     // to the point; not positive when the point is outside.
     [[nodiscard]] double distance(const Vec3d& point) const { return -towards_point(point).value; }
 
     // The largest value of a point's coordinate along `direction` (of length <= 1) over the slab.
-    [[nodiscard]] double reach(const Vec3d& direction) const;
+    [[nodiscard]] double reach(const Vec3d& direction) const { return hull().reach(direction); }
+
+    [[nodiscard]] const Triangle3d& corners() const { return corners_; }
+    [[nodiscard]] const std::array<double, 3>& free_distance() const { return free_distance_; }
 
   private:
-    // Of the ball at a corner alone; and the corner where it is largest.
-    [[nodiscard]] double reach(const Vec3d& direction, std::size_t corner) const;
-    [[nodiscard]] std::size_t farthest(const Vec3d& direction) const;
-
-    // Both of the obstacle's normals as the direction.
-    [[nodiscard]] double margin_at_least_by_plane(const Triangle3d& obstacle) const;
+    [[nodiscard]] BallHull<3> hull() const { return {corners_, free_distance_}; }
 
     // The best m towards one point: the maximiser of r(m) - |m - q|. By the closed form on a tilted slab.
     [[nodiscard]] Margin towards_point(const Vec3d& q) const;
@@ -58,7 +59,6 @@ class Slab {
 
     Triangle3d corners_;
     std::array<double, 3> free_distance_;
-    Vec3d middle_;
     Vec3d normal_;        // not of unit length
     double area2_;        // squared length of normal_
     Vec3d incline_;       // from the foot of a point at distance 1 above the triangle to the best m for it
@@ -68,9 +68,10 @@ class Slab {
 // The smallest margin towards any obstacle as far as it lies below `enough`; otherwise some value >= enough.
 [[nodiscard]] Margin margin(const Slab& slab, const Obstacles& obstacles, double enough);
 
-// The position of an obstacle that a ball of the slab reaches into, or none. `suspect` is tried first:
-// whoever asks for similar slabs knows one that was found before.
-[[nodiscard]] std::uint32_t find_violated(const Slab& slab, const Obstacles& obstacles,
+// The position of an obstacle that a ball of the slabs reaches into, or none. They should lie close together:
+// what their common hull keeps away from is looked at once. `suspect` is tried first: whoever asks for
+// similar slabs knows one that was found before.
+[[nodiscard]] std::uint32_t find_violated(std::span<const Slab> slabs, const Obstacles& obstacles,
                                           std::uint32_t suspect = freespace::none);
 
 // No ball of the slab reaches into an obstacle: margin() would be at least 0.

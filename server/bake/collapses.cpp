@@ -49,7 +49,7 @@ double Collapses::star_area(std::uint32_t vertex) const {
     return area;
 }
 
-// Queues the vertex's cheapest collapse that the topology allows.
+// Queues the vertex's cheapest collapse.
 void Collapses::enqueue(std::uint32_t vertex) {
     State& state = state_of(vertex);
     state.changed = false;
@@ -57,40 +57,56 @@ void Collapses::enqueue(std::uint32_t vertex) {
     all_.complex.neighbours(vertex, neighbours_);
     if (!std::all_of(neighbours_.begin(), neighbours_.end(), [&](std::uint32_t n) { return is_mine(n); }))
         return;
-    rank_targets(vertex, state);
-    const auto best = std::find_if(targets_.begin(), targets_.end(), [&](const Target& target) {
-        return all_.complex.can_collapse(vertex, target.to);
-    });
-    if (best == targets_.end()) return;
+    const std::optional<Target> best = cheapest_target(vertex, state);
+    if (!best) return;
     // Two sides of a third of the star, thinner by what is lost.
     state.lost_volume = 2.0 / 3.0 * star_area(vertex) * best->cost;
     state.queued = true;
     queue_.push({state.lost_volume, vertex, best->to});
 }
 
-// The neighbours that may take the vertex's place without too much loss at itself, the cheapest first.
-void Collapses::rank_targets(std::uint32_t vertex, const State& state) {
-    const double distance = all_.vertices[vertex].free_distance;
-    const Vec3d point = all_.position(vertex);
-    const auto& certified = all_.certified[vertex];
+// The neighbour that may take the vertex's place at the least cost. The length alone bounds the cost from
+// below, so that most neighbours need not be looked at.
+std::optional<Collapses::Target> Collapses::cheapest_target(std::uint32_t vertex, const State& state) {
     targets_.clear();
-    for (const std::uint32_t to : neighbours_) {
-        // A vertex of the roadmap must stay on it.
-        if (distance > 0.0 && all_.vertices[to].free_distance <= 0.0F) continue;
-        if (std::find(state.refused.begin(), state.refused.end(), to) != state.refused.end()) continue;
-        const bool violates = std::any_of(certified.begin(), certified.end(),
-                                          [&](const auto& known) { return known.to == to && !known.free; });
-        if (violates) continue;
-        double lost = 0.0;
-        if (distance > 0.0) {
-            find_moved(vertex, to);
-            lost = distance - find_home(all_.vertices, homes_, point).distance;
+    for (const std::uint32_t to : neighbours_)
+        if (may_take_place(vertex, to, state)) targets_.push_back({cost_of_length(vertex, to), to, false});
+    std::make_heap(targets_.begin(), targets_.end());
+    while (!targets_.empty()) {
+        std::pop_heap(targets_.begin(), targets_.end());
+        Target& least = targets_.back();
+        if (least.known) return least;
+        const double lost = lost_distance(vertex, least.to);
+        if (lost <= most_loss_) {
+            least = {std::max(lost, 0.0) + least.cost, least.to, true};
+            std::push_heap(targets_.begin(), targets_.end());
+        } else {
+            targets_.pop_back();
         }
-        if (!(lost <= most_loss_)) continue;
-        const double length = (all_.position(to) - point).norm();
-        targets_.push_back({std::max(lost, 0.0) + loss_of_length * length, to});
     }
-    std::sort(targets_.begin(), targets_.end());
+    return std::nullopt;
+}
+
+double Collapses::cost_of_length(std::uint32_t from, std::uint32_t to) const {
+    return loss_of_length * (all_.position(to) - all_.position(from)).norm();
+}
+
+// As far as is known without a look at the slabs.
+bool Collapses::may_take_place(std::uint32_t vertex, std::uint32_t to, const State& state) const {
+    // A vertex of the roadmap must stay on it.
+    if (all_.vertices[vertex].free_distance > 0.0F && all_.vertices[to].free_distance <= 0.0F) return false;
+    if (std::find(state.refused.begin(), state.refused.end(), to) != state.refused.end()) return false;
+    const auto& certified = all_.certified[vertex];
+    return std::none_of(certified.begin(), certified.end(),
+                        [&](const auto& known) { return known.to == to && !known.free; });
+}
+
+// At the vertex itself, when `to` takes its place.
+double Collapses::lost_distance(std::uint32_t vertex, std::uint32_t to) {
+    const double distance = all_.vertices[vertex].free_distance;
+    if (!(distance > 0.0)) return 0.0;
+    find_moved(vertex, to);
+    return distance - find_home(all_.vertices, homes_, all_.position(vertex)).distance;
 }
 
 void Collapses::surroundings_changed(std::span<const std::uint32_t> vertices) {
@@ -128,14 +144,19 @@ bool Collapses::moved_is_free(std::uint32_t from, std::uint32_t to) {
     const bool free =
         std::none_of(homes_.begin(), homes_.end(),
                      [&](const freespace::Triangle& moved) { return is_flat(all_.corners(moved)); }) &&
-        std::all_of(homes_.begin(), homes_.end(), [&](const freespace::Triangle& moved) {
-            const std::uint32_t violated =
-                find_violated(all_.slab(moved), all_.obstacles, all_.suspect[from]);
-            if (violated != freespace::none) all_.suspect[from] = violated;
-            return violated == freespace::none;
-        });
+        slabs_are_free(from);
     certified.push_back({to, free});
     return free;
+}
+
+// Those of the moved triangles.
+bool Collapses::slabs_are_free(std::uint32_t from) {
+    slabs_.clear();
+    for (const freespace::Triangle& moved : homes_)
+        slabs_.push_back(all_.slab(moved));
+    const std::uint32_t violated = find_violated(slabs_, all_.obstacles, all_.suspect[from]);
+    if (violated != freespace::none) all_.suspect[from] = violated;
+    return violated == freespace::none;
 }
 
 // Settles the witnesses of the triangles at `from`. False when one would lose too much.
@@ -158,6 +179,8 @@ bool Collapses::find_homes(std::uint32_t from, std::uint32_t to) {
 }
 
 bool Collapses::collapse(std::uint32_t from, std::uint32_t to) {
+    // Not before: the triangles beyond the star, which have a say in it, may have changed.
+    if (!all_.complex.can_collapse(from, to)) return false;
     find_moved(from, to);
     if (!moved_is_free(from, to) || !find_homes(from, to)) return false;
     for (const std::uint32_t triangle : all_.complex.star(from))

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <queue>
 #include <span>
 #include <tuple>
@@ -56,9 +57,10 @@ class Collapses {
     struct Target {
         double cost;
         std::uint32_t to;
+        bool known;  // else the cost is a lower bound
 
-        bool operator<(const Target& other) const {
-            return std::tie(cost, to) < std::tie(other.cost, other.to);
+        bool operator<(const Target& other) const {  // a heap's top is the largest
+            return std::tie(cost, to) > std::tie(other.cost, other.to);
         }
     };
 
@@ -68,11 +70,15 @@ class Collapses {
         return is_mine(corners[0]) && is_mine(corners[1]) && is_mine(corners[2]);
     }
     void enqueue(std::uint32_t vertex);
-    void rank_targets(std::uint32_t vertex, const State& state);
+    [[nodiscard]] std::optional<Target> cheapest_target(std::uint32_t vertex, const State& state);
+    [[nodiscard]] bool may_take_place(std::uint32_t vertex, std::uint32_t to, const State& state) const;
+    [[nodiscard]] double cost_of_length(std::uint32_t from, std::uint32_t to) const;
+    [[nodiscard]] double lost_distance(std::uint32_t vertex, std::uint32_t to);
     [[nodiscard]] double star_area(std::uint32_t vertex) const;
     [[nodiscard]] bool collapse(std::uint32_t from, std::uint32_t to);
     void find_moved(std::uint32_t from, std::uint32_t to);
     [[nodiscard]] bool moved_is_free(std::uint32_t from, std::uint32_t to);
+    [[nodiscard]] bool slabs_are_free(std::uint32_t from);
     [[nodiscard]] bool find_homes(std::uint32_t from, std::uint32_t to);
     void surroundings_changed(std::span<const std::uint32_t> vertices);
 
@@ -90,6 +96,7 @@ class Collapses {
     std::vector<Target> targets_;
     std::vector<freespace::Triangle> homes_;  // first what the triangles at `from` become, then those at `to`
     std::size_t moved_count_ = 0;             // of the first kind
+    std::vector<Slab> slabs_;                 // of the moved triangles
     std::vector<std::uint32_t> home_ids_;     // the triangles that they are
     std::vector<std::pair<std::uint32_t, Witness>> settled_;  // witnesses with their new triangles
 };

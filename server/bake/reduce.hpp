@@ -17,6 +17,9 @@ struct Reduction {
     std::uint64_t triangles = 0;  // > 0: stop soon after no more than these are left
 };
 
+// Over the mesh's area; balls that are none count as 0.
+[[nodiscard]] double mean_free_distance(const MedialMesh& mesh, const std::vector<float>& free_distance);
+
 // Removes vertices by merging them into neighbours, those first that lose the least freespace volume. Part of
 // the loss is spent beforehand: lower free distances let many more collapses keep clear of the obstacles; the
 // vertices that are left get back what their slabs allow. Afterwards, as before:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/parallel.hpp"
 #include "freespace/slab.hpp"
 
 namespace camdir::bake {
@@ -43,10 +44,13 @@ Shrinking::Shrinking(const MedialMesh& mesh, const std::vector<float>& free_dist
         const double distance = vertices[vertex].free_distance;
         if (distance > 0.0 && !star.empty()) witnesses[star.front()].push_back({position(vertex), distance});
     }
-    for (const scene::SpawnPoint& spawn : scene.spawn_points) {
-        const Home home = find_home(vertices, mesh.triangles, spawn.eye);
-        if (home.distance > 0.0)
-            witnesses[home.position].push_back({spawn.eye, home.distance, spawn_share * home.distance});
+    const std::vector<scene::SpawnPoint>& spawns = scene.spawn_points;
+    std::vector<Home> homes(spawns.size());
+    parallel_for(std::size_t{0}, homes.size(),
+                 [&](std::size_t i) { homes[i] = find_home(vertices, mesh.triangles, spawns[i].eye); });
+    for (std::size_t i = 0; i < homes.size(); ++i) {
+        const auto& [position, distance] = homes[i];
+        if (distance > 0.0) witnesses[position].push_back({spawns[i].eye, distance, spawn_share * distance});
     }
 }
 

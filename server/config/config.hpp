@@ -40,7 +40,7 @@ struct Map {
     // Of bake::Parameters, by the same names.
     double d0 = 0.0;
     std::string sampling = "adaptive";
-    double loss = 65.0;
+    double loss = 16.0;
     std::int64_t triangles = 0;
     // scene::ReadOptions
     double metres_per_unit = 0.0;

@@ -185,7 +185,7 @@ void add_maps(std::vector<Key>& table) {
          "loss",
          in_map(&Map::loss),
          "Mesh reduction of that bake: free distance that the centre of a ball may lose, in percent of "
-         "d0; 0 keeps the whole mesh.",
+         "the mean over the map, at most 3/2 d0; 0 keeps the whole mesh.",
          "%",
          0,
          100,
