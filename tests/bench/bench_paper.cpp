@@ -112,17 +112,30 @@ bool wanted(const Options& options, std::string_view part) {
            std::find(options.only.begin(), options.only.end(), part) != options.only.end();
 }
 
+Json head_of(const Options& options) {
+    return {{"map", options.map},
+            {"d0", options.settings.d0},
+            {"threads", options.settings.threads},
+            {"swap_threshold", options.settings.swap_threshold},
+            {"loss", options.settings.loss},
+            {"methods", Json::array()}};
+}
+
+// The column by itself, so that whoever stops a long run has what was measured.
+void show_column(const Options& options, const Json& method) {
+    Json alone = head_of(options);
+    alone["methods"].push_back(method);
+    std::cerr << table_of(alone) << std::flush;
+}
+
 Json run_all(Options options) {
     if (options.samples > 0) options.settings.d0 = run_part(d0_part, options).get<double>();
-    Json report{{"map", options.map},
-                {"d0", options.settings.d0},
-                {"threads", options.settings.threads},
-                {"swap_threshold", options.settings.swap_threshold},
-                {"loss", options.settings.loss}};
-    report["methods"] = Json::array();
-    for (const Method& method : methods())
-        if (wanted(options, method.key))
-            report["methods"].push_back(run_part(std::string(method.key), options));
+    Json report = head_of(options);
+    for (const Method& method : methods()) {
+        if (!wanted(options, method.key)) continue;
+        report["methods"].push_back(run_part(std::string(method.key), options));
+        show_column(options, report["methods"].back());
+    }
     if (wanted(options, engines_part)) {
         report["engines"] = run_part(engines_part, options);
         report["engines"]["runs"] = options.runs;
