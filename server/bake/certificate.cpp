@@ -1,7 +1,6 @@
 #include "bake/certificate.hpp"
 
 #include <algorithm>
-#include <boost/container/small_vector.hpp>
 #include <cmath>
 
 namespace camdir::bake {
@@ -43,8 +42,8 @@ Crossing cross(const Vec3d& a, const Vec3d& b, const Triangle3d& triangle) {
 }
 
 struct Balls {
-    boost::container::small_vector<Vec3d, 16> centres;
-    boost::container::small_vector<double, 16> radii;
+    std::vector<Vec3d> centres;
+    std::vector<double> radii;
 };
 
 // Shared corners once.
@@ -201,8 +200,7 @@ std::uint32_t find_violated(std::span<const Slab> slabs, const Obstacles& obstac
     };
     if (suspect != freespace::none && violates(suspect)) return suspect;
     const Balls balls = balls_of(slabs);
-    const BallHull<> hull({balls.centres.data(), balls.centres.size()},
-                          {balls.radii.data(), balls.radii.size()});
+    const BallHull<> hull(balls.centres, balls.radii);
     std::uint32_t found = freespace::none;
     obstacles.tree().visit_by(
         [&](const Box3d& box) { return hull.margin_at_least(box); },
