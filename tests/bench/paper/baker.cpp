@@ -40,12 +40,9 @@ Result<Product> run_baker(bool adaptive, const scene::Scene& scene, const Settin
                 if (c.what == what) return static_cast<std::uint64_t>(c.value);
             return std::uint64_t{0};
         };
-        if (stage.stage == "weld") figures.samples = count("points");
+        if (stage.stage == "weld") figures.samples = count("samples");
         if (stage.stage == "delaunay") figures.voronoi_vertices = count("cells");
-        if (stage.stage == "inside") {
-            figures.inner_vertices = count("vertices");
-            figures.inner_triangles = count("triangles");
-        }
+        if (stage.stage == "inside") figures.inner_triangles = count("triangles");
     };
     auto baked = bake::bake(scene, parameters, {}, {}, finished);
     if (!baked) return tl::unexpected(std::move(baked.error()));

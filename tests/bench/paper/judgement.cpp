@@ -23,7 +23,7 @@ Json to_json(const Figures& figures) {
     json["all"] = to_json(all);
     json["samples"] = figures.samples;
     json["voronoi_vertices"] = figures.voronoi_vertices;
-    json["inner_vertices"] = figures.inner_vertices;
+    if (figures.inner_vertices > 0) json["inner_vertices"] = figures.inner_vertices;
     if (figures.inner_faces > 0) json["inner_faces"] = figures.inner_faces;
     json["inner_triangles"] = figures.inner_triangles;
     return json;
