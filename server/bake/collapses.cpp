@@ -10,14 +10,10 @@ constexpr double flattest_triangle = 1e-3;  // height over longest side
 // Where nothing is lost, short edges go first.
 constexpr double loss_of_length = 0.005;
 
-double area_of(const Triangle3d& t) {
-    return 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm();
-}
-
 bool is_flat(const Triangle3d& t) {
     const double longest2 =
         std::max({(t[1] - t[0]).squaredNorm(), (t[2] - t[1]).squaredNorm(), (t[0] - t[2]).squaredNorm()});
-    return 2.0 * area_of(t) < flattest_triangle * longest2;
+    return 2.0 * area(t) < flattest_triangle * longest2;
 }
 
 freespace::Triangle triangle_of(const Complex::Corners& corners) {
@@ -43,10 +39,10 @@ void Collapses::run(std::uint64_t wanted, const Stage& stage) {
 }
 
 double Collapses::star_area(std::uint32_t vertex) const {
-    double area = 0.0;
+    double sum = 0.0;
     for (const std::uint32_t triangle : all_.complex.star(vertex))
-        area += area_of(all_.corners(triangle_of(all_.complex.corners(triangle))));
-    return area;
+        sum += area(all_.corners(triangle_of(all_.complex.corners(triangle))));
+    return sum;
 }
 
 // Queues the vertex's cheapest collapse.

@@ -53,10 +53,6 @@ Result<std::vector<char>> parts_with_spawn_points(const MedialMesh& mesh,
     return wanted;
 }
 
-double area(const Triangle3d& t) {
-    return 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm();
-}
-
 std::vector<char> largest_part(const MedialMesh& mesh, DisjointSets& parts) {
     std::map<std::uint32_t, double> areas;
     for (const freespace::Triangle& t : mesh.triangles) {

@@ -141,16 +141,15 @@ void compact(MedialMesh& mesh, std::vector<float>& free_distance,
 }  // namespace
 
 double mean_free_distance(const MedialMesh& mesh, const std::vector<float>& free_distance) {
-    double area = 0.0;
     double sum = 0.0;
+    double areas = 0.0;
     for (const freespace::Triangle& t : mesh.triangles) {
-        const Triangle3d corners = mesh.corners(t);
-        const double of_one = (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm();
+        const double of_one = area(mesh.corners(t));
         for (const std::uint32_t vertex : {t.a, t.b, t.c})
             sum += of_one / 3.0 * std::max(0.0F, free_distance[vertex]);
-        area += of_one;
+        areas += of_one;
     }
-    return area > 0.0 ? sum / area : 0.0;
+    return areas > 0.0 ? sum / areas : 0.0;
 }
 
 Result<void> reduce(MedialMesh& mesh, std::vector<float>& free_distance, const scene::Scene& scene,

@@ -41,7 +41,7 @@ class Refinement {
         if (!conceal(second)) refine(second, {at_middle, at[to], at[apex]}, samples);
     }
 
-    // By solids that reach over a gap narrower than rounding may make one.
+    // Gaps as narrow as rounding makes them count as closed.
     [[nodiscard]] bool conceal(const Triangle3d& t) const {
         return solids_.conceal(t, 0.001 * distance_.finest());
     }
@@ -59,10 +59,6 @@ class Refinement {
     const Stage& stage_;
     std::atomic<std::uint64_t> total_ = 0;
 };
-
-double area(const Triangle3d& t) {
-    return 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm();
-}
 
 tl::unexpected<Error> too_many(const scene::Scene& scene, double distance, double at_least) {
     const auto millions = static_cast<std::uint64_t>(std::min(at_least / 1e6, 1e12));

@@ -16,6 +16,10 @@ using Triangle3d = std::array<Vec3d, 3>;
     return box;
 }
 
+[[nodiscard]] inline double area(const Triangle3d& triangle) {
+    return 0.5 * (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]).norm();
+}
+
 // The corner from which the longest edge leads to the next corner; of equal ones the first.
 [[nodiscard]] int longest_edge(const Triangle3d& triangle);
 

@@ -58,10 +58,6 @@ std::size_t roadmap_parts(const freespace::Contents& contents) {
     return found.size();
 }
 
-double area(const Triangle3d& t) {
-    return 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm();
-}
-
 // In map units: `percent` of what a random point of the mesh has, but at most 3/2 d0.
 double allowed_loss(const freespace::Contents& whole, double percent) {
     double sum = 0.0;
