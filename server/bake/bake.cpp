@@ -25,6 +25,7 @@
 #include "bake/reduce.hpp"
 #include "bake/sample.hpp"
 #include "bake/sampling_distance.hpp"
+#include "bake/shell.hpp"
 #include "bake/solids.hpp"
 #include "bake/stage.hpp"
 #include "bake/triangulate.hpp"
@@ -39,6 +40,11 @@ constexpr double metres_of_nominal_unit = 0.0254;
 
 constexpr double default_d0 = 16.0;
 constexpr double most_loss = 1.5;  // of d0
+// Of the sampling distance: Delaunay edges from this length on have faces. The paper has 2, and so no face
+// that touches an obstacle; but a duct whose balls touch three walls evenly has its samples sqrt(3) radii
+// apart, and closes with a radius well above d0. Of the faces that the shorter edges add a few touch an
+// obstacle, as triangles that crossing.hpp removes.
+constexpr double long_edge = 1.7;
 // Nominal units: half the width of the narrowest gap between a cloud's points that joins two places. There
 // are always some that a hair would pass.
 constexpr double passage = 5.5;
@@ -73,8 +79,14 @@ class Bake {
     Result<void> pack(Stage& stage);
 
     [[nodiscard]] bool is_cloud() const { return !scene_.points.empty(); }
+    // Where volumes are known, the solids close the map.
+    [[nodiscard]] bool may_be_open() const { return scene_.brushes.empty(); }
     // Dropped samples must not break the sampling condition: sampling is finer by this distance.
     [[nodiscard]] double weld_distance() const { return is_cloud() ? d0_ / 2.0 : d0_ / 64.0; }
+    // Voronoi vertices nearer to each other are one. Half of the triangles have no others, and samples as
+    // dense as d0 say nothing of details this small. A cloud's passages are as narrow as its margin leaves
+    // them.
+    [[nodiscard]] double vertex_weld_distance() const { return is_cloud() ? d0_ / 64.0 : d0_ / 4.0; }
     // What is free around a cloud's points: surface lies up to d0 away from them.
     [[nodiscard]] double margin() const { return is_cloud() ? d0_ : 0.0; }
 
@@ -182,11 +194,21 @@ Result<void> Bake::weld(Stage& stage) {
 
 Result<void> Bake::delaunay(Stage& stage) {
     if (samples_.size() < 4) return fail(scene_.source + ": the obstacles have fewer than 4 samples");
+    if (may_be_open()) {
+        const double spacing = shell_spacing(scene_.bounds, d0_);
+        const std::vector<Vec3d> shell = shell_samples(scene_.bounds, spacing);
+        samples_.insert(samples_.end(), shell.begin(), shell.end());
+        distances_.resize(samples_.size(), spacing);
+        stage.count("shell samples", static_cast<double>(shell.size()));
+    }
+    for (double& distance : distances_)
+        distance *= long_edge;
     return keep(bake::delaunay(samples_, distances_, stage), delaunay_);
 }
 
 Result<void> Bake::voronoi(Stage& stage) {
-    auto done = keep(voronoi_faces(samples_, delaunay_, scene_.bounds, 0.01 * unit_, stage), faces_);
+    auto done =
+        keep(voronoi_faces(samples_, delaunay_, scene_.bounds, vertex_weld_distance(), stage), faces_);
     delaunay_ = {};
     samples_ = {};
     distances_ = {};

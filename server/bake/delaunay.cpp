@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <tuple>
 #include <utility>
 
 #include "base/parallel.hpp"
@@ -70,35 +69,34 @@ Result<std::vector<Cell>> number_cells(const Triangulation& triangulation, Stage
 }
 
 struct LongEdge {
-    std::uint32_t from, to;  // samples, from < to
-    Triangulation::Edge edge;
+    Edge samples;
+    Triangulation::Edge edge;  // leads from the first to the second
 };
 
 Result<std::vector<LongEdge>> long_edges(const Triangulation& triangulation,
-                                         const std::vector<double>& distances, Stage& stage) {
+                                         const std::vector<double>& min_lengths, Stage& stage) {
     std::vector<LongEdge> edges;
     std::size_t seen = 0;
     for (const auto& [cell, i, j] : triangulation.finite_edges()) {
         if (++seen % 65536 == 0 && !stage.advance(0, 0)) return stage.interrupted();
         const auto a = cell->vertex(i);
         const auto b = cell->vertex(j);
-        const double min_length = 2.0 * std::min(distances[a->info()], distances[b->info()]);
+        const double min_length = std::min(min_lengths[a->info()], min_lengths[b->info()]);
         if (CGAL::squared_distance(a->point(), b->point()) < min_length * min_length) continue;
         if (a->info() < b->info())
-            edges.push_back({a->info(), b->info(), {cell, i, j}});
+            edges.push_back({{a->info(), b->info()}, {cell, i, j}});
         else
-            edges.push_back({b->info(), a->info(), {cell, j, i}});
+            edges.push_back({{b->info(), a->info()}, {cell, j, i}});
     }
-    parallel_sort(edges.begin(), edges.end(), [](const LongEdge& a, const LongEdge& b) {
-        return std::tie(a.from, a.to) < std::tie(b.from, b.to);
-    });
+    parallel_sort(edges.begin(), edges.end(),
+                  [](const LongEdge& a, const LongEdge& b) { return a.samples < b.samples; });
     return edges;
 }
 
 // Appends the cells around the edge; nothing when the face reaches to infinity.
-void append_ring(const Triangulation& triangulation, const Triangulation::Edge& edge, Delaunay& result) {
+void append_ring(const Triangulation& triangulation, const LongEdge& edge, Delaunay& result) {
     const std::size_t begin = result.ring_cells.size();
-    const auto first = triangulation.incident_cells(edge);
+    const auto first = triangulation.incident_cells(edge.edge);
     auto cell = first;
     do {
         if (triangulation.is_infinite(cell)) {
@@ -110,13 +108,14 @@ void append_ring(const Triangulation& triangulation, const Triangulation::Edge& 
     const auto ring = result.ring_cells.begin() + static_cast<std::ptrdiff_t>(begin);
     std::rotate(ring, std::min_element(ring, result.ring_cells.end()), result.ring_cells.end());
     result.ring_begin.push_back(result.ring_cells.size());
+    result.ring_edges.push_back(edge.samples);
 }
 
 }  // namespace
 
-Result<Delaunay> delaunay(const std::vector<Vec3d>& samples, const std::vector<double>& distances,
+Result<Delaunay> delaunay(const std::vector<Vec3d>& samples, const std::vector<double>& min_lengths,
                           Stage& stage) {
-    assert(distances.size() == samples.size());
+    assert(min_lengths.size() == samples.size());
     Triangulation triangulation;
     if (!insert(samples, triangulation, stage)) return stage.interrupted();
     if (triangulation.dimension() < 3) return fail("all samples of the obstacles lie in one plane");
@@ -125,11 +124,11 @@ Result<Delaunay> delaunay(const std::vector<Vec3d>& samples, const std::vector<d
     if (!cells) return tl::unexpected(std::move(cells.error()));
     Delaunay result;
     result.cells = std::move(*cells);
-    const auto edges = long_edges(triangulation, distances, stage);
+    const auto edges = long_edges(triangulation, min_lengths, stage);
     if (!edges) return tl::unexpected(edges.error());
     for (std::size_t i = 0; i < edges->size(); ++i) {
         if (i % 4096 == 0 && !stage.advance(i, edges->size())) return stage.interrupted();
-        append_ring(triangulation, (*edges)[i].edge, result);
+        append_ring(triangulation, (*edges)[i], result);
     }
     stage.count("cells", static_cast<double>(result.cells.size()));
     stage.count("long edges", static_cast<double>(edges->size()));

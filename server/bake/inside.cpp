@@ -53,11 +53,18 @@ Result<std::vector<char>> parts_with_spawn_points(const MedialMesh& mesh,
     return wanted;
 }
 
-std::vector<char> largest_part(const MedialMesh& mesh, DisjointSets& parts) {
+// Of the area whose balls lie in the map's bounds: those around an open map reach out of them, and what is
+// around it is not meant.
+std::vector<char> largest_part(const MedialMesh& mesh, const std::vector<double>& clearance,
+                               const Box3d& bounds, DisjointSets& parts) {
+    const auto is_within = [&](std::uint32_t vertex) {
+        return clearance[vertex] <= depth_in(bounds, mesh.position(vertex));
+    };
     std::map<std::uint32_t, double> areas;
     for (const freespace::Triangle& t : mesh.triangles) {
+        const bool counts = is_within(t.a) && is_within(t.b) && is_within(t.c);
         for (const std::uint32_t part : std::set{parts.find(t.a), parts.find(t.b), parts.find(t.c)})
-            areas[part] += area(mesh.corners(t));
+            areas[part] += counts ? area(mesh.corners(t)) : 0.0;
     }
     std::vector<char> wanted(mesh.vertices.size());
     const auto largest = std::max_element(areas.begin(), areas.end(),
@@ -83,7 +90,7 @@ void keep_parts(MedialMesh& mesh, const std::vector<char>& wanted, DisjointSets&
 Result<void> keep_inside(MedialMesh& mesh, const std::vector<double>& clearance, const scene::Scene& scene,
                          const Solids& solids, Stage& stage) {
     DisjointSets parts = connect(mesh);
-    Result<std::vector<char>> wanted = largest_part(mesh, parts);
+    Result<std::vector<char>> wanted = largest_part(mesh, clearance, scene.bounds, parts);
     if (!scene.spawn_points.empty()) wanted = parts_with_spawn_points(mesh, clearance, scene, parts, stage);
     if (!wanted) return tl::unexpected(wanted.error());
 
@@ -119,7 +126,7 @@ Result<void> keep_inside_cloud(MedialMesh& mesh, const std::vector<double>& clea
     for (std::uint32_t vertex = 0; vertex < free.size(); ++vertex)
         free[vertex] = is_wide(vertex) ? clearance[vertex] - margin : 0.0;
 
-    Result<std::vector<char>> wanted = largest_part(mesh, parts);
+    Result<std::vector<char>> wanted = largest_part(mesh, free, scene.bounds, parts);
     if (!scene.spawn_points.empty()) wanted = parts_with_spawn_points(mesh, free, scene, parts, stage);
     if (!wanted) return tl::unexpected(wanted.error());
     keep_parts(mesh, *wanted, parts, stage);

@@ -11,8 +11,9 @@ namespace camdir::bake {
 
 // Keeps the parts of the mesh that are connected with a spawn point, over triangles that share a vertex; no
 // triangle may cross an obstacle. A spawn point's eye is connected to the vertices whose free ball holds it.
-// Without spawn points the part of the largest area stays. Also drops triangles with a corner in a solid.
-// `clearance` is that of the vertices. Fails when no spawn point is connected to the mesh.
+// Without spawn points the part of the largest area stays, of what has its balls in the map's bounds. Also
+// drops triangles with a corner in a solid. `clearance` is that of the vertices. Fails when no spawn point is
+// connected to the mesh.
 [[nodiscard]] Result<void> keep_inside(MedialMesh& mesh, const std::vector<double>& clearance,
                                        const scene::Scene& scene, const Solids& solids, Stage& stage);
 

@@ -23,10 +23,14 @@ bool covered(const Vec3d& point, const freespace::Contents& contents) {
     return std::any_of(contents.triangles.begin(), contents.triangles.end(), holds);
 }
 
-freespace::SpawnPoint widest_place(const freespace::Contents& contents) {
-    const auto widest =
-        std::max_element(contents.vertices.begin(), contents.vertices.end(),
-                         [](const auto& a, const auto& b) { return a.free_distance < b.free_distance; });
+// As far as the ball lies in the map's bounds: space is widest above and around an open map.
+freespace::SpawnPoint widest_place(const freespace::Contents& contents, const Box3d& bounds) {
+    const auto width = [&](const freespace::Vertex& vertex) {
+        return std::min(static_cast<double>(vertex.free_distance),
+                        depth_in(bounds, vertex.position().cast<double>()));
+    };
+    const auto widest = std::max_element(contents.vertices.begin(), contents.vertices.end(),
+                                         [&](const auto& a, const auto& b) { return width(a) < width(b); });
     return {widest->position(), 0.0F};
 }
 
@@ -50,13 +54,14 @@ Result<freespace::Contents> pack(const MedialMesh& mesh, const std::vector<float
     }
     if (contents.triangles.empty()) return fail(scene.source + ": no free space is left at this d0");
 
-    std::size_t covered_spawn_points = 0;
-    for (const scene::SpawnPoint& spawn : scene.spawn_points) {
-        if (!stage.advance(covered_spawn_points, scene.spawn_points.size())) return stage.interrupted();
+    for (const scene::SpawnPoint& spawn : scene.spawn_points)
         contents.spawn_points.push_back({spawn.eye.cast<float>(), static_cast<float>(spawn.yaw)});
-        covered_spawn_points += covered(spawn.eye, contents);
+    if (contents.spawn_points.empty()) contents.spawn_points.push_back(widest_place(contents, scene.bounds));
+    std::size_t covered_spawn_points = 0;
+    for (std::size_t i = 0; i < contents.spawn_points.size(); ++i) {
+        if (!stage.advance(i, contents.spawn_points.size())) return stage.interrupted();
+        covered_spawn_points += covered(contents.spawn_points[i].eye.cast<double>(), contents);
     }
-    if (contents.spawn_points.empty()) contents.spawn_points.push_back(widest_place(contents));
     stage.count("vertices", static_cast<double>(contents.vertices.size()));
     stage.count("triangles", static_cast<double>(contents.triangles.size()));
     stage.count("covered spawn points", static_cast<double>(covered_spawn_points));

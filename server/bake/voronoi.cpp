@@ -64,7 +64,7 @@ Result<VoronoiFaces> voronoi_faces(const std::vector<Vec3d>& samples, const Dela
             faces.corners.push_back(vertex_of[cell]);
         }
         faces.begin.push_back(faces.corners.size());
-        faces.rings.push_back(static_cast<std::uint32_t>(i));
+        faces.samples.push_back(delaunay.ring_edges[i]);
     }
     stage.count("vertices", static_cast<double>(faces.vertices.size()));
     stage.count("faces", static_cast<double>(faces.size()));

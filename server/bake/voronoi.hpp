@@ -15,7 +15,7 @@ struct VoronoiFaces {
     std::vector<Vec3d> vertices;
     std::vector<std::uint64_t> begin{0};
     std::vector<std::uint32_t> corners;
-    std::vector<std::uint32_t> rings;  // of each face: the Delaunay ring that it is the dual of
+    std::vector<Edge> samples;  // of each face: those that it lies between
 
     [[nodiscard]] std::size_t size() const { return begin.size() - 1; }
     [[nodiscard]] std::span<const std::uint32_t> face(std::size_t i) const {

@@ -16,4 +16,9 @@ using Box3d = Eigen::AlignedBox3d;
 template <class Real>
 inline constexpr Real radians_of_a_degree = std::numbers::pi_v<Real> / Real(180);
 
+// How deep the point is in the box: the distance to its nearest face, negative outside.
+[[nodiscard]] inline double depth_in(const Box3d& box, const Vec3d& point) {
+    return (point - box.min()).cwiseMin(box.max() - point).minCoeff();
+}
+
 }  // namespace camdir

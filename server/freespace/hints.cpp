@@ -8,7 +8,7 @@
 namespace camdir::freespace {
 namespace {
 
-constexpr float cells_per_triangle = 2.0F;
+constexpr float cells_per_triangle = 1.0F;
 constexpr float fewest_cells = 1'024.0F;
 // A hint that is a tenth short of the best does its work as well.
 constexpr Effort hint_effort{.slack = 0.1F};

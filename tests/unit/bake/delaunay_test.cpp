@@ -32,7 +32,7 @@ std::vector<Vec3d> grid_points(int side) {
 
 Delaunay triangulated(const std::vector<Vec3d>& points, double min_length) {
     Stage stage("delaunay", {}, {});
-    return delaunay(points, std::vector<double>(points.size(), 0.5 * min_length), stage).value();
+    return delaunay(points, std::vector<double>(points.size(), min_length), stage).value();
 }
 
 void expect_empty_spheres(const std::vector<Vec3d>& points, const Delaunay& result) {
@@ -76,6 +76,7 @@ void expect_rings_around_edges(const std::vector<Vec3d>& points, const Delaunay&
             EXPECT_EQ(facet.size(), 3U);
         }
         const auto [a, b] = edge_of(result, i);
+        EXPECT_EQ(result.ring_edges[i], (Edge{a, b}));
         EXPECT_GE((points[a] - points[b]).norm(), min_length);
         EXPECT_TRUE(edges.emplace(a, b).second) << "each edge once";
     }
@@ -98,12 +99,12 @@ TEST(Delaunay, SpheresOfAGridAreEmpty) {
     expect_rings_around_edges(points, result, 1.2);
 }
 
-TEST(Delaunay, TheSmallerDistanceDecidesWhichEdgesAreLong) {
+TEST(Delaunay, TheSmallerLengthDecidesWhichEdgesAreLong) {
     std::mt19937 random(12);
     const auto points = random_points(random, 300);
-    std::vector<double> distances;
+    std::vector<double> min_lengths;
     for (std::size_t i = 0; i < points.size(); ++i)
-        distances.push_back(random() % 2 == 0 ? 5.0 : 15.0);
+        min_lengths.push_back(random() % 2 == 0 ? 10.0 : 30.0);
     const auto edges_of = [&](const std::vector<double>& of) {
         Stage stage("delaunay", {}, {});
         const Delaunay result = delaunay(points, of, stage).value();
@@ -115,10 +116,10 @@ TEST(Delaunay, TheSmallerDistanceDecidesWhichEdgesAreLong) {
     auto expected = edges_of(std::vector<double>(points.size(), 0.0));
     std::erase_if(expected, [&](const auto& edge) {
         const auto [a, b] = edge;
-        return (points[a] - points[b]).norm() < 2.0 * std::min(distances[a], distances[b]);
+        return (points[a] - points[b]).norm() < std::min(min_lengths[a], min_lengths[b]);
     });
     EXPECT_THAT(expected, testing::Not(testing::IsEmpty()));
-    EXPECT_EQ(edges_of(distances), expected);
+    EXPECT_EQ(edges_of(min_lengths), expected);
 }
 
 TEST(Delaunay, OfShuffledPointsIsTheSameUpToNames) {

@@ -63,6 +63,15 @@ TEST(KeepInside, WithoutSpawnPointsKeepsTheLargestPart) {
     EXPECT_THAT(kept_of(mesh, scene), testing::ElementsAre(1U));
 }
 
+TEST(KeepInside, WithoutSpawnPointsWhatReachesOutOfTheBoundsDoesNotCount) {
+    scene::Scene scene = test::box_room().scene();
+    scene.spawn_points.clear();
+    scene.bounds.extend(Vec3d(100, 100, 300));
+    MedialMesh mesh = islands({{90, 90, 60}, {90, 90, 250}});
+    mesh.vertices[4] += Vec3f(30, 0, 0);
+    EXPECT_THAT(kept_of(mesh, scene), testing::ElementsAre(0U));
+}
+
 TEST(KeepInside, FailsWhenNoSpawnPointIsInTheFreespace) {
     scene::Scene scene = test::box_room().scene();
     scene.spawn_points[0].eye = {-8, 100, 50};
