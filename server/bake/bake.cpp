@@ -43,7 +43,7 @@ constexpr double most_loss = 1.5;  // of d0
 // Of the sampling distance: Delaunay edges from this length on have faces. The paper has 2, and so no face
 // that touches an obstacle; but a duct whose balls touch three walls evenly has its samples sqrt(3) radii
 // apart, and closes with a radius well above d0. Of the faces that the shorter edges add a few touch an
-// obstacle, as triangles that crossing.hpp removes.
+// obstacle, as triangles that crossing.hpp removes; nothing crosses a point.
 constexpr double long_edge = 1.7;
 // Nominal units: half the width of the narrowest gap between a cloud's points that joins two places. There
 // are always some that a hair would pass.
@@ -78,14 +78,16 @@ class Bake {
     Result<void> reduce(Stage& stage);
     Result<void> pack(Stage& stage);
 
+    void enclose(std::vector<double>& distances, Stage& stage);
+
     [[nodiscard]] bool is_cloud() const { return !scene_.points.empty(); }
     // Where volumes are known, the solids close the map.
     [[nodiscard]] bool may_be_open() const { return scene_.brushes.empty(); }
     // Dropped samples must not break the sampling condition: sampling is finer by this distance.
     [[nodiscard]] double weld_distance() const { return is_cloud() ? d0_ / 2.0 : d0_ / 64.0; }
-    // Voronoi vertices nearer to each other are one. Half of the triangles have no others, and samples as
-    // dense as d0 say nothing of details this small. A cloud's passages are as narrow as its margin leaves
-    // them.
+    // Voronoi vertices nearer to each other are one. Half of the triangles lie among such vertices alone, and
+    // samples as dense as d0 say nothing of details this small. A cloud's passages are as narrow as its
+    // margin leaves them.
     [[nodiscard]] double vertex_weld_distance() const { return is_cloud() ? d0_ / 64.0 : d0_ / 4.0; }
     // What is free around a cloud's points: surface lies up to d0 away from them.
     [[nodiscard]] double margin() const { return is_cloud() ? d0_ : 0.0; }
@@ -98,7 +100,6 @@ class Bake {
     Solids solids_;
     SamplingDistance distance_;
     std::vector<Vec3d> samples_;
-    std::vector<double> distances_;
     Delaunay delaunay_;
     VoronoiFaces faces_;
     MedialMesh mesh_;
@@ -187,23 +188,27 @@ Result<void> Bake::sample(Stage& stage) {
 }
 
 Result<void> Bake::weld(Stage& stage) {
-    auto done = keep(bake::weld(std::move(samples_), weld_distance(), stage), samples_);
-    if (!done) return done;
-    return keep(distances_at(samples_, distance_, stage), distances_);
+    return keep(bake::weld(std::move(samples_), weld_distance(), stage), samples_);
 }
 
 Result<void> Bake::delaunay(Stage& stage) {
     if (samples_.size() < 4) return fail(scene_.source + ": the obstacles have fewer than 4 samples");
-    if (may_be_open()) {
-        const double spacing = shell_spacing(scene_.bounds, d0_);
-        const std::vector<Vec3d> shell = shell_samples(scene_.bounds, spacing);
-        samples_.insert(samples_.end(), shell.begin(), shell.end());
-        distances_.resize(samples_.size(), spacing);
-        stage.count("shell samples", static_cast<double>(shell.size()));
-    }
-    for (double& distance : distances_)
-        distance *= long_edge;
-    return keep(bake::delaunay(samples_, distances_, stage), delaunay_);
+    auto distances = distances_at(samples_, distance_, stage);
+    if (!distances) return tl::unexpected(std::move(distances.error()));
+    if (may_be_open()) enclose(*distances, stage);
+    std::vector<double> min_lengths = std::move(*distances);
+    for (double& length : min_lengths)
+        length *= long_edge;
+    return keep(bake::delaunay(samples_, min_lengths, stage), delaunay_);
+}
+
+// Adds the shell's samples, and their distances.
+void Bake::enclose(std::vector<double>& distances, Stage& stage) {
+    const Shell shell = shell_around(scene_.bounds, d0_, distance_.coarsest());
+    const std::vector<Vec3d> added = shell_samples(scene_.bounds, shell);
+    samples_.insert(samples_.end(), added.begin(), added.end());
+    distances.resize(samples_.size(), shell.spacing);
+    stage.count("shell samples", static_cast<double>(added.size()));
 }
 
 Result<void> Bake::voronoi(Stage& stage) {
@@ -211,7 +216,6 @@ Result<void> Bake::voronoi(Stage& stage) {
         keep(voronoi_faces(samples_, delaunay_, scene_.bounds, vertex_weld_distance(), stage), faces_);
     delaunay_ = {};
     samples_ = {};
-    distances_ = {};
     return done;
 }
 
@@ -248,7 +252,7 @@ float less(float distance, double margin) {
 
 Result<void> Bake::reduce(Stage& stage) {
     if (!(parameters_.loss > 0.0)) return {};
-    const double mean = mean_free_distance(mesh_, free_distance_) - margin();
+    const double mean = std::max(0.0, mean_free_distance(mesh_, free_distance_) - margin());
     const double loss = std::min(parameters_.loss / 100.0 * mean, most_loss * d0_);
     stage.count("mean free distance", mean);
     stage.count("allowed loss", loss);

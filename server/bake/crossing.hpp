@@ -1,5 +1,5 @@
-// Medial triangles that cross an obstacle. With exact arithmetic there would be none; the few there are come
-// from rounding, and no free distance could make them safe.
+// Medial triangles that cross an obstacle. No free distance could make them safe. The few there are
+// come from edges shorter than twice the sampling distance, welded vertices and rounding.
 #pragma once
 
 #include <vector>

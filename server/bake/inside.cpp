@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "bake/disjoint_sets.hpp"
 
@@ -54,17 +55,21 @@ Result<std::vector<char>> parts_with_spawn_points(const MedialMesh& mesh,
 }
 
 // Of the area whose balls lie in the map's bounds: those around an open map reach out of them, and what is
-// around it is not meant.
+// around it is not meant. Of the whole area where that is the same.
 std::vector<char> largest_part(const MedialMesh& mesh, const std::vector<double>& clearance,
                                const Box3d& bounds, DisjointSets& parts) {
     const auto is_within = [&](std::uint32_t vertex) {
         return clearance[vertex] <= depth_in(bounds, mesh.position(vertex));
     };
-    std::map<std::uint32_t, double> areas;
+    std::map<std::uint32_t, std::pair<double, double>> areas;
     for (const freespace::Triangle& t : mesh.triangles) {
+        const double of_one = area(mesh.corners(t));
         const bool counts = is_within(t.a) && is_within(t.b) && is_within(t.c);
-        for (const std::uint32_t part : std::set{parts.find(t.a), parts.find(t.b), parts.find(t.c)})
-            areas[part] += counts ? area(mesh.corners(t)) : 0.0;
+        for (const std::uint32_t part : std::set{parts.find(t.a), parts.find(t.b), parts.find(t.c)}) {
+            auto& [within, whole] = areas[part];
+            within += counts ? of_one : 0.0;
+            whole += of_one;
+        }
     }
     std::vector<char> wanted(mesh.vertices.size());
     const auto largest = std::max_element(areas.begin(), areas.end(),

@@ -19,7 +19,8 @@ namespace camdir::bake {
 
 // The same among the points of a cloud, where a place is free when it is further than `margin` from all of
 // them: parts are connected over edges whose ends have `passage` more than that. `clearance` and
-// `free_distance` are those towards the points. Without spawn points the part of the largest free area stays.
+// `free_distance` are those towards the points. Without spawn points the part of the largest free area within
+// the bounds stays.
 [[nodiscard]] Result<void> keep_inside_cloud(MedialMesh& mesh, const std::vector<double>& clearance,
                                              const std::vector<float>& free_distance, double margin,
                                              double passage, const scene::Scene& scene, Stage& stage);

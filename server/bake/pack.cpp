@@ -52,7 +52,8 @@ Result<freespace::Contents> pack(const MedialMesh& mesh, const std::vector<float
         if (std::max({free_distance[a], free_distance[b], free_distance[c]}) <= 0.0F) continue;
         contents.triangles.push_back({take(a), take(b), take(c)});
     }
-    if (contents.triangles.empty()) return fail(scene.source + ": no free space is left at this d0");
+    if (contents.triangles.empty())
+        return fail(scene.source + ": no free space is left within its bounds at this d0");
 
     for (const scene::SpawnPoint& spawn : scene.spawn_points)
         contents.spawn_points.push_back({spawn.eye.cast<float>(), static_cast<float>(spawn.yaw)});

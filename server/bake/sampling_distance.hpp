@@ -3,7 +3,8 @@
 //
 // Sampling condition: for every obstacle point x and every sample p nearest to x, |x - p| < d_s(p). Then no
 // Voronoi face whose samples p1, p2 are at least 2 min(d_s(p1), d_s(p2)) apart touches an obstacle: its
-// points x have p1 and p2 as nearest samples and are at least |p1 - p2| / 2 away from both.
+// points x have p1 and p2 as nearest samples and are at least |p1 - p2| / 2 away from both. (The baker also
+// takes faces of samples somewhat nearer, and sees to what touches.)
 //
 // Uniform sampling is d_s = d0. Medial-axis adaptive sampling is d_s = max(d0, 3/4 d_m) up to a limit, where
 // d_m is the distance to the medial axis: dense where the free space is narrow, sparse where it is wide. The

@@ -6,18 +6,28 @@
 namespace camdir::bake {
 namespace {
 
-constexpr double most_along_one_side = 64.0;
+constexpr double most_along_one_side = 1000.0;
+
+Box3d grown(const Box3d& box, double distance) {
+    const Vec3d margin = Vec3d::Constant(distance);
+    return {box.min() - margin, box.max() + margin};
+}
 
 }  // namespace
 
-double shell_spacing(const Box3d& bounds, double d0) {
-    return std::max(4.0 * d0, bounds.sizes().maxCoeff() / most_along_one_side);
+Shell shell_around(const Box3d& bounds, double d0, double coarsest) {
+    const double distance = std::max(4.0 * d0, 0.5 * coarsest);
+    const Vec3d size = grown(bounds, distance).sizes();
+    const double area = 2.0 * (size.x() * size.y() + size.y() * size.z() + size.z() * size.x());
+    // A share of them is left for the edges.
+    const double spacing =
+        std::max(std::sqrt(area / (0.6 * most_shell_samples)), size.maxCoeff() / most_along_one_side);
+    return {distance, std::max(distance, spacing)};
 }
 
-std::vector<Vec3d> shell_samples(const Box3d& bounds, double spacing) {
-    const Vec3d margin = Vec3d::Constant(spacing);
-    const Box3d shell(bounds.min() - margin, bounds.max() + margin);
-    const Eigen::Vector3i last = (shell.sizes() / spacing).array().ceil().matrix().cast<int>();
+std::vector<Vec3d> shell_samples(const Box3d& bounds, const Shell& around) {
+    const Box3d shell = grown(bounds, around.distance);
+    const Eigen::Vector3i last = (shell.sizes() / around.spacing).array().ceil().matrix().cast<int>();
     const auto on_face = [](int i, int end) { return i == 0 || i == end; };
     std::vector<Vec3d> samples;
     for (int x = 0; x <= last.x(); ++x) {

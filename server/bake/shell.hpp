@@ -8,10 +8,21 @@
 
 namespace camdir::bake {
 
-// Of the shell's samples, and between the shell and the bounds: 4 d0, or more where that would be many.
-[[nodiscard]] double shell_spacing(const Box3d& bounds, double d0);
+// About as many at most.
+inline constexpr double most_shell_samples = 30'000.0;
 
-// On the faces of the box that is `spacing` larger than `bounds` all around, in squares of at most `spacing`.
-[[nodiscard]] std::vector<Vec3d> shell_samples(const Box3d& bounds, double spacing);
+struct Shell {
+    double distance;  // from the bounds
+    double spacing;   // of its samples, at least `distance`
+};
+
+// The shell has to keep further from the obstacles than their own samples, which are up to about
+// `coarsest` / 2 from their points. Where open space is not deeper than the distance and 0.7 times the
+// spacing together, the surface between it and the obstacles lies outside the bounds.
+[[nodiscard]] Shell shell_around(const Box3d& bounds, double d0, double coarsest);
+
+// On the faces of the box that is `around.distance` larger than `bounds` all around, in rectangles whose
+// sides are at most `around.spacing`.
+[[nodiscard]] std::vector<Vec3d> shell_samples(const Box3d& bounds, const Shell& around);
 
 }  // namespace camdir::bake

@@ -1,7 +1,11 @@
 #include "bake/triangulate.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <limits>
+#include <tuple>
+
+#include "base/parallel.hpp"
 
 namespace camdir::bake {
 namespace {
@@ -42,6 +46,27 @@ bool degenerate(const MedialMesh& mesh, const freespace::Triangle& t) {
     return !(u.cross(v).squaredNorm() > 1e-24 * u.squaredNorm() * v.squaredNorm());
 }
 
+// Keeps the first of those with the same corners: neighbouring faces may end in one welded vertex.
+void drop_repeated(MedialMesh& mesh) {
+    struct Entry {
+        std::array<std::uint32_t, 3> corners;  // ascending
+        std::size_t position;
+    };
+    std::vector<Entry> entries;
+    entries.reserve(mesh.triangles.size());
+    for (const auto& [a, b, c] : mesh.triangles) {
+        entries.push_back({{a, b, c}, entries.size()});
+        std::sort(entries.back().corners.begin(), entries.back().corners.end());
+    }
+    parallel_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
+        return std::tie(a.corners, a.position) < std::tie(b.corners, b.position);
+    });
+    std::vector<char> keep(entries.size(), 1);
+    for (std::size_t i = 1; i < entries.size(); ++i)
+        keep[entries[i].position] = entries[i].corners != entries[i - 1].corners;
+    keep_triangles(mesh, keep);
+}
+
 }  // namespace
 
 void triangulate_convex(std::span<const Vec3d> polygon,
@@ -80,6 +105,7 @@ Result<MedialMesh> triangulate(const VoronoiFaces& faces, Stage& stage) {
             if (!degenerate(mesh, triangle)) mesh.triangles.push_back(triangle);
         }
     }
+    drop_repeated(mesh);
     stage.count("triangles", static_cast<double>(mesh.triangles.size()));
     return mesh;
 }

@@ -17,7 +17,7 @@ namespace camdir::bake {
 void triangulate_convex(std::span<const Vec3d> polygon, std::vector<std::array<std::uint32_t, 3>>& triangles);
 
 // Rounds the vertices to floats, which are the truth from here on. Drops triangles that rounding made
-// degenerate.
+// degenerate, and all but one of those with the same corners.
 [[nodiscard]] Result<MedialMesh> triangulate(const VoronoiFaces& faces, Stage& stage);
 
 }  // namespace camdir::bake

@@ -8,16 +8,22 @@
 namespace camdir::bake {
 namespace {
 
-// Unites neighbouring Voronoi vertices that are close, as seen from the set's representative, so that chains
-// of close vertices do not collapse.
+// Unites neighbouring Voronoi vertices such that none is `distance` or more away from its set's
+// representative: chains of close vertices do not collapse.
 DisjointSets weld_neighbours(const std::vector<Vec3d>& centres, const Delaunay& delaunay, double distance) {
     DisjointSets sets(centres.size());
+    std::vector<double> reach(centres.size());  // of a representative: bound of the distance to its members
     for (std::size_t i = 0; i < delaunay.ring_count(); ++i) {
         const auto ring = delaunay.ring(i);
         for (std::size_t k = 0; k < ring.size(); ++k) {
             const std::uint32_t a = sets.find(ring[k]);
             const std::uint32_t b = sets.find(ring[(k + 1) % ring.size()]);
-            if (a != b && (centres[a] - centres[b]).squaredNorm() < distance * distance) sets.unite(a, b);
+            if (a == b) continue;
+            const auto [kept, lost] = std::minmax(a, b);
+            const double needed = (centres[kept] - centres[lost]).norm() + reach[lost];
+            if (!(needed < distance)) continue;
+            sets.unite(kept, lost);
+            reach[kept] = std::max(reach[kept], needed);
         }
     }
     return sets;
@@ -64,7 +70,7 @@ Result<VoronoiFaces> voronoi_faces(const std::vector<Vec3d>& samples, const Dela
             faces.corners.push_back(vertex_of[cell]);
         }
         faces.begin.push_back(faces.corners.size());
-        faces.samples.push_back(delaunay.ring_edges[i]);
+        faces.edges.push_back(delaunay.ring_edges[i]);
     }
     stage.count("vertices", static_cast<double>(faces.vertices.size()));
     stage.count("faces", static_cast<double>(faces.size()));

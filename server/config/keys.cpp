@@ -121,7 +121,8 @@ void add_maps(std::vector<Key>& table) {
     table.push_back({section,
                      "d0",
                      in_map(&Map::d0),
-                     "Sampling distance of that bake, from 2 up: openings narrower than about twice this are "
+                     "Sampling distance of that bake, from 2 up: openings narrower than about one and a half "
+                     "times this are "
                      "closed. 0: 16, and for a point cloud the points' spacing.",
                      "0.0254 m",
                      0,

@@ -24,7 +24,7 @@ const std::vector<Method>& methods() {
          [](const Scene& s, const Settings& o) {
              return run({covering_radius, cgal, certified}, s, o);
          }},
-        {"collapse", "+ half-edge collapse",
+        {"collapse", "+ edges from 1.7 d0, welded vertices, half-edge collapse",
          [](const Scene& s, const Settings& o) { return run_baker(false, s, o); }},
         {"adaptive", "+ adaptive sampling: the baker",
          [](const Scene& s, const Settings& o) { return run_baker(true, s, o); }},

@@ -40,9 +40,9 @@ std::uint32_t vertex_of(qhT* qh, facetT* facet, Visit& visit) {
 // One Voronoi face: the samples of two cells, and its corners in order.
 void take_face(qhT* qh, FILE* user, vertexT* from, vertexT* to, setT* centres, boolT unbounded) {
     auto& visit = *reinterpret_cast<Visit*>(user);
-    const Vec3d& p = visit.samples[static_cast<std::size_t>(qh_pointid(qh, from->point))];
-    const Vec3d& q = visit.samples[static_cast<std::size_t>(qh_pointid(qh, to->point))];
-    const double distance = (q - p).norm();
+    const auto [p, q] = std::minmax({static_cast<std::uint32_t>(qh_pointid(qh, from->point)),
+                                     static_cast<std::uint32_t>(qh_pointid(qh, to->point))});
+    const double distance = (visit.samples[q] - visit.samples[p]).norm();
     if (unbounded != 0 || distance < visit.min_distance) return;
 
     visit.corners.clear();
@@ -57,6 +57,7 @@ void take_face(qhT* qh, FILE* user, vertexT* from, vertexT* to, setT* centres, b
     bake::VoronoiFaces& faces = visit.result.faces;
     faces.corners.insert(faces.corners.end(), visit.corners.begin(), visit.corners.end());
     faces.begin.push_back(faces.corners.size());
+    faces.edges.push_back({p, q});
     visit.result.generator_distance.push_back(distance);
 }
 

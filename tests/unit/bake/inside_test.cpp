@@ -72,6 +72,15 @@ TEST(KeepInside, WithoutSpawnPointsWhatReachesOutOfTheBoundsDoesNotCount) {
     EXPECT_THAT(kept_of(mesh, scene), testing::ElementsAre(0U));
 }
 
+TEST(KeepInside, WhereAllReachesOutTheLargestPartStays) {
+    scene::Scene scene = test::box_room().scene();
+    scene.spawn_points.clear();
+    scene.bounds = Box3d(Vec3d(80, 80, 50), Vec3d(220, 170, 70));
+    MedialMesh mesh = islands({{90, 90, 60}, {150, 90, 60}, {200, 150, 60}});
+    mesh.vertices[4] += Vec3f(30, 0, 0);
+    EXPECT_THAT(kept_of(mesh, scene), testing::ElementsAre(1U));
+}
+
 TEST(KeepInside, FailsWhenNoSpawnPointIsInTheFreespace) {
     scene::Scene scene = test::box_room().scene();
     scene.spawn_points[0].eye = {-8, 100, 50};

@@ -76,5 +76,17 @@ TEST(Triangulate, DropsTrianglesWithoutArea) {
     EXPECT_EQ(mesh.triangles[0].c + mesh.triangles[0].b + mesh.triangles[0].a, 3U);
 }
 
+TEST(Triangulate, KeepsOneOfTrianglesWithTheSameCorners) {
+    VoronoiFaces faces;
+    faces.vertices = {Vec3d(0, 0, 0), Vec3d(8, 0, 0), Vec3d(0, 8, 0), Vec3d(0, 0, 8)};
+    faces.corners = {0, 1, 2, 2, 1, 0, 0, 1, 3, 1, 2, 0};
+    faces.begin = {0, 3, 6, 9, 12};
+    Stage stage("triangulate", {}, {});
+    const MedialMesh mesh = triangulate(faces, stage).value();
+    ASSERT_EQ(mesh.triangles.size(), 2U);
+    EXPECT_NE(mesh.triangles[0].c, 3U);
+    EXPECT_EQ(mesh.triangles[1].a + mesh.triangles[1].b + mesh.triangles[1].c, 4U);
+}
+
 }  // namespace
 }  // namespace camdir::bake
