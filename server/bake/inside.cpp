@@ -50,7 +50,8 @@ Result<std::vector<char>> parts_with_spawn_points(const MedialMesh& mesh,
     stage.count("connected spawn points", static_cast<double>(count));
     if (count == 0)
         return fail(scene.source + ": none of the " + std::to_string(connected.size()) +
-                    " spawn points has its eye in free space that is wide enough for this d0");
+                    " spawn points and seeds is in free space that is wide enough for this d0; expected a "
+                    "--seed in the open, or a smaller --d0");
     return wanted;
 }
 

@@ -1,6 +1,7 @@
 #include "bake/pack.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "bake/certificate.hpp"
 
@@ -23,11 +24,13 @@ bool covered(const Vec3d& point, const freespace::Contents& contents) {
     return std::any_of(contents.triangles.begin(), contents.triangles.end(), holds);
 }
 
-// As far as the ball lies in the map's bounds: space is widest above and around an open map.
+// Of the balls within the map's bounds: above and around an open map they are wider, and reach out of them.
+// Of all, cut off at the bounds, where none is within.
 freespace::SpawnPoint widest_place(const freespace::Contents& contents, const Box3d& bounds) {
     const auto width = [&](const freespace::Vertex& vertex) {
-        return std::min(static_cast<double>(vertex.free_distance),
-                        depth_in(bounds, vertex.position().cast<double>()));
+        const double radius = vertex.free_distance;
+        const double depth = depth_in(bounds, vertex.position().cast<double>());
+        return std::pair(radius <= depth ? radius : 0.0, std::min(radius, depth));
     };
     const auto widest = std::max_element(contents.vertices.begin(), contents.vertices.end(),
                                          [&](const auto& a, const auto& b) { return width(a) < width(b); });
