@@ -6,6 +6,7 @@
 namespace camdir::bake {
 namespace {
 
+// Samples: where a box is so thin that its edges have most of them.
 constexpr double most_along_one_side = 1000.0;
 
 Box3d grown(const Box3d& box, double distance) {

@@ -122,8 +122,7 @@ void add_maps(std::vector<Key>& table) {
                      "d0",
                      in_map(&Map::d0),
                      "Sampling distance of that bake, from 2 up: openings narrower than about one and a half "
-                     "times this are "
-                     "closed. 0: 16, and for a point cloud the points' spacing.",
+                     "times this are closed. 0: 16, and for a point cloud the points' spacing.",
                      "0.0254 m",
                      0,
                      256,
