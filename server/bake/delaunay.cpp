@@ -44,8 +44,13 @@ bool insert(const std::vector<Vec3d>& samples, Triangulation& triangulation, Sta
     return true;
 }
 
+struct Cells {
+    std::vector<Cell> samples;
+    std::vector<Triangulation::Cell_handle> handles;
+};
+
 // Numbers the finite cells by their samples: the order of CGAL's containers depends on memory addresses.
-Result<std::vector<Cell>> number_cells(const Triangulation& triangulation, Stage& stage) {
+Result<Cells> number_cells(const Triangulation& triangulation, Stage& stage) {
     using Entry = std::pair<Cell, Triangulation::Cell_handle>;
     std::vector<Entry> entries;
     entries.reserve(triangulation.number_of_finite_cells());
@@ -59,56 +64,64 @@ Result<std::vector<Cell>> number_cells(const Triangulation& triangulation, Stage
     }
     parallel_sort(entries.begin(), entries.end(),
                   [](const Entry& a, const Entry& b) { return a.first < b.first; });
-    std::vector<Cell> cells;
-    cells.reserve(entries.size());
-    for (const auto& [cell, handle] : entries) {
-        handle->info() = static_cast<std::uint32_t>(cells.size());
-        cells.push_back(cell);
+    Cells cells;
+    cells.samples.reserve(entries.size());
+    cells.handles.reserve(entries.size());
+    for (const auto& [samples, handle] : entries) {
+        handle->info() = static_cast<std::uint32_t>(cells.handles.size());
+        cells.samples.push_back(samples);
+        cells.handles.push_back(handle);
     }
     return cells;
 }
 
-struct LongEdge {
-    Edge samples;
-    Triangulation::Edge edge;  // leads from the first to the second
-};
+// Finds the rings that begin with given cells.
+class RingFinder {
+  public:
+    RingFinder(const Triangulation& triangulation, const std::vector<double>& min_lengths)
+        : triangulation_(triangulation), min_lengths_(min_lengths) {}
 
-Result<std::vector<LongEdge>> long_edges(const Triangulation& triangulation,
-                                         const std::vector<double>& min_lengths, Stage& stage) {
-    std::vector<LongEdge> edges;
-    std::size_t seen = 0;
-    for (const auto& [cell, i, j] : triangulation.finite_edges()) {
-        if (++seen % 65536 == 0 && !stage.advance(0, 0)) return stage.interrupted();
+    void append_rings_of(Triangulation::Cell_handle cell, Delaunay& result) const {
+        for (int i = 0; i < 4; ++i)
+            for (int j = 0; j < 4; ++j)
+                if (cell->vertex(i)->info() < cell->vertex(j)->info() && is_long(cell, i, j))
+                    append_ring({cell, i, j}, result);
+    }
+
+  private:
+    [[nodiscard]] bool is_long(Triangulation::Cell_handle cell, int i, int j) const {
         const auto a = cell->vertex(i);
         const auto b = cell->vertex(j);
-        const double min_length = std::min(min_lengths[a->info()], min_lengths[b->info()]);
-        if (CGAL::squared_distance(a->point(), b->point()) < min_length * min_length) continue;
-        if (a->info() < b->info())
-            edges.push_back({{a->info(), b->info()}, {cell, i, j}});
-        else
-            edges.push_back({{b->info(), a->info()}, {cell, j, i}});
+        const double min_length = std::min(min_lengths_[a->info()], min_lengths_[b->info()]);
+        return CGAL::squared_distance(a->point(), b->point()) >= min_length * min_length;
     }
-    parallel_sort(edges.begin(), edges.end(),
-                  [](const LongEdge& a, const LongEdge& b) { return a.samples < b.samples; });
-    return edges;
-}
 
-// Appends the cells around the edge; nothing when the face reaches to infinity.
-void append_ring(const Triangulation& triangulation, const LongEdge& edge, Delaunay& result) {
-    const std::size_t begin = result.ring_cells.size();
-    const auto first = triangulation.incident_cells(edge.edge);
-    auto cell = first;
-    do {
-        if (triangulation.is_infinite(cell)) {
-            result.ring_cells.resize(begin);
-            return;
-        }
-        result.ring_cells.push_back(cell->info());
-    } while (++cell != first);
-    const auto ring = result.ring_cells.begin() + static_cast<std::ptrdiff_t>(begin);
-    std::rotate(ring, std::min_element(ring, result.ring_cells.end()), result.ring_cells.end());
-    result.ring_begin.push_back(result.ring_cells.size());
-    result.ring_edges.push_back(edge.samples);
+    // Nothing when another cell around the edge comes first, or the face reaches to infinity.
+    void append_ring(const Triangulation::Edge& edge, Delaunay& result) const {
+        const auto& [first, i, j] = edge;
+        const std::size_t begin = result.ring_cells.size();
+        auto cell = triangulation_.incident_cells(edge, first);
+        do {
+            if (triangulation_.is_infinite(cell) || cell->info() < first->info()) {
+                result.ring_cells.resize(begin);
+                return;
+            }
+            result.ring_cells.push_back(cell->info());
+        } while (Triangulation::Cell_handle(++cell) != first);
+        result.ring_begin.push_back(result.ring_cells.size());
+        result.ring_edges.push_back({first->vertex(i)->info(), first->vertex(j)->info()});
+    }
+
+    const Triangulation& triangulation_;
+    const std::vector<double>& min_lengths_;
+};
+
+void append(const Delaunay& part, Delaunay& whole) {
+    const std::uint64_t offset = whole.ring_cells.size();
+    whole.ring_cells.insert(whole.ring_cells.end(), part.ring_cells.begin(), part.ring_cells.end());
+    whole.ring_edges.insert(whole.ring_edges.end(), part.ring_edges.begin(), part.ring_edges.end());
+    for (std::size_t i = 1; i < part.ring_begin.size(); ++i)
+        whole.ring_begin.push_back(offset + part.ring_begin[i]);
 }
 
 }  // namespace
@@ -122,16 +135,21 @@ Result<Delaunay> delaunay(const std::vector<Vec3d>& samples, const std::vector<d
 
     auto cells = number_cells(triangulation, stage);
     if (!cells) return tl::unexpected(std::move(cells.error()));
+    constexpr std::size_t part_size = 4096;  // cells
+    const RingFinder finder(triangulation, min_lengths);
+    std::vector<Delaunay> parts((cells->handles.size() + part_size - 1) / part_size);
+    const bool done = stage.for_each(parts.size(), [&](std::uint64_t part) {
+        const std::size_t end = std::min(cells->handles.size(), (part + 1) * part_size);
+        for (std::size_t cell = part * part_size; cell < end; ++cell)
+            finder.append_rings_of(cells->handles[cell], parts[part]);
+    });
+    if (!done) return stage.interrupted();
+
     Delaunay result;
-    result.cells = std::move(*cells);
-    const auto edges = long_edges(triangulation, min_lengths, stage);
-    if (!edges) return tl::unexpected(edges.error());
-    for (std::size_t i = 0; i < edges->size(); ++i) {
-        if (i % 4096 == 0 && !stage.advance(i, edges->size())) return stage.interrupted();
-        append_ring(triangulation, (*edges)[i], result);
-    }
+    result.cells = std::move(cells->samples);
+    for (const Delaunay& part : parts)
+        append(part, result);
     stage.count("cells", static_cast<double>(result.cells.size()));
-    stage.count("long edges", static_cast<double>(edges->size()));
     stage.count("bounded faces", static_cast<double>(result.ring_count()));
     return result;
 }

@@ -18,7 +18,8 @@ using Edge = std::array<std::uint32_t, 2>;
 
 struct Delaunay {
     std::vector<Cell> cells;  // ascending
-    // The cells around each long edge, in order: the corners of its Voronoi face. Starts with the smallest.
+    // The cells around each long edge, in order: the corners of its Voronoi face. A ring starts with its
+    // smallest cell, and rings with smaller ones come first.
     std::vector<std::uint64_t> ring_begin{0};
     std::vector<std::uint32_t> ring_cells;
     std::vector<Edge> ring_edges;

@@ -53,17 +53,25 @@ class Prober {
 
 }  // namespace
 
-// Shrinks the ball to the one through `q` and the obstacle point deepest inside, until none is.
+// Shrinks the ball, obstacle by obstacle, to the one through `q` and the obstacle point deepest inside. What
+// is outside of a ball is outside of those that it shrinks to, so that one look at each obstacle is enough.
 double tangent_radius(const Vec3d& q, const Vec3d& normal, double reach, const Obstacles& obstacles) {
     constexpr int max_steps = 64;
     constexpr double rounding = 1.0 - 1e-4;
     double radius = reach;
-    for (int step = 0; step < max_steps; ++step) {
-        const auto inside = obstacles.nearest(q + radius * normal, radius * rounding);
-        if (!inside) break;
-        const Vec3d to_inside = *inside - q;
-        radius = std::min(radius * rounding, to_inside.squaredNorm() / (2.0 * normal.dot(to_inside)));
-    }
+    const auto power = [&](double distance2) { return distance2 - radius * radius * rounding * rounding; };
+    const auto shrink_from = [&](const Triangle3d& obstacle) {
+        for (int step = 0; step < max_steps; ++step) {
+            const Vec3d centre = q + radius * normal;
+            const Vec3d nearest = closest_point(obstacle, centre);
+            if (power((nearest - centre).squaredNorm()) >= 0.0) return;
+            const Vec3d to_nearest = nearest - q;
+            radius = std::min(radius * rounding, to_nearest.squaredNorm() / (2.0 * normal.dot(to_nearest)));
+        }
+    };
+    obstacles.tree().visit_by(
+        [&](const Box3d& box) { return power(box.squaredExteriorDistance(q + radius * normal)); },
+        [] { return 0.0; }, [&](std::uint32_t position) { shrink_from(obstacles.triangles()[position]); });
     return radius;
 }
 

@@ -21,35 +21,40 @@ constexpr double share_factor = 2.0;
 constexpr int last_rounds = 3;  // with the whole loss allowed, each with its borders elsewhere
 constexpr std::array<double, 3> cuts{0.5, 0.36, 0.61};
 
+// A triangle of the complex with another free distance at one corner.
+Slab slab_with(const Shrinking& shrinking, const Complex::Corners& corners, std::size_t place,
+               double distance) {
+    Triangle3d positions;
+    std::array<double, 3> radii{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        positions[i] = shrinking.position(corners[i]);
+        radii[i] = i == place ? distance : shrinking.vertices[corners[i]].free_distance;
+    }
+    return {positions, radii};
+}
+
 // The largest free distance of the vertex, up to that in the unreduced mesh, which keeps its slabs free. Each
-// violation bounds it from above, so that going from bound to bound gives nothing away.
+// violation bounds it from above, so that going from bound to bound gives nothing away; what is free stays so
+// when it gets lower.
 float highest(const Shrinking& shrinking, std::uint32_t vertex) {
-    constexpr int max_passes = 12;
-    constexpr double step = 1e-3;
+    constexpr int max_steps = 12;
+    constexpr double rounding = 1e-3;
     const float kept = shrinking.vertices[vertex].free_distance;
     float distance = shrinking.whole_distance[vertex];
-    for (int pass = 0; pass < max_passes; ++pass) {
-        bool free = true;
-        for (const std::uint32_t triangle : shrinking.complex.star(vertex)) {
-            const Complex::Corners& corners = shrinking.complex.corners(triangle);
-            Triangle3d positions;
-            std::array<double, 3> radii{};
-            std::size_t place = 0;
-            for (std::size_t i = 0; i < 3; ++i) {
-                positions[i] = shrinking.position(corners[i]);
-                radii[i] = corners[i] == vertex ? distance : shrinking.vertices[corners[i]].free_distance;
-                if (corners[i] == vertex) place = i;
-            }
-            const Margin worst = margin(Slab(positions, radii), shrinking.obstacles, 0.0);
-            if (worst.value >= 0.0) continue;
-            free = false;
+    for (const std::uint32_t triangle : shrinking.complex.star(vertex)) {
+        const Complex::Corners& corners = shrinking.complex.corners(triangle);
+        const auto place =
+            static_cast<std::size_t>(std::find(corners.begin(), corners.end(), vertex) - corners.begin());
+        for (int step = 0;; ++step) {
+            if (!(distance > kept) || step == max_steps) return kept;
+            const Margin worst =
+                margin(slab_with(shrinking, corners, place, distance), shrinking.obstacles, 0.0);
+            if (worst.value >= 0.0) break;
             const double lowered = distance + worst.value / std::max(worst.weights[place], 1e-6);
-            distance = static_cast<float>(lowered - step);
-            if (!(distance > kept)) return kept;
+            distance = static_cast<float>(lowered - rounding);
         }
-        if (free) return distance;
     }
-    return kept;
+    return distance;
 }
 
 std::vector<std::uint32_t> used_vertices(const Complex& complex, std::size_t vertex_count) {
@@ -104,17 +109,21 @@ bool run_round(Shrinking& shrinking, std::span<const Vec3f> positions, double sh
     });
 }
 
-// Raises the free distances of the vertices inside the regions again, as far as their slabs stay free.
-bool raise_round(Shrinking& shrinking, std::span<const Vec3f> positions, double cut, Stage& stage) {
+// Raises the free distances of the vertices inside the regions again, as far as their slabs stay free. Once
+// each: what its neighbours gain later leaves a vertex nothing more.
+bool raise_round(Shrinking& shrinking, std::span<const Vec3f> positions, double cut,
+                 std::vector<char>& raised, Stage& stage) {
     const Division division(shrinking, positions, cut);
     return stage.for_each(division.regions.size(), [&](std::uint64_t i) {
         std::vector<std::uint32_t> neighbours;
         for (const std::uint32_t vertex : division.regions[i]) {
+            if (raised[vertex] != 0 || stage.stopping()) continue;
             shrinking.complex.neighbours(vertex, neighbours);
             const bool inside = std::all_of(neighbours.begin(), neighbours.end(),
                                             [&](std::uint32_t n) { return division.places[n].region == i; });
-            if (inside && !stage.stopping())
-                shrinking.vertices[vertex].free_distance = highest(shrinking, vertex);
+            if (!inside) continue;
+            shrinking.vertices[vertex].free_distance = highest(shrinking, vertex);
+            raised[vertex] = 1;
         }
     });
 }
@@ -164,8 +173,9 @@ Result<void> reduce(MedialMesh& mesh, std::vector<float>& free_distance, const s
         if (!run_round(shrinking, mesh.vertices, share, cut, stage)) return stage.interrupted();
         if (reduction.triangles > 0 && shrinking.complex.triangle_count() <= reduction.triangles) break;
     }
+    std::vector<char> raised(mesh.vertices.size(), 0);
     for (const double cut : {cuts[1], cuts[2]})
-        if (!raise_round(shrinking, mesh.vertices, cut, stage)) return stage.interrupted();
+        if (!raise_round(shrinking, mesh.vertices, cut, raised, stage)) return stage.interrupted();
     for (std::size_t i = 0; i < free_distance.size(); ++i)
         free_distance[i] = shrinking.vertices[i].free_distance;
     compact(mesh, free_distance, shrinking.complex.triangles());
