@@ -34,7 +34,7 @@ double number_option(const char* name, const char* value, double least, double m
 
 bool connection_option(cdir_context_options* options, const char* name, const char* value) {
     if (strcmp(name, "domain") == 0) {
-        options->domain = (uint32_t)number_option(name, value, 0, 232);
+        options->domain = (uint32_t)number_option(name, value, 0, 230);
     } else if (strcmp(name, "interface") == 0) {
         options->network_interface = value;
     } else if (strcmp(name, "directors") == 0) {

@@ -132,7 +132,7 @@ cdir_status cdir_context_open(const cdir_context_options* options, cdir_context*
     return guarded([&] {
         check_struct("options", options);
         require(context != nullptr, "context is null");
-        require(options->domain <= 232, "domain must be 0 to 232");
+        require(options->domain <= 230, "domain must be 0 to 230");
         require(options->cyclone_xml != nullptr || options->network_interface != nullptr,
                 "network_interface is null");
         require(options->cyclone_xml != nullptr || options->directors != nullptr, "directors is null");

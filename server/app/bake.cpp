@@ -128,7 +128,7 @@ void add_bake(CLI::App& root, Run& run) {
     command
         ->add_option(
             "--d0", options->parameters.d0,
-            "Sampling distance in units of 0.0254 m: openings narrower than about one and a half times of it "
+            "Sampling distance in units of 0.0254 m: openings narrower than about one and a half times this "
             "close. Default: 16; for a point cloud, whose surfaces it keeps away from, the points' spacing")
         ->check(CLI::Range(bake::min_d0, bake::max_d0));
     add_read_options(*command, options->read);

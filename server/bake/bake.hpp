@@ -36,7 +36,7 @@ struct Parameters {
     unsigned threads = 0;  // 0 = one a core, which is also the most. Never changes the result
     // Mesh reduction: how much free distance the centre of a ball may lose, as percent of the mean over the
     // mesh, but at most 3/2 d0: what keeps 3/2 d0 away from the obstacles stays in free space. 0 keeps the
-    // whole mesh. 0 .. max_loss. The default keeps tightness above 0.93
+    // whole mesh. 0 .. max_loss. The default keeps tightness above 0.93 on maps of games
     double loss = 16.0;
     std::uint64_t triangles = 0;  // > 0: reduction ends as soon as no more than these are left
     Sampling sampling = Sampling::adaptive;

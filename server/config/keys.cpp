@@ -46,8 +46,8 @@ void add_dds(std::vector<Key>& table) {
                      "director's address are found."});
     table.push_back(
         {section, "participant_index", slot(&Dds::participant_index),
-         "Fixes the ports, so that others can name this director as their peer. One process a host and "
-         "domain can have an index; -1: any free ports.",
+         "Fixes the ports, so that others can name this director as their peer. Each process of a host "
+         "and domain needs its own; -1: any that are free.",
          "", -1, 119});
     table.push_back({section, "port", slot(&Dds::port), "Base port of the domain's ports.", "", 1024, 60000});
     table.push_back(
@@ -380,7 +380,7 @@ const std::vector<Section>& sections() {
         {"/maps", "A list: the maps that are served. Reloaded by SIGHUP.", true},
         {"/profiles",
          "By name: how a shot looks; observers ask for a profile by its name and may override its keys. "
-         "`default` always exists. Reloaded by SIGHUP.",
+         "`default` always exists. Units are 0.0254 m on every map. Reloaded by SIGHUP.",
          true},
         {"/matches", "Life of matches, and the choice of automatic targets. Reloaded by SIGHUP.", true},
         {"/limits", "What is more than this is refused. Takes effect at a restart.", false},

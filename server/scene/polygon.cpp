@@ -13,6 +13,11 @@ double height_above(const Plane& plane, const Vec3d& point) {
 
 }  // namespace
 
+Plane normalized(const Plane& plane) {
+    const double length = plane.normal.norm();
+    return {plane.normal / length, plane.distance / length};
+}
+
 Plane flipped(const Plane& plane) {
     return {-plane.normal, -plane.distance};
 }

@@ -13,6 +13,9 @@ namespace camdir::scene {
 // Corners in order; empty: no polygon.
 using Polygon = std::vector<Vec3d>;
 
+// The same plane, with a normal of length 1.
+[[nodiscard]] Plane normalized(const Plane& plane);
+
 // The same plane, with the solid on its other side.
 [[nodiscard]] Plane flipped(const Plane& plane);
 

@@ -13,6 +13,9 @@
 namespace camdir::scene::q3 {
 
 inline constexpr std::int32_t contents_solid = 1;
+inline constexpr std::int32_t contents_liquid = 8 | 16 | 32;  // lava, slime, water
+inline constexpr std::int32_t contents_fog = 64;
+inline constexpr std::int32_t contents_clip = 0x10000 | 0x20000;  // of players, of monsters
 inline constexpr std::int32_t surface_sky = 4;
 
 // The structures below have the layout of the file: little-endian, no padding.

@@ -35,9 +35,9 @@ bool is_static(std::string_view class_name) {
 }
 
 const char* why_no_obstacle(const q3::Shader& shader) {
-    if ((shader.contents & (8 | 16 | 32)) != 0) return "liquid";
-    if ((shader.contents & 64) != 0) return "fog";
-    if ((shader.contents & (0x10000 | 0x20000)) != 0) return "clip";
+    if ((shader.contents & q3::contents_liquid) != 0) return "liquid";
+    if ((shader.contents & q3::contents_fog) != 0) return "fog";
+    if ((shader.contents & q3::contents_clip) != 0) return "clip";
     return "not solid";
 }
 

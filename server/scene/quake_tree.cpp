@@ -23,9 +23,7 @@ struct Part {
 }  // namespace
 
 scene::Plane to_plane(const Plane& plane) {
-    const Vec3d normal(plane.normal[0], plane.normal[1], plane.normal[2]);
-    const double length = normal.norm();
-    return {normal / length, plane.distance / length};
+    return normalized({Vec3d(plane.normal[0], plane.normal[1], plane.normal[2]), plane.distance});
 }
 
 Tree::Tree(const Bsp& bsp) : bsp_(bsp), steps_left_(bsp.max_surface_steps()) {

@@ -115,7 +115,7 @@ typedef struct cdir_observer {
 /* How this process reaches the directors. */
 typedef struct cdir_context_options {
     uint32_t struct_size;
-    uint32_t domain; /* DDS domain, 0 .. 232 */
+    uint32_t domain; /* DDS domain, 0 .. 230 */
     /* Name or address of the network interface; empty = the system's first that is up. */
     const char* network_interface;
     /* The directors' addresses, separated by commas: "10.0.0.5, 10.0.0.6" or "10.0.0.5:7412". Without a

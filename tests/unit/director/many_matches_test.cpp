@@ -43,7 +43,7 @@ void append(std::string& bytes, const CameraFrame& frame) {
     }
 }
 
-// The bytes of all cameras of a session that is the same but for the number of workers.
+// The bytes of all cameras of a run that is the same but for the number of workers.
 std::string cameras_with(std::int64_t workers) {
     constexpr int matches = 12;
     config::Config config = Stage::default_config();
