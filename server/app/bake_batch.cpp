@@ -12,7 +12,6 @@
 
 #include "app/bake_schedule.hpp"
 #include "app/map_bake.hpp"
-#include "app/source.hpp"
 #include "freespace/freespace.hpp"
 
 namespace camdir::app {
@@ -25,12 +24,6 @@ void describe_file(const std::string& file, MapOutcome& outcome) {
     outcome.file_bytes = opened->byte_size();
     for (const freespace::Count& count : opened->metadata().counts)
         if (count.what == "samples") outcome.samples = static_cast<std::uint64_t>(count.value);
-}
-
-Result<std::uint64_t> memory_for(const config::Map& map) {
-    const auto scene = load_source(map);
-    if (!scene) return tl::unexpected(scene.error());
-    return estimate_memory(*scene, bake::sampling_distance(*scene, parameters_of(map)));
 }
 
 class Batch {
@@ -86,7 +79,7 @@ void Batch::examine(std::size_t map) {
         if (freshness->stale.empty()) return end(map, MapState::fresh, freshness->warning);
         outcomes_[map].reason = freshness->stale;
     }
-    const auto need = memory_for(maps_[map]);
+    const auto need = memory_needed(maps_[map]);
     if (!need) return end(map, MapState::failed, need.error().message);
     jobs_.push_back(map);
     needs_.push_back(*need);

@@ -6,17 +6,16 @@
 #include <utility>
 
 #include "bake/shell.hpp"
+#include "bake/triangle.hpp"
 
 namespace camdir::app {
 namespace {
 
 double area_of(const scene::Scene& scene) {
-    double twice = 0.0;
-    for (const auto& [a, b, c] : scene.triangles) {
-        const Vec3d& origin = scene.vertices[a];
-        twice += (scene.vertices[b] - origin).cross(scene.vertices[c] - origin).norm();
-    }
-    return 0.5 * twice;
+    double sum = 0.0;
+    for (const auto& [a, b, c] : scene.triangles)
+        sum += bake::area({scene.vertices[a], scene.vertices[b], scene.vertices[c]});
+    return sum;
 }
 
 }  // namespace

@@ -11,8 +11,8 @@
 namespace camdir::app {
 
 // Memory that a bake of the scene takes, in bytes, from above: 48 MiB, and 1.5 kB for every sample of the
-// obstacles, of which uniform sampling makes at most 1.5 on each d0^2 of their area and one a vertex, and of
-// the shell. `d0` in map units. Measured on the maps of OpenArena.
+// obstacles, of which uniform sampling makes at most 1.5 on each d0^2 of their area and one a vertex or
+// point, and of the shell. `d0` in map units. Measured on the maps of OpenArena.
 [[nodiscard]] std::uint64_t estimate_memory(const scene::Scene& scene, double d0);
 
 // Which job may start: the neediest of those that fit beside what runs into the budget, and any job when

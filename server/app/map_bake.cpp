@@ -1,10 +1,12 @@
 #include "app/map_bake.hpp"
 
 #include <chrono>
+#include <exception>
 #include <new>
 #include <thread>
 #include <utility>
 
+#include "app/bake_schedule.hpp"
 #include "app/source.hpp"
 #include "base/file.hpp"
 #include "config/json_text.hpp"
@@ -46,6 +48,18 @@ Result<PendingFile> claim(const std::string& file, const bake::ProgressSink& pro
     }
 }
 
+// What a library throws fails this map alone.
+template <class Body>
+auto with_failures_told(const config::Map& map, const Body& body) -> decltype(body()) {
+    try {
+        return body();
+    } catch (const std::bad_alloc&) {
+        return fail(map.source + ": not enough memory to bake it");
+    } catch (const std::exception& error) {
+        return fail(map.source + ": " + error.what());
+    }
+}
+
 Result<BakeReport> bake_into(PendingFile file, const config::Map& map, unsigned threads,
                              const bake::ProgressSink& progress, const std::stop_token& stop) {
     const auto scene = load_source(map);
@@ -84,17 +98,23 @@ Result<Freshness> examine(const config::Map& map) {
     return Freshness{other.empty() ? "" : "it was baked with " + other, ""};
 }
 
+Result<std::uint64_t> memory_needed(const config::Map& map) {
+    return with_failures_told(map, [&]() -> Result<std::uint64_t> {
+        const auto scene = load_source(map);
+        if (!scene) return tl::unexpected(scene.error());
+        return estimate_memory(*scene, bake::sampling_distance(*scene, parameters_of(map)));
+    });
+}
+
 Result<std::optional<BakeReport>> bake_map(const config::Map& map, const MapBakeParameters& parameters,
                                            const bake::ProgressSink& progress, const std::stop_token& stop) {
     auto file = claim(map.file, progress, stop);
     if (!file) return tl::unexpected(file.error());
     const auto freshness = examine(map);
     if (freshness && freshness->stale.empty() && !parameters.force) return std::nullopt;
-    try {
+    return with_failures_told(map, [&]() -> Result<std::optional<BakeReport>> {
         return bake_into(std::move(*file), map, parameters.threads, progress, stop);
-    } catch (const std::bad_alloc&) {
-        return fail(map.source + ": not enough memory to bake it");
-    }
+    });
 }
 
 }  // namespace camdir::app

@@ -24,6 +24,9 @@ struct Freshness {
 // baked from other bytes or with other parameters. Fails when neither file nor source can be read.
 [[nodiscard]] Result<Freshness> examine(const config::Map& map);
 
+// Of a bake of the map's source, in bytes, from above: estimate_memory().
+[[nodiscard]] Result<std::uint64_t> memory_needed(const config::Map& map);
+
 struct MapBakeParameters {
     unsigned threads = 0;  // bake::Parameters::threads
     bool force = false;    // bake also what is fresh

@@ -23,6 +23,7 @@
 #include "bake/obstacles.hpp"
 #include "bake/pack.hpp"
 #include "bake/reduce.hpp"
+#include "bake/round_down.hpp"
 #include "bake/sample.hpp"
 #include "bake/sampling_distance.hpp"
 #include "bake/shell.hpp"
@@ -34,9 +35,6 @@
 
 namespace camdir::bake {
 namespace {
-
-// Lengths of the parameters and of the project's definitions are given for units of this many metres.
-constexpr double metres_of_nominal_unit = 0.0254;
 
 constexpr double default_d0 = 16.0;
 constexpr double most_loss = 1.5;  // of d0
@@ -80,6 +78,9 @@ class Bake {
 
     void enclose(std::vector<double>& distances, Stage& stage);
 
+    [[nodiscard]] double coarsest() const {
+        return parameters_.sampling == Sampling::uniform ? d0_ : parameters_.coarsest * d0_;
+    }
     [[nodiscard]] bool is_cloud() const { return !scene_.points.empty(); }
     // Where volumes are known, the solids close the map.
     [[nodiscard]] bool may_be_open() const { return scene_.brushes.empty(); }
@@ -158,6 +159,7 @@ Result<void> Bake::run(const ProgressSink& progress, const std::stop_token& stop
         {"reduce", &Bake::reduce},
         {"pack", &Bake::pack},
     }};
+    if (auto bounded = check_sample_count(scene_, coarsest(), d0_); !bounded) return bounded;
     samples_ = scene_.points;
     if (!scene_.left_out.empty()) {
         reports_.push_back(left_out_of(scene_));
@@ -175,11 +177,10 @@ Result<void> Bake::run(const ProgressSink& progress, const std::stop_token& stop
 // Uniform sampling asks no medial axis.
 Result<void> Bake::medial_axis(Stage& stage) {
     if (parameters_.sampling == Sampling::uniform) return {};
-    const double coarsest = parameters_.coarsest * d0_;
-    const Probing probing{2.0 * d0_, SamplingDistance::reach(coarsest)};
+    const Probing probing{2.0 * d0_, SamplingDistance::reach(coarsest())};
     auto points = bake::medial_axis(obstacles_, solids_, probing, stage);
     if (!points) return tl::unexpected(std::move(points.error()));
-    distance_ = SamplingDistance(d0_, coarsest, std::move(*points));
+    distance_ = SamplingDistance(d0_, coarsest(), std::move(*points));
     return {};
 }
 
@@ -242,27 +243,19 @@ Result<void> Bake::certify(Stage& stage) {
     return keep(free_distances(mesh_, clearance_, obstacles_, 0.005 * unit_, stage), free_distance_);
 }
 
-// Rounded down, so that the ball stays free.
-float less(float distance, double margin) {
-    const double exact = static_cast<double>(distance) - margin;
-    const auto rounded = static_cast<float>(exact);
-    if (static_cast<double>(rounded) <= exact) return rounded;
-    return std::nextafter(rounded, -std::numeric_limits<float>::infinity());
-}
-
 Result<void> Bake::reduce(Stage& stage) {
     if (!(parameters_.loss > 0.0)) return {};
     const double mean = std::max(0.0, mean_free_distance(mesh_, free_distance_) - margin());
     const double loss = std::min(parameters_.loss / 100.0 * mean, most_loss * d0_);
     stage.count("mean free distance", mean);
     stage.count("allowed loss", loss);
-    const Reduction reduction{loss, parameters_.triangles};
+    const Reduction reduction{loss, margin(), parameters_.triangles};
     return bake::reduce(mesh_, free_distance_, scene_, obstacles_, reduction, stage);
 }
 
 Result<void> Bake::pack(Stage& stage) {
     for (float& distance : free_distance_)
-        distance = less(distance, margin());
+        distance = round_down(static_cast<double>(distance) - margin());
     return keep(bake::pack(mesh_, free_distance_, scene_, stage), contents_);
 }
 
@@ -307,10 +300,9 @@ freespace::Metadata describe(const scene::Scene& scene, const Parameters& parame
 }  // namespace
 
 std::string to_json(const Parameters& parameters, const scene::ReadOptions& options) {
-    return "{\"d0\": " + std::to_string(parameters.d0) + ", \"sampling\": \"" +
-           std::string(name_of(parameters.sampling)) +
-           "\", \"coarsest\": " + std::to_string(parameters.coarsest) +
-           ", \"loss\": " + std::to_string(parameters.loss) +
+    return "{\"d0\": " + number(parameters.d0) + ", \"sampling\": \"" +
+           std::string(name_of(parameters.sampling)) + "\", \"coarsest\": " + number(parameters.coarsest) +
+           ", \"loss\": " + number(parameters.loss) +
            ", \"triangles\": " + std::to_string(parameters.triangles) + json_of(options) + "}";
 }
 
@@ -325,7 +317,7 @@ std::optional<Sampling> sampling_named(std::string_view name) {
 }
 
 double sampling_distance(const scene::Scene& scene, const Parameters& parameters) {
-    const double unit = metres_of_nominal_unit / scene.metres_per_unit;
+    const double unit = scene::metres_of_nominal_unit / scene.metres_per_unit;
     if (parameters.d0 > 0.0) return parameters.d0 * unit;
     if (scene.points.empty()) return default_d0 * unit;
     return std::clamp(scene.point_spacing, min_d0 * unit, max_d0 * unit);
@@ -334,13 +326,15 @@ double sampling_distance(const scene::Scene& scene, const Parameters& parameters
 Result<Baked> bake(const scene::Scene& scene, const Parameters& parameters, const ProgressSink& progress,
                    std::stop_token stop, const ReportSink& finished) {
     if (parameters.d0 != 0.0 && !(parameters.d0 >= min_d0 && parameters.d0 <= max_d0))
-        return fail("d0 = " + std::to_string(parameters.d0) + ": expected a distance from 2 to 256 units");
+        return fail("d0 = " + number(parameters.d0) + ": expected a distance from 2 to 256 units");
     if (!(parameters.coarsest >= 1.0 && parameters.coarsest <= max_coarsest))
-        return fail("coarsest = " + std::to_string(parameters.coarsest) + ": expected a number from 1 to 64");
+        return fail("coarsest = " + number(parameters.coarsest) + ": expected a number from 1 to 64");
+    if (!(parameters.loss >= 0.0 && parameters.loss <= max_loss))
+        return fail("loss = " + number(parameters.loss) + ": expected a percentage from 0 to 100");
     if (scene.triangles.empty() && scene.points.empty())
         return fail(scene.source + ": the scene has no obstacles");
 
-    const double unit = metres_of_nominal_unit / scene.metres_per_unit;
+    const double unit = scene::metres_of_nominal_unit / scene.metres_per_unit;
     const double d0 = sampling_distance(scene, parameters);
     const auto cores = static_cast<unsigned>(tbb::info::default_concurrency());
     const unsigned threads = parameters.threads == 0 ? cores : std::min(parameters.threads, cores);

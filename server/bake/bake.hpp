@@ -31,7 +31,7 @@ enum class Sampling : std::uint8_t {
 
 struct Parameters {
     // Sampling distance in units of 0.0254 m: sets which openings exist. min_d0 .. max_d0, or 0: 16, and for
-    // a point cloud the points' spacing.
+    // a point cloud the points' spacing, as far as it lies within these.
     double d0 = 0.0;
     unsigned threads = 0;  // 0 = one a core, which is also the most. Never changes the result
     // Mesh reduction: how much free distance the centre of a ball may lose, as percent of the mean over the
@@ -70,9 +70,10 @@ struct Baked {
 // The sampling distance that is used, map units.
 [[nodiscard]] double sampling_distance(const scene::Scene& scene, const Parameters& parameters);
 
-// Runs all stages; tells `finished` about each when it is done. Fails with ErrorCode::interrupted soon after
-// `stop` is requested, and with `failed` when the scene has no obstacles, no spawn point in free space, or
-// too many samples for memory.
+// Runs all stages; tells `finished`, on the calling thread, about each when it is done. May be called by
+// several threads at once. Fails with ErrorCode::interrupted soon after `stop` is requested, and with
+// `failed` when a parameter is out of its range, or when the scene has no obstacles, no spawn point in free
+// space, or too many samples for memory.
 [[nodiscard]] Result<Baked> bake(const scene::Scene& scene, const Parameters& parameters,
                                  const ProgressSink& progress, std::stop_token stop,
                                  const ReportSink& finished = {});

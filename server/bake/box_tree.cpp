@@ -93,8 +93,8 @@ struct BoxTree::Builder {
                             std::size_t depth) {
         Split best;
         for (int axis = 0; axis < 3 && depth < max_depth / 2; ++axis) {
-            if (!(centres.sizes()[axis] > 0.0)) continue;
             const Binning bin_of = binning(centres, axis);
+            if (!std::isfinite(bin_of.scale)) continue;
             std::array<Bin, bins> filled;
             for (std::uint32_t i = first; i < last; ++i) {
                 const Box3d& box = boxes[tree.order_[i]];

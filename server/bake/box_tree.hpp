@@ -1,4 +1,5 @@
-// A bounding volume hierarchy over boxes, built once: the spatial index under Obstacles and Solids.
+// A bounding volume hierarchy over boxes, built once: the spatial index under Obstacles, Solids and
+// SamplingDistance.
 #pragma once
 
 #include <array>
@@ -23,12 +24,12 @@ class BoxTree {
     [[nodiscard]] const std::vector<std::uint32_t>& order() const { return order_; }
 
     // Visits what may matter, nearest first. `key(box)` orders and prunes: boxes whose key is >= limit() at
-    // the time of the visit are skipped; it must not decrease from a box to one inside it.
+    // the time of the visit are skipped, with all that is in them; it must be a lower bound for that.
     // `visit(position)` handles an item and may lower what limit() returns.
     template <class Key, class Limit, class Visit>
     void visit_by(const Key& key, const Limit& limit, const Visit& visit) const;
 
-    // Visits every item whose leaf's box satisfies `matters`.
+    // Visits every item whose leaf's box, and all boxes around that, satisfy `matters`.
     template <class Matters, class Visit>
     void visit_where(const Matters& matters, const Visit& visit) const;
 

@@ -40,9 +40,6 @@ class Slab {
     // to the point; not positive when the point is outside.
     [[nodiscard]] double distance(const Vec3d& point) const { return -towards_point(point).value; }
 
-    // The largest value of a point's coordinate along `direction` (of length <= 1) over the slab.
-    [[nodiscard]] double reach(const Vec3d& direction) const { return hull().reach(direction); }
-
     [[nodiscard]] const Triangle3d& corners() const { return corners_; }
     [[nodiscard]] const std::array<double, 3>& free_distance() const { return free_distance_; }
 

@@ -3,7 +3,6 @@
 #include <CGAL/Exact_rational.h>
 #include <CGAL/Simple_cartesian.h>
 
-#include <cassert>
 #include <cmath>
 
 namespace camdir::bake {

@@ -1,7 +1,6 @@
 #include "bake/collapses.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace camdir::bake {
 namespace {
@@ -90,7 +89,7 @@ double Collapses::cost_of_length(std::uint32_t from, std::uint32_t to) const {
 // As far as is known without a look at the slabs.
 bool Collapses::may_take_place(std::uint32_t vertex, std::uint32_t to, const State& state) const {
     // A vertex of the roadmap must stay on it.
-    if (all_.vertices[vertex].free_distance > 0.0F && all_.vertices[to].free_distance <= 0.0F) return false;
+    if (has_ball(vertex) && !has_ball(to)) return false;
     if (std::find(state.refused.begin(), state.refused.end(), to) != state.refused.end()) return false;
     const auto& certified = all_.certified[vertex];
     return std::none_of(certified.begin(), certified.end(),
@@ -99,10 +98,10 @@ bool Collapses::may_take_place(std::uint32_t vertex, std::uint32_t to, const Sta
 
 // At the vertex itself, when `to` takes its place.
 double Collapses::lost_distance(std::uint32_t vertex, std::uint32_t to) {
-    const double distance = all_.vertices[vertex].free_distance;
-    if (!(distance > 0.0)) return 0.0;
+    if (!has_ball(vertex)) return 0.0;
     find_moved(vertex, to);
-    return distance - find_home(all_.vertices, homes_, all_.position(vertex)).distance;
+    return all_.vertices[vertex].free_distance -
+           find_home(all_.vertices, homes_, all_.position(vertex)).distance;
 }
 
 void Collapses::surroundings_changed(std::span<const std::uint32_t> vertices) {

@@ -69,6 +69,9 @@ class Collapses {
     [[nodiscard]] bool is_mine(const Complex::Corners& corners) const {
         return is_mine(corners[0]) && is_mine(corners[1]) && is_mine(corners[2]);
     }
+    [[nodiscard]] bool has_ball(std::uint32_t vertex) const {
+        return all_.vertices[vertex].free_distance > all_.reduction.margin;
+    }
     void enqueue(std::uint32_t vertex);
     [[nodiscard]] std::optional<Target> cheapest_target(std::uint32_t vertex, const State& state);
     [[nodiscard]] bool may_take_place(std::uint32_t vertex, std::uint32_t to, const State& state) const;

@@ -32,7 +32,7 @@ struct Delaunay {
 
 // Rings only for edges whose Voronoi face is bounded and that are at least as long as the smaller of the
 // `min_lengths` of their two samples (one a sample). Exact, also for samples in special position: the result
-// depends on nothing but the samples. At least 4 samples, not all in one plane.
+// depends on nothing but the samples. Fails when all samples lie in one plane; at least 4 are needed.
 [[nodiscard]] Result<Delaunay> delaunay(const std::vector<Vec3d>& samples,
                                         const std::vector<double>& min_lengths, Stage& stage);
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "bake/certificate.hpp"
+#include "bake/round_down.hpp"
 
 namespace camdir::bake {
 namespace {
@@ -55,12 +56,6 @@ Radii certify(const Triangle3d& corners, Radii radii, const Obstacles& obstacles
             radii[i] += worst.value * worst.weights[i] / squares;
     }
     return radii;
-}
-
-float round_down(double value) {
-    const auto rounded = static_cast<float>(value);
-    if (static_cast<double>(rounded) <= value) return rounded;
-    return std::nextafter(rounded, -std::numeric_limits<float>::infinity());
 }
 
 void lower_to(std::atomic<float>& bound, float value) {

@@ -66,7 +66,10 @@ std::vector<char> largest_part(const MedialMesh& mesh, const std::vector<double>
     for (const freespace::Triangle& t : mesh.triangles) {
         const double of_one = area(mesh.corners(t));
         const bool counts = is_within(t.a) && is_within(t.b) && is_within(t.c);
-        for (const std::uint32_t part : std::set{parts.find(t.a), parts.find(t.b), parts.find(t.c)}) {
+        std::set<std::uint32_t> found;  // several where the triangle joins nothing
+        for (const std::uint32_t vertex : {t.a, t.b, t.c})
+            if (clearance[vertex] > 0.0) found.insert(parts.find(vertex));
+        for (const std::uint32_t part : found) {
             auto& [within, whole] = areas[part];
             within += counts ? of_one : 0.0;
             whole += of_one;
@@ -77,6 +80,12 @@ std::vector<char> largest_part(const MedialMesh& mesh, const std::vector<double>
                                           [](const auto& a, const auto& b) { return a.second < b.second; });
     if (largest != areas.end()) wanted[largest->first] = 1;
     return wanted;
+}
+
+Result<std::vector<char>> wanted_parts(const MedialMesh& mesh, const std::vector<double>& clearance,
+                                       const scene::Scene& scene, DisjointSets& parts, Stage& stage) {
+    if (scene.spawn_points.empty()) return largest_part(mesh, clearance, scene.bounds, parts);
+    return parts_with_spawn_points(mesh, clearance, scene, parts, stage);
 }
 
 // Keeps the wanted parts' triangles.
@@ -96,8 +105,7 @@ void keep_parts(MedialMesh& mesh, const std::vector<char>& wanted, DisjointSets&
 Result<void> keep_inside(MedialMesh& mesh, const std::vector<double>& clearance, const scene::Scene& scene,
                          const Solids& solids, Stage& stage) {
     DisjointSets parts = connect(mesh);
-    Result<std::vector<char>> wanted = largest_part(mesh, clearance, scene.bounds, parts);
-    if (!scene.spawn_points.empty()) wanted = parts_with_spawn_points(mesh, clearance, scene, parts, stage);
+    const auto wanted = wanted_parts(mesh, clearance, scene, parts, stage);
     if (!wanted) return tl::unexpected(wanted.error());
 
     keep_parts(mesh, *wanted, parts, stage);
@@ -132,10 +140,10 @@ Result<void> keep_inside_cloud(MedialMesh& mesh, const std::vector<double>& clea
     for (std::uint32_t vertex = 0; vertex < free.size(); ++vertex)
         free[vertex] = is_wide(vertex) ? clearance[vertex] - margin : 0.0;
 
-    Result<std::vector<char>> wanted = largest_part(mesh, free, scene.bounds, parts);
-    if (!scene.spawn_points.empty()) wanted = parts_with_spawn_points(mesh, free, scene, parts, stage);
+    const auto wanted = wanted_parts(mesh, free, scene, parts, stage);
     if (!wanted) return tl::unexpected(wanted.error());
     keep_parts(mesh, *wanted, parts, stage);
+    stage.count("triangles", static_cast<double>(mesh.triangles.size()));
     return {};
 }
 

@@ -12,8 +12,8 @@ class Prober {
         : obstacles_(obstacles), solids_(solids), probing_(probing), stage_(stage) {}
 
     void probe(const Triangle3d& t, std::vector<Vec3d>& centres) const {
-        const Vec3d normal = (t[1] - t[0]).cross(t[2] - t[0]).normalized();
-        if (normal.allFinite()) probe(t, normal, centres);
+        const Vec3d normal = (t[1] - t[0]).cross(t[2] - t[0]);
+        if (normal.squaredNorm() > 0.0) probe(t, normal.normalized(), centres);
     }
 
   private:

@@ -1,7 +1,5 @@
 #include "bake/obstacles.hpp"
 
-#include <cmath>
-
 namespace camdir::bake {
 namespace {
 

@@ -13,8 +13,6 @@
 namespace camdir::bake {
 namespace {
 
-constexpr std::size_t region_size =
-    4096;  // vertices: small enough to share out, large enough to have an inside
 // The allowed loss grows from round to round, so that the cheap collapses of the whole map come first.
 constexpr double first_share = 1.0 / 4.0;
 constexpr double share_factor = 2.0;
@@ -38,7 +36,7 @@ Slab slab_with(const Shrinking& shrinking, const Complex::Corners& corners, std:
 // when it gets lower.
 float highest(const Shrinking& shrinking, std::uint32_t vertex) {
     constexpr int max_steps = 12;
-    constexpr double rounding = 1e-3;
+    constexpr double rounding = 1e-4;  // of the loss
     const float kept = shrinking.vertices[vertex].free_distance;
     float distance = shrinking.whole_distance[vertex];
     for (const std::uint32_t triangle : shrinking.complex.star(vertex)) {
@@ -51,7 +49,7 @@ float highest(const Shrinking& shrinking, std::uint32_t vertex) {
                 margin(slab_with(shrinking, corners, place, distance), shrinking.obstacles, 0.0);
             if (worst.value >= 0.0) break;
             const double lowered = distance + worst.value / std::max(worst.weights[place], 1e-6);
-            distance = static_cast<float>(lowered - rounding);
+            distance = static_cast<float>(lowered - rounding * shrinking.reduction.loss);
         }
     }
     return distance;
@@ -96,7 +94,6 @@ std::uint64_t wanted_of(const Shrinking& shrinking, std::uint64_t count, double 
 bool run_round(Shrinking& shrinking, std::span<const Vec3f> positions, double share, double cut,
                Stage& stage) {
     const Division division(shrinking, positions, cut);
-    shrinking.give_slack(share);
     const std::uint64_t count = shrinking.complex.triangle_count();
     std::vector<std::uint64_t> wanted;
     for (const auto& region : division.regions)
@@ -166,8 +163,11 @@ Result<void> reduce(MedialMesh& mesh, std::vector<float>& free_distance, const s
     Shrinking shrinking(mesh, free_distance, scene, obstacles, reduction);
     int round = 0;
     int at_full_share = 0;
+    double given = 0.0;
     for (double share = first_share; at_full_share < last_rounds;
          share = std::min(1.0, share * share_factor)) {
+        if (share > given) shrinking.give_slack(share);
+        given = share;
         if (share >= 1.0) ++at_full_share;
         const double cut = cuts[static_cast<std::size_t>(round++) % cuts.size()];
         if (!run_round(shrinking, mesh.vertices, share, cut, stage)) return stage.interrupted();

@@ -1,6 +1,7 @@
 #include "bake/regions.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 namespace camdir::bake {
@@ -50,6 +51,7 @@ class Cutter {
 std::vector<std::vector<std::uint32_t>> make_regions(std::span<const Vec3f> positions,
                                                      std::span<const std::uint32_t> chosen, std::size_t most,
                                                      double cut) {
+    assert(cut * static_cast<double>(most) > 1.0 && cut < 1.0);
     Cutter cutter(positions, most, cut);
     cutter.cut({chosen.begin(), chosen.end()});
     return cutter.take();

@@ -9,8 +9,9 @@
 
 namespace camdir::bake {
 
-// Vertex lists of at most `most` vertices, cut at `cut` (0 .. 1) of each box's count along its longest side.
-// Depends on the input alone; another `cut` puts the borders elsewhere. Lists keep the order of `chosen`.
+// Vertex lists of at most `most` vertices, cut at `cut` (above 1 / `most`, below 1) of each box's count along
+// its longest side. Depends on the input alone; another `cut` puts the borders elsewhere. Lists are
+// ascending.
 [[nodiscard]] std::vector<std::vector<std::uint32_t>> make_regions(std::span<const Vec3f> positions,
                                                                    std::span<const std::uint32_t> chosen,
                                                                    std::size_t most, double cut);

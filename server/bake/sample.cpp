@@ -11,34 +11,38 @@ namespace {
 // Refines obstacle triangles; one object for all threads.
 class Refinement {
   public:
-    Refinement(const Solids& solids, const SamplingDistance& distance, double slack, const Stage& stage)
-        : solids_(solids), distance_(distance), slack_(slack), stage_(stage) {}
+    Refinement(const Solids& solids, const SamplingDistance& distance, double slack, std::uint64_t most,
+               const Stage& stage)
+        : solids_(solids), distance_(distance), slack_(slack), most_(most), stage_(stage) {}
 
-    // Appends the corners and the midpoints that bisecting the longest edges adds until the triangles are
-    // fine enough. Leaves off when there are too many in all, or when the stage must end.
-    void sample(const Triangle3d& t, std::vector<Vec3d>& samples) {
-        if (conceal(t)) return;
-        samples.assign(t.begin(), t.end());
-        refine(t, {distance_.at(t[0]), distance_.at(t[1]), distance_.at(t[2])}, samples);
+    // Makes the midpoints that bisecting the longest edges adds until the triangles are fine enough. Leaves
+    // off when there are too many in all, or when the stage must end. False when the triangle needs no
+    // samples.
+    bool sample(const Triangle3d& t, std::vector<Vec3d>& midpoints) {
+        if (conceal(t)) return false;
+        if (total_ <= most_)
+            refine(t, {distance_.at(t[0]), distance_.at(t[1]), distance_.at(t[2])}, midpoints);
+        total_ += midpoints.size() % block;
+        return true;
     }
 
   private:
-    void refine(const Triangle3d& t, const std::array<double, 3>& at, std::vector<Vec3d>& samples) {
+    void refine(const Triangle3d& t, const std::array<double, 3>& at, std::vector<Vec3d>& midpoints) {
         const int from = longest_edge(t);
         const int to = (from + 1) % 3;
         const int apex = (from + 2) % 3;
         const double limit = distance_.covering(std::min({at[0], at[1], at[2]})) - slack_;
         const double length2 = (t[to] - t[from]).squaredNorm();
         if (length2 < 4.0 * limit * limit && covering_radius(t) < limit) return;
-        if (stage_.stopping() || too_many(samples.size())) return;
+        if (stage_.stopping() || too_many(midpoints.size())) return;
         // The sum commutes exactly, so both triangles of a shared edge get the same point.
         const Vec3d middle = 0.5 * (t[from] + t[to]);
         const double at_middle = distance_.at(middle);
-        samples.push_back(middle);
+        midpoints.push_back(middle);
         const Triangle3d first{t[from], middle, t[apex]};
         const Triangle3d second{middle, t[to], t[apex]};
-        if (!conceal(first)) refine(first, {at[from], at_middle, at[apex]}, samples);
-        if (!conceal(second)) refine(second, {at_middle, at[to], at[apex]}, samples);
+        if (!conceal(first)) refine(first, {at[from], at_middle, at[apex]}, midpoints);
+        if (!conceal(second)) refine(second, {at_middle, at[to], at[apex]}, midpoints);
     }
 
     // Gaps as narrow as rounding makes them count as closed.
@@ -48,14 +52,16 @@ class Refinement {
 
     // Counts in blocks, so that the threads seldom meet.
     bool too_many(std::size_t of_one_triangle) {
-        constexpr std::uint64_t block = 1024;
-        if (of_one_triangle % block == 0) total_ += block;
-        return total_ > max_samples;
+        if (of_one_triangle > 0 && of_one_triangle % block == 0) total_ += block;
+        return total_ > most_;
     }
+
+    static constexpr std::uint64_t block = 1024;
 
     const Solids& solids_;
     const SamplingDistance& distance_;
     const double slack_;
+    const std::uint64_t most_;
     const Stage& stage_;
     std::atomic<std::uint64_t> total_ = 0;
 };
@@ -65,7 +71,24 @@ tl::unexpected<Error> too_many(const scene::Scene& scene, double distance, doubl
     return fail(scene.source + ": a sampling distance of " + std::to_string(distance) +
                 " map units needs more than " + std::to_string(millions) +
                 " million samples, and the limit is " + std::to_string(max_samples / 1'000'000U) +
-                " million; choose a larger d0");
+                " million; choose a larger d0, or say with --metres-per-unit how long a unit is");
+}
+
+Triangle3d triangle_of(const scene::Scene& scene, std::size_t index) {
+    const auto& [a, b, c] = scene.triangles[index];
+    return {scene.vertices[a], scene.vertices[b], scene.vertices[c]};
+}
+
+// The corners of the triangles that need samples, each once.
+std::vector<Vec3d> corners_of(const scene::Scene& scene, const std::vector<char>& needs) {
+    std::vector<char> is_corner(scene.vertices.size());
+    for (std::size_t i = 0; i < needs.size(); ++i)
+        for (const std::uint32_t vertex : scene.triangles[i])
+            is_corner[vertex] |= needs[i];
+    std::vector<Vec3d> corners;
+    for (std::size_t vertex = 0; vertex < is_corner.size(); ++vertex)
+        if (is_corner[vertex] != 0) corners.push_back(scene.vertices[vertex]);
+    return corners;
 }
 
 }  // namespace
@@ -92,31 +115,33 @@ double covering_radius(const Triangle3d& t) {
     return std::max(from_a, from_b);
 }
 
-Result<std::vector<Vec3d>> sample(const scene::Scene& scene, const Solids& solids,
-                                  const SamplingDistance& distance, double slack, Stage& stage) {
-    std::vector<Triangle3d> triangles;
-    triangles.reserve(scene.triangles.size());
-    double discs = 0.0;  // a sample covers at most a disc
-    for (const auto& [a, b, c] : scene.triangles) {
-        triangles.push_back({scene.vertices[a], scene.vertices[b], scene.vertices[c]});
-        discs += area(triangles.back()) / (M_PI * distance.coarsest() * distance.coarsest());
-    }
-    if (discs > static_cast<double>(max_samples)) return too_many(scene, distance.finest(), discs);
+Result<void> check_sample_count(const scene::Scene& scene, double coarsest, double finest) {
+    double discs = 0.0;  // a sample covers at most one
+    for (std::size_t i = 0; i < scene.triangles.size(); ++i)
+        discs += area(triangle_of(scene, i)) / (M_PI * coarsest * coarsest);
+    if (discs > static_cast<double>(max_samples)) return too_many(scene, finest, discs);
+    return {};
+}
 
-    Refinement refinement(solids, distance, slack, stage);
-    std::vector<std::vector<Vec3d>> samples_of(triangles.size());
-    const bool done = stage.for_each(
-        triangles.size(), [&](std::uint64_t i) { refinement.sample(triangles[i], samples_of[i]); });
+Result<std::vector<Vec3d>> sample(const scene::Scene& scene, const Solids& solids,
+                                  const SamplingDistance& distance, double slack, Stage& stage,
+                                  std::uint64_t most) {
+    Refinement refinement(solids, distance, slack, most, stage);
+    std::vector<std::vector<Vec3d>> midpoints_of(scene.triangles.size());
+    std::vector<char> needs(scene.triangles.size());
+    const bool done = stage.for_each(scene.triangles.size(), [&](std::uint64_t i) {
+        needs[i] = refinement.sample(triangle_of(scene, i), midpoints_of[i]);
+    });
     if (!done) return stage.interrupted();
-    std::size_t total = 0;
-    for (const auto& of_one : samples_of)
+    std::vector<Vec3d> samples = corners_of(scene, needs);
+    std::size_t total = samples.size();
+    for (const auto& of_one : midpoints_of)
         total += of_one.size();
-    if (total > max_samples) return too_many(scene, distance.finest(), static_cast<double>(max_samples));
-    std::vector<Vec3d> samples;
+    if (total > most) return too_many(scene, distance.finest(), static_cast<double>(most));
     samples.reserve(total);
-    for (const auto& of_one : samples_of)
+    for (const auto& of_one : midpoints_of)
         samples.insert(samples.end(), of_one.begin(), of_one.end());
-    stage.count("triangles", static_cast<double>(triangles.size()));
+    stage.count("triangles", static_cast<double>(scene.triangles.size()));
     stage.count("points", static_cast<double>(samples.size()));
     return samples;
 }

@@ -14,6 +14,10 @@ namespace camdir::bake {
 // More samples than this are refused: their Voronoi diagram takes about 10 GB.
 inline constexpr std::uint64_t max_samples = 20'000'000;
 
+// Fails when the area alone says that samples `coarsest` apart are more than that: before hours are spent on
+// a map whose unit is not what it seems. `finest` is what the user asked for.
+[[nodiscard]] Result<void> check_sample_count(const scene::Scene& scene, double coarsest, double finest);
+
 // Largest distance from a point of the triangle to the nearest of its corners.
 [[nodiscard]] double covering_radius(const Triangle3d& triangle);
 
@@ -22,9 +26,10 @@ inline constexpr std::uint64_t max_samples = 20'000'000;
 // less than `slack`. What `solids` conceal needs no samples: whatever is free is nearer to something else.
 // Triangles of samples p have edges shorter than twice the least covering() of their corners. (The paper's
 // rule, edges alone, misses its own sampling condition by up to 14 %.) Points of shared edges repeat. Fails
-// with more than max_samples.
+// with more than `most`.
 [[nodiscard]] Result<std::vector<Vec3d>> sample(const scene::Scene& scene, const Solids& solids,
-                                                const SamplingDistance& distance, double slack, Stage& stage);
+                                                const SamplingDistance& distance, double slack, Stage& stage,
+                                                std::uint64_t most = max_samples);
 
 // d_s at each sample.
 [[nodiscard]] Result<std::vector<double>> distances_at(const std::vector<Vec3d>& samples,

@@ -9,8 +9,8 @@ namespace camdir::bake {
 namespace {
 
 constexpr double slack_of_loss = 0.3;
-constexpr double most_slack = 0.25;  // of the free distance: what has a ball keeps one
-constexpr double spawn_share = 0.5;  // of its free distance that a spawn point keeps
+constexpr double most_slack = 0.25;  // of the free distance above the margin: what has a ball keeps one
+constexpr double spawn_share = 0.5;  // of that above the margin, which a spawn point keeps
 
 }  // namespace
 
@@ -42,7 +42,8 @@ Shrinking::Shrinking(const MedialMesh& mesh, const std::vector<float>& free_dist
     for (std::uint32_t vertex = 0; vertex < vertices.size(); ++vertex) {
         const auto star = complex.star(vertex);
         const double distance = vertices[vertex].free_distance;
-        if (distance > 0.0 && !star.empty()) witnesses[star.front()].push_back({position(vertex), distance});
+        if (distance > reduction.margin && !star.empty())
+            witnesses[star.front()].push_back({position(vertex), distance});
     }
     const std::vector<scene::SpawnPoint>& spawns = scene.spawn_points;
     std::vector<Home> homes(spawns.size());
@@ -50,7 +51,9 @@ Shrinking::Shrinking(const MedialMesh& mesh, const std::vector<float>& free_dist
                  [&](std::size_t i) { homes[i] = find_home(vertices, mesh.triangles, spawns[i].eye); });
     for (std::size_t i = 0; i < homes.size(); ++i) {
         const auto& [position, distance] = homes[i];
-        if (distance > 0.0) witnesses[position].push_back({spawns[i].eye, distance, spawn_share * distance});
+        const double above = distance - reduction.margin;
+        if (above > 0.0)
+            witnesses[position].push_back({spawns[i].eye, distance, reduction.margin + spawn_share * above});
     }
 }
 
@@ -67,12 +70,13 @@ std::vector<bool> Shrinking::bound_vertices() const {
 void Shrinking::give_slack(double share) {
     const std::vector<bool> bound = bound_vertices();
     for (std::size_t i = 0; i < vertices.size(); ++i) {
+        certified[i].clear();
         const double whole = whole_distance[i];
-        if (!(whole > 0.0) || bound[i]) continue;
-        const double slack = std::min(slack_of_loss * reduction.loss, most_slack * whole);
+        const double above = whole - reduction.margin;
+        if (!(above > 0.0) || bound[i]) continue;
+        const double slack = std::min(slack_of_loss * reduction.loss, most_slack * above);
         vertices[i].free_distance =
             std::min(vertices[i].free_distance, static_cast<float>(whole - share * slack));
-        certified[i].clear();
     }
 }
 

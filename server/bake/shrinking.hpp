@@ -51,8 +51,8 @@ struct Shrinking {
     }
 
     // Lowers the free distances by `share` of the slack that the loss has for them, and forgets what was
-    // refused for want of it. A witness has lost at most `share` of the loss afterwards if it had before; one
-    // with a least free distance loses nothing.
+    // refused for want of it. A witness that has lost at most half of `share` of the loss before has lost at
+    // most all of it afterwards; one with a least free distance loses nothing.
     void give_slack(double share);
 
     // Whether the slabs that a collapse would make were found free.

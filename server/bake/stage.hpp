@@ -18,8 +18,8 @@ class Stage {
   public:
     Stage(std::string name, ProgressSink sink, std::stop_token stop);
 
-    // Tells the progress, at most every 50 ms; a `total` of 0 is unknown. False when the stage must end:
-    // return interrupted() then.
+    // Tells the progress, at most every 50 ms and at the end; a `total` of 0 is unknown. False when the stage
+    // must end: return interrupted() then.
     [[nodiscard]] bool advance(std::uint64_t done, std::uint64_t total);
 
     // body(i) for every i < count, in any order and on any thread: it may write only what belongs to i.

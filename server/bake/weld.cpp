@@ -67,6 +67,8 @@ class Grid {
 }  // namespace
 
 Result<std::vector<Vec3d>> weld(std::vector<Vec3d> samples, double distance, Stage& stage) {
+    for (Vec3d& sample : samples)
+        sample += Vec3d::Zero();  // -0 becomes 0: of equal ones it must not matter which is kept
     parallel_sort(samples.begin(), samples.end(), [](const Vec3d& a, const Vec3d& b) {
         return std::tuple(a.x(), a.y(), a.z()) < std::tuple(b.x(), b.y(), b.z());
     });

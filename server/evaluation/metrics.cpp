@@ -19,7 +19,7 @@ constexpr std::int64_t event_span = 100'000'000;  // ns around an event within w
 
 // The thresholds in map units.
 struct Thresholds {
-    explicit Thresholds(double metres_per_unit) : unit(0.0254 / metres_per_unit) {}
+    explicit Thresholds(double metres_per_unit) : unit(scene::metres_of_nominal_unit / metres_per_unit) {}
 
     double unit;
     double distance = 120.0 * unit;  // d_opt

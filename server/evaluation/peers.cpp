@@ -9,7 +9,8 @@ std::optional<Peer> find_peer(std::string_view name) {
 }
 
 CameraPath follow(Peer peer, const Trace& trace, double metres_per_unit) {
-    const double distance = peer == Peer::rigid ? 120.0 * 0.0254 / metres_per_unit : 0.0;
+    const double distance =
+        peer == Peer::rigid ? 120.0 * scene::metres_of_nominal_unit / metres_per_unit : 0.0;
     CameraPath path;
     path.reserve(trace.poses.size());
     for (const TracePose& pose : trace.poses) {

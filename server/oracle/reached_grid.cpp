@@ -33,7 +33,7 @@ std::vector<Cell> offsets_within(double radius) {
 }  // namespace
 
 double grid_pitch(const scene::Scene& scene) {
-    return 8.0 * 0.0254 / scene.metres_per_unit;
+    return 8.0 * scene::metres_of_nominal_unit / scene.metres_per_unit;
 }
 
 std::vector<Vec3d> spawn_eyes(const scene::Scene& scene) {

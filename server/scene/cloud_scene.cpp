@@ -1,7 +1,6 @@
 #include "scene/cloud_scene.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 #include <utility>
 

@@ -1,11 +1,14 @@
 #include "scene/frame.hpp"
 
+#include <algorithm>
 #include <sstream>
 
 namespace camdir::scene {
 namespace {
 
 constexpr double max_nominal_coordinate = 1 << 20;
+constexpr double file_coordinate_limit =
+    5e7;  // what a MAP.vfs holds, with room for what lies around the geometry
 
 std::string text_of(const Vec3d& p) {
     std::ostringstream text;
@@ -23,7 +26,7 @@ Frame::Frame(const ReadOptions& options, UpAxis up)
 
 Result<Vec3d> Frame::place(const Vec3d& source, const char* what, std::size_t index) const {
     const Vec3d moved = source - origin_;
-    const double limit = max_nominal_coordinate * nominal_unit();
+    const double limit = std::min(max_nominal_coordinate * nominal_unit(), file_coordinate_limit);
     if (!(moved.cwiseAbs().maxCoeff() < limit) || !moved.allFinite()) {
         std::ostringstream text;
         text << what << ' ' << index << " at " << text_of(source) << ": expected finite coordinates below "

@@ -7,9 +7,6 @@
 
 namespace camdir::scene {
 
-// Metres of the nominal unit that the project's lengths are given in.
-inline constexpr double metres_of_nominal_unit = 0.0254;
-
 class Frame {
   public:
     // `up` is what the format says; the options win.

@@ -2,7 +2,6 @@
 
 #include <xxhash.h>
 
-#include <cstring>
 #include <memory>
 #include <span>
 #include <sstream>

@@ -76,7 +76,8 @@ Result<void> set_count(const Words& words, const Lines& lines, std::optional<std
 Result<void> read_entry(const Words& words, const Lines& lines, PcdHeader& header) {
     const std::string_view key = words[0];
     if (key == "FIELDS" || key == "COLUMNS") {
-        if (words.size() - 1 > max_fields) return lines.bad_line("more than 256 fields");
+        if (header.fields.size() + words.size() - 1 > max_fields)
+            return lines.bad_line("more than 256 fields");
         for (std::size_t i = 1; i < words.size(); ++i)
             header.fields.push_back({words[i]});
         return {};

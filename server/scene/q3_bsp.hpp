@@ -84,10 +84,10 @@ struct Bsp {
     [[nodiscard]] std::size_t max_triangles() const { return 65536 + byte_size / 4; }
 };
 
-// Afterwards: every reference between lumps is in range, the nodes form a tree with its root at 0, no
-// brush side belongs to two brushes, no brush or face to two models, numbers of planes, vertices and models
-// are finite and below 2^20 in size, plane normals have length 1 within 1 %, there is at least one model.
-// Errors name lump and element.
+// Afterwards: every reference between lumps is in range, the nodes form a tree with its root at 0,
+// brushes have no more sides, and models no more brushes and faces, in all than the file has, numbers of
+// planes, vertices and models are finite and below 2^20 in size, plane normals have length 1 within 1 %,
+// there is at least one model. Errors name lump and element.
 [[nodiscard]] Result<Bsp> parse_bsp(std::span<const std::byte> bytes);
 
 }  // namespace camdir::scene::q3

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
 
 namespace camdir::scene::q3 {
@@ -68,6 +69,10 @@ struct Parameter {
     std::size_t first;  // control point where the span starts
     double t;           // within the span
 };
+
+std::size_t cells_along(const Steps& steps) {
+    return std::accumulate(steps.begin(), steps.end(), std::size_t{0});
+}
 
 std::vector<Parameter> parameters_of(const Steps& steps) {
     std::vector<Parameter> parameters;
@@ -152,12 +157,12 @@ std::vector<std::array<Vec3d, 3>> Tessellation::triangles() const {
 Result<Tessellation> tessellate(const Bsp& bsp, const Face& face, std::size_t max_triangles) {
     const ControlGrid grid(bsp, face);
     for (Steps u = steps_across(grid), v = steps_down(grid);; double_all(u), double_all(v)) {
+        if (2 * cells_along(u) * cells_along(v) > max_triangles)
+            return fail("patches need more than " + std::to_string(bsp.max_triangles()) +
+                        " triangles to be within a unit, which is the limit for a file of this size");
         const std::vector<Parameter> across = parameters_of(u);
         const std::vector<Parameter> down = parameters_of(v);
         Tessellation tessellation{across.size(), down.size(), {}};
-        if (tessellation.triangle_count() > max_triangles)
-            return fail("patches need more than " + std::to_string(bsp.max_triangles()) +
-                        " triangles to be within a unit, which is the limit for a file of this size");
         tessellation.points.reserve(across.size() * down.size());
         for (const Parameter& row : down) {
             for (const Parameter& column : across) {

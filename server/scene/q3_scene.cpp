@@ -13,7 +13,6 @@
 namespace camdir::scene {
 namespace {
 
-constexpr double metres_per_unit = 0.0254;
 // The game lets players appear 9 above the entity; their eyes are 26 above their origin.
 constexpr int eye_height = 9 + 26;
 
@@ -108,7 +107,7 @@ Result<Scene> Reader::read() {
     }
     const Result<void> spawned = collector_.add_spawn_points(*entities, eye_height);
     if (!spawned) return tl::unexpected(spawned.error());
-    return collector_.take(metres_per_unit);
+    return collector_.take(metres_of_nominal_unit);
 }
 
 Result<void> Reader::add_model(std::size_t number, const Vec3d& translation, std::string_view left_out_as) {

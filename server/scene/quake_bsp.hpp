@@ -89,9 +89,10 @@ struct Bsp {
 };
 
 // Afterwards: all lumps are inside the file, every reference between those read is in range, no node has two
-// parents and no model's root has one, no two models have the same root, no surface edge belongs to two faces
-// and no face to two models, numbers of planes, vertices and models are finite and below 2^20 in size, plane
-// normals have length 1 within 1 %, there is at least one model. Errors name lump, element and byte.
+// parents and no model's root has one, no two models have the same root, faces have no more surface edges,
+// and models no more faces, in all than the file has, numbers of planes, vertices and models are finite and
+// below 2^20 in size, plane normals have length 1 within 1 %, there is at least one model. Errors name lump,
+// element and byte.
 [[nodiscard]] Result<Bsp> parse_bsp(std::span<const std::byte> bytes);
 
 }  // namespace camdir::scene::quake

@@ -1,7 +1,6 @@
 #include "scene/quake_scene.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstdlib>
 #include <cstring>
 #include <string>
@@ -15,7 +14,6 @@
 namespace camdir::scene {
 namespace {
 
-constexpr double metres_per_unit = 0.0254;
 // Players appear 1 above the entity; their eyes are so far above their origin.
 constexpr int eye_height_quake = 1 + 22;
 constexpr int eye_height_goldsrc = 1 + 28;
@@ -103,7 +101,7 @@ Result<Scene> Reader::read() {
     const Result<void> spawned = collector_.add_spawn_points(
         *entities, bsp_.version == quake::version_quake ? eye_height_quake : eye_height_goldsrc);
     if (!spawned) return tl::unexpected(spawned.error());
-    return collector_.take(metres_per_unit);
+    return collector_.take(metres_of_nominal_unit);
 }
 
 // Faces that close what is solid are parts of its surface, which the volumes give without holes. A model

@@ -12,6 +12,9 @@
 namespace camdir::scene {
 
 // Obstacle half space: points with normal.dot(p) <= distance are on the solid's side. `normal` has length 1.
+// Metres of the nominal unit that the project's lengths are given in.
+inline constexpr double metres_of_nominal_unit = 0.0254;
+
 struct Plane {
     Vec3d normal;
     double distance;

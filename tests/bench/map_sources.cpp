@@ -14,8 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 9> map_extensions = {".bsp", ".obj", ".ply", ".stl", ".gltf",
-                                                            ".glb", ".pcd", ".xyz", ".pts"};
+constexpr std::array<std::string_view, 10> map_extensions = {".bsp", ".obj", ".ply", ".stl", ".gltf",
+                                                             ".glb", ".pcd", ".xyz", ".pts", ".las"};
 
 std::string extension_of(const fs::path& path) {
     std::string extension = path.extension().string();

@@ -131,8 +131,11 @@ void Measurement::bake_with_one_and_two_threads() {
         std::vector<std::string> command = bake_command(again);
         command.insert(command.end(), {"--quiet", "--threads", threads});
         test::ChildProcess process(command);
-        const bool same = process.wait() == 0 && read_file(again).value() == read_file(file_).value();
-        if (!same) measured_.failures.push_back(std::string("other bytes with --threads ") + threads);
+        if (process.wait() != 0)
+            measured_.failures.push_back("bake with --threads " + std::string(threads) + ": " +
+                                         last_line(process.errors()));
+        else if (read_file(again).value() != read_file(file_).value())
+            measured_.failures.push_back("other bytes with --threads " + std::string(threads));
         std::filesystem::remove(again);
     }
 }

@@ -1,4 +1,5 @@
 #include "bench/paper/vertex_elimination.hpp"
+#include "bake/round_down.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +7,6 @@
 #include <tuple>
 
 #include "bench/paper/elimination.hpp"
-#include "bench/paper/round_down.hpp"
 
 namespace camdir::paper {
 namespace {
@@ -89,7 +89,7 @@ class Reduction {
         for (const Corners& triangle : plan.triangles)
             mesh_.add(triangle);
         for (const auto& [lowered, value] : plan.lowered)
-            mesh_.set_free_distance(lowered, round_down(value));
+            mesh_.set_free_distance(lowered, bake::round_down(value));
         for (const std::uint32_t neighbour : around)
             evaluate(neighbour);
     }

@@ -118,7 +118,7 @@ TEST_F(BakeConfig, BakesOnlyWhatIsMissingOrStale) {
     entries_["b"]["d0"] = 48;
     const Ran parameter = run();
     EXPECT_THAT(parameter.states(), UnorderedElementsAre(Pair("a", "fresh"), Pair("b", "baked")));
-    EXPECT_EQ(parameter.reason("b"), "it was baked with d0 64.0 instead of 48.0");
+    EXPECT_EQ(parameter.reason("b"), "it was baked with d0 64 instead of 48");
     entries_["b"]["loss"] = 5;
     EXPECT_THAT(states(), UnorderedElementsAre(Pair("a", "fresh"), Pair("b", "baked")));
     entries_["b"]["triangles"] = 1000;

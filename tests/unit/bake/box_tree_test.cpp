@@ -48,6 +48,16 @@ TEST(BoxTree, TakesEqualBoxes) {
     EXPECT_EQ(seen, boxes.size());
 }
 
+TEST(BoxTree, TakesCentresThatDifferByTheSmallestNumbers) {
+    std::vector<Box3d> boxes(5000, Box3d(Vec3d(0, 0, 0)));
+    for (std::size_t i = 0; i < boxes.size(); ++i)
+        boxes[i] = Box3d(Vec3d(i % 2 == 0 ? 0.0 : std::numeric_limits<double>::denorm_min(), 0.0, 0.0));
+    const BoxTree tree(boxes);
+    std::size_t seen = 0;
+    tree.visit_where([](const Box3d&) { return true; }, [&](std::uint32_t) { ++seen; });
+    EXPECT_EQ(seen, boxes.size());
+}
+
 TEST(BoxTree, FindsWhatASearchOverAllFinds) {
     std::mt19937 random(7);
     const auto boxes = random_boxes(random, 3000);

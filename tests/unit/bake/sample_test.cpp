@@ -214,12 +214,23 @@ TEST(Sample, TrianglesThatAreFineEnoughGiveTheirCorners) {
 
 TEST(Sample, RefusesWhatNeedsTooManySamples) {
     const Triangle3d t{Vec3d(0, 0, 0), Vec3d(1e6, 0, 0), Vec3d(0, 1e6, 0)};
-    Stage stage("sample", {}, {});
-    const auto refused = sample(scene_of(t), no_solids, SamplingDistance(4.0), 0.0, stage);
+    const auto refused = check_sample_count(scene_of(t), 4.0, 4.0);
     ASSERT_FALSE(refused);
     EXPECT_THAT(refused.error().message, testing::HasSubstr("made.map"));
     EXPECT_THAT(refused.error().message, testing::HasSubstr("the limit is 20 million"));
     EXPECT_EQ(refused.error().code, ErrorCode::failed);
+    EXPECT_TRUE(check_sample_count(scene_of(t), 4000.0, 4.0));
+}
+
+TEST(Sample, StopsWhereManyTrianglesNeedAFewSamplesEach) {
+    scene::Scene scene = scene_of({Vec3d(0, 0, 0), Vec3d(100, 0, 0), Vec3d(0, 100, 0)});
+    scene.triangles.resize(50, scene.triangles[0]);
+    Stage stage("sample", {}, {});
+    const std::size_t all = sample(scene, no_solids, SamplingDistance(4.0), 0.0, stage).value().size();
+    ASSERT_LT(all / 50, 1024U);
+    EXPECT_TRUE(sample(scene, no_solids, SamplingDistance(4.0), 0.0, stage, all));
+    EXPECT_FALSE(sample(scene, no_solids, SamplingDistance(4.0), 0.0, stage, all - 1));
+    EXPECT_FALSE(sample(scene, no_solids, SamplingDistance(4.0), 0.0, stage, 1));
 }
 
 }  // namespace

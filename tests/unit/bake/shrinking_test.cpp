@@ -40,5 +40,29 @@ TEST(FindHome, FindsNoneWithoutSlabs) {
     EXPECT_EQ(find_home({}, {}, Vec3d::Zero()).position, freespace::none);
 }
 
+// Two triangles far from each other, with a spawn point in the second.
+TEST(Shrinking, WhatIsAboveTheMarginStaysAboveIt) {
+    const MedialMesh mesh{{{0, 0, 0}, {40, 0, 0}, {0, 40, 0}, {400, 0, 0}, {440, 0, 0}, {400, 40, 0}},
+                          {{0, 1, 2}, {3, 4, 5}}};
+    const std::vector<float> free_distance{17.0F, 16.0F, 90.0F, 40.0F, 40.0F, 40.0F};
+    scene::Scene scene;
+    scene.points = {Vec3d(0, 0, -1000)};
+    scene.spawn_points.push_back({Vec3d(410, 10, 20), 0.0, "seed"});
+    const Obstacles obstacles(scene);
+    const Reduction reduction{.loss = 24.0, .margin = 16.0};
+    Shrinking shrinking(mesh, free_distance, scene, obstacles, reduction);
+
+    ASSERT_EQ(shrinking.witnesses[1].size(), 4U);
+    EXPECT_NEAR(shrinking.witnesses[1].back().free_distance, 20.0, 1e-4);
+    EXPECT_NEAR(shrinking.witnesses[1].back().least, 18.0, 1e-4);
+    EXPECT_EQ(shrinking.witnesses[0].size(), 2U) << "what has no ball is no witness";
+
+    shrinking.give_slack(1.0);
+    EXPECT_EQ(shrinking.vertices[0].free_distance, 16.75F);
+    EXPECT_EQ(shrinking.vertices[1].free_distance, 16.0F);
+    EXPECT_NEAR(shrinking.vertices[2].free_distance, 90.0 - 0.3 * 24.0, 1e-4);
+    EXPECT_EQ(shrinking.vertices[3].free_distance, 40.0F) << "a spawn point needs it";
+}
+
 }  // namespace
 }  // namespace camdir::bake

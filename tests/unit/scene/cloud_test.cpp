@@ -156,6 +156,14 @@ TEST(Cloud, RefusesWhatIsNoCloud) {
     EXPECT_THAT(refusal(binary_ply(false).substr(0, 280), CloudFormat::ply), HasSubstr("expected 6 rows"));
     EXPECT_THAT(refusal(test::pcd_header(20'000'001, "binary"), CloudFormat::pcd),
                 HasSubstr("the limit is 20000000"));
+    std::string many_fields = "VERSION 0.7\n";
+    for (int line = 0; line < 129; ++line)
+        many_fields += "FIELDS a b\n";
+    EXPECT_THAT(refusal(many_fields, CloudFormat::pcd), HasSubstr("line 130: more than 256 fields"));
+    ReadOptions micrometres;
+    micrometres.metres_per_unit = 1e-6;
+    EXPECT_THAT(refusal(test::xyz_of({{0, 0, 0}, {6e7, 0, 0}}), CloudFormat::xyz, micrometres),
+                HasSubstr("below 5e+07 map units"));
     std::string laz = test::las_of(points, Vec3d::Zero());
     laz[104] = static_cast<char>(0x80);
     EXPECT_THAT(refusal(laz, CloudFormat::las), HasSubstr("LAZ"));

@@ -1,0 +1,16 @@
+// Rounding that keeps a free distance free.
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+namespace camdir::bake {
+
+// The largest float that is not above the value.
+[[nodiscard]] inline float round_down(double value) {
+    const auto rounded = static_cast<float>(value);
+    if (static_cast<double>(rounded) <= value) return rounded;
+    return std::nextafter(rounded, -std::numeric_limits<float>::infinity());
+}
+
+}  // namespace camdir::bake
