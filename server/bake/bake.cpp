@@ -177,9 +177,11 @@ Result<void> Bake::run(const ProgressSink& progress, const std::stop_token& stop
 // Uniform sampling asks no medial axis.
 Result<void> Bake::medial_axis(Stage& stage) {
     if (parameters_.sampling == Sampling::uniform) return {};
-    const Probing probing{2.0 * d0_, SamplingDistance::reach(coarsest())};
+    const Probing probing{2.0 * d0_, SamplingDistance::reach(coarsest()), max_samples};
     auto points = bake::medial_axis(obstacles_, solids_, probing, stage);
     if (!points) return tl::unexpected(std::move(points.error()));
+    // Where the obstacles are that near to each other the samples are as dense.
+    if (points->size() > max_samples) return too_many_samples(scene_, d0_, static_cast<double>(max_samples));
     distance_ = SamplingDistance(d0_, coarsest(), std::move(*points));
     return {};
 }

@@ -1,6 +1,7 @@
 #include "bake/medial_axis.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 namespace camdir::bake {
@@ -11,14 +12,15 @@ class Prober {
     Prober(const Obstacles& obstacles, const Solids& solids, const Probing& probing, const Stage& stage)
         : obstacles_(obstacles), solids_(solids), probing_(probing), stage_(stage) {}
 
-    void probe(const Triangle3d& t, std::vector<Vec3d>& centres) const {
+    void probe(const Triangle3d& t, std::vector<Vec3d>& centres) {
         const Vec3d normal = (t[1] - t[0]).cross(t[2] - t[0]);
         if (normal.squaredNorm() > 0.0) probe(t, normal.normalized(), centres);
+        found_ += centres.size() % block;
     }
 
   private:
-    void probe(const Triangle3d& t, const Vec3d& normal, std::vector<Vec3d>& centres) const {
-        if (stage_.stopping() || solids_.conceal(t, offset())) return;
+    void probe(const Triangle3d& t, const Vec3d& normal, std::vector<Vec3d>& centres) {
+        if (stage_.stopping() || found_ > probing_.most || solids_.conceal(t, offset())) return;
         const Vec3d q = (t[0] + t[1] + t[2]) / 3.0;
         const double above = radius(q, normal);
         const double below = radius(q, -normal);
@@ -32,9 +34,17 @@ class Prober {
                 probe(half, normal, centres);
             return;
         }
-        if (above > 0.0 && above < probing_.reach) centres.push_back(q + above * normal);
-        if (below > 0.0 && below < probing_.reach) centres.push_back(q - below * normal);
+        if (above > 0.0 && above < probing_.reach) add(q + above * normal, centres);
+        if (below > 0.0 && below < probing_.reach) add(q - below * normal, centres);
     }
+
+    // Counts in blocks, so that the threads seldom meet.
+    void add(const Vec3d& centre, std::vector<Vec3d>& centres) {
+        centres.push_back(centre);
+        if (centres.size() % block == 0) found_ += block;
+    }
+
+    static constexpr std::uint64_t block = 64;
 
     // 0 when the side is in a solid.
     [[nodiscard]] double radius(const Vec3d& q, const Vec3d& normal) const {
@@ -49,6 +59,7 @@ class Prober {
     const Solids& solids_;
     const Probing& probing_;
     const Stage& stage_;
+    std::atomic<std::uint64_t> found_ = 0;
 };
 
 }  // namespace
@@ -78,7 +89,7 @@ double tangent_radius(const Vec3d& q, const Vec3d& normal, double reach, const O
 Result<std::vector<Vec3d>> medial_axis(const Obstacles& obstacles, const Solids& solids,
                                        const Probing& probing, Stage& stage) {
     const std::vector<Triangle3d>& triangles = obstacles.triangles();
-    const Prober prober(obstacles, solids, probing, stage);
+    Prober prober(obstacles, solids, probing, stage);
     std::vector<std::vector<Vec3d>> centres_of(triangles.size());
     const bool done =
         stage.for_each(triangles.size(), [&](std::uint64_t i) { prober.probe(triangles[i], centres_of[i]); });

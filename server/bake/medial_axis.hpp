@@ -2,6 +2,8 @@
 // its distances from (the paper's open question in section 4.1).
 #pragma once
 
+#include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "bake/obstacles.hpp"
@@ -14,6 +16,7 @@ namespace camdir::bake {
 struct Probing {
     double finest;  // triangles whose corners are no further from their centre than this are probed once
     double reach;   // balls of this radius and more do not matter
+    std::uint64_t most = std::numeric_limits<std::uint64_t>::max();  // soon after more points it is left off
 };
 
 // Radius of the largest ball without obstacle inside that touches the surface point `q`, with its centre

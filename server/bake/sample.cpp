@@ -66,14 +66,6 @@ class Refinement {
     std::atomic<std::uint64_t> total_ = 0;
 };
 
-tl::unexpected<Error> too_many(const scene::Scene& scene, double distance, double at_least) {
-    const auto millions = static_cast<std::uint64_t>(std::min(at_least / 1e6, 1e12));
-    return fail(scene.source + ": a sampling distance of " + std::to_string(distance) +
-                " map units needs more than " + std::to_string(millions) +
-                " million samples, and the limit is " + std::to_string(max_samples / 1'000'000U) +
-                " million; choose a larger d0, or say with --metres-per-unit how long a unit is");
-}
-
 Triangle3d triangle_of(const scene::Scene& scene, std::size_t index) {
     const auto& [a, b, c] = scene.triangles[index];
     return {scene.vertices[a], scene.vertices[b], scene.vertices[c]};
@@ -92,6 +84,14 @@ std::vector<Vec3d> corners_of(const scene::Scene& scene, const std::vector<char>
 }
 
 }  // namespace
+
+tl::unexpected<Error> too_many_samples(const scene::Scene& scene, double distance, double at_least) {
+    const auto millions = static_cast<std::uint64_t>(std::min(at_least / 1e6, 1e12));
+    return fail(scene.source + ": a sampling distance of " + std::to_string(distance) +
+                " map units needs more than " + std::to_string(millions) +
+                " million samples, and the limit is " + std::to_string(max_samples / 1'000'000U) +
+                " million; choose a larger d0, or say with --metres-per-unit how long a unit is");
+}
 
 double covering_radius(const Triangle3d& t) {
     const int from = longest_edge(t);
@@ -119,7 +119,7 @@ Result<void> check_sample_count(const scene::Scene& scene, double coarsest, doub
     double discs = 0.0;  // a sample covers at most one
     for (std::size_t i = 0; i < scene.triangles.size(); ++i)
         discs += area(triangle_of(scene, i)) / (M_PI * coarsest * coarsest);
-    if (discs > static_cast<double>(max_samples)) return too_many(scene, finest, discs);
+    if (discs > static_cast<double>(max_samples)) return too_many_samples(scene, finest, discs);
     return {};
 }
 
@@ -137,7 +137,7 @@ Result<std::vector<Vec3d>> sample(const scene::Scene& scene, const Solids& solid
     std::size_t total = samples.size();
     for (const auto& of_one : midpoints_of)
         total += of_one.size();
-    if (total > most) return too_many(scene, distance.finest(), static_cast<double>(most));
+    if (total > most) return too_many_samples(scene, distance.finest(), static_cast<double>(most));
     samples.reserve(total);
     for (const auto& of_one : midpoints_of)
         samples.insert(samples.end(), of_one.begin(), of_one.end());

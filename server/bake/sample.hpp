@@ -14,6 +14,10 @@ namespace camdir::bake {
 // More samples than this are refused: their Voronoi diagram takes about 10 GB.
 inline constexpr std::uint64_t max_samples = 20'000'000;
 
+// The refusal: says what the user asked for, `distance` (map units), and what he can do.
+[[nodiscard]] tl::unexpected<Error> too_many_samples(const scene::Scene& scene, double distance,
+                                                     double at_least);
+
 // Fails when the area alone says that samples `coarsest` apart are more than that: before hours are spent on
 // a map whose unit is not what it seems. `finest` is what the user asked for.
 [[nodiscard]] Result<void> check_sample_count(const scene::Scene& scene, double coarsest, double finest);

@@ -13,12 +13,6 @@ std::vector<Box3d> boxes_of_brushes(const scene::Scene& scene) {
     return boxes;
 }
 
-bool contains(const scene::Scene& scene, const scene::Brush& brush, const Vec3d& point) {
-    const auto first = scene.planes.begin() + brush.first_plane;
-    return std::all_of(first, first + brush.plane_count,
-                       [&](const scene::Plane& plane) { return plane.normal.dot(point) <= plane.distance; });
-}
-
 }  // namespace
 
 Solids::Solids(const scene::Scene& scene) : scene_(scene), tree_(boxes_of_brushes(scene)) {}
@@ -41,8 +35,8 @@ bool Solids::cover(const Triangle3d& t) const {
     };
     tree_.visit_where(matters, [&](std::uint32_t position) {
         const scene::Brush& brush = scene_.brushes[tree_.order()[position]];
-        covered = covered ||
-                  std::all_of(t.begin(), t.end(), [&](const Vec3d& p) { return contains(scene_, brush, p); });
+        covered = covered || std::all_of(t.begin(), t.end(),
+                                         [&](const Vec3d& p) { return scene::contains(scene_, brush, p); });
     });
     return covered;
 }

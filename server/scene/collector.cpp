@@ -1,7 +1,6 @@
 #include "scene/collector.hpp"
 
 #include <algorithm>
-#include <span>
 
 namespace camdir::scene {
 namespace {
@@ -75,11 +74,7 @@ Scene Collector::take(double metres_per_unit) {
 bool Collector::in_solid(const Vec3d& point) const {
     return !box_.contains(point) ||
            std::any_of(scene_.brushes.begin(), scene_.brushes.end(), [&](const Brush& brush) {
-               if (!brush.bounds.contains(point)) return false;
-               const auto planes = std::span(scene_.planes).subspan(brush.first_plane, brush.plane_count);
-               return std::all_of(planes.begin(), planes.end(), [&](const Plane& plane) {
-                   return plane.normal.dot(point) <= plane.distance;
-               });
+               return brush.bounds.contains(point) && contains(scene_, brush, point);
            });
 }
 

@@ -1,8 +1,10 @@
 // A Scene is the obstacles of one map, whatever the format it came in: the paper's S (section 3).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -11,10 +13,10 @@
 
 namespace camdir::scene {
 
-// Obstacle half space: points with normal.dot(p) <= distance are on the solid's side. `normal` has length 1.
 // Metres of the nominal unit that the project's lengths are given in.
 inline constexpr double metres_of_nominal_unit = 0.0254;
 
+// Obstacle half space: points with normal.dot(p) <= distance are on the solid's side. `normal` has length 1.
 struct Plane {
     Vec3d normal;
     double distance;
@@ -67,5 +69,12 @@ struct Scene {
     std::vector<SpawnPoint> spawn_points;
     std::vector<LeftOut> left_out;
 };
+
+// Inside the brush or on its surface.
+[[nodiscard]] inline bool contains(const Scene& scene, const Brush& brush, const Vec3d& point) {
+    const auto planes = std::span(scene.planes).subspan(brush.first_plane, brush.plane_count);
+    return std::all_of(planes.begin(), planes.end(),
+                       [&](const Plane& plane) { return plane.normal.dot(point) <= plane.distance; });
+}
 
 }  // namespace camdir::scene

@@ -88,6 +88,15 @@ TEST(MedialAxis, KnowsNoPointsBeyondTheReach) {
         EXPECT_LT(test::box_room().clearance(p), 40.0);
 }
 
+TEST(MedialAxis, LeavesOffSoonAfterTheMost) {
+    const scene::Scene room = test::box_room().scene();
+    const std::size_t all = medial_axis_of(room, {0.5, 300.0}).size();
+    const std::size_t some = medial_axis_of(room, {0.5, 300.0, 1000}).size();
+    EXPECT_GT(some, 1000U);
+    EXPECT_LT(some, 5000U);
+    EXPECT_GT(all, 5000U);
+}
+
 TEST(MedialAxis, EndsWhenAsked) {
     const scene::Scene scene = test::box_room().scene();
     std::stop_source stop;
