@@ -47,7 +47,10 @@ const CameraTrack::Frame& CameraTrack::frame(std::size_t age_rank) const {
 }
 
 void CameraTrack::add(std::int64_t frame_time, const cdir_camera& camera, bool connected) {
-    if (size_ > 0 && frame_time <= frame(size_ - 1).time) return;
+    if (size_ > 0 && frame_time <= frame(size_ - 1).time) {
+        interrupted_ = true;  // the way to the next frame leads by this one
+        return;
+    }
     if (!connected || interrupted_) ++segment_;
     interrupted_ = false;
     frames_[(begin_ + size_) % capacity] = {frame_time, segment_, camera};

@@ -46,6 +46,14 @@ std::shared_ptr<Observer> find(cdir_observer observer) {
     return must_be_open(handles().observers.find(observer.id), "the observer");
 }
 
+// For a new child: a context that was closed meanwhile has closed those that it knew of.
+template <class Remove>
+void must_still_be_open(cdir_context context, const Remove& remove) {
+    if (handles().contexts.find(context.id)) return;
+    remove();
+    (void)find(context);  // fails
+}
+
 void close_children(const Context& context) {
     (void)handles().matches.remove_if([&](const GameMatch& match) { return &match.context() == &context; });
     const auto observers =
@@ -157,6 +165,7 @@ cdir_status cdir_match_open(cdir_context context, const cdir_match_info* info, c
         require(match != nullptr, "match is null");
         const auto span = player_span(players, player_count);
         match->id = handles().matches.insert(std::make_shared<GameMatch>(find(context), *info, span));
+        must_still_be_open(context, [&] { (void)handles().matches.remove(match->id); });
         return CDIR_OK;
     });
 }
@@ -222,6 +231,7 @@ cdir_status cdir_observer_open(cdir_context context, const char* match_id, const
         require(observer != nullptr, "observer is null");
         observer->id = handles().observers.insert(std::make_shared<Observer>(
             find(context), checked_match_id(match_id), checked_observer_id(observer_id), chosen));
+        must_still_be_open(context, [&] { (void)handles().observers.remove(observer->id); });
         return CDIR_OK;
     });
 }

@@ -54,8 +54,9 @@ class Step {
     }
 
     Camera without_pose() {
-        if (!state_.started) wait_at_spawn_point();
-        return hold(target_absent);
+        if (state_.started || state_.waiting) return hold(target_absent);
+        wait_at_spawn_point();
+        return hold(target_absent | cut);
     }
 
   private:
@@ -145,6 +146,7 @@ class Step {
 
     // Before the first pose: at the map's first spawn point, looking as its players do.
     void wait_at_spawn_point() {
+        state_.waiting = true;
         if (freespace_.spawn_points().empty()) return;
         const freespace::SpawnPoint& spawn = freespace_.spawn_points().front();
         Pose pose;

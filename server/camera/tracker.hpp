@@ -16,6 +16,7 @@ namespace camdir::camera {
 // Everything that a shot remembers between two poses. A value: copy it to branch, replace it to restart.
 struct ShotState {
     bool started = false;  // false: the next step with a pose begins with a cut
+    bool waiting = false;  // for a first pose, at a spawn point
     PlayerTrack player;
     Vec3f position = Vec3f::Zero();
     Vec3f velocity = Vec3f::Zero();

@@ -4,18 +4,15 @@
 #include <cassert>
 #include <cstring>
 
+#include "base/utf8.hpp"
+
 namespace camdir::dds {
 namespace {
 
 // Bounded strings of the wire are arrays with a terminating zero.
 template <std::size_t Size>
 void copy_text(char (&to)[Size], const std::string& from) {
-    std::size_t length = std::min(from.size(), Size - 1);
-    const auto continues = [&from](std::size_t at) {
-        return at < from.size() && (static_cast<unsigned char>(from[at]) & 0xc0U) == 0x80U;
-    };
-    while (length > 0 && continues(length))
-        --length;
+    const std::size_t length = utf8_prefix(from, Size - 1);
     std::memcpy(to, from.data(), length);
     std::memset(to + length, 0, Size - length);
 }

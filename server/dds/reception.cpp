@@ -157,7 +157,7 @@ void Reception::repeat_statuses(Clock::time_point now) {
 void Reception::take_match_infos() {
     match_info_samples_.take(match_info_reader_, [this](const auto& sample, const auto& info) {
         if (info.instance_state != DDS_ALIVE_INSTANCE_STATE) {
-            match_lost(sample.match_id, info.instance_state == DDS_NOT_ALIVE_DISPOSED_INSTANCE_STATE);
+            match_lost(sample.match_id, info);
         } else if (info.valid_data) {
             match_found(sample, info);
         }
@@ -179,16 +179,24 @@ void Reception::match_found(const camera_director_MatchInfo& sample, const dds_s
     if (known != matches_.end()) {
         Match& match = *known->second;
         match.info = std::move(message);
+        match.server = info.publication_handle;
         match.has_server = true;
         match.forgotten = false;
-        const std::lock_guard lock(forgotten_mutex_);
-        std::erase(forgotten_, match.info.match_id);
-    } else if (const auto added = add_match(message); !added) {
+        keep(match.info.match_id);
+    } else if (const auto added = add_match(message); added) {
+        matches_[message.match_id]->server = info.publication_handle;
+    } else {
         ++counters_.endpoint_failures;
         spdlog::error("match '{}' cannot be served: {}", message.match_id, added.error().message);
         remove_match(message.match_id);
         receiver_->match_over(message.match_id);
     }
+}
+
+// The director knows it again: what it forgot before must not take it away.
+void Reception::keep(const std::string& match_id) {
+    const std::lock_guard lock(forgotten_mutex_);
+    std::erase(forgotten_, match_id);
 }
 
 Result<void> Reception::add_match(const director::MatchInfo& info) {
@@ -221,10 +229,12 @@ void Reception::remove_match(const std::string& match_id) {
     counters_.matches = static_cast<std::uint32_t>(matches_.size());
 }
 
-void Reception::match_lost(const std::string& match_id, bool over) {
+void Reception::match_lost(const std::string& match_id, const dds_sample_info_t& info) {
     const auto known = matches_.find(match_id);
     if (known == matches_.end()) return;
     Match& match = *known->second;
+    const bool over = info.instance_state == DDS_NOT_ALIVE_DISPOSED_INSTANCE_STATE;
+    if (over && info.publication_handle != match.server) return;  // a stranger's word
     match.has_server = false;
     if (match.forgotten) return remove_match(match_id);
     if (over) {
@@ -310,6 +320,7 @@ void Reception::take_requests(Match& match) {
             if (sample.match_id == match_id) receiver_->request_gone(match_id, sample.observer_id);
         } else if (info.valid_data && accept(match, Topic::observer_request, sample, observer_request_)) {
             receiver_->receive(observer_request_);
+            keep(match_id);
         }
     });
 }

@@ -56,8 +56,9 @@ class Reception {
     struct Match {
         director::MatchInfo info;
         MatchTable::Endpoints endpoints;
-        bool has_server = true;  // its MatchInfo is alive
-        bool forgotten = false;  // by the director; it is told again when something comes
+        dds_instance_handle_t server = 0;  // the writer of its MatchInfo
+        bool has_server = true;            // which is alive
+        bool forgotten = false;            // by the director; it is told again when something comes
         Source poses, events, requests, rivals;
         Clock::time_point repeat_until{};  // its statuses are repeated until then
     };
@@ -78,10 +79,11 @@ class Reception {
     void discard_rivals_statuses(Match& match);
 
     void match_found(const camera_director_MatchInfo& sample, const dds_sample_info_t& info);
-    void match_lost(const std::string& match_id, bool over);
+    void match_lost(const std::string& match_id, const dds_sample_info_t& info);
     [[nodiscard]] Result<void> add_match(const director::MatchInfo& info);
     void remove_match(const std::string& match_id);
     void remove_forgotten();
+    void keep(const std::string& match_id);
     [[nodiscard]] bool known_again(Match& match);
     [[nodiscard]] bool written_in(const dds_sample_info_t& info, const std::string& partition) const;
 

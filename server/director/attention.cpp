@@ -98,6 +98,9 @@ void Attention::choose(AutomaticTarget& target, std::span<const std::uint32_t> g
     }
     if (best == nullptr) return;  // nobody is there: the camera waits for whom it followed
 
+    // The game's clock may have gone back.
+    target.chosen_at = std::min(target.chosen_at, now);
+    target.died_at = std::min(target.died_at, now);
     const PlayerPose* current = in_group(target.player, group) ? roster.pose(target.player) : nullptr;
     if (current != nullptr && !lives(*current)) {
         if (!target.dead) target.died_at = now;

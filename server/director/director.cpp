@@ -203,7 +203,6 @@ void Director::receive(const std::string& match_id, const PoseFrame& frame) {
     const std::shared_lock lock(impl_->mutex);
     Match* match = impl_->find(match_id);
     if (match == nullptr) return impl_->unknown.add(Counter::drop_unknown_match);
-    match->note_pose(now);
     match->inbox().put(frame, now);
     impl_->pool.schedule(*match);
 }

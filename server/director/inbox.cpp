@@ -28,12 +28,14 @@ void carry_discontinuities(const PoseFrame& from, PoseFrame& to) {
 
 void Inbox::put(Control control) {
     const bool event = std::holds_alternative<MatchEvent>(control);
+    const bool of_observer = std::holds_alternative<ObserverRequest>(control) ||
+                             std::holds_alternative<RequestGone>(control) ||
+                             std::holds_alternative<ViewWanted>(control);
     const std::lock_guard lock(mutex_);
-    if (event ? events_ >= most_events : waiting_.controls.size() - events_ >= most_controls_) {
-        counters_.add(event ? Counter::drop_events : Counter::drop_control);
-        return;
-    }
+    if (event && events_ >= most_events) return counters_.add(Counter::drop_events);
+    if (of_observer && of_observers_ >= most_of_observers_) return counters_.add(Counter::drop_control);
     events_ += event ? 1 : 0;
+    of_observers_ += of_observer ? 1 : 0;
     waiting_.controls.push_back(std::move(control));
 }
 
@@ -60,6 +62,7 @@ void Inbox::take(Content& content) {
     const std::lock_guard lock(mutex_);
     std::swap(content, waiting_);
     events_ = 0;
+    of_observers_ = 0;
 }
 
 }  // namespace camdir::director

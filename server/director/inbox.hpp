@@ -35,13 +35,14 @@ struct ViewWanted {
 using Control = std::variant<MatchInfo, ServerLost, PosesMissing, MatchEnded, MatchRefused, MatchEvent,
                              ObserverRequest, RequestGone, MapsChanged, Reconfigured, ViewWanted>;
 
-// Messages in the order of their coming, bounded; of pose frames the newest only. What is dropped is counted.
-// Thread-safe; a match has its own. Does not allocate once its buffers have grown.
+// Messages in the order of their coming; of pose frames the newest only. Those that anybody may send in any
+// number are bounded, and what is dropped is counted: a match's life does not depend on them. Thread-safe; a
+// match has its own. Does not allocate once its buffers have grown.
 class Inbox {
   public:
-    // `most_controls`: besides events, of which at most 256 wait.
-    Inbox(std::size_t most_controls, Counters& counters)
-        : most_controls_(most_controls), counters_(counters) {}
+    // `most_of_observers`: of requests, their ends and questions. Of events at most 256 wait.
+    Inbox(std::size_t most_of_observers, Counters& counters)
+        : most_of_observers_(most_of_observers), counters_(counters) {}
 
     void put(Control control);
 
@@ -63,8 +64,9 @@ class Inbox {
     std::mutex mutex_;
     Content waiting_;
     PoseFrame superseded_;
-    std::size_t events_ = 0;  // in waiting_.controls
-    const std::size_t most_controls_;
+    std::size_t events_ = 0;        // in waiting_.controls
+    std::size_t of_observers_ = 0;  // in waiting_.controls
+    const std::size_t most_of_observers_;
     Counters& counters_;
 };
 

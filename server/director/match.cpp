@@ -14,7 +14,8 @@ namespace camdir::director {
 namespace {
 
 constexpr double usual_rate_hz = 30.0;  // of a game server that tells none
-constexpr std::size_t most_controls_besides_requests = 64;
+constexpr std::size_t most_questions = 64;
+constexpr std::int64_t most_ahead_ns = 10'000'000'000;  // an event of the newest frame
 
 constexpr const char* no_server = "no game server runs this match";
 
@@ -38,8 +39,7 @@ Match::Match(std::string match_id, std::shared_ptr<const config::Config> config,
     : match_id_(std::move(match_id)),
       maps_(maps),
       wire_(wire),
-      inbox_(2 * static_cast<std::size_t>(config->limits.observers) + most_controls_besides_requests,
-             counters_),
+      inbox_(2 * static_cast<std::size_t>(config->limits.observers) + most_questions, counters_),
       config_(std::move(config)),
       no_map_(no_server),
       requests_(match_id_, wire, counters_) {}
@@ -58,7 +58,6 @@ void Match::handle(MatchInfo& info) {
     if (info_ && info.epoch < info_->epoch) return counters_.add(Counter::drop_old_epoch);
     const bool new_life = !info_ || info.epoch != info_->epoch || info.map_name != info_->map_name;
     info_ = std::move(info);
-    refusal_.clear();
     silence_ns_ = silence_after_ns(*info_, config_->matches);
     if (new_life) begin_epoch();
     if (liveness_ == Liveness::lost) liveness_ = Liveness::silent;
@@ -69,6 +68,7 @@ void Match::handle(MatchInfo& info) {
 void Match::begin_epoch() {
     spdlog::info("match {}: epoch {} on map {}, {} Hz", match_id_, info_->epoch, info_->map_name,
                  info_->rate_hz);
+    last_epoch_ = info_->epoch;
     roster_.clear();
     attention_.clear();
     requests_.restart_shots();
@@ -119,12 +119,15 @@ void Match::handle(const MatchEvent& event) {
         return counters_.add(event.epoch < info_->epoch ? Counter::drop_old_epoch
                                                         : Counter::drop_early_epoch);
     counters_.add(Counter::events);
-    attention_.take_in(event, config_->matches.automatic_half_life_s);
+    // It comes before its frame; but one of a far future would never fade.
+    MatchEvent happened = event;
+    if (any_frame_) happened.frame_time = std::min(happened.frame_time, last_time_ + most_ahead_ns);
+    attention_.take_in(happened, config_->matches.automatic_half_life_s);
 }
 
 void Match::handle(const ObserverRequest& request) {
     counters_.add(Counter::requests);
-    requests_.put(request, *config_, info_ ? info_->epoch : 0);
+    requests_.put(request, *config_, last_epoch_);
     judge_needed_ = true;
 }
 
@@ -146,6 +149,7 @@ void Match::handle(const Reconfigured& changed) {
 
 void Match::adopt_map() {
     judge_needed_ = true;
+    refusal_.clear();
     const std::string named = "map '" + info_->map_name + "'";
     const auto entry = maps_.find(info_->map_name);
     if (!entry) return leave_map(named + " is not configured; known: " + joined(maps_.names()));
@@ -162,7 +166,6 @@ void Match::adopt_map() {
 }
 
 void Match::check_map_hash(const MapEntry& entry) {
-    refusal_.clear();
     const std::uint64_t baked = entry.freespace->metadata().source_hash;
     if (info_->map_hash == 0 || baked == 0 || info_->map_hash == baked) return;
     const std::pair mismatch(info_->map_hash, baked);
@@ -186,7 +189,7 @@ void Match::leave_map(std::string reason) {
 void Match::judge() {
     judge_needed_ = false;
     const bool holds = liveness_ == Liveness::silent || liveness_ == Liveness::lost;
-    requests_.judge({*config_, roster_, info_ ? info_->epoch : 0, refusal_, no_map_,
+    requests_.judge({*config_, roster_, last_epoch_, refusal_, no_map_,
                      holds ? "the game server is silent: the camera holds" : ""});
     observer_count_ = requests_.observers();
     shot_count_ = requests_.shots().size();

@@ -30,8 +30,6 @@ class Match final : public Strand {
     // Adds this match's part to the numbers of matches, observers and shots, as of the last turn.
     void add_gauges(Statistics& sum) const;
 
-    // A pose frame came in at `now_ns` (steady clock).
-    void note_pose(std::int64_t now_ns) { last_pose_ns_.store(now_ns, std::memory_order_relaxed); }
     // No pose for so long that the match is silent, and it does not know yet.
     [[nodiscard]] bool poses_missing(std::int64_t now_ns) const;
     // The game server's liveliness is lost, and no pose came for so long.
@@ -83,7 +81,7 @@ class Match final : public Strand {
     std::atomic<std::int64_t> silence_ns_{0};  // without poses, that makes the match silent
     std::atomic<std::uint64_t> observer_count_{0};
     std::atomic<std::uint64_t> shot_count_{0};
-    std::atomic<std::int64_t> last_pose_ns_{0};  // the one that others write
+    std::atomic<std::int64_t> last_pose_ns_{0};  // of those that were accepted
 
     // Of the strand alone.
     std::shared_ptr<const config::Config> config_;
@@ -100,8 +98,9 @@ class Match final : public Strand {
     Requests requests_;
     bool judge_needed_ = false;
 
-    bool any_frame_ = false;  // the frame before is of the same epoch, and no silence was between
-    bool gap_ = false;        // there was a silence: players may be anywhere by now
+    std::uint64_t last_epoch_ = 0;  // also of a match that is over
+    bool any_frame_ = false;        // the frame before is of the same epoch, and no silence was between
+    bool gap_ = false;              // there was a silence: players may be anywhere by now
     std::uint32_t last_number_ = 0;
     std::int64_t last_time_ = 0;
     std::uint32_t next_camera_frame_ = 0;

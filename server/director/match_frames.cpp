@@ -3,6 +3,7 @@
 
 #include <chrono>
 
+#include "director/clock.hpp"
 #include "director/match.hpp"
 
 namespace camdir::director {
@@ -62,6 +63,7 @@ void Match::take_in(const PoseFrame& frame) {
         judge_needed_ = true;
     }
     any_frame_ = true;
+    last_pose_ns_ = now_ns();
     last_number_ = frame.frame_number;
     last_time_ = frame.frame_time;
     const auto poses = tracked(frame, config_->limits);

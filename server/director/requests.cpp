@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/utf8.hpp"
 #include "config/json_text.hpp"
 
 namespace camdir::director {
@@ -11,13 +12,8 @@ namespace {
 
 constexpr std::size_t longest_reason = 255;  // ObserverStatus.reason
 
-// Cuts between characters of UTF-8.
 std::string shortened(std::string text) {
-    if (text.size() <= longest_reason) return text;
-    std::size_t end = longest_reason;
-    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0U) == 0x80U)
-        --end;
-    text.resize(end);
+    text.resize(utf8_prefix(text, longest_reason));
     return text;
 }
 
@@ -71,6 +67,7 @@ void Requests::put(const ObserverRequest& request, const config::Config& config,
     }
     Observer& observer = found != observers_.end() ? found->second : observers_[request.observer_id];
     observer.request = request;
+    observer.told = false;  // whoever asks anew has forgotten what he was told
     resolve(observer, config);
 }
 

@@ -10,6 +10,8 @@
 #include <memory>
 #include <span>
 
+#include "base/utf8.hpp"
+
 namespace camdir::render {
 namespace {
 
@@ -48,16 +50,17 @@ class Pen {
         cairo_set_font_size(cairo_.get(), size);
     }
 
+    // Cairo draws nothing more after a text that is no UTF-8.
     double text_width(const std::string& text) {
         cairo_text_extents_t extents;
-        cairo_text_extents(cairo_.get(), text.c_str(), &extents);
+        cairo_text_extents(cairo_.get(), to_utf8(text).c_str(), &extents);
         return extents.x_advance;
     }
 
     // `anchor`: 0 = the text starts at x, 0.5 = its middle is there, 1 = it ends there.
     void text(double x, double y, const std::string& text, double anchor = 0.0) {
         cairo_move_to(cairo_.get(), x - anchor * text_width(text), y);
-        cairo_show_text(cairo_.get(), text.c_str());
+        cairo_show_text(cairo_.get(), to_utf8(text).c_str());
     }
 
     // Smaller where the text would be wider than `width`.

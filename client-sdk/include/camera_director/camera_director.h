@@ -278,7 +278,7 @@ CDIR_API cdir_status cdir_observer_open(cdir_context context, const char* match_
 typedef struct cdir_shot_request {
     uint32_t struct_size;
     uint32_t target;       /* player id or CDIR_CHOOSE_TARGET */
-    const uint32_t* group; /* players to choose among or to keep in view; null = all */
+    const uint32_t* group; /* players to choose the target among; null = all */
     const char* profile;   /* camera profile of the director's configuration, up to 31 bytes; null or "" =
                               its default */
     const char* overrides; /* JSON object with a profile's keys, up to 1023 bytes; null or "" = none */

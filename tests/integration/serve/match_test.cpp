@@ -130,6 +130,26 @@ TEST_F(MatchTest, AnObserverThatLeavesTakesItsShotWithIt) {
     EXPECT_TRUE(sees(stays, [](const auto& /*frame*/, auto cameras) { return cameras.size() == 1; }));
 }
 
+TEST_F(MatchTest, AnObserverHearsThatItsMatchIsOver) {
+    std::optional<Game> game(std::in_place, context_, "cup", "hall");
+    Observer observer(context_, "cup", "anna");
+    observer.request({.target = 0});
+    ASSERT_TRUE(sees_own_camera(observer)) << server_.log();
+    game.reset();
+    ASSERT_TRUE(comes_to(observer, CDIR_SHOT_WAITING_FOR_MAP)) << server_.log();
+    EXPECT_THAT(observer.shot_status().reason, HasSubstr("no game server"));
+}
+
+TEST_F(MatchTest, ARequestRightAfterAWithdrawalIsAnswered) {
+    const Game game(context_, "cup", "hall");
+    Observer observer(context_, "cup", "anna");
+    for (int round = 0; round < 10; ++round) {
+        observer.request({.target = 0});
+        ASSERT_TRUE(comes_to(observer, CDIR_SHOT_ACCEPTED)) << "round " << round << ": " << server_.log();
+        observer.withdraw();
+    }
+}
+
 // Speaks to the wire directly: the SDK would refuse to send these.
 TEST_F(MatchTest, MalformedSamplesAreDroppedWithAReasonAndDoNotHurt) {
     RawPeer raw(domain_.id(), "raw");

@@ -157,8 +157,9 @@ TEST(Situations, BeforeAnyPoseTheCameraWaitsAtASpawnPoint) {
     const test::Plan plan = test::box_room();
     CheckedShot shot(plan);
     const Camera camera = shot.step(nullptr);
-    EXPECT_EQ(camera.flags, std::uint32_t{target_absent | held});
+    EXPECT_EQ(camera.flags, std::uint32_t{target_absent | held | cut}) << "nobody saw it come";
     EXPECT_EQ(camera.position, plan.eye('s'));
+    EXPECT_EQ(shot.step(nullptr).flags, std::uint32_t{target_absent | held});
     EXPECT_TRUE(has(shot.step(pose_at(plan.eye('t'), 0.0F)), cut));
 }
 

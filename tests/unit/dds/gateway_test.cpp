@@ -290,6 +290,15 @@ TEST_F(GatewayTest, AMatchInfoCountsOnlyInItsOwnPartition) {
     EXPECT_TRUE(recorder_.lines().empty());
 }
 
+TEST_F(GatewayTest, AStrangerCannotEndAMatch) {
+    (void)game("cup");
+    RawPeer& stranger = peer("evil");
+    stranger.dispose(test::raw_match_info("cup", 1));
+    stranger.write(test::raw_match_info("dup", 1));  // comes after it
+    ASSERT_TRUE(eventually([&] { return dropped(Topic::match_info, Defect::wrong_partition) > 0; }));
+    EXPECT_FALSE(recorder_.has("over cup"));
+}
+
 TEST_F(GatewayTest, DisposingEndsAMatchAndForgettingItRemovesItsEndpoints) {
     RawPeer& raw = game("cup");
     raw.dispose(test::raw_match_info("cup", 1));

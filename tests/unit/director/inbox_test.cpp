@@ -84,8 +84,10 @@ TEST_F(InboxTest, BothQueuesAreBounded) {
         inbox_.put(MatchEvent{});
     for (int i = 0; i < 13; ++i)
         inbox_.put(RequestGone{"a"});
+    inbox_.put(MatchEnded{});
     inbox_.take(content_);
-    EXPECT_EQ(content_.controls.size(), 256U + 10U);
+    ASSERT_EQ(content_.controls.size(), 256U + 10U + 1U);
+    EXPECT_TRUE(std::holds_alternative<MatchEnded>(content_.controls.back())) << "however many came before";
     EXPECT_EQ(counted(Counter::drop_events), 44U);
     EXPECT_EQ(counted(Counter::drop_control), 3U);
     inbox_.put(MatchEvent{});

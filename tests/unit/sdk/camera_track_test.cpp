@@ -175,5 +175,12 @@ TEST(CameraTrack, FrameThatIsNotNewerIsLeftOut) {
     EXPECT_EQ(track.at(95)->camera.position[0], 1.0F);
 }
 
+TEST(CameraTrack, NothingIsBlendedAcrossAFrameThatWasLeftOut) {
+    const CameraTrack track = track_of(
+        {{100, camera_at_x(1.0F), false}, {100, camera_at_x(50.0F), false}, {110, camera_at_x(51.0F), true}});
+    EXPECT_EQ(track.at(105)->camera.position[0], 1.0F);
+    EXPECT_NE(track.newest()->segment, track.at(100)->segment);
+}
+
 }  // namespace
 }  // namespace camdir::sdk

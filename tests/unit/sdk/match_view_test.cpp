@@ -140,7 +140,7 @@ TEST_F(MatchViewTest, MissingFramesAreCountedAndNotInterpolatedAcross) {
 TEST_F(MatchViewTest, FrameNumbersWrapWithoutAGap) {
     answer(1, 5);
     CameraFrameArrays last = frame_of(1, std::numeric_limits<std::uint32_t>::max());
-    last.frame_time = 1;
+    last.frame_time = -1;
     last.add_camera(5, 1.0F);
     accept(last);
     const std::uint32_t before = segment();

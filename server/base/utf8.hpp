@@ -1,0 +1,16 @@
+// Texts from outside: names are bytes of any kind.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace camdir {
+
+// The largest number of bytes up to `most` that ends between characters.
+[[nodiscard]] std::size_t utf8_prefix(std::string_view text, std::size_t most);
+
+// With a question mark for every byte that belongs to no character.
+[[nodiscard]] std::string to_utf8(std::string_view text);
+
+}  // namespace camdir
