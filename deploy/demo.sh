@@ -56,6 +56,7 @@ stop() {
 trap stop EXIT
 # Ctrl-C reaches the observers, who end with their summary; the rest is ended after them.
 trap : INT
+trap 'exit 143' TERM
 
 setsid "$bin/camera-director" serve --config "$work/demo.json" 2>"$work/director.log" 9>&- &
 started+=($!)
@@ -64,9 +65,16 @@ setsid "$bin/pose-replay" deploy/demo/match.csv.gz --domain "$domain" --match-pr
 started+=($!)
 
 echo "The director's log: $work/director.log. One observer a player:" >&2
-status=0
 "$bin/observer-probe" --domain "$domain" --match-prefix demo --observers 8 --by-player --map "$map" \
-    --seconds "$seconds" ${json:+--json "$json"} 9>&- || status=$?
+    --seconds "$seconds" ${json:+--json "$json"} 9>&- &
+probe=$!
+started+=("$probe")
+status=0
+wait "$probe" || status=$?
+while kill -0 "$probe" 2>/dev/null; do  # the wait was interrupted
+    status=0
+    wait "$probe" || status=$?
+done
 if [ "$status" -ne 0 ]; then
     echo "demo.sh: the observers found something wrong; the director's last words:" >&2
     tail -n 5 "$work/director.log" >&2

@@ -50,8 +50,19 @@ Result<bake::Baked> bake_shown(const scene::Scene& scene, const BakeOptions& opt
     return bake::bake(scene, options.parameters, show, stop, finished);
 }
 
+// The map's file, or the archive that it lies in.
+bool is_source(const std::string& file, const std::string& map) {
+    std::error_code error;
+    for (std::size_t end = map.size(); end != std::string::npos;
+         end = end == 0 ? end : map.rfind(':', end - 1))
+        if (std::filesystem::equivalent(file, map.substr(0, end), error)) return true;
+    return false;
+}
+
 Result<void> bake_to_file(const BakeOptions& options) {
     const Interruption interruption;
+    for (const std::string& file : {options.output, options.report})
+        if (is_source(file, options.map)) return fail(file + ": is the map; expected another file to write");
     for (const std::string& file : {options.output, options.report})
         if (auto writable = check_writable(file); !writable) return writable;
 
@@ -81,6 +92,9 @@ void check_usage(const CLI::App& command) {
         for (const char* wanted : {"MAP", "--output"})
             if (command.count(wanted) == 0)
                 throw CLI::RequiredError(std::string(wanted) + " (or --config alone)");
+        if (command["--output"]->as<std::string>() == "-" && command.count("--report") > 0 &&
+            command["--report"]->as<std::string>() == "-")
+            throw CLI::ValidationError("only one of --output and --report can be standard output");
         return;
     }
     const std::set<std::string> of_both{"help", "config", "memory", "force", "threads", "report", "quiet"};

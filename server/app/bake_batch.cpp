@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "app/bake_schedule.hpp"
+#include "app/guarded.hpp"
 #include "app/map_bake.hpp"
 #include "freespace/freespace.hpp"
 
@@ -18,7 +19,7 @@ namespace camdir::app {
 namespace {
 
 void describe_file(const std::string& file, MapOutcome& outcome) {
-    const auto opened = freespace::Freespace::open(file);
+    const auto opened = guarded(file, [&] { return freespace::Freespace::open(file); });
     if (!opened) return;
     outcome.triangles = opened->triangles().size();
     outcome.file_bytes = opened->byte_size();

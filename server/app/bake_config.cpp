@@ -158,15 +158,25 @@ Result<int> run(const BakeConfigOptions& options) {
     return exit_code_of(outcomes);
 }
 
+// This process's, "/" where there is none: the line "0::/path" of its groups.
+std::filesystem::path control_group() {
+    std::ifstream groups("/proc/self/cgroup");
+    for (std::string line; std::getline(groups, line);)
+        if (line.starts_with("0::/")) return line.substr(3);
+    return "/";
+}
+
 }  // namespace
 
 std::uint64_t default_memory() {
     std::uint64_t memory = static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) *
                            static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
-    // "max" where there is no limit.
-    std::ifstream group("/sys/fs/cgroup/memory.max");
-    if (std::uint64_t limit = 0; group >> limit) memory = std::min(memory, limit);
-    return memory / 2;
+    for (std::filesystem::path group = control_group();; group = group.parent_path()) {
+        std::ifstream file("/sys/fs/cgroup" + group.string() +
+                           "/memory.max");  // "max" where there is no limit
+        if (std::uint64_t limit = 0; file >> limit) memory = std::min(memory, limit);
+        if (!group.has_relative_path()) return memory / 2;
+    }
 }
 
 int bake_config(const BakeConfigOptions& options) {

@@ -15,7 +15,7 @@ struct BakeConfigOptions {
     bool quiet = false;
 };
 
-// Half of the machine's memory, or of the control group's where that is less; bytes.
+// Half of the machine's memory, or of what its control groups may take where that is less; bytes.
 [[nodiscard]] std::uint64_t default_memory();
 
 // Bakes, tells how it goes and prints the table; the exit code.

@@ -8,6 +8,7 @@
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
 #include "app/source.hpp"
+#include "app/writable.hpp"
 #include "base/file.hpp"
 #include "config/config.hpp"
 #include "evaluation/metrics.hpp"
@@ -44,6 +45,8 @@ struct EvaluateOptions {
 void check_usage(const EvaluateOptions& options) {
     if (options.tracks() && options.freespace.empty())
         throw CLI::RequiredError("FILE.vfs, or --camera with another camera than the tracker, or --judge");
+    if (!options.tracks() && !options.config.empty())
+        throw CLI::ValidationError("--config", "only the tracker has a profile");
     if (!options.tracks() && !options.terms.empty())
         throw CLI::ValidationError("--terms", "only the tracker has an objective");
     const auto outputs = {options.cameras, options.terms, options.json};
@@ -151,6 +154,8 @@ Result<void> write_results(const EvaluateOptions& options, const evaluation::Tra
 
 Result<void> evaluate(const EvaluateOptions& options) {
     const Interruption interruption;
+    for (const std::string& file : {options.cameras, options.terms, options.json})
+        if (auto writable = check_writable(file); !writable) return writable;
     ProgressLine line;
     line.show("reading " + options.trace, 0, 0);
     const auto trace = read_trace(options);

@@ -7,6 +7,7 @@
 
 #include "app/commands.hpp"
 #include "base/file.hpp"
+#include "config/json_text.hpp"
 #include "freespace/freespace.hpp"
 
 namespace camdir::app {
@@ -69,8 +70,8 @@ ordered_json to_json(const Freespace& freespace) {
     for (const freespace::Count& count : metadata.counts)
         counts.push_back({{"stage", count.stage}, {"what", count.what}, {"value", count.value}});
     // The parameters are JSON that the baker wrote; another baker's are kept as text.
-    ordered_json parameters = ordered_json::parse(metadata.parameters, nullptr, false);
-    if (parameters.is_discarded()) parameters = metadata.parameters;
+    ordered_json parameters = metadata.parameters;
+    if (config::parse_json(metadata.parameters)) parameters = ordered_json::parse(metadata.parameters);
     return {{"map_name", metadata.map_name},
             {"source_name", metadata.source_name},
             {"source_hash", hexadecimal(metadata.source_hash)},

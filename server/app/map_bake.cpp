@@ -1,12 +1,11 @@
 #include "app/map_bake.hpp"
 
 #include <chrono>
-#include <exception>
-#include <new>
 #include <thread>
 #include <utility>
 
 #include "app/bake_schedule.hpp"
+#include "app/guarded.hpp"
 #include "app/source.hpp"
 #include "base/file.hpp"
 #include "config/json_text.hpp"
@@ -48,18 +47,6 @@ Result<PendingFile> claim(const std::string& file, const bake::ProgressSink& pro
     }
 }
 
-// What a library throws fails this map alone.
-template <class Body>
-auto with_failures_told(const config::Map& map, const Body& body) -> decltype(body()) {
-    try {
-        return body();
-    } catch (const std::bad_alloc&) {
-        return fail(map.source + ": not enough memory to bake it");
-    } catch (const std::exception& error) {
-        return fail(map.source + ": " + error.what());
-    }
-}
-
 Result<BakeReport> bake_into(PendingFile file, const config::Map& map, unsigned threads,
                              const bake::ProgressSink& progress, const std::stop_token& stop) {
     const auto scene = load_source(map);
@@ -71,6 +58,20 @@ Result<BakeReport> bake_into(PendingFile file, const config::Map& map, unsigned 
     const std::vector<std::byte> bytes = freespace::encode(baked->contents);
     if (auto written = std::move(file).finish(bytes); !written) return tl::unexpected(written.error());
     return report_of(*scene, *baked, bytes.size());
+}
+
+Result<Freshness> freshness_of(const config::Map& map) {
+    const auto hash = scene::hash_source(map.source);
+    const auto opened = freespace::Freespace::open(map.file);
+    if (!opened && !hash) return tl::unexpected(hash.error());
+    if (!opened) return Freshness{opened.error().message, ""};
+    if (!hash) return Freshness{"", hash.error().message + ": " + map.file + " is used as it is"};
+    if (opened->metadata().source_hash != *hash) return Freshness{map.source + " has changed since", ""};
+    const auto options = read_options_of(map);
+    if (!options) return tl::unexpected(options.error());
+    const std::string other =
+        difference(opened->metadata().parameters, bake::to_json(parameters_of(map), *options));
+    return Freshness{other.empty() ? "" : "it was baked with " + other, ""};
 }
 
 }  // namespace
@@ -85,21 +86,11 @@ bake::Parameters parameters_of(const config::Map& map) {
 }
 
 Result<Freshness> examine(const config::Map& map) {
-    const auto hash = scene::hash_source(map.source);
-    const auto opened = freespace::Freespace::open(map.file);
-    if (!opened && !hash) return tl::unexpected(hash.error());
-    if (!opened) return Freshness{opened.error().message, ""};
-    if (!hash) return Freshness{"", hash.error().message + ": " + map.file + " is used as it is"};
-    if (opened->metadata().source_hash != *hash) return Freshness{map.source + " has changed since", ""};
-    const auto options = read_options_of(map);
-    if (!options) return tl::unexpected(options.error());
-    const std::string other =
-        difference(opened->metadata().parameters, bake::to_json(parameters_of(map), *options));
-    return Freshness{other.empty() ? "" : "it was baked with " + other, ""};
+    return guarded(map.source, [&] { return freshness_of(map); });
 }
 
 Result<std::uint64_t> memory_needed(const config::Map& map) {
-    return with_failures_told(map, [&]() -> Result<std::uint64_t> {
+    return guarded(map.source, [&]() -> Result<std::uint64_t> {
         const auto scene = load_source(map);
         if (!scene) return tl::unexpected(scene.error());
         return estimate_memory(*scene, bake::sampling_distance(*scene, parameters_of(map)));
@@ -112,7 +103,7 @@ Result<std::optional<BakeReport>> bake_map(const config::Map& map, const MapBake
     if (!file) return tl::unexpected(file.error());
     const auto freshness = examine(map);
     if (freshness && freshness->stale.empty() && !parameters.force) return std::nullopt;
-    return with_failures_told(map, [&]() -> Result<std::optional<BakeReport>> {
+    return guarded(map.source, [&]() -> Result<std::optional<BakeReport>> {
         return bake_into(std::move(*file), map, parameters.threads, progress, stop);
     });
 }

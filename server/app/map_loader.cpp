@@ -5,9 +5,9 @@
 #include <chrono>
 #include <set>
 
+#include "app/guarded.hpp"
 #include "app/map_bake.hpp"
 #include "app/source.hpp"
-#include "scene/load.hpp"
 
 namespace camdir::app {
 namespace {
@@ -26,12 +26,12 @@ Result<void> check_map(const config::Map& map) {
     if (map.source.empty()) {
         const auto opened = freespace::Freespace::open(map.file);
         if (!opened) return tl::unexpected(opened.error());
-    } else {
-        const auto hash = scene::hash_source(map.source);
-        if (!hash) return tl::unexpected(hash.error());
-        const auto options = read_options_of(map);
-        if (!options) return tl::unexpected(options.error());
+        return {};
     }
+    const auto options = read_options_of(map);
+    if (!options) return tl::unexpected(options.error());
+    const auto freshness = examine(map);
+    if (!freshness) return tl::unexpected(freshness.error());
     return {};
 }
 
@@ -104,7 +104,7 @@ void MapLoader::bake_and_open(const config::Map& map, const std::stop_token& sto
 }
 
 void MapLoader::open(const config::Map& map, double bake_seconds) {
-    auto opened = freespace::Freespace::open(map.file);
+    auto opened = guarded(map.file, [&] { return freespace::Freespace::open(map.file); });
     if (!opened) return set_failed(map, opened.error());
     spdlog::info("map {}: {} vertices, {} triangles", map.name, opened->vertices().size(),
                  opened->triangles().size());

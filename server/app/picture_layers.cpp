@@ -130,15 +130,20 @@ void add_spawn_points(const freespace::Freespace& freespace, float pixel, render
 
 Result<void> add_samples(const scene::Scene& map, double d0, float pixel, render::Layers& layers,
                          std::vector<KeyEntry>& key) {
-    bake::Stage stage("sample", {}, {});
-    const auto samples = bake::sample(map, bake::Solids(map), bake::SamplingDistance(d0), 0.0, stage);
-    if (!samples) return tl::unexpected(samples.error());
+    std::vector<Vec3d> samples = map.points;
+    if (samples.empty()) {
+        bake::Stage stage("sample", {}, {});
+        auto sampled = bake::sample(map, bake::Solids(map), bake::SamplingDistance(d0), 0.0, stage);
+        if (!sampled) return tl::unexpected(sampled.error());
+        samples = std::move(*sampled);
+    }
     render::Balls balls{{}, sample_colour, 1.1F * pixel};
-    for (const Vec3d& sample : *samples)
+    for (const Vec3d& sample : samples)
         balls.centres.push_back(sample.cast<float>());
     key.push_back({KeyEntry::Mark::disc,
                    {sample_colour},
-                   std::to_string(balls.centres.size()) + " points, one at least every d0"});
+                   std::to_string(balls.centres.size()) +
+                       (map.points.empty() ? " points, one at least every d0" : " points")});
     layers.balls.push_back(std::move(balls));
     return {};
 }

@@ -28,7 +28,7 @@ struct Ways {
 void add_spawn_points(const freespace::Freespace& freespace, float pixel, render::Layers& layers,
                       std::vector<render::KeyEntry>& key);
 
-// The points that the bake samples the map's obstacles by.
+// Points that uniform sampling takes on the map's obstacles, one at least every `d0`; of a cloud its own.
 [[nodiscard]] Result<void> add_samples(const scene::Scene& map, double d0, float pixel,
                                        render::Layers& layers, std::vector<render::KeyEntry>& key);
 

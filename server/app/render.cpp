@@ -245,7 +245,7 @@ void add_render(CLI::App& root, Run& run) {
         ->check(CLI::Range(0.05F, 1.0F))
         ->capture_default_str();
     command->add_flag("--samples", options->samples,
-                      "Draw the points that the bake samples the obstacles by");
+                      "Draw points that uniform sampling takes on the obstacles, or those of the cloud");
     add_way_options(*command, *options);
     command->add_option("--json", options->json,
                         "Write the viewpoint and the scale as JSON to this file, - for standard output");

@@ -7,6 +7,7 @@
 #include "app/commands.hpp"
 #include "app/logging.hpp"
 #include "app/service.hpp"
+#include "base/file.hpp"
 
 namespace camdir::app {
 namespace {
@@ -34,8 +35,8 @@ int check(const config::Config& config, const std::string& file) {
 
 int serve(const ServeOptions& options) {
     if (options.print_schema || options.print_reference) {
-        std::cout << (options.print_schema ? config::schema() : config::reference());
-        return exit_done;
+        const auto written = write_file("-", options.print_schema ? config::schema() : config::reference());
+        return written ? exit_done : report(written.error());
     }
     auto config = config::load(options.config);
     if (!config) return report(config.error());

@@ -121,7 +121,13 @@ Result<scene::Scene> load_source(const config::Map& map) {
 
 Result<scene::Scene> load_source(const freespace::Freespace& baked, const std::string& map) {
     auto scene = scene::load(map, read_options_of(baked.metadata()));
-    if (!scene || !scene->spawn_points.empty()) return scene;
+    if (!scene) return scene;
+    const auto unit = static_cast<double>(baked.metadata().metres_per_unit);
+    if (!(std::abs(unit - scene->metres_per_unit) <= 1e-6 * unit))
+        return fail(map + ": a unit is " + std::to_string(scene->metres_per_unit) +
+                    " m long, and in the baked map " + std::to_string(unit) +
+                    " m; expected the source that it was baked from");
+    if (!scene->spawn_points.empty()) return scene;
     for (const freespace::SpawnPoint& spawn : baked.spawn_points())
         scene->spawn_points.push_back({spawn.eye.cast<double>(), spawn.yaw, "baked"});
     return scene;

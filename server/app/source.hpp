@@ -26,8 +26,8 @@ void add_read_options(CLI::App& command, scene::ReadOptions& options);
 // Reads the source of a configured map.
 [[nodiscard]] Result<scene::Scene> load_source(const config::Map& map);
 
-// Reads the source as it was read for the bake. A source without spawn points gets those of the file: the
-// place that the bake chose.
+// Reads the source as it was read for the bake; fails when its unit is another one. A source without spawn
+// points gets those of the file: the place that the bake chose.
 [[nodiscard]] Result<scene::Scene> load_source(const freespace::Freespace& baked, const std::string& map);
 
 }  // namespace camdir::app

@@ -11,6 +11,7 @@
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
 #include "app/source.hpp"
+#include "app/writable.hpp"
 #include "base/file.hpp"
 #include "evaluation/verification.hpp"
 #include "freespace/freespace.hpp"
@@ -126,6 +127,7 @@ void print_table(const VerifyOptions& options, const Verification& result, doubl
 
 Result<int> verify(const VerifyOptions& options) {
     const Interruption interruption;
+    if (auto writable = check_writable(options.json); !writable) return tl::unexpected(writable.error());
     const auto freespace = freespace::Freespace::open(options.file);
     if (!freespace) return tl::unexpected(freespace.error());
     const auto scene = load_source(*freespace, options.map);
@@ -172,7 +174,7 @@ void add_verify(CLI::App& root, Run& run) {
     command
         ->add_option("--points", options->parameters.points,
                      "Reachable free points to draw for coverage and tightness")
-        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}))
+        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{100'000'000}))
         ->capture_default_str();
     command->add_option("--seed-rng", options->parameters.seed, "Seed of the random numbers")
         ->capture_default_str();

@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
-#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -78,12 +77,32 @@ Result<Bytes> read_file(const std::filesystem::path& path) {
     return content;
 }
 
-Result<void> write_file(const std::filesystem::path& path, std::span<const std::byte> content) {
-    if (path == "-") {
-        if (!write_all(STDOUT_FILENO, content))
-            return fail("standard output: cannot write: " + reason(errno));
-        return {};
-    }
+namespace {
+
+// A device or a pipe must not be replaced by a file.
+bool is_special(const std::filesystem::path& path) {
+    struct stat status {};
+    return ::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode);
+}
+
+// Where the link leads, also when nothing is there yet.
+std::filesystem::path target_of(std::filesystem::path path) {
+    constexpr int most_links = 40;
+    std::error_code error;
+    for (int i = 0; i < most_links && std::filesystem::is_symlink(path, error); ++i)
+        path = path.parent_path() / std::filesystem::read_symlink(path, error);
+    return path;
+}
+
+Result<void> write_into(const std::filesystem::path& path, std::span<const std::byte> content) {
+    Descriptor descriptor(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
+    if (descriptor.get() < 0) return fail(path.string() + ": cannot open: " + reason(errno));
+    if (!write_all(descriptor.get(), content) || !descriptor.close())
+        return fail(path.string() + ": cannot write: " + reason(errno));
+    return {};
+}
+
+Result<void> replace(const std::filesystem::path& path, std::span<const std::byte> content) {
     std::string temporary = path.string() + ".XXXXXX";
     Descriptor descriptor(::mkostemp(temporary.data(), O_CLOEXEC));
     if (descriptor.get() < 0) return fail(path.string() + ": cannot create: " + reason(errno));
@@ -96,6 +115,18 @@ Result<void> write_file(const std::filesystem::path& path, std::span<const std::
         return fail(path.string() + ": cannot write: " + reason(error));
     }
     return {};
+}
+
+}  // namespace
+
+Result<void> write_file(const std::filesystem::path& path, std::span<const std::byte> content) {
+    if (path == "-") {
+        if (!write_all(STDOUT_FILENO, content))
+            return fail("standard output: cannot write: " + reason(errno));
+        return {};
+    }
+    if (is_special(path)) return write_into(path, content);
+    return replace(target_of(path), content);
 }
 
 Result<void> write_file(const std::filesystem::path& path, const std::string& content) {
@@ -158,29 +189,6 @@ Result<void> PendingFile::finish(std::span<const std::byte> content) && {
     }
     release();
     return {};
-}
-
-Result<MappedFile> MappedFile::open(const std::filesystem::path& path) {
-    auto file = open_regular(path);
-    if (!file) return tl::unexpected(file.error());
-    const std::size_t size = file->size;
-    if (size == 0) return MappedFile(nullptr, 0);
-    void* data = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file->descriptor.get(), 0);
-    if (data == MAP_FAILED) return fail(path.string() + ": cannot map: " + reason(errno));
-    return MappedFile(static_cast<const std::byte*>(data), size);
-}
-
-MappedFile::MappedFile(MappedFile&& other) noexcept
-    : data_(std::exchange(other.data_, nullptr)), size_(std::exchange(other.size_, 0)) {}
-
-MappedFile& MappedFile::operator=(MappedFile&& other) noexcept {
-    std::swap(data_, other.data_);
-    std::swap(size_, other.size_);
-    return *this;
-}
-
-MappedFile::~MappedFile() {
-    if (data_ != nullptr) ::munmap(const_cast<std::byte*>(data_), size_);
 }
 
 }  // namespace camdir

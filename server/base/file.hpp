@@ -19,8 +19,9 @@ using Bytes = std::vector<std::byte>;
 [[nodiscard]] Result<Bytes> read_file(const std::filesystem::path& path);
 
 // Writes to a temporary file beside `path`, syncs it and renames it over `path`: a reader sees the old
-// content or all of the new one, and a failed or interrupted write leaves nothing behind.
-// The path "-" writes to standard output.
+// content or all of the new one, and a failed write leaves nothing behind (a killed one at most
+// `path`.XXXXXX). A symbolic link keeps its place. Devices and pipes are written into; "-" is standard
+// output.
 [[nodiscard]] Result<void> write_file(const std::filesystem::path& path, std::span<const std::byte> content);
 [[nodiscard]] Result<void> write_file(const std::filesystem::path& path, const std::string& content);
 
@@ -46,23 +47,6 @@ class PendingFile {
 
     std::filesystem::path path_;
     int descriptor_ = -1;  // of the locked path_.part; -1: moved from
-};
-
-// A read-only memory mapping of a regular file. Movable; the bytes live as long as the object.
-class MappedFile {
-  public:
-    [[nodiscard]] static Result<MappedFile> open(const std::filesystem::path& path);
-    MappedFile(MappedFile&& other) noexcept;
-    MappedFile& operator=(MappedFile&& other) noexcept;
-    ~MappedFile();
-
-    [[nodiscard]] std::span<const std::byte> bytes() const { return {data_, size_}; }
-
-  private:
-    MappedFile(const std::byte* data, std::size_t size) : data_(data), size_(size) {}
-
-    const std::byte* data_ = nullptr;
-    std::size_t size_ = 0;
 };
 
 }  // namespace camdir

@@ -92,20 +92,20 @@ void read_object(const std::string& section, const std::string& pointer, const j
             problems.add(pointer + "/" + key.name + ": missing: expected " + expected(key));
 }
 
-// One spelling of a path that is not resolved yet.
-std::string normal(const std::string& path) {
-    return fs::path(path).lexically_normal().string();
+// One spelling of a path of a configuration in `folder`.
+std::string normal(const fs::path& folder, const std::string& path) {
+    return (fs::current_path() / folder / path).lexically_normal().string();
 }
 
 // The files that the maps' sources are, or may lie in: `archive.pk3` of `archive.pk3:maps/name.bsp`.
-std::set<std::string> source_files(const std::vector<Map>& maps) {
+std::set<std::string> source_files(const std::vector<Map>& maps, const fs::path& folder) {
     std::set<std::string> files;
     for (const Map& map : maps) {
         if (map.source.empty()) continue;
-        files.insert(normal(map.source));
+        files.insert(normal(folder, map.source));
         for (std::size_t colon = map.source.find(':'); colon != std::string::npos;
              colon = map.source.find(':', colon + 1))
-            files.insert(normal(map.source.substr(0, colon)));
+            files.insert(normal(folder, map.source.substr(0, colon)));
     }
     return files;
 }
@@ -113,7 +113,6 @@ std::set<std::string> source_files(const std::vector<Map>& maps) {
 void read_maps(const json& list, Config& config, Problems& problems) {
     if (!list.is_array()) return problems.add("/maps", list, "a list of objects");
     std::set<std::string> names;
-    std::set<std::string> files;
     for (std::size_t i = 0; i < list.size(); ++i) {
         const std::string pointer = "/maps/" + std::to_string(i);
         Map map;
@@ -122,16 +121,23 @@ void read_maps(const json& list, Config& config, Problems& problems) {
             problems.add(pointer + "/d0", map.d0, "a number from 2 to 256, or 0");
         if (!map.name.empty() && !names.insert(map.name).second)
             problems.add(pointer + "/name", map.name, "a name that no other map has");
-        if (!map.file.empty() && !files.insert(normal(map.file)).second)
-            problems.add(pointer + "/file", map.file, "a file that no other map has");
         config.maps.push_back(std::move(map));
     }
-    // A bake would write over it.
-    const std::set<std::string> sources = source_files(config.maps);
-    for (std::size_t i = 0; i < config.maps.size(); ++i)
-        if (!config.maps[i].file.empty() && sources.contains(normal(config.maps[i].file)))
-            problems.add("/maps/" + std::to_string(i) + "/file", config.maps[i].file,
-                         "a file that is no map's source");
+}
+
+// A bake writes over the file.
+void check_files(const Config& config, const fs::path& folder, Problems& problems) {
+    const std::set<std::string> sources = source_files(config.maps, folder);
+    std::set<std::string> files;
+    for (std::size_t i = 0; i < config.maps.size(); ++i) {
+        const std::string& file = config.maps[i].file;
+        const std::string pointer = "/maps/" + std::to_string(i) + "/file";
+        if (file.empty()) continue;
+        if (!files.insert(normal(folder, file)).second)
+            problems.add(pointer, file, "a file that no other map has");
+        if (sources.contains(normal(folder, file)))
+            problems.add(pointer, file, "a file that is no map's source");
+    }
 }
 
 void read_profiles(const json& object, Config& config, Problems& problems) {
@@ -186,6 +192,7 @@ Result<Config> parse(const std::string& text, const std::string& name, const fs:
     Problems problems;
     read_root(*root, config, problems);
     check_references(config, problems);
+    check_files(config, folder, problems);
     if (!problems.none()) return fail(problems.joined(name + ": ", "\n"));
     resolve_paths(config, folder);
     return config;

@@ -375,16 +375,15 @@ std::string range(const Key& key) {
 
 const std::vector<Section>& sections() {
     static const std::vector<Section> list = {
-        {"/dds", "The network. Takes effect at a restart.", false},
-        {"/http", "Health, readiness, metrics and status. Takes effect at a restart.", false},
-        {"/maps", "A list: the maps that are served. Reloaded by SIGHUP.", true},
+        {"/dds", "The network. Takes effect at a restart."},
+        {"/http", "Health, readiness, metrics and status. Takes effect at a restart."},
+        {"/maps", "A list: the maps that are served. Reloaded by SIGHUP."},
         {"/profiles",
          "By name: how a shot looks; observers ask for a profile by its name and may override its keys. "
-         "`default` always exists. Units are 0.0254 m on every map. Reloaded by SIGHUP.",
-         true},
-        {"/matches", "Life of matches, and the choice of automatic targets. Reloaded by SIGHUP.", true},
-        {"/limits", "What is more than this is refused. Takes effect at a restart.", false},
-        {"/log", "Written to standard error. `level` is reloaded by SIGHUP.", true}};
+         "`default` always exists. Units are 0.0254 m on every map. Reloaded by SIGHUP."},
+        {"/matches", "Life of matches, and the choice of automatic targets. Reloaded by SIGHUP."},
+        {"/limits", "What is more than this is refused. Takes effect at a restart."},
+        {"/log", "Written to standard error. `level` is reloaded by SIGHUP."}};
     return list;
 }
 

@@ -44,7 +44,6 @@ struct Key {
 struct Section {
     std::string pointer;
     std::string help;
-    bool reloads;
 };
 [[nodiscard]] const std::vector<Section>& sections();
 

@@ -181,7 +181,7 @@ class Judge {
 
     void judge_motion(const Sample& now) {
         if (!now.counted || now.camera->cut) meter_.end_segment();
-        if (now.counted) meter_.add(static_cast<double>(now.time) * 1e-9, *now.camera);
+        if (now.counted) meter_.add(now.time, *now.camera);
     }
 
     const oracle::Oracle& oracle_;

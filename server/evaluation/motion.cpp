@@ -20,14 +20,14 @@ Vec3d rotation_between(const Eigen::Quaterniond& from, const Eigen::Quaterniond&
 
 }  // namespace
 
-void MotionMeter::add(double time, const CameraSample& camera) {
+void MotionMeter::add(std::int64_t time, const CameraSample& camera) {
     State now;
     now.time = time;
     now.position = camera.position;
     now.orientation = camera.orientation;
     if (length_ >= 1) {
-        now.step = time - last_.time;
-        assert(now.step > 0.0);
+        assert(time > last_.time);
+        now.step = static_cast<double>(time - last_.time) * 1e-9;
         const Vec3d rotation = rotation_between(last_.orientation, now.orientation);
         now.velocity = (now.position - last_.position) / now.step;
         now.angular_velocity = rotation / now.step;

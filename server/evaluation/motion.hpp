@@ -1,6 +1,7 @@
 // How a camera moves and turns within one segment: speeds and their derivatives by finite differences.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "evaluation/camera_path.hpp"
@@ -24,13 +25,13 @@ class MotionMeter {
     // The next camera does not belong to the segment of the one before.
     void end_segment() { length_ = 0; }
 
-    // `time` in seconds, ascending strictly.
-    void add(double time, const CameraSample& camera);
+    // `time` in nanoseconds, ascending strictly.
+    void add(std::int64_t time, const CameraSample& camera);
 
   private:
     struct State {
-        double time = 0.0;
-        double step = 0.0;  // seconds since the state before
+        std::int64_t time = 0;  // nanoseconds
+        double step = 0.0;      // seconds since the state before
         Vec3d position = Vec3d::Zero();
         Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
         Vec3d velocity = Vec3d::Zero();

@@ -12,6 +12,8 @@
 namespace camdir::evaluation {
 namespace {
 
+constexpr std::uint64_t max_updates = 200'000'000;
+
 camera::Pose tracked(const TracePose& pose) {
     camera::Pose seen;
     seen.eye = pose.eye.cast<float>();
@@ -87,6 +89,9 @@ Result<Recording> record(const freespace::Freespace& freespace, const camera::Pr
                          const Trace& trace, const ProgressSink& progress, const std::stop_token& stop) {
     const std::size_t frames = trace.frames.size();
     const std::uint64_t total = std::uint64_t{frames} * trace.players.size();
+    if (total > max_updates)
+        return fail("the trace has more than " + std::to_string(max_updates / 1'000'000U) +
+                    " million updates, its frames times its players, which is the most that is accepted");
     Recording recording;
     recording.cameras.resize(trace.poses.size());
     recording.terms.resize(trace.poses.size());

@@ -4,7 +4,6 @@
 #include <cassert>
 #include <cmath>
 #include <cstring>
-#include <variant>
 
 #include "base/file.hpp"
 #include "freespace/check.hpp"
@@ -213,7 +212,7 @@ std::string find_metadata_flaw(const Metadata& metadata, std::span<const SpawnPo
 }  // namespace
 
 struct Freespace::Storage {
-    std::variant<MappedFile, Bytes> file;
+    Bytes file;
     Metadata metadata;
     Box3f bounds;
     std::vector<SpawnPoint> spawn_points;
@@ -221,19 +220,14 @@ struct Freespace::Storage {
     std::vector<IndexNode> index;
     MeshView mesh;  // into file, incidence and index
 
-    explicit Storage(std::variant<MappedFile, Bytes> source) : file(std::move(source)) {}
-
-    [[nodiscard]] std::span<const std::byte> bytes() const {
-        if (const auto* mapped = std::get_if<MappedFile>(&file)) return mapped->bytes();
-        return std::get<Bytes>(file);
-    }
+    explicit Storage(Bytes bytes) : file(std::move(bytes)) {}
 };
 
 Freespace::Freespace(std::shared_ptr<const Storage> storage)
     : storage_(std::move(storage)), mesh_(storage_->mesh) {}
 
 Result<Freespace> Freespace::read(std::shared_ptr<Storage> storage, const std::string& name) {
-    const std::span<const std::byte> bytes = storage->bytes();
+    const std::span<const std::byte> bytes = storage->file;
     if (const std::string flaw = find_file_flaw(bytes); !flaw.empty()) return fail(name + ": " + flaw);
     const wire::Freespace& root = *wire::GetFreespace(bytes.data());
     storage->metadata = read_metadata(root);
@@ -253,10 +247,11 @@ Result<Freespace> Freespace::read(std::shared_ptr<Storage> storage, const std::s
     return Freespace(std::move(storage));
 }
 
+// Not mapped: whoever writes over the file in place must not change, or end, what is being served.
 Result<Freespace> Freespace::open(const std::filesystem::path& path) {
-    auto file = MappedFile::open(path);
-    if (!file) return tl::unexpected(file.error());
-    return read(std::make_shared<Storage>(std::move(*file)), path.string());
+    auto bytes = read_file(path);
+    if (!bytes) return tl::unexpected(bytes.error());
+    return parse(std::move(*bytes), path.string());
 }
 
 Result<Freespace> Freespace::parse(std::vector<std::byte> bytes, const std::string& name) {
@@ -276,7 +271,7 @@ std::span<const SpawnPoint> Freespace::spawn_points() const {
 }
 
 std::size_t Freespace::byte_size() const {
-    return storage_->bytes().size();
+    return storage_->file.size();
 }
 
 std::vector<std::byte> encode(const Contents& contents) {

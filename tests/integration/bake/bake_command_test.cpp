@@ -41,6 +41,7 @@ TEST_F(BakeCommand, BadUsageExitsWith2) {
         {"map.bsp", "-o", output_, "--sampling", "random"},
         {"map.bsp", "-o", output_, "--no-such-option"},
         {"map.bsp", "other.bsp", "-o", output_},
+        {"map.bsp", "-o", "-", "--report", "-"},
     };
     for (const auto& arguments : wrong) {
         ChildProcess process(command(arguments));
@@ -59,6 +60,19 @@ TEST_F(BakeCommand, BadInputExitsWith1AndLeavesNothing) {
         EXPECT_THAT(process.errors(), HasSubstr(map));
         EXPECT_FALSE(fs::exists(output_));
     }
+}
+
+TEST_F(BakeCommand, RefusesToWriteOverItsMap) {
+    const std::string map = (folder_ / "room.obj").string();
+    const std::string content = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    ASSERT_TRUE(write_file(map, content));
+    fs::create_symlink(map, output_);
+    for (const std::string& output : {map, output_}) {
+        ChildProcess process(command({map, "-o", output}));
+        EXPECT_EQ(process.wait(), 1);
+        EXPECT_THAT(process.errors(), HasSubstr(output + ": is the map"));
+    }
+    EXPECT_EQ(fs::file_size(map), content.size());
 }
 
 TEST_F(BakeCommand, RefusesAFolderThatIsNotThereBeforeItWorks) {

@@ -90,6 +90,11 @@ TEST(Config, RefusesToBakeOverASource) {
     EXPECT_THAT(problem(R"({"maps": [{"name": "a", "file": "a.vfs", "source": "p.pk3:maps/a.bsp"},
                                      {"name": "b", "file": "p.pk3"}]})"),
                 HasSubstr("/maps/1/file: \"p.pk3\": expected a file that is no map's source"));
+    const auto absolute =
+        parse(R"({"maps": [{"name": "a", "file": "/etc/director/a.bsp", "source": "a.bsp"}]})", "test",
+              "/etc/director");
+    ASSERT_FALSE(absolute);
+    EXPECT_THAT(absolute.error().message, HasSubstr("expected a file that is no map's source"));
 }
 
 TEST(Config, RefusesMissingKeys) {

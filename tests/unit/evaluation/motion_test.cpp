@@ -15,6 +15,7 @@ using testing::DoubleNear;
 using testing::ElementsAre;
 
 constexpr double tolerance = 1e-9;
+constexpr std::int64_t second = 1'000'000'000;
 
 CameraSample at(double x, double yaw_degrees = 0.0) {
     return {Vec3d(x, 0, 0), quake_orientation(0, yaw_degrees, 0), false};
@@ -24,10 +25,10 @@ CameraSample at(double x, double yaw_degrees = 0.0) {
 TEST(Motion, UnevenStepsByHand) {
     MotionSamples samples;
     MotionMeter meter(samples);
-    meter.add(0, at(0));
-    meter.add(1, at(1));
-    meter.add(2, at(4));
-    meter.add(4, at(10));
+    meter.add(0 * second, at(0));
+    meter.add(1 * second, at(1));
+    meter.add(2 * second, at(4));
+    meter.add(4 * second, at(10));
     EXPECT_THAT(samples.acceleration, ElementsAre(2.0, 0.0));
     EXPECT_THAT(samples.jerk, ElementsAre(DoubleNear(2.0 / 1.25, tolerance)));
 }
@@ -36,10 +37,10 @@ TEST(Motion, UnevenStepsByHand) {
 TEST(Motion, TurnsByHand) {
     MotionSamples samples;
     MotionMeter meter(samples);
-    meter.add(0, at(0, 170));
-    meter.add(1, at(0, 180));
-    meter.add(2, at(0, -160));
-    meter.add(3, at(0, 200));
+    meter.add(0 * second, at(0, 170));
+    meter.add(1 * second, at(0, 180));
+    meter.add(2 * second, at(0, -160));
+    meter.add(3 * second, at(0, 200));
     EXPECT_THAT(samples.angular_speed,
                 ElementsAre(DoubleNear(10, tolerance), DoubleNear(20, tolerance), DoubleNear(0, tolerance)));
     EXPECT_THAT(samples.angular_acceleration,
@@ -51,21 +52,21 @@ TEST(Motion, OppositeQuaternionsAreTheSameOrientation) {
     MotionSamples samples;
     MotionMeter meter(samples);
     CameraSample turned = at(0, 90);
-    meter.add(0, turned);
+    meter.add(0 * second, turned);
     turned.orientation.coeffs() *= -1.0;
-    meter.add(1, turned);
+    meter.add(1 * second, turned);
     EXPECT_THAT(samples.angular_speed, ElementsAre(DoubleNear(0, tolerance)));
 }
 
 TEST(Motion, SegmentsDoNotMix) {
     MotionSamples samples;
     MotionMeter meter(samples);
-    meter.add(0, at(0));
-    meter.add(1, at(1));
+    meter.add(0 * second, at(0));
+    meter.add(1 * second, at(1));
     meter.end_segment();
-    meter.add(2, at(1000, 90));
-    meter.add(3, at(1001, 90));
-    meter.add(4, at(1002, 90));
+    meter.add(2 * second, at(1000, 90));
+    meter.add(3 * second, at(1001, 90));
+    meter.add(4 * second, at(1002, 90));
     EXPECT_THAT(samples.acceleration, ElementsAre(0.0));
     EXPECT_EQ(samples.angular_speed.size(), 3U);
     EXPECT_NEAR(samples.largest_rotation, 0.0, tolerance);
