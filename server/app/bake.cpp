@@ -53,10 +53,9 @@ Result<bake::Baked> bake_shown(const scene::Scene& scene, const BakeOptions& opt
 // The map's file, or the archive that it lies in.
 bool is_source(const std::string& file, const std::string& map) {
     std::error_code error;
-    for (std::size_t end = map.size(); end != std::string::npos;
-         end = end == 0 ? end : map.rfind(':', end - 1))
-        if (std::filesystem::equivalent(file, map.substr(0, end), error)) return true;
-    return false;
+    for (std::size_t colon = map.find(':'); colon != std::string::npos; colon = map.find(':', colon + 1))
+        if (std::filesystem::equivalent(file, map.substr(0, colon), error)) return true;
+    return std::filesystem::equivalent(file, map, error);
 }
 
 Result<void> bake_to_file(const BakeOptions& options) {

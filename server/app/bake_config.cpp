@@ -172,8 +172,8 @@ std::uint64_t default_memory() {
     std::uint64_t memory = static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) *
                            static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
     for (std::filesystem::path group = control_group();; group = group.parent_path()) {
-        std::ifstream file("/sys/fs/cgroup" + group.string() +
-                           "/memory.max");  // "max" where there is no limit
+        // "max" where there is no limit.
+        std::ifstream file("/sys/fs/cgroup" + group.string() + "/memory.max");
         if (std::uint64_t limit = 0; file >> limit) memory = std::min(memory, limit);
         if (!group.has_relative_path()) return memory / 2;
     }

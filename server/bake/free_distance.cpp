@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 
 #include "bake/certificate.hpp"
 #include "bake/round_down.hpp"

@@ -7,8 +7,8 @@ namespace camdir::scene {
 namespace {
 
 constexpr double max_nominal_coordinate = 1 << 20;
-constexpr double file_coordinate_limit =
-    5e7;  // what a MAP.vfs holds, with room for what lies around the geometry
+// Half of what a MAP.vfs holds: the mesh may reach out around the geometry.
+constexpr double file_coordinate_limit = 5e7;
 
 std::string text_of(const Vec3d& p) {
     std::ostringstream text;

@@ -20,7 +20,9 @@ while [ $# -gt 0 ]; do
     [ $# -ge 2 ] || { echo "soak.sh: $1 needs a value" >&2; exit 2; }
     case "$1" in
         --seconds) seconds=$2 ;;
-        --hours) seconds=$(awk -v hours="$2" 'BEGIN { printf "%d", 3600 * hours }') ;;
+        --hours)
+            [[ $2 =~ ^[0-9]+(\.[0-9]+)?$ ]] || { echo "soak.sh: --hours $2: expected a number" >&2; exit 2; }
+            seconds=$(awk -v hours="$2" 'BEGIN { printf "%d", 3600 * hours }') ;;
         --matches) matches=$2 ;;
         --players) players=$2 ;;
         --observers) observers=$2 ;;

@@ -1,9 +1,10 @@
 #include "bench/paper/constant_distance.hpp"
-#include "bake/round_down.hpp"
 
 #include <algorithm>
 #include <cassert>
 #include <limits>
+
+#include "bake/round_down.hpp"
 
 namespace camdir::paper {
 

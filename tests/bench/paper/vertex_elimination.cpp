@@ -1,11 +1,11 @@
 #include "bench/paper/vertex_elimination.hpp"
-#include "bake/round_down.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <queue>
 #include <tuple>
 
+#include "bake/round_down.hpp"
 #include "bench/paper/elimination.hpp"
 
 namespace camdir::paper {

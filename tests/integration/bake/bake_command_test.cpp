@@ -54,7 +54,8 @@ TEST_F(BakeCommand, BadUsageExitsWith2) {
 TEST_F(BakeCommand, BadInputExitsWith1AndLeavesNothing) {
     const std::string text = (folder_ / "text.bsp").string();
     ASSERT_TRUE(write_file(text, std::string("no map at all")));
-    for (const std::string& map : {text, (folder_ / "missing.bsp").string(), folder_.path().string()}) {
+    for (const std::string& map :
+         {text, (folder_ / "missing.bsp").string(), folder_.path().string(), std::string(":maps/a.bsp")}) {
         ChildProcess process(command({map, "-o", output_}));
         EXPECT_EQ(process.wait(), 1);
         EXPECT_THAT(process.errors(), HasSubstr(map));
