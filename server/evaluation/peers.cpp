@@ -1,5 +1,7 @@
 #include "evaluation/peers.hpp"
 
+#include "scene/scene.hpp"
+
 namespace camdir::evaluation {
 
 std::optional<Peer> find_peer(std::string_view name) {
