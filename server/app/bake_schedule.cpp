@@ -5,8 +5,8 @@
 #include <numeric>
 #include <utility>
 
+#include "bake/geometry/triangle.hpp"
 #include "bake/shell.hpp"
-#include "bake/triangle.hpp"
 
 namespace camdir::app {
 namespace {

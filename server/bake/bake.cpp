@@ -11,25 +11,25 @@
 #include <span>
 #include <utility>
 
+#include "bake/certify.hpp"
 #include "bake/clearance.hpp"
 #include "bake/crossing.hpp"
 #include "bake/delaunay.hpp"
-#include "bake/free_distance.hpp"
+#include "bake/geometry/obstacles.hpp"
+#include "bake/geometry/solids.hpp"
 #include "bake/inside.hpp"
 #include "bake/medial_axis.hpp"
 #include "bake/medial_mesh.hpp"
-#include "bake/obstacles.hpp"
 #include "bake/pack.hpp"
 #include "bake/reduce.hpp"
 #include "bake/round_down.hpp"
 #include "bake/sample.hpp"
 #include "bake/sampling_distance.hpp"
 #include "bake/shell.hpp"
-#include "bake/solids.hpp"
 #include "bake/stage.hpp"
+#include "bake/thin.hpp"
 #include "bake/triangulate.hpp"
 #include "bake/voronoi.hpp"
-#include "bake/weld.hpp"
 
 namespace camdir::bake {
 namespace {

@@ -5,7 +5,7 @@
 #include <set>
 #include <utility>
 
-#include "bake/disjoint_sets.hpp"
+#include "base/disjoint_sets.hpp"
 
 namespace camdir::bake {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "bake/geometry/solids.hpp"
 #include "bake/medial_mesh.hpp"
-#include "bake/solids.hpp"
 #include "bake/stage.hpp"
 
 namespace camdir::bake {

@@ -6,8 +6,8 @@
 #include <limits>
 #include <vector>
 
-#include "bake/obstacles.hpp"
-#include "bake/solids.hpp"
+#include "bake/geometry/obstacles.hpp"
+#include "bake/geometry/solids.hpp"
 #include "bake/stage.hpp"
 
 namespace camdir::bake {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "bake/triangle.hpp"
+#include "bake/geometry/triangle.hpp"
 #include "freespace/freespace.hpp"
 
 namespace camdir::bake {

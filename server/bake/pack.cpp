@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "bake/certificate.hpp"
+#include "bake/geometry/certificate.hpp"
 
 namespace camdir::bake {
 namespace {

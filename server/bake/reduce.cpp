@@ -6,9 +6,9 @@
 #include <limits>
 #include <utility>
 
-#include "bake/collapses.hpp"
-#include "bake/regions.hpp"
-#include "bake/shrinking.hpp"
+#include "bake/reduction/decimation_state.hpp"
+#include "bake/reduction/edge_collapser.hpp"
+#include "bake/reduction/regions.hpp"
 
 namespace camdir::bake {
 namespace {

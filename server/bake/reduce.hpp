@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "bake/geometry/obstacles.hpp"
 #include "bake/medial_mesh.hpp"
-#include "bake/obstacles.hpp"
 #include "bake/stage.hpp"
 #include "scene/scene.hpp"
 

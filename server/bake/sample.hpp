@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "bake/geometry/solids.hpp"
+#include "bake/geometry/triangle.hpp"
 #include "bake/sampling_distance.hpp"
-#include "bake/solids.hpp"
 #include "bake/stage.hpp"
-#include "bake/triangle.hpp"
 
 namespace camdir::bake {
 

@@ -14,7 +14,7 @@
 
 #include <vector>
 
-#include "bake/box_tree.hpp"
+#include "bake/geometry/box_tree.hpp"
 
 namespace camdir::bake {
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "bake/circumcentre.hpp"
-#include "bake/disjoint_sets.hpp"
+#include "bake/geometry/circumcentre.hpp"
+#include "base/disjoint_sets.hpp"
 
 namespace camdir::bake {
 namespace {

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "bake/triangle.hpp"
+#include "bake/geometry/triangle.hpp"
 
 namespace camdir::test {
 

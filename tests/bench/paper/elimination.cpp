@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "bake/triangle.hpp"
+#include "bake/geometry/triangle.hpp"
 
 namespace camdir::paper {
 namespace {

@@ -2,14 +2,14 @@
 
 #include <algorithm>
 
+#include "bake/certify.hpp"
 #include "bake/clearance.hpp"
 #include "bake/crossing.hpp"
-#include "bake/free_distance.hpp"
 #include "bake/inside.hpp"
 #include "bake/pack.hpp"
 #include "bake/sample.hpp"
+#include "bake/thin.hpp"
 #include "bake/triangulate.hpp"
-#include "bake/weld.hpp"
 #include "bench/paper/constant_distance.hpp"
 #include "bench/paper/method.hpp"
 #include "bench/paper/sampling.hpp"

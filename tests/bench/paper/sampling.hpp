@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "bake/triangle.hpp"
+#include "bake/geometry/triangle.hpp"
 #include "base/error.hpp"
 #include "scene/scene.hpp"
 

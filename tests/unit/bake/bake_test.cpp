@@ -8,7 +8,7 @@
 #include <limits>
 #include <random>
 
-#include "bake/certificate.hpp"
+#include "bake/geometry/certificate.hpp"
 #include "scene/load.hpp"
 #include "support/openarena.hpp"
 #include "support/solid_scenes.hpp"

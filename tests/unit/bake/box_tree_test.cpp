@@ -1,12 +1,12 @@
-#include "bake/box_tree.hpp"
+#include "bake/geometry/box_tree.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
 
-#include "bake/obstacles.hpp"
-#include "bake/solids.hpp"
+#include "bake/geometry/obstacles.hpp"
+#include "bake/geometry/solids.hpp"
 #include "support/bake_twins.hpp"
 #include "support/solid_scenes.hpp"
 

@@ -1,4 +1,4 @@
-#include "bake/circumcentre.hpp"
+#include "bake/geometry/circumcentre.hpp"
 
 #include <gtest/gtest.h>
 

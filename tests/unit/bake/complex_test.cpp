@@ -1,4 +1,4 @@
-#include "bake/complex.hpp"
+#include "bake/reduction/complex.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <random>
 #include <set>
 
-#include "bake/circumcentre.hpp"
+#include "bake/geometry/circumcentre.hpp"
 
 namespace camdir::bake {
 namespace {

@@ -7,8 +7,8 @@
 #include <set>
 
 #include "bake/bake.hpp"
-#include "bake/certificate.hpp"
-#include "bake/disjoint_sets.hpp"
+#include "bake/geometry/certificate.hpp"
+#include "base/disjoint_sets.hpp"
 #include "support/solid_scenes.hpp"
 #include "unit/bake/safety.hpp"
 

@@ -1,4 +1,4 @@
-#include "bake/regions.hpp"
+#include "bake/reduction/regions.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "bake/certificate.hpp"
+#include "bake/geometry/certificate.hpp"
 #include "freespace/freespace.hpp"
 #include "support/solid_scenes.hpp"
 

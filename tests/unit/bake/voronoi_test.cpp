@@ -11,8 +11,8 @@
 #include "bake/crossing.hpp"
 #include "bake/medial_axis.hpp"
 #include "bake/sample.hpp"
+#include "bake/thin.hpp"
 #include "bake/triangulate.hpp"
-#include "bake/weld.hpp"
 #include "scene/load.hpp"
 #include "support/openarena.hpp"
 

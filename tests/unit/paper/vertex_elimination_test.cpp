@@ -8,7 +8,7 @@
 #include <random>
 #include <set>
 
-#include "bake/certificate.hpp"
+#include "bake/geometry/certificate.hpp"
 
 namespace camdir::paper {
 namespace {

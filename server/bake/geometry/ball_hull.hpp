@@ -7,7 +7,7 @@
 #include <limits>
 #include <span>
 
-#include "bake/triangle.hpp"
+#include "bake/geometry/triangle.hpp"
 
 namespace camdir::bake {
 

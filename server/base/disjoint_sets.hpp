@@ -5,7 +5,7 @@
 #include <numeric>
 #include <vector>
 
-namespace camdir::bake {
+namespace camdir {
 
 class DisjointSets {
   public:
@@ -33,4 +33,4 @@ class DisjointSets {
     std::vector<std::uint32_t> parent_;
 };
 
-}  // namespace camdir::bake
+}  // namespace camdir

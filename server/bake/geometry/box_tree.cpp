@@ -1,4 +1,4 @@
-#include "bake/box_tree.hpp"
+#include "bake/geometry/box_tree.hpp"
 
 #include <algorithm>
 #include <cmath>

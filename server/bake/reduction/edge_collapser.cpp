@@ -1,4 +1,4 @@
-#include "bake/collapses.hpp"
+#include "bake/reduction/edge_collapser.hpp"
 
 #include <algorithm>
 

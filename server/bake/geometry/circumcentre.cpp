@@ -1,4 +1,4 @@
-#include "bake/circumcentre.hpp"
+#include "bake/geometry/circumcentre.hpp"
 
 #include <CGAL/Exact_rational.h>
 #include <CGAL/Simple_cartesian.h>

@@ -6,11 +6,11 @@
 #include <span>
 #include <vector>
 
-#include "bake/certificate.hpp"
-#include "bake/complex.hpp"
+#include "bake/geometry/certificate.hpp"
+#include "bake/geometry/obstacles.hpp"
 #include "bake/medial_mesh.hpp"
-#include "bake/obstacles.hpp"
 #include "bake/reduce.hpp"
+#include "bake/reduction/complex.hpp"
 #include "freespace/freespace.hpp"
 #include "scene/scene.hpp"
 

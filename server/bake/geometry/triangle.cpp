@@ -1,4 +1,4 @@
-#include "bake/triangle.hpp"
+#include "bake/geometry/triangle.hpp"
 
 #include <algorithm>
 

@@ -1,9 +1,9 @@
-#include "bake/free_distance.hpp"
+#include "bake/certify.hpp"
 
 #include <algorithm>
 #include <atomic>
 
-#include "bake/certificate.hpp"
+#include "bake/geometry/certificate.hpp"
 #include "bake/round_down.hpp"
 
 namespace camdir::bake {

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "bake/box_tree.hpp"
-#include "bake/triangle.hpp"
+#include "bake/geometry/box_tree.hpp"
+#include "bake/geometry/triangle.hpp"
 #include "scene/scene.hpp"
 
 namespace camdir::bake {

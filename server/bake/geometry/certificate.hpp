@@ -6,9 +6,9 @@
 #include <limits>
 #include <span>
 
-#include "bake/ball_hull.hpp"
-#include "bake/obstacles.hpp"
-#include "bake/triangle.hpp"
+#include "bake/geometry/ball_hull.hpp"
+#include "bake/geometry/obstacles.hpp"
+#include "bake/geometry/triangle.hpp"
 #include "freespace/freespace.hpp"
 
 namespace camdir::bake {

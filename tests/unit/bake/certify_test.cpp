@@ -1,12 +1,12 @@
-#include "bake/free_distance.hpp"
+#include "bake/certify.hpp"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "bake/certificate.hpp"
 #include "bake/clearance.hpp"
 #include "bake/crossing.hpp"
+#include "bake/geometry/certificate.hpp"
 #include "support/solid_scenes.hpp"
 
 namespace camdir::bake {

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "bake/shrinking.hpp"
+#include "bake/reduction/decimation_state.hpp"
 #include "bake/stage.hpp"
 
 namespace camdir::bake {

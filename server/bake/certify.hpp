@@ -4,8 +4,8 @@
 
 #include <vector>
 
+#include "bake/geometry/obstacles.hpp"
 #include "bake/medial_mesh.hpp"
-#include "bake/obstacles.hpp"
 #include "bake/stage.hpp"
 
 namespace camdir::bake {

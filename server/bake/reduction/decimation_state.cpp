@@ -1,4 +1,4 @@
-#include "bake/shrinking.hpp"
+#include "bake/reduction/decimation_state.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "bake/weld.hpp"
+#include "bake/thin.hpp"
 
 #include <cmath>
 #include <cstdint>

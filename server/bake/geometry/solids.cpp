@@ -1,4 +1,4 @@
-#include "bake/solids.hpp"
+#include "bake/geometry/solids.hpp"
 
 #include <algorithm>
 

@@ -1,8 +1,8 @@
 // The scene's solid brushes under a spatial index.
 #pragma once
 
-#include "bake/box_tree.hpp"
-#include "bake/triangle.hpp"
+#include "bake/geometry/box_tree.hpp"
+#include "bake/geometry/triangle.hpp"
 #include "scene/scene.hpp"
 
 namespace camdir::bake {

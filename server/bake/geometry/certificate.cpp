@@ -1,4 +1,4 @@
-#include "bake/certificate.hpp"
+#include "bake/geometry/certificate.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "bake/obstacles.hpp"
+#include "bake/geometry/obstacles.hpp"
 
 namespace camdir::bake {
 namespace {
