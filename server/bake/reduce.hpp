@@ -8,6 +8,7 @@
 
 #include "bake/geometry/obstacles.hpp"
 #include "bake/medial_mesh.hpp"
+#include "bake/reduction/reduction.hpp"
 #include "bake/stage.hpp"
 #include "scene/scene.hpp"
 
@@ -15,12 +16,6 @@ namespace camdir::bake {
 
 // Vertices that one thread works on at a time, at most: few enough to share out, enough to have an inside.
 inline constexpr std::size_t region_size = 4096;
-
-struct Reduction {
-    double loss = 0.0;            // how much free distance the centre of a ball may lose, map units
-    double margin = 0.0;          // free distances up to this count as none, map units
-    std::uint64_t triangles = 0;  // > 0: stop soon after no more than these are left
-};
 
 // Over the mesh's area; negative ones count as 0.
 [[nodiscard]] double mean_free_distance(const MedialMesh& mesh, const std::vector<float>& free_distance);

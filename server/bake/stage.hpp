@@ -8,7 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "bake/bake.hpp"
+#include "bake/progress.hpp"
+#include "base/error.hpp"
 #include "base/parallel.hpp"
 
 namespace camdir::bake {

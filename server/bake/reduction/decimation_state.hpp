@@ -9,8 +9,8 @@
 #include "bake/geometry/certificate.hpp"
 #include "bake/geometry/obstacles.hpp"
 #include "bake/medial_mesh.hpp"
-#include "bake/reduce.hpp"
 #include "bake/reduction/complex.hpp"
+#include "bake/reduction/reduction.hpp"
 #include "freespace/freespace.hpp"
 #include "scene/scene.hpp"
 

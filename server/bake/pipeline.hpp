@@ -1,0 +1,81 @@
+// The stages of one bake and what they hand to each other.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "bake/delaunay.hpp"
+#include "bake/geometry/obstacles.hpp"
+#include "bake/geometry/solids.hpp"
+#include "bake/medial_mesh.hpp"
+#include "bake/parameters.hpp"
+#include "bake/sampling_distance.hpp"
+#include "bake/stage.hpp"
+#include "bake/voronoi.hpp"
+#include "base/error.hpp"
+#include "freespace/freespace.hpp"
+#include "scene/scene.hpp"
+
+namespace camdir::bake {
+
+// Each member function is one stage: it reads what earlier stages left and clears what later ones do not
+// need.
+class Pipeline {
+  public:
+    // The scene and the parameters must outlive it.
+    Pipeline(const scene::Scene& scene, const Parameters& parameters);
+
+    // Before the first stage: fails when the samples would be too many for memory.
+    [[nodiscard]] Result<void> check_size() const;
+
+    [[nodiscard]] Result<void> medial_axis(Stage& stage);
+    [[nodiscard]] Result<void> sample(Stage& stage);
+    [[nodiscard]] Result<void> weld(Stage& stage);
+    [[nodiscard]] Result<void> delaunay(Stage& stage);
+    [[nodiscard]] Result<void> voronoi(Stage& stage);
+    [[nodiscard]] Result<void> triangulate(Stage& stage);
+    [[nodiscard]] Result<void> clearance(Stage& stage);
+    [[nodiscard]] Result<void> crossing(Stage& stage);
+    [[nodiscard]] Result<void> inside(Stage& stage);
+    [[nodiscard]] Result<void> certify(Stage& stage);
+    [[nodiscard]] Result<void> reduce(Stage& stage);
+    [[nodiscard]] Result<void> pack(Stage& stage);
+
+    [[nodiscard]] bool is_cloud() const { return !scene_.points.empty(); }
+    // After the last stage. Leaves metadata to the caller.
+    [[nodiscard]] freespace::Contents take() && { return std::move(contents_); }
+
+  private:
+    void enclose(std::vector<double>& distances, Stage& stage);
+
+    [[nodiscard]] double coarsest() const {
+        return parameters_.sampling == Sampling::uniform ? d0_ : parameters_.coarsest * d0_;
+    }
+    // Where volumes are known, the solids close the map.
+    [[nodiscard]] bool may_be_open() const { return scene_.brushes.empty(); }
+    // Dropped samples must not break the sampling condition: sampling is finer by this distance.
+    [[nodiscard]] double weld_distance() const { return is_cloud() ? d0_ / 2.0 : d0_ / 64.0; }
+    // Voronoi vertices nearer to each other are one. Half of the triangles lie among such vertices alone, and
+    // samples as dense as d0 say nothing of details this small. A cloud's passages are as narrow as its
+    // margin leaves them.
+    [[nodiscard]] double vertex_weld_distance() const { return is_cloud() ? d0_ / 64.0 : d0_ / 4.0; }
+    // What is free around a cloud's points: surface lies up to d0 away from them.
+    [[nodiscard]] double margin() const { return is_cloud() ? d0_ : 0.0; }
+
+    const scene::Scene& scene_;
+    const Parameters& parameters_;
+    double unit_;  // map units in a nominal unit
+    double d0_;    // map units
+    Obstacles obstacles_;
+    Solids solids_;
+    SamplingDistance distance_;
+    std::vector<Vec3d> samples_;
+    Delaunay delaunay_;
+    VoronoiFaces faces_;
+    MedialMesh mesh_;
+    std::vector<double> clearance_;
+    std::vector<float> free_distance_;
+    freespace::Contents contents_;
+};
+
+}  // namespace camdir::bake
