@@ -3,16 +3,17 @@
 #include <set>
 
 #include "app/bake_config.hpp"
-#include "app/bake_report.hpp"
 #include "app/commands.hpp"
-#include "app/interrupt.hpp"
 #include "app/progress.hpp"
-#include "app/source.hpp"
+#include "app/read_options.hpp"
 #include "app/writable.hpp"
 #include "bake/bake.hpp"
 #include "base/file.hpp"
 #include "freespace/freespace.hpp"
+#include "maps/report.hpp"
+#include "maps/source.hpp"
 #include "scene/load.hpp"
+#include "service/interruption.hpp"
 
 namespace camdir::app {
 namespace {
@@ -45,7 +46,7 @@ Result<bake::Baked> bake_shown(const scene::Scene& scene, const BakeOptions& opt
     const auto show = [&](const bake::Progress& p) { line.show(p.stage, p.done, p.total); };
     const auto finished = [&](const bake::StageReport& report) {
         line.clear();
-        std::cerr << line_of(report) << '\n';
+        std::cerr << maps::line_of(report) << '\n';
     };
     return bake::bake(scene, options.parameters, show, stop, finished);
 }
@@ -59,7 +60,7 @@ bool is_source(const std::string& file, const std::string& map) {
 }
 
 Result<void> bake_to_file(const BakeOptions& options) {
-    const Interruption interruption;
+    const service::Interruption interruption;
     for (const std::string& file : {options.output, options.report})
         if (is_source(file, options.map)) return fail(file + ": is the map; expected another file to write");
     for (const std::string& file : {options.output, options.report})
@@ -72,16 +73,16 @@ Result<void> bake_to_file(const BakeOptions& options) {
     if (!baked) return tl::unexpected(baked.error());
     const std::vector<std::byte> bytes = freespace::encode(baked->contents);
     if (auto written = write_file(options.output, bytes); !written) return written;
-    const BakeReport report = report_of(*scene, *baked, bytes.size());
+    const maps::BakeReport report = maps::report_of(*scene, *baked, bytes.size());
     if (!options.report.empty()) {
-        nlohmann::ordered_json json = to_json(report);
-        json["peak_memory_bytes"] = peak_memory_bytes();
-        if (auto written = write_file(options.report, report_text(json)); !written) return written;
+        nlohmann::ordered_json json = maps::to_json(report);
+        json["peak_memory_bytes"] = maps::peak_memory_bytes();
+        if (auto written = write_file(options.report, maps::report_text(json)); !written) return written;
     }
     if (!options.quiet)
         std::cerr << options.output << ": " << report.vertices << " vertices, " << report.triangles
-                  << " triangles, " << report.file_bytes << " bytes in " << seconds_text(report.seconds)
-                  << ", at most " << peak_memory_bytes() / 1'000'000U << " MB of memory\n";
+                  << " triangles, " << report.file_bytes << " bytes in " << maps::seconds_text(report.seconds)
+                  << ", at most " << maps::peak_memory_bytes() / 1'000'000U << " MB of memory\n";
     return {};
 }
 

@@ -12,12 +12,12 @@
 #include <sstream>
 #include <vector>
 
-#include "app/bake_batch.hpp"
 #include "app/commands.hpp"
-#include "app/interrupt.hpp"
 #include "app/progress.hpp"
 #include "app/writable.hpp"
 #include "base/file.hpp"
+#include "maps/batch.hpp"
+#include "service/interruption.hpp"
 
 namespace camdir::app {
 namespace {
@@ -26,15 +26,15 @@ using nlohmann::ordered_json;
 
 constexpr std::uint64_t mebibyte = 1024U * 1024U;
 
-std::string figures(const MapOutcome& outcome) {
+std::string figures(const maps::MapOutcome& outcome) {
     return std::to_string(outcome.samples) + " samples, " + std::to_string(outcome.triangles) +
            " triangles, " + std::to_string(outcome.file_bytes) + " bytes";
 }
 
-std::string line_of(const MapOutcome& outcome) {
+std::string line_of(const maps::MapOutcome& outcome) {
     std::string line = outcome.map + ": " + std::string(name_of(outcome.state));
-    if (outcome.state == MapState::baked)
-        return line + " in " + seconds_text(outcome.seconds) + ": " + figures(outcome);
+    if (outcome.state == maps::MapState::baked)
+        return line + " in " + maps::seconds_text(outcome.seconds) + ": " + figures(outcome);
     return outcome.reason.empty() ? line : line + ": " + outcome.reason;
 }
 
@@ -54,9 +54,9 @@ class BatchDisplay {
         draw();
     }
 
-    void finished(const MapOutcome& outcome) {
+    void finished(const maps::MapOutcome& outcome) {
         if (running_.erase(outcome.map) > 0) ++baked_;
-        if (quiet_ && outcome.state != MapState::failed) return;
+        if (quiet_ && outcome.state != maps::MapState::failed) return;
         line_.clear();
         std::cerr << line_of(outcome) << '\n';
         draw();
@@ -79,9 +79,9 @@ class BatchDisplay {
     ProgressLine line_;
 };
 
-void print_table(const std::vector<MapOutcome>& outcomes) {
+void print_table(const std::vector<maps::MapOutcome>& outcomes) {
     std::size_t width = 3;
-    for (const MapOutcome& outcome : outcomes)
+    for (const maps::MapOutcome& outcome : outcomes)
         width = std::max(width, outcome.map.size());
     std::ostringstream table;
     table << '\n'
@@ -89,7 +89,7 @@ void print_table(const std::vector<MapOutcome>& outcomes) {
           << "  state        " << std::right << std::setw(10) << "seconds" << std::setw(11) << "samples"
           << std::setw(11) << "triangles" << std::setw(12) << "bytes"
           << "  reason\n";
-    for (const MapOutcome& outcome : outcomes)
+    for (const maps::MapOutcome& outcome : outcomes)
         table << std::left << std::setw(static_cast<int>(width)) << outcome.map << "  " << std::setw(13)
               << name_of(outcome.state) << std::right << std::setw(10) << std::fixed << std::setprecision(2)
               << outcome.seconds << std::setw(11) << outcome.samples << std::setw(11) << outcome.triangles
@@ -97,7 +97,7 @@ void print_table(const std::vector<MapOutcome>& outcomes) {
     std::cerr << table.str();
 }
 
-ordered_json json_of(const MapOutcome& outcome) {
+ordered_json json_of(const maps::MapOutcome& outcome) {
     ordered_json json = {{"map", outcome.map},
                          {"state", name_of(outcome.state)},
                          {"reason", outcome.reason},
@@ -105,35 +105,35 @@ ordered_json json_of(const MapOutcome& outcome) {
                          {"samples", outcome.samples},
                          {"triangles", outcome.triangles},
                          {"file_bytes", outcome.file_bytes}};
-    if (outcome.report) json["bake"] = to_json(*outcome.report);
+    if (outcome.report) json["bake"] = maps::to_json(*outcome.report);
     return json;
 }
 
-Result<void> write_report(const BakeConfigOptions& options, const BatchParameters& parameters, double seconds,
-                          const std::vector<MapOutcome>& outcomes) {
+Result<void> write_report(const BakeConfigOptions& options, const maps::BatchParameters& parameters,
+                          double seconds, const std::vector<maps::MapOutcome>& outcomes) {
     if (options.report.empty()) return {};
     ordered_json maps = ordered_json::array();
-    for (const MapOutcome& outcome : outcomes)
+    for (const maps::MapOutcome& outcome : outcomes)
         maps.push_back(json_of(outcome));
     const ordered_json report = {{"config", options.config},
                                  {"memory_budget_bytes", parameters.memory},
-                                 {"peak_memory_bytes", peak_memory_bytes()},
+                                 {"peak_memory_bytes", maps::peak_memory_bytes()},
                                  {"seconds", seconds},
                                  {"maps", maps}};
-    return write_file(options.report, report_text(report));
+    return write_file(options.report, maps::report_text(report));
 }
 
-int exit_code_of(const std::vector<MapOutcome>& outcomes) {
-    const auto any = [&](MapState state) {
+int exit_code_of(const std::vector<maps::MapOutcome>& outcomes) {
+    const auto any = [&](maps::MapState state) {
         return std::any_of(outcomes.begin(), outcomes.end(),
-                           [&](const MapOutcome& outcome) { return outcome.state == state; });
+                           [&](const maps::MapOutcome& outcome) { return outcome.state == state; });
     };
-    if (any(MapState::interrupted)) return exit_interrupted;
-    return any(MapState::failed) ? exit_failed : exit_done;
+    if (any(maps::MapState::interrupted)) return exit_interrupted;
+    return any(maps::MapState::failed) ? exit_failed : exit_done;
 }
 
 Result<int> run(const BakeConfigOptions& options) {
-    const Interruption interruption;
+    const service::Interruption interruption;
     if (auto writable = check_writable(options.report); !writable) return tl::unexpected(writable.error());
     auto config = config::load(options.config);
     if (!config) return tl::unexpected(config.error());
@@ -142,15 +142,17 @@ Result<int> run(const BakeConfigOptions& options) {
                  [](const config::Map& map) { return !map.source.empty(); });
     if (maps.empty() && !options.quiet) std::cerr << options.config << ": no map has a source to bake\n";
 
-    const BatchParameters parameters{
+    const maps::BatchParameters parameters{
         options.threads, options.memory_mib == 0 ? default_memory() : options.memory_mib * mebibyte,
         options.force};
     BatchDisplay display(options.quiet);
-    const BatchSink sink{[&](std::size_t to_bake) { display.examined(to_bake); },
-                         [&](const std::string& map, const bake::Progress& p) { display.progress(map, p); },
-                         [&](const MapOutcome& outcome) { display.finished(outcome); }};
+    const maps::BatchSink sink{
+        [&](std::size_t to_bake) { display.examined(to_bake); },
+        [&](const std::string& map, const bake::Progress& p) { display.progress(map, p); },
+        [&](const maps::MapOutcome& outcome) { display.finished(outcome); }};
     const auto begin = std::chrono::steady_clock::now();
-    const std::vector<MapOutcome> outcomes = bake_maps(maps, parameters, sink, interruption.token());
+    const std::vector<maps::MapOutcome> outcomes =
+        maps::bake_maps(maps, parameters, sink, interruption.token());
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
     if (!options.quiet && !maps.empty()) print_table(outcomes);
     auto written = write_report(options, parameters, seconds.count(), outcomes);

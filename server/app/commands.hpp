@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "base/error.hpp"
+#include "service/interruption.hpp"
 
 namespace camdir::app {
 
@@ -12,7 +13,7 @@ namespace camdir::app {
 inline constexpr int exit_done = 0;
 inline constexpr int exit_failed = 1;
 inline constexpr int exit_usage = 2;
-inline constexpr int exit_interrupted = 130;
+using service::exit_interrupted;  // 130
 
 // Each adds its subcommand to `root`; when the user chose it, `run` is set to what does the work and
 // returns the exit code.

@@ -5,9 +5,7 @@
 #include <optional>
 
 #include "app/commands.hpp"
-#include "app/interrupt.hpp"
 #include "app/progress.hpp"
-#include "app/source.hpp"
 #include "app/writable.hpp"
 #include "base/file.hpp"
 #include "config/config.hpp"
@@ -18,8 +16,10 @@
 #include "evaluation/resample.hpp"
 #include "evaluation/statistics.hpp"
 #include "freespace/freespace.hpp"
+#include "maps/source.hpp"
 #include "oracle/oracle.hpp"
 #include "scene/load.hpp"
+#include "service/interruption.hpp"
 
 namespace camdir::app {
 namespace {
@@ -79,7 +79,7 @@ Result<Map> open_map(const EvaluateOptions& options) {
     }
     const auto freespace = freespace::Freespace::open(options.freespace);
     if (!freespace) return tl::unexpected(freespace.error());
-    auto scene = load_source(*freespace, options.map);
+    auto scene = maps::load_source(*freespace, options.map);
     if (!scene) return tl::unexpected(scene.error());
     return Map{std::move(*scene), freespace->metadata().d0};
 }
@@ -153,7 +153,7 @@ Result<void> write_results(const EvaluateOptions& options, const evaluation::Tra
 }
 
 Result<void> evaluate(const EvaluateOptions& options) {
-    const Interruption interruption;
+    const service::Interruption interruption;
     for (const std::string& file : {options.cameras, options.terms, options.json})
         if (auto writable = check_writable(file); !writable) return writable;
     ProgressLine line;

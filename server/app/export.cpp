@@ -2,10 +2,10 @@
 #include <memory>
 
 #include "app/commands.hpp"
-#include "app/glb.hpp"
-#include "app/ply.hpp"
 #include "app/writable.hpp"
 #include "base/file.hpp"
+#include "export/glb.hpp"
+#include "export/ply.hpp"
 #include "freespace/freespace.hpp"
 
 namespace camdir::app {
@@ -27,9 +27,9 @@ Result<void> export_mesh(const ExportOptions& options) {
     const auto freespace = freespace::Freespace::open(options.file);
     if (!freespace) return tl::unexpected(freespace.error());
     Result<void> written;
-    if (!options.ply.empty()) written = write_file(options.ply, to_ply(*freespace));
+    if (!options.ply.empty()) written = write_file(options.ply, exports::to_ply(*freespace));
     if (!written || options.glb.empty()) return written;
-    const auto glb = to_glb(*freespace);
+    const auto glb = exports::to_glb(*freespace);
     if (!glb) return fail(options.glb + ": " + glb.error().message);
     return write_file(options.glb, *glb);
 }

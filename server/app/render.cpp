@@ -7,15 +7,15 @@
 #include <sstream>
 
 #include "app/commands.hpp"
-#include "app/interrupt.hpp"
-#include "app/picture_layers.hpp"
 #include "app/progress.hpp"
-#include "app/source.hpp"
 #include "app/writable.hpp"
 #include "base/file.hpp"
+#include "export/picture_layers.hpp"
+#include "maps/source.hpp"
 #include "render/draw.hpp"
 #include "render/page.hpp"
 #include "scene/load.hpp"
+#include "service/interruption.hpp"
 
 namespace camdir::app {
 namespace {
@@ -31,7 +31,7 @@ struct RenderOptions {
     std::string view = "auto";
     std::string size = "1600x1200";
     std::vector<double> between;
-    Ways ways;
+    exports::Ways ways;
     double cut = std::numeric_limits<double>::infinity();
     float opacity = 0.5F;
     bool no_mesh = false;
@@ -121,11 +121,11 @@ Result<Composition> compose(const RenderOptions& options, const Freespace& frees
         made.legend.key.push_back({KeyEntry::Mark::thin_line, {render::colour_scale(0.4F)}, "roadmap"});
     if (options.samples) {
         const auto d0 = static_cast<double>(freespace.metadata().d0);
-        const auto added = add_samples(map, d0, pixel, made.layers, made.legend.key);
+        const auto added = exports::add_samples(map, d0, pixel, made.layers, made.legend.key);
         if (!added) return tl::unexpected(added.error());
     }
-    add_spawn_points(freespace, pixel, made.layers, made.legend.key);
-    const auto added = add_ways(options.ways, pixel, made.layers, made.legend.key);
+    exports::add_spawn_points(freespace, pixel, made.layers, made.legend.key);
+    const auto added = exports::add_ways(options.ways, pixel, made.layers, made.legend.key);
     if (!added) return tl::unexpected(added.error());
     return made;
 }
@@ -151,12 +151,12 @@ std::string to_json(const Composition& made, const Freespace& freespace, bool sa
 }
 
 Result<void> render_file(const RenderOptions& options) {
-    const Interruption interruption;
+    const service::Interruption interruption;
     for (const std::string& file : {options.output, options.json})
         if (auto writable = check_writable(file); !writable) return writable;
     const auto freespace = Freespace::open(options.file);
     if (!freespace) return tl::unexpected(freespace.error());
-    const auto map = load_source(*freespace, options.map);
+    const auto map = maps::load_source(*freespace, options.map);
     if (!map) return tl::unexpected(map.error());
     const bool same_source = freespace->metadata().source_hash == map->source_hash;
     if (!same_source)

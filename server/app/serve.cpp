@@ -5,9 +5,9 @@
 #include <memory>
 
 #include "app/commands.hpp"
-#include "app/logging.hpp"
-#include "app/service.hpp"
 #include "base/file.hpp"
+#include "service/logging.hpp"
+#include "service/service.hpp"
 
 namespace camdir::app {
 namespace {
@@ -22,7 +22,7 @@ struct ServeOptions {
 int check(const config::Config& config, const std::string& file) {
     bool good = true;
     for (std::size_t i = 0; i < config.maps.size(); ++i) {
-        const auto checked = check_map(config.maps[i]);
+        const auto checked = maps::check_map(config.maps[i]);
         if (checked) continue;
         good = false;
         std::cerr << "camera-director: " << file << ": /maps/" << i << ": " << checked.error().message
@@ -42,14 +42,14 @@ int serve(const ServeOptions& options) {
     if (!config) return report(config.error());
     if (options.check) return check(*config, options.config);
 
-    Signals signals;
-    start_logging(config->log);
-    auto service = Service::open(options.config, std::move(*config));
-    if (!service) {
-        spdlog::critical("{}", service.error().message);
+    service::Signals signals;
+    service::start_logging(config->log);
+    auto opened = service::Service::open(options.config, std::move(*config));
+    if (!opened) {
+        spdlog::critical("{}", opened.error().message);
         return exit_failed;
     }
-    (*service)->run(signals);
+    (*opened)->run(signals);
     return exit_done;
 }
 

@@ -8,14 +8,14 @@
 #include <string>
 
 #include "app/commands.hpp"
-#include "app/interrupt.hpp"
 #include "app/progress.hpp"
-#include "app/source.hpp"
 #include "app/writable.hpp"
 #include "base/file.hpp"
 #include "evaluation/verification.hpp"
 #include "freespace/freespace.hpp"
+#include "maps/source.hpp"
 #include "oracle/oracle.hpp"
+#include "service/interruption.hpp"
 
 namespace camdir::app {
 namespace {
@@ -126,11 +126,11 @@ void print_table(const VerifyOptions& options, const Verification& result, doubl
 }
 
 Result<int> verify(const VerifyOptions& options) {
-    const Interruption interruption;
+    const service::Interruption interruption;
     if (auto writable = check_writable(options.json); !writable) return tl::unexpected(writable.error());
     const auto freespace = freespace::Freespace::open(options.file);
     if (!freespace) return tl::unexpected(freespace.error());
-    const auto scene = load_source(*freespace, options.map);
+    const auto scene = maps::load_source(*freespace, options.map);
     if (!scene) return tl::unexpected(scene.error());
     const bool same_source = freespace->metadata().source_hash == scene->source_hash;
     if (!same_source)

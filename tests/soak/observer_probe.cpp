@@ -10,12 +10,12 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "app/interrupt.hpp"
 #include "base/file.hpp"
 #include "findings_table.hpp"
 #include "load.hpp"
 #include "oracle/oracle.hpp"
 #include "scene/load.hpp"
+#include "service/interruption.hpp"
 #include "shot_judge.hpp"
 
 namespace camdir::soak {
@@ -323,7 +323,7 @@ int main(int argc, char** argv) {
         return app.exit(error) == 0 ? 0 : 2;
     }
     try {
-        const app::Interruption interruption;
+        const service::Interruption interruption;
         return soak::probe(options, interruption.token());
     } catch (const std::exception& error) {
         std::cerr << "observer-probe: " << error.what() << '\n';

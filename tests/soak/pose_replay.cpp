@@ -3,10 +3,10 @@
 #include <iostream>
 #include <memory>
 
-#include "app/interrupt.hpp"
 #include "evaluation/resample.hpp"
 #include "evaluation/trace.hpp"
 #include "load.hpp"
+#include "service/interruption.hpp"
 
 namespace camdir::soak {
 namespace {
@@ -95,7 +95,7 @@ int main(int argc, char** argv) {
         return app.exit(error) == 0 ? 0 : 2;
     }
     try {
-        const app::Interruption interruption;
+        const service::Interruption interruption;
         return soak::play(std::move(options), interruption.token());
     } catch (const std::exception& error) {
         std::cerr << "pose-replay: " << error.what() << '\n';

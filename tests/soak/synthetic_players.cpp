@@ -4,8 +4,8 @@
 #include <memory>
 #include <utility>
 
-#include "app/interrupt.hpp"
 #include "load.hpp"
+#include "service/interruption.hpp"
 #include "walker.hpp"
 
 namespace camdir::soak {
@@ -99,7 +99,7 @@ int main(int argc, char** argv) {
         return app.exit(error) == 0 ? 0 : 2;
     }
     try {
-        const app::Interruption interruption;
+        const service::Interruption interruption;
         return soak::play(std::move(options), interruption.token());
     } catch (const std::exception& error) {
         std::cerr << "synthetic-players: " << error.what() << '\n';

@@ -1,0 +1,72 @@
+#include "service/logging.hpp"
+
+#include <spdlog/pattern_formatter.h>
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <nlohmann/json.hpp>
+
+namespace camdir::service {
+namespace {
+
+constexpr const char* time_pattern = "%Y-%m-%dT%H:%M:%S.%eZ";
+
+// 2026-01-02T03:04:05.678Z info: message
+// One line whatever is in the names from outside that a message quotes.
+class TextLines final : public spdlog::formatter {
+  public:
+    void format(const spdlog::details::log_msg& message, spdlog::memory_buf_t& line) override {
+        head_.format(message, line);
+        for (const char c : message.payload)
+            line.push_back(static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c);
+        line.push_back('\n');
+    }
+
+    [[nodiscard]] std::unique_ptr<spdlog::formatter> clone() const override {
+        return std::make_unique<TextLines>();
+    }
+
+  private:
+    spdlog::pattern_formatter head_{std::string(time_pattern) + " %l: ", spdlog::pattern_time_type::utc, ""};
+};
+
+// {"time":"2026-01-02T03:04:05.678Z","level":"info","message":"..."}
+class JsonLines final : public spdlog::formatter {
+  public:
+    void format(const spdlog::details::log_msg& message, spdlog::memory_buf_t& line) override {
+        spdlog::memory_buf_t time;
+        time_.format(message, time);
+        const auto level = spdlog::level::to_string_view(message.level);
+        const nlohmann::ordered_json object = {
+            {"time", std::string(time.data(), time.size())},
+            {"level", std::string(level.data(), level.size())},
+            {"message", std::string(message.payload.data(), message.payload.size())}};
+        const std::string text = object.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+        line.append(text.data(), text.data() + text.size());
+    }
+
+    [[nodiscard]] std::unique_ptr<spdlog::formatter> clone() const override {
+        return std::make_unique<JsonLines>();
+    }
+
+  private:
+    spdlog::pattern_formatter time_{time_pattern, spdlog::pattern_time_type::utc, ""};
+};
+
+}  // namespace
+
+void start_logging(const config::Log& config) {
+    auto logger = std::make_shared<spdlog::logger>("", std::make_shared<spdlog::sinks::stderr_sink_mt>());
+    if (config.format == "json")
+        logger->set_formatter(std::make_unique<JsonLines>());
+    else
+        logger->set_formatter(std::make_unique<TextLines>());
+    spdlog::set_default_logger(logger);
+    set_log_level(config);
+}
+
+void set_log_level(const config::Log& config) {
+    spdlog::set_level(spdlog::level::from_str(config.level));
+}
+
+}  // namespace camdir::service

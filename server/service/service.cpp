@@ -1,0 +1,135 @@
+#include "service/service.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <iterator>
+#include <sstream>
+
+#include "http/metrics.hpp"
+#include "http/status.hpp"
+#include "service/logging.hpp"
+#include "service/supervisor.hpp"
+#include "service/wire_metrics.hpp"
+
+namespace camdir::service {
+namespace {
+
+constexpr std::chrono::milliseconds watch_period{200};
+constexpr std::chrono::seconds start_extension{60};
+constexpr std::chrono::milliseconds longest_turn{5000};  // a worker that takes longer hangs
+constexpr std::chrono::milliseconds view_patience{500};
+
+void log_lines(spdlog::level::level_enum level, const std::string& text) {
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);)
+        spdlog::log(level, "{}", line);
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Service>> Service::open(std::filesystem::path file, config::Config config) {
+    auto gateway = dds::Gateway::open(config.dds);
+    if (!gateway) return tl::unexpected(gateway.error());
+    std::unique_ptr<Service> service(new Service(std::move(file), std::move(config), std::move(*gateway)));
+    const config::Http& http = service->config_.http;
+    if (http.enabled) {
+        auto server = http::Server::start(http, service->sources());
+        if (!server) return tl::unexpected(server.error());
+        service->http_ = std::move(*server);
+        spdlog::info("http: listening on {} port {}", http.address, service->http_->port());
+    }
+    return service;
+}
+
+Service::Service(std::filesystem::path file, config::Config config, std::unique_ptr<dds::Gateway> gateway)
+    : file_(std::move(file)),
+      config_(std::move(config)),
+      gateway_(std::move(gateway)),
+      director_(config_, maps_, *gateway_),
+      loader_(maps_, [this] { director_.maps_changed(); }) {
+    for (const config::Map& map : config_.maps)
+        maps_.add(map.name, map.strict);
+}
+
+http::Sources Service::sources() {
+    http::Sources sources;
+    sources.healthy = [this] { return director_.responsive(longest_turn); };
+    sources.missing = [this] { return missing(); };
+    sources.metrics = [this] {
+        auto families = http::director_metrics(director_.statistics());
+        for (auto& more : {http::map_metrics(maps_.entries()), wire_metrics(gateway_->counters())})
+            families.insert(families.end(), more.begin(), more.end());
+        return families;
+    };
+    sources.status = [this] { return http::status_page(director_.view(view_patience), maps_.entries()); };
+    return sources;
+}
+
+std::vector<std::string> Service::missing() const {
+    std::vector<std::string> missing;
+    if (draining_) missing.emplace_back("draining");
+    for (const auto& [name, map] : maps_.entries())
+        if (map.state == director::MapState::loading)
+            missing.push_back("map " + name + ": " + (map.reason.empty() ? "loading" : map.reason));
+    return missing;
+}
+
+void Service::run(Signals& signals) {
+    spdlog::info("director {} in DDS domain {}", gateway_->director_id(), config_.dds.domain);
+    gateway_->start(director_);
+    loader_.load(config_.maps);
+    for (bool ready = false;;) {
+        watch(ready);
+        const Signal signal = signals.wait(watch_period);
+        if (signal == Signal::stop) break;
+        if (signal == Signal::reload) {
+            reload();
+            ready = false;
+        }
+    }
+    drain();
+}
+
+void Service::watch(bool& ready) {
+    if (director_.responsive(longest_turn)) tell_alive();
+    if (ready) return;
+    const auto waits_for = missing();
+    if (!waits_for.empty()) return tell_starting(waits_for.front(), start_extension);
+    ready = true;
+    spdlog::info("ready");
+    tell_ready("serving " + std::to_string(config_.maps.size()) + " maps");
+}
+
+void Service::reload() {
+    tell_reloading();
+    auto loaded = config::load(file_);
+    if (!loaded) {
+        log_lines(spdlog::level::err, loaded.error().message);
+        spdlog::error("{}: not reloaded, the configuration before stays in force", file_.string());
+        return;
+    }
+    for (const std::string& pointer : config::changes_for_restart(config_, *loaded))
+        spdlog::warn("{}: {} takes effect after a restart", file_.string(), pointer);
+    config_.maps = std::move(loaded->maps);
+    config_.profiles = std::move(loaded->profiles);
+    config_.matches = std::move(loaded->matches);
+    config_.log.level = std::move(loaded->log.level);
+    set_log_level(config_.log);
+    director_.reconfigure(config_);
+    loader_.load(config_.maps);
+    spdlog::info("{}: reloaded", file_.string());
+}
+
+void Service::drain() {
+    spdlog::info("draining");
+    tell_stopping();
+    draining_ = true;
+    gateway_->stop_receiving();
+    loader_.stop();
+    director_.drain();
+    gateway_->close();
+    http_.reset();
+    spdlog::info("stopped");
+}
+
+}  // namespace camdir::service

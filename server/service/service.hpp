@@ -1,0 +1,48 @@
+// The server: what `camera-director serve` runs until it is told to stop.
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "config/config.hpp"
+#include "dds/gateway.hpp"
+#include "director/director.hpp"
+#include "http/server.hpp"
+#include "maps/loader.hpp"
+#include "service/signals.hpp"
+
+namespace camdir::service {
+
+class Service {
+  public:
+    // Joins the DDS domain first, before anything that opens many descriptors (DDS uses select), then listens
+    // for http. `file` is read again on SIGHUP.
+    [[nodiscard]] static Result<std::unique_ptr<Service>> open(std::filesystem::path file,
+                                                               config::Config config);
+
+    // Loads the maps, receives and serves until SIGTERM or SIGINT; then drains.
+    void run(Signals& signals);
+
+  private:
+    Service(std::filesystem::path file, config::Config config, std::unique_ptr<dds::Gateway> gateway);
+
+    [[nodiscard]] http::Sources sources();
+    [[nodiscard]] std::vector<std::string> missing() const;
+    void watch(bool& ready);
+    void reload();
+    void drain();
+
+    const std::filesystem::path file_;
+    config::Config config_;  // what runs
+    std::atomic<bool> draining_{false};
+    std::unique_ptr<dds::Gateway> gateway_;
+    director::MapLibrary maps_;
+    director::Director director_;
+    maps::MapLoader loader_;
+    std::unique_ptr<http::Server> http_;  // null when off
+};
+
+}  // namespace camdir::service

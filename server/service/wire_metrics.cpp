@@ -1,0 +1,41 @@
+#include "service/wire_metrics.hpp"
+
+#include "http/metrics.hpp"
+
+namespace camdir::service {
+namespace {
+
+constexpr dds::Topic received_topics[] = {dds::Topic::match_info, dds::Topic::pose_frame,
+                                          dds::Topic::match_event, dds::Topic::observer_request};
+
+prometheus::MetricFamily counter(const std::string& name, const std::string& help,
+                                 const dds::Counter& value) {
+    prometheus::MetricFamily family = http::counter_family(name, help);
+    http::add_metric(family, static_cast<double>(value.load()));
+    return family;
+}
+
+}  // namespace
+
+std::vector<prometheus::MetricFamily> wire_metrics(const dds::Counters& counters) {
+    auto accepted = http::counter_family("wire_received_total", "Samples handed to the director, by topic.");
+    auto dropped =
+        http::counter_family("wire_dropped_total", "Samples dropped at the border, by topic and defect.");
+    for (const dds::Topic topic : received_topics) {
+        const char* name = dds::topic_name(topic);
+        const auto& of_topic = counters.of(topic);
+        http::add_metric(accepted, static_cast<double>(of_topic.accepted.load()), {{"topic", name}});
+        for (std::size_t defect = 0; defect < dds::defect_names.size(); ++defect)
+            http::add_metric(dropped, static_cast<double>(of_topic.dropped[defect].load()),
+                             {{"topic", name}, {"defect", dds::defect_names[defect]}});
+    }
+    return {accepted,
+            dropped,
+            counter("wire_camera_frames_total", "Camera frames written.", counters.camera_frames_written),
+            counter("wire_statuses_total", "Observer statuses written.", counters.statuses_written),
+            counter("wire_write_failures_total", "Samples that DDS refused.", counters.write_failures),
+            counter("wire_endpoint_failures_total", "Matches whose endpoints could not be created.",
+                    counters.endpoint_failures)};
+}
+
+}  // namespace camdir::service

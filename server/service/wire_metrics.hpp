@@ -1,0 +1,14 @@
+// What crossed the border to DDS, as Prometheus metrics.
+#pragma once
+
+#include <prometheus/metric_family.h>
+
+#include <vector>
+
+#include "dds/counters.hpp"
+
+namespace camdir::service {
+
+[[nodiscard]] std::vector<prometheus::MetricFamily> wire_metrics(const dds::Counters& counters);
+
+}  // namespace camdir::service
