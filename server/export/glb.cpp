@@ -22,7 +22,7 @@ using nlohmann::ordered_json;
 
 static_assert(std::endian::native == std::endian::little, "glTF is written in the order of memory");
 
-// Numbers of the glTF 2.0 specification.
+// Constants of the glTF 2.0 specification.
 constexpr int type_float = 5126;
 constexpr int type_uint = 5125;
 constexpr int type_ubyte = 5121;
@@ -43,7 +43,7 @@ void append(Bytes& bytes, std::uint32_t value) {
 // The document and its one buffer.
 class Document {
   public:
-    // Adds the values as a buffer view with one accessor; returns the accessor's number.
+    // Adds the values as a buffer view with one accessor; returns the accessor's index.
     template <class Value>
     std::size_t add_accessor(const std::vector<Value>& values, int component, const char* type, int target) {
         const auto raw = std::as_bytes(std::span(values));
@@ -58,9 +58,9 @@ class Document {
         return json_["accessors"].size() - 1;
     }
 
-    ordered_json& accessor(std::size_t number) { return json_["accessors"][number]; }
+    ordered_json& accessor(std::size_t index) { return json_["accessors"][index]; }
 
-    // Adds a mesh of one primitive and a node that shows it; returns the node's number.
+    // Adds a mesh of one primitive and a node for it; returns the node's index.
     std::size_t add_mesh(const std::string& name, ordered_json primitive) {
         json_["meshes"].push_back(
             {{"name", name}, {"primitives", ordered_json::array({std::move(primitive)})}});
@@ -83,11 +83,11 @@ class Document {
 
 Result<Bytes> Document::file() && {
     if (!buffer_.empty()) json_["buffers"] = {{{"byteLength", buffer_.size()}}};
-    // Names in a file are bytes of any kind; JSON is UTF-8.
+    // Names of files may hold any bytes; JSON is UTF-8.
     std::string text = json_.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
     text.resize((text.size() + 3) / 4 * 4, ' ');
     const std::uint64_t length = 12 + 8 + text.size() + (buffer_.empty() ? 0 : 8 + buffer_.size());
-    if (length > std::numeric_limits<std::uint32_t>::max()) return fail("more than glTF's limit of 4 GB");
+    if (length > std::numeric_limits<std::uint32_t>::max()) return fail("larger than glTF's limit of 4 GB");
     Bytes file;
     file.reserve(length);
     for (const std::uint32_t word :
@@ -102,7 +102,7 @@ Result<Bytes> Document::file() && {
     return file;
 }
 
-// Vertex colours of glTF are linear.
+// glTF's vertex colours are linear.
 std::uint8_t linear(float srgb) {
     const float value = srgb <= 0.04045F ? srgb / 12.92F : std::pow((srgb + 0.055F) / 1.055F, 2.4F);
     return static_cast<std::uint8_t>(std::lround(value * 255.0F));
@@ -128,17 +128,17 @@ ordered_json add_vertices(Document& document, const Freespace& freespace) {
         const render::Colour colour = render::colour_scale(vertex.free_distance / largest);
         colours.push_back({linear(colour.red), linear(colour.green), linear(colour.blue), 255});
     }
-    Point least = positions.front();
-    Point most = positions.front();
+    Point min = positions.front();
+    Point max = positions.front();
     for (const Point& position : positions) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            least[axis] = std::min(least[axis], position[axis]);
-            most[axis] = std::max(most[axis], position[axis]);
+            min[axis] = std::min(min[axis], position[axis]);
+            max[axis] = std::max(max[axis], position[axis]);
         }
     }
     const std::size_t position = document.add_accessor(positions, type_float, "VEC3", array_buffer);
-    document.accessor(position)["min"] = least;
-    document.accessor(position)["max"] = most;
+    document.accessor(position)["min"] = min;
+    document.accessor(position)["max"] = max;
     const std::size_t colour = document.add_accessor(colours, type_ubyte, "VEC4", array_buffer);
     document.accessor(colour)["normalized"] = true;
     const std::size_t distance = document.add_accessor(distances, type_float, "SCALAR", array_buffer);
@@ -154,7 +154,7 @@ std::size_t add_indexed(Document& document, const std::string& name, const order
 
 std::vector<std::size_t> add_meshes(Document& document, const Freespace& freespace) {
     if (freespace.triangles().empty()) return {};
-    // Colours are the figure, not a material: shown as they are, from both sides.
+    // Unlit: the colours encode free distance and must not be shaded.
     document.json()["extensionsUsed"] = {"KHR_materials_unlit"};
     document.json()["materials"] = {{{"name", "free distance"},
                                      {"doubleSided", true},

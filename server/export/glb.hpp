@@ -7,10 +7,10 @@
 
 namespace camdir::exports {
 
-// Binary glTF. Vertices are the baked map's own, in map units and z up, with COLOR_0 by free distance and
-// _FREE_DISTANCE itself; the root node turns them to glTF's metres and y up. Under it: "medial mesh"
-// (triangles), "roadmap" (lines) and a node a spawn point, whose x axis is the view direction. A mesh that
-// has no triangles, or no roadmap, is left out. Fails where the file would pass glTF's limit of 4 GB.
+// Binary glTF. Vertices are those of the baked map, in map units with z up, with COLOR_0 by free distance and
+// the attribute _FREE_DISTANCE; the root node transforms them to glTF's metres with y up. Its children:
+// "medial mesh" (triangles) and "roadmap" (lines) where they are not empty, and one node per spawn point,
+// whose x axis is the view direction. Fails when the file would exceed glTF's limit of 4 GB.
 [[nodiscard]] Result<Bytes> to_glb(const freespace::Freespace& freespace);
 
 }  // namespace camdir::exports

@@ -19,44 +19,44 @@ constexpr float camera_shade = 0.45F;
 const Vec3f gap = Vec3f::Constant(std::numeric_limits<float>::quiet_NaN());
 
 // The chosen players, as positions in trace.players.
-Result<std::vector<std::size_t>> chosen_players(const Ways& ways, const evaluation::Trace& trace) {
+Result<std::vector<std::size_t>> chosen_players(const Tracks& tracks, const evaluation::Trace& trace) {
     std::vector<std::size_t> chosen;
     for (std::size_t i = 0; i < trace.players.size(); ++i) {
         const bool named =
-            std::find(ways.players.begin(), ways.players.end(), trace.players[i]) != ways.players.end();
-        if (ways.players.empty() || named) chosen.push_back(i);
+            std::find(tracks.players.begin(), tracks.players.end(), trace.players[i]) != tracks.players.end();
+        if (tracks.players.empty() || named) chosen.push_back(i);
     }
-    for (const std::uint32_t player : ways.players) {
+    for (const std::uint32_t player : tracks.players) {
         if (!std::binary_search(trace.players.begin(), trace.players.end(), player))
-            return fail(ways.trace + ": has no player " + std::to_string(player));
+            return fail(tracks.trace + ": has no player " + std::to_string(player));
     }
     return chosen;
 }
 
-// Frames first .. last - 1 lie in the time that is drawn.
+// Frames first .. last - 1 are drawn.
 struct Frames {
     std::size_t first, last;
 };
 
-Result<Frames> chosen_frames(const Ways& ways, const evaluation::Trace& trace) {
+Result<Frames> chosen_frames(const Tracks& tracks, const evaluation::Trace& trace) {
     const auto seconds = [&](const evaluation::TraceFrame& frame) {
         return static_cast<double>(frame.time - trace.frames.front().time) * 1e-9;
     };
     Frames frames{0, trace.frames.size()};
-    while (frames.first < frames.last && seconds(trace.frames[frames.first]) < ways.from)
+    while (frames.first < frames.last && seconds(trace.frames[frames.first]) < tracks.from)
         ++frames.first;
-    while (frames.last > frames.first && seconds(trace.frames[frames.last - 1]) > ways.until)
+    while (frames.last > frames.first && seconds(trace.frames[frames.last - 1]) > tracks.until)
         --frames.last;
     if (frames.first == frames.last)
-        return fail(ways.trace + ": has no frame in the time asked for; it lasts " +
+        return fail(tracks.trace + ": has no frame in the requested time; it lasts " +
                     std::to_string(seconds(trace.frames.back())) + " s");
     return frames;
 }
 
-// The way of one player, or of his camera: `point_of(pose)`, starting anew where `breaks(pose)`.
+// The track of a player or of their camera: `point_of(pose)`, interrupted where `breaks(pose)`.
 template <class PointOf, class Breaks>
-render::Path way_of(const evaluation::Trace& trace, std::uint32_t player, const Frames& frames,
-                    const PointOf& point_of, const Breaks& breaks) {
+render::Path track_path(const evaluation::Trace& trace, std::uint32_t player, const Frames& frames,
+                        const PointOf& point_of, const Breaks& breaks) {
     render::Path path;
     const std::vector<std::uint32_t> track = evaluation::track_of(trace, player);
     for (std::size_t frame = frames.first; frame < frames.last; ++frame) {
@@ -77,17 +77,18 @@ std::vector<Colour> colours_of(const std::vector<std::size_t>& players, float sh
 
 }  // namespace
 
-Result<void> add_ways(const Ways& ways, float pixel, render::Layers& layers, std::vector<KeyEntry>& key) {
-    if (ways.trace.empty()) return {};
-    const auto trace = evaluation::read_trace(ways.trace);
+Result<void> add_tracks(const Tracks& tracks, float pixel, render::Layers& layers,
+                        std::vector<KeyEntry>& key) {
+    if (tracks.trace.empty()) return {};
+    const auto trace = evaluation::read_trace(tracks.trace);
     if (!trace) return tl::unexpected(trace.error());
-    const auto players = chosen_players(ways, *trace);
+    const auto players = chosen_players(tracks, *trace);
     if (!players) return tl::unexpected(players.error());
-    const auto frames = chosen_frames(ways, *trace);
+    const auto frames = chosen_frames(tracks, *trace);
     if (!frames) return tl::unexpected(frames.error());
     for (const std::size_t i : *players) {
         const auto& poses = trace->poses;
-        render::Path path = way_of(
+        render::Path path = track_path(
             *trace, trace->players[i], *frames, [&](std::uint32_t pose) { return poses[pose].eye; },
             [&](std::uint32_t pose) { return poses[pose].discontinuity || !poses[pose].alive; });
         path.colour = render::player_colour(i);
@@ -99,11 +100,11 @@ Result<void> add_ways(const Ways& ways, float pixel, render::Layers& layers, std
                    players->size() == 1 ? "player " + std::to_string(trace->players[players->front()])
                                         : count + " players"});
 
-    if (ways.cameras.empty()) return {};
-    const auto cameras = evaluation::read_cameras(ways.cameras, *trace);
+    if (tracks.cameras.empty()) return {};
+    const auto cameras = evaluation::read_cameras(tracks.cameras, *trace);
     if (!cameras) return tl::unexpected(cameras.error());
     for (const std::size_t i : *players) {
-        render::Path path = way_of(
+        render::Path path = track_path(
             *trace, trace->players[i], *frames, [&](std::uint32_t pose) { return (*cameras)[pose].position; },
             [&](std::uint32_t pose) { return (*cameras)[pose].cut; });
         path.colour = render::player_colour(i) * camera_shade;

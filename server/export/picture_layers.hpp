@@ -1,4 +1,4 @@
-// What `render` draws besides the map and its mesh: ways, points and their key.
+// Layers of a picture besides the map and its mesh: recorded tracks, points and their legend.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,8 @@
 
 namespace camdir::exports {
 
-// Recorded ways to draw. Files may be empty: then nothing is added.
-struct Ways {
+// Recorded tracks to draw. Empty file names add nothing.
+struct Tracks {
     std::string trace;                   // a recorded match
     std::string cameras;                 // its cameras
     std::vector<std::uint32_t> players;  // empty = all
@@ -21,14 +21,15 @@ struct Ways {
     double until = 1e9;
 };
 
-// The players' ways and, thinner and darker, those of their cameras; `pixel` is a pixel's width, map units.
-[[nodiscard]] Result<void> add_ways(const Ways& ways, float pixel, render::Layers& layers,
-                                    std::vector<render::KeyEntry>& key);
+// The players' tracks and, thinner and darker, those of their cameras. `pixel` is the width of a pixel in map
+// units.
+[[nodiscard]] Result<void> add_tracks(const Tracks& tracks, float pixel, render::Layers& layers,
+                                      std::vector<render::KeyEntry>& key);
 
 void add_spawn_points(const freespace::Freespace& freespace, float pixel, render::Layers& layers,
                       std::vector<render::KeyEntry>& key);
 
-// Points that uniform sampling takes on the map's obstacles, one at least every `d0`; of a cloud its own.
+// The points of a cloud, or points that uniform sampling puts on the obstacles, at least one every `d0`.
 [[nodiscard]] Result<void> add_samples(const scene::Scene& map, double d0, float pixel,
                                        render::Layers& layers, std::vector<render::KeyEntry>& key);
 

@@ -8,7 +8,7 @@
 #include "config/json_text.hpp"
 #include "freespace/freespace.hpp"
 #include "maps/guarded.hpp"
-#include "maps/schedule.hpp"
+#include "maps/memory.hpp"
 #include "maps/source.hpp"
 #include "scene/load.hpp"
 
@@ -18,18 +18,18 @@ namespace {
 using nlohmann::json;
 
 // The first parameter that differs: "d0 64.0 instead of 48.0".
-std::string difference(const std::string& baked, const std::string& wanted) {
-    if (baked == wanted) return {};
+std::string difference(const std::string& baked, const std::string& configured) {
+    if (baked == configured) return {};
     auto was = config::parse_json(baked);
-    const json want = json::parse(wanted);
-    if (!was || !was->is_object()) return "parameters that this version does not know";
+    const json now = json::parse(configured);
+    if (!was || !was->is_object()) return "parameters that this version cannot read";
     was->erase("kind");
-    for (const auto& [name, value] : want.items()) {
+    for (const auto& [name, value] : now.items()) {
         if (!was->contains(name)) return "no " + name + " instead of " + value.dump();
         if ((*was)[name] != value) return name + " " + (*was)[name].dump() + " instead of " + value.dump();
     }
     for (const auto& [name, value] : was->items())
-        if (!want.contains(name)) return name + " " + value.dump() + " instead of none";
+        if (!now.contains(name)) return name + " " + value.dump() + " instead of none";
     return {};
 }
 
@@ -41,7 +41,7 @@ Result<PendingFile> claim(const std::string& file, const bake::ProgressSink& pro
         if (!claimed) return tl::unexpected(claimed.error());
         if (*claimed) return std::move(**claimed);
         if (stop.stop_requested())
-            return fail("interrupted while somebody else baked " + file, ErrorCode::interrupted);
+            return fail("interrupted while another process baked " + file, ErrorCode::interrupted);
         if (progress) progress({"waiting for another bake", 0, 0});
         std::this_thread::sleep_for(pause);
     }

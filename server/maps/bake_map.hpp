@@ -1,4 +1,4 @@
-// Baking a map of the configuration into its file: what `serve` does at start and `bake --config` for all.
+// Bakes one map of the configuration into its file, for `serve` and for `bake --config`.
 #pragma once
 
 #include <optional>
@@ -11,30 +11,30 @@
 
 namespace camdir::maps {
 
-// The configured map's, but for the number of threads.
+// The bake parameters of a configured map, except the number of threads.
 [[nodiscard]] bake::Parameters parameters_of(const config::Map& map);
 
-// Whether a map's file has to be baked.
+// Whether a map's file must be baked.
 struct Freshness {
-    std::string stale;    // why; empty: the file holds the map as it is configured
-    std::string warning;  // of a file that is used although its source cannot be read
+    std::string stale;    // the reason; empty: the file is up to date
+    std::string warning;  // about a file that is used although its source cannot be read
 };
 
-// For a map with a source: stale when the file is missing, damaged or of another format version, or was
-// baked from other bytes or with other parameters. Fails when neither file nor source can be read.
+// For a map with a source. Stale: the file is missing, damaged or of another format version, or was baked
+// from other bytes or with other parameters. Fails when neither the file nor the source can be read.
 [[nodiscard]] Result<Freshness> examine(const config::Map& map);
 
-// Of a bake of the map's source, in bytes, from above: estimate_memory().
+// estimate_memory() of the map's source, bytes.
 [[nodiscard]] Result<std::uint64_t> memory_needed(const config::Map& map);
 
 struct MapBakeParameters {
     unsigned threads = 0;  // bake::Parameters::threads
-    bool force = false;    // bake also what is fresh
+    bool force = false;    // bake a fresh map too
 };
 
-// Bakes the map's source into its file. Waits while another process or thread bakes the same file; nothing
-// when the file is fresh by then. Safe to call for different maps at once. Fails with ErrorCode::interrupted
-// soon after `stop` is requested; the file is then, and after any failure, as it was before.
+// Bakes the map's source into its file. Waits while another process or thread bakes the same file; returns
+// nothing when the file is fresh afterwards. May be called for different maps at the same time. Fails with
+// ErrorCode::interrupted soon after `stop` is requested. After a failure the file is unchanged.
 [[nodiscard]] Result<std::optional<BakeReport>> bake_map(const config::Map& map,
                                                          const MapBakeParameters& parameters,
                                                          const bake::ProgressSink& progress,

@@ -18,7 +18,7 @@
 namespace camdir::maps {
 namespace {
 
-void describe_file(const std::string& file, MapOutcome& outcome) {
+void describe_file(const std::string& file, BakeOutcome& outcome) {
     const auto opened = guarded(file, [&] { return freespace::Freespace::open(file); });
     if (!opened) return;
     outcome.triangles = opened->triangles().size();
@@ -36,11 +36,11 @@ class Batch {
         threads_ = parameters.threads == 0 ? cores : std::min(parameters.threads, cores);
     }
 
-    std::vector<MapOutcome> run();
+    std::vector<BakeOutcome> run();
 
   private:
     void examine(std::size_t map);
-    void end(std::size_t map, MapState state, std::string reason);
+    void end(std::size_t map, BakeStatus status, std::string reason);
     void work(BakeSchedule& schedule);
     void bake(std::size_t map);
     void share_threads(std::size_t running);
@@ -50,16 +50,16 @@ class Batch {
     const BatchSink& sink_;
     const std::stop_token& stop_;
     unsigned threads_;
-    std::vector<std::size_t> jobs_;  // numbers of the maps to bake
+    std::vector<std::size_t> jobs_;  // indices of the maps to bake
     std::vector<std::uint64_t> needs_;
 
-    std::mutex mutex_;  // of what follows and of the sink
+    std::mutex mutex_;  // guards the following members and the sink
     std::condition_variable changed_;
-    std::vector<MapOutcome> outcomes_;
+    std::vector<BakeOutcome> outcomes_;
     std::optional<tbb::global_control> limit_;
 };
 
-std::vector<MapOutcome> Batch::run() {
+std::vector<BakeOutcome> Batch::run() {
     for (std::size_t map = 0; map < maps_.size(); ++map) {
         outcomes_[map].map = maps_[map].name;
         if (!stop_.stop_requested()) examine(map);
@@ -76,21 +76,21 @@ std::vector<MapOutcome> Batch::run() {
 void Batch::examine(std::size_t map) {
     if (!parameters_.force) {
         const auto freshness = maps::examine(maps_[map]);
-        if (!freshness) return end(map, MapState::failed, freshness.error().message);
-        if (freshness->stale.empty()) return end(map, MapState::fresh, freshness->warning);
+        if (!freshness) return end(map, BakeStatus::failed, freshness.error().message);
+        if (freshness->stale.empty()) return end(map, BakeStatus::fresh, freshness->warning);
         outcomes_[map].reason = freshness->stale;
     }
     const auto need = memory_needed(maps_[map]);
-    if (!need) return end(map, MapState::failed, need.error().message);
+    if (!need) return end(map, BakeStatus::failed, need.error().message);
     jobs_.push_back(map);
     needs_.push_back(*need);
 }
 
-void Batch::end(std::size_t map, MapState state, std::string reason) {
-    MapOutcome& outcome = outcomes_[map];
-    outcome.state = state;
+void Batch::end(std::size_t map, BakeStatus status, std::string reason) {
+    BakeOutcome& outcome = outcomes_[map];
+    outcome.status = status;
     outcome.reason = std::move(reason);
-    if (state == MapState::fresh || state == MapState::baked) describe_file(maps_[map].file, outcome);
+    if (status == BakeStatus::fresh || status == BakeStatus::baked) describe_file(maps_[map].file, outcome);
     if (sink_.finished) sink_.finished(outcome);
 }
 
@@ -98,7 +98,7 @@ void Batch::work(BakeSchedule& schedule) {
     std::unique_lock lock(mutex_);
     for (;;) {
         std::optional<std::size_t> job;
-        // A stop is seen at the latest when what runs ends, which it does soon after.
+        // No wake-up for a stop: the running bakes end soon after it and notify.
         changed_.wait(lock, [&] {
             if (stop_.stop_requested() || schedule.all_started()) return true;
             job = schedule.start();
@@ -129,37 +129,37 @@ void Batch::bake(std::size_t map) {
     outcomes_[map].seconds = seconds.count();
     if (!baked) {
         const bool stopped = baked.error().code == ErrorCode::interrupted;
-        return end(map, stopped ? MapState::interrupted : MapState::failed, baked.error().message);
+        return end(map, stopped ? BakeStatus::interrupted : BakeStatus::failed, baked.error().message);
     }
-    if (!*baked) return end(map, MapState::fresh, "another process baked it meanwhile");
+    if (!*baked) return end(map, BakeStatus::fresh, "another process baked it in the meantime");
     outcomes_[map].report = std::move(**baked);
-    end(map, MapState::baked, outcomes_[map].reason);
+    end(map, BakeStatus::baked, outcomes_[map].reason);
 }
 
-// Every running bake has a thread of its own; the workers of TBB are what is left.
+// Every running bake has its own thread; TBB gets the rest.
 void Batch::share_threads(std::size_t running) {
-    const std::size_t own = std::max<std::size_t>(running, 1);
-    limit_.emplace(tbb::global_control::max_allowed_parallelism, threads_ + 1 - own);
+    const std::size_t bakes = std::max<std::size_t>(running, 1);
+    limit_.emplace(tbb::global_control::max_allowed_parallelism, threads_ + 1 - bakes);
 }
 
 }  // namespace
 
-std::string_view name_of(MapState state) {
-    switch (state) {
-        case MapState::fresh:
+std::string_view name_of(BakeStatus status) {
+    switch (status) {
+        case BakeStatus::fresh:
             return "fresh";
-        case MapState::baked:
+        case BakeStatus::baked:
             return "baked";
-        case MapState::failed:
+        case BakeStatus::failed:
             return "failed";
-        case MapState::interrupted:
+        case BakeStatus::interrupted:
             break;
     }
     return "interrupted";
 }
 
-std::vector<MapOutcome> bake_maps(const std::vector<config::Map>& maps, const BatchParameters& parameters,
-                                  const BatchSink& sink, const std::stop_token& stop) {
+std::vector<BakeOutcome> bake_maps(const std::vector<config::Map>& maps, const BatchParameters& parameters,
+                                   const BatchSink& sink, const std::stop_token& stop) {
     return Batch(maps, parameters, sink, stop).run();
 }
 

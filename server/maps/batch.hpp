@@ -1,4 +1,4 @@
-// Baking several maps at once.
+// Bakes several maps at the same time.
 #pragma once
 
 #include <cstdint>
@@ -14,19 +14,19 @@
 
 namespace camdir::maps {
 
-enum class MapState {
-    fresh,        // the file held the map as configured, or another process made it so meanwhile
-    baked,        // now
-    failed,       // the file is as it was
-    interrupted,  // not baked, or not to the end; the file is as it was
+enum class BakeStatus {
+    fresh,        // the file was up to date, or another process baked it in the meantime
+    baked,        // by this batch
+    failed,       // the file is unchanged
+    interrupted,  // not baked or not finished; the file is unchanged
 };
 
-[[nodiscard]] std::string_view name_of(MapState state);
+[[nodiscard]] std::string_view name_of(BakeStatus status);
 
-struct MapOutcome {
+struct BakeOutcome {
     std::string map;
-    MapState state = MapState::interrupted;
-    std::string reason;  // why it was baked or failed; of a fresh one what is odd about it
+    BakeStatus status = BakeStatus::interrupted;
+    std::string reason;  // why it was baked or failed; of a fresh one a warning
     double seconds = 0.0;
     // Of the file; 0 when failed or interrupted.
     std::uint64_t samples = 0;
@@ -36,22 +36,22 @@ struct MapOutcome {
 };
 
 struct BatchParameters {
-    unsigned threads = 0;      // of all bakes together; 0 = one a core, which is also the most
-    std::uint64_t memory = 0;  // bytes that bakes at once may take by their estimates
-    bool force = false;        // bake fresh ones too
+    unsigned threads = 0;      // of all bakes together; 0: one per core, which is also the maximum
+    std::uint64_t memory = 0;  // bytes for the estimates of the bakes that run at the same time
+    bool force = false;        // bake fresh maps too
 };
 
-// Both are called from one thread at a time.
+// Receives the progress. Called from one thread at a time.
 struct BatchSink {
     std::function<void(std::size_t to_bake)> examined;
     std::function<void(const std::string& map, const bake::Progress&)> progress;
-    std::function<void(const MapOutcome&)> finished;  // in the order in which they end
+    std::function<void(const BakeOutcome&)> finished;  // in the order in which they finish
 };
 
-// Bakes those of the maps (each with a source) that are not fresh, as many at once as memory and threads
-// allow. One that fails does not stop the others. Outcomes are in the order of the maps.
-[[nodiscard]] std::vector<MapOutcome> bake_maps(const std::vector<config::Map>& maps,
-                                                const BatchParameters& parameters, const BatchSink& sink,
-                                                const std::stop_token& stop);
+// Bakes the maps that are not fresh, as many at the same time as memory and threads allow. Each map has a
+// source. A map that fails does not stop the others. Outcomes are in the order of the maps.
+[[nodiscard]] std::vector<BakeOutcome> bake_maps(const std::vector<config::Map>& maps,
+                                                 const BatchParameters& parameters, const BatchSink& sink,
+                                                 const std::stop_token& stop);
 
 }  // namespace camdir::maps

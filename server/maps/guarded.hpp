@@ -1,4 +1,4 @@
-// What a library throws becomes an error of the map that it was about: the others go on.
+// Converts exceptions of libraries into errors of one map, so that the others continue.
 #pragma once
 
 #include <exception>
@@ -9,7 +9,7 @@
 
 namespace camdir::maps {
 
-// Runs `body`, which returns a Result. `what` begins the message.
+// Calls `body`, which returns a Result. `what` is the prefix of the message.
 template <class Body>
 [[nodiscard]] auto guarded(const std::string& what, const Body& body) -> decltype(body()) {
     try {

@@ -7,6 +7,7 @@
 
 #include "maps/bake_map.hpp"
 #include "maps/guarded.hpp"
+#include "maps/progress.hpp"
 #include "maps/source.hpp"
 
 namespace camdir::maps {
@@ -14,10 +15,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string percent(const bake::Progress& progress) {
-    std::string text = "baking: " + std::string(progress.stage);
-    if (progress.total > 0) text += " " + std::to_string(100 * progress.done / progress.total) + " %";
-    return text;
+// `baking: certify, 40 %`
+std::string activity_of(const BakeProgress& progress, double seconds) {
+    return "baking: " + progress.stage() + ", " +
+           std::to_string(static_cast<int>(100.0 * progress.fraction(seconds))) + " %";
 }
 
 }  // namespace
@@ -35,33 +36,33 @@ Result<void> check_map(const config::Map& map) {
     return {};
 }
 
-void MapLoader::load(const std::vector<config::Map>& maps) {
+void Loader::load(const std::vector<config::Map>& maps) {
     stop();
     std::set<std::string> listed;
     for (const config::Map& map : maps)
         listed.insert(map.name);
-    for (const std::string& name : library_.names()) {
+    for (const std::string& name : listed_) {
         if (listed.contains(name)) continue;
-        library_.remove(name);
         loaded_.erase(name);
+        sink_.removed(name);
     }
-    std::vector<config::Map> wanted;
+    listed_ = std::move(listed);
+    std::vector<config::Map> changed;
     for (const config::Map& map : maps) {
-        if (unchanged(map)) continue;
-        library_.add(map.name, map.strict);
-        wanted.push_back(map);
+        if (is_unchanged(map)) continue;
+        sink_.added(map);
+        changed.push_back(map);
     }
-    changed_();
-    thread_ = std::jthread([this, wanted](const std::stop_token& token) { work(token, wanted); });
+    thread_ = std::jthread([this, changed](const std::stop_token& token) { run(token, changed); });
 }
 
-void MapLoader::stop() {
+void Loader::stop() {
     if (!thread_.joinable()) return;
     thread_.request_stop();
     thread_.join();
 }
 
-void MapLoader::work(const std::stop_token& stop, const std::vector<config::Map>& maps) {
+void Loader::run(const std::stop_token& stop, const std::vector<config::Map>& maps) {
     std::vector<config::Map> to_bake;
     for (const config::Map& map : maps)
         if (!stop.stop_requested() && !open_if_current(map)) to_bake.push_back(map);
@@ -69,8 +70,8 @@ void MapLoader::work(const std::stop_token& stop, const std::vector<config::Map>
         if (!stop.stop_requested()) bake_and_open(map, stop);
 }
 
-// False: the map is to be baked.
-bool MapLoader::open_if_current(const config::Map& map) {
+// False: the map must be baked.
+bool Loader::open_if_current(const config::Map& map) {
     if (map.source.empty()) {
         open(map, 0.0);
         return true;
@@ -86,50 +87,55 @@ bool MapLoader::open_if_current(const config::Map& map) {
         return true;
     }
     spdlog::info("map {}: will be baked: {}", map.name, freshness->stale);
-    library_.set_loading(map.name, "waits to be baked");
+    sink_.loading(map.name, "waiting to be baked");
     return false;
 }
 
-void MapLoader::bake_and_open(const config::Map& map, const std::stop_token& stop) {
+void Loader::bake_and_open(const config::Map& map, const std::stop_token& stop) {
     spdlog::info("map {}: baking {}", map.name, map.source);
-    library_.set_loading(map.name, "baking");
+    sink_.loading(map.name, "baking");
     const auto begin = std::chrono::steady_clock::now();
-    const auto show = [&](const bake::Progress& p) { library_.set_loading(map.name, percent(p)); };
+    const auto seconds = [&] {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    };
+    BakeProgress progress;
+    const auto show = [&](const bake::Progress& stage) {
+        progress.update(stage, seconds());
+        sink_.loading(map.name, activity_of(progress, seconds()));
+    };
     const auto baked = bake_map(map, {}, show, stop);
     if (!baked && baked.error().code == ErrorCode::interrupted) return;
     if (!baked) return set_failed(map, baked.error());
-    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
-    spdlog::info("map {}: baked in {:.1f} s", map.name, seconds.count());
-    open(map, seconds.count());
+    const double bake_seconds = seconds();
+    spdlog::info("map {}: baked in {:.1f} s", map.name, bake_seconds);
+    open(map, bake_seconds);
 }
 
-void MapLoader::open(const config::Map& map, double bake_seconds) {
+void Loader::open(const config::Map& map, double bake_seconds) {
     auto opened = guarded(map.file, [&] { return freespace::Freespace::open(map.file); });
     if (!opened) return set_failed(map, opened.error());
     spdlog::info("map {}: {} vertices, {} triangles", map.name, opened->vertices().size(),
                  opened->triangles().size());
     remember(map);
-    library_.set_ready(map.name, std::move(*opened), bake_seconds);
-    changed_();
+    sink_.ready(map.name, std::move(*opened), bake_seconds);
 }
 
-void MapLoader::set_failed(const config::Map& map, const Error& error) {
+void Loader::set_failed(const config::Map& map, const Error& error) {
     spdlog::error("map {}: {}", map.name, error.message);
     loaded_.erase(map.name);
-    library_.set_failed(map.name, error.message);
-    changed_();
+    sink_.failed(map.name, error.message);
 }
 
-bool MapLoader::unchanged(const config::Map& map) const {
+bool Loader::is_unchanged(const config::Map& map) const {
     const auto found = loaded_.find(map.name);
     if (found == loaded_.end()) return false;
-    const Origin& origin = found->second;
+    const LoadedFile& loaded = found->second;
     std::error_code error;
-    return origin.map == map && fs::last_write_time(map.file, error) == origin.written &&
-           fs::file_size(map.file, error) == origin.size && !error;
+    return loaded.map == map && fs::last_write_time(map.file, error) == loaded.written &&
+           fs::file_size(map.file, error) == loaded.size && !error;
 }
 
-void MapLoader::remember(const config::Map& map) {
+void Loader::remember(const config::Map& map) {
     std::error_code error;
     loaded_[map.name] = {map, fs::last_write_time(map.file, error), fs::file_size(map.file, error)};
 }

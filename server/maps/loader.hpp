@@ -4,54 +4,64 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "base/error.hpp"
 #include "config/config.hpp"
-#include "director/map_library.hpp"
+#include "freespace/freespace.hpp"
 
 namespace camdir::maps {
 
-// What can be said about a map without baking it: its file opens, or its source can be read.
+// What can be checked without baking: the map's file opens, or its source can be read.
 [[nodiscard]] Result<void> check_map(const config::Map& map);
 
-// Works on a thread of its own, one map after the other, those first that need no baking. load and stop: one
-// thread at a time.
-class MapLoader {
-  public:
-    // `changed` is called after every change of the library, from the loader's thread or from load.
-    MapLoader(director::MapLibrary& library, std::function<void()> changed)
-        : library_(library), changed_(std::move(changed)) {}
-    ~MapLoader() { stop(); }
+// Receives the state of each map; all are set. Called from load() and from the loader's thread, never from
+// both at once.
+struct LoaderSink {
+    std::function<void(const config::Map& map)> added;  // new or changed: will be loaded
+    std::function<void(const std::string& map)> removed;
+    std::function<void(const std::string& map, const std::string& activity)> loading;
+    // `bake_seconds` is 0 when the file was up to date.
+    std::function<void(const std::string& map, freespace::Freespace, double bake_seconds)> ready;
+    std::function<void(const std::string& map, const std::string& reason)> failed;
+};
 
-    // Makes the library hold these maps: gives up what an earlier call still bakes, removes what is not
-    // listed, leaves alone what is there already and whose file did not change.
+// Works on its own thread, one map after the other, those that need no bake first. load and stop: one thread
+// at a time.
+class Loader {
+  public:
+    explicit Loader(LoaderSink sink) : sink_(std::move(sink)) {}
+    ~Loader() { stop(); }
+
+    // Replaces the list of maps: stops the bake of an earlier call, removes maps that are no longer listed,
+    // and skips those that are loaded and whose entry and file did not change.
     void load(const std::vector<config::Map>& maps);
 
-    // Gives up what is being baked.
+    // Stops the running bake; maps that are not loaded yet stay so.
     void stop();
 
   private:
-    // What a map was loaded from.
-    struct Origin {
+    // What a loaded map was read from.
+    struct LoadedFile {
         config::Map map;
         std::filesystem::file_time_type written;
         std::uintmax_t size = 0;
     };
 
-    void work(const std::stop_token& stop, const std::vector<config::Map>& maps);
+    void run(const std::stop_token& stop, const std::vector<config::Map>& maps);
     bool open_if_current(const config::Map& map);
     void bake_and_open(const config::Map& map, const std::stop_token& stop);
     void open(const config::Map& map, double bake_seconds);
     void set_failed(const config::Map& map, const Error& error);
-    [[nodiscard]] bool unchanged(const config::Map& map) const;
+    [[nodiscard]] bool is_unchanged(const config::Map& map) const;
     void remember(const config::Map& map);
 
-    director::MapLibrary& library_;
-    std::function<void()> changed_;
-    std::map<std::string, Origin> loaded_;  // of the thread while it runs
+    const LoaderSink sink_;
+    std::set<std::string> listed_;
+    std::map<std::string, LoadedFile> loaded_;  // of the thread while it runs
     std::jthread thread_;
 };
 

@@ -45,10 +45,6 @@ ordered_json to_json(const BakeReport& report) {
             {"stages", stages}};
 }
 
-std::string report_text(const ordered_json& report) {
-    return report.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
-}
-
 std::string seconds_text(double seconds) {
     std::ostringstream text;
     text << std::fixed << std::setprecision(2) << seconds << " s";

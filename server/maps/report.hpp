@@ -1,4 +1,4 @@
-// What a bake made, for people and as JSON.
+// The results of a bake, as text and as JSON.
 #pragma once
 
 #include <cstdint>
@@ -30,16 +30,13 @@ struct BakeReport {
 
 [[nodiscard]] nlohmann::ordered_json to_json(const BakeReport& report);
 
-// Text of a report; the names of files in it need not be UTF-8.
-[[nodiscard]] std::string report_text(const nlohmann::ordered_json& report);
-
 // `certify       12.30 s  150000 triangles, 3 dropped`
 [[nodiscard]] std::string line_of(const bake::StageReport& stage);
 
 // `12.30 s`
 [[nodiscard]] std::string seconds_text(double seconds);
 
-// Of this process, since it began.
+// The largest memory use of this process so far.
 [[nodiscard]] std::uint64_t peak_memory_bytes();
 
 }  // namespace camdir::maps

@@ -5,31 +5,7 @@
 #include <numeric>
 #include <utility>
 
-#include "bake/geometry/triangle.hpp"
-#include "bake/shell.hpp"
-
 namespace camdir::maps {
-namespace {
-
-double area_of(const scene::Scene& scene) {
-    double sum = 0.0;
-    for (const auto& [a, b, c] : scene.triangles)
-        sum += bake::area({scene.vertices[a], scene.vertices[b], scene.vertices[c]});
-    return sum;
-}
-
-}  // namespace
-
-std::uint64_t estimate_memory(const scene::Scene& scene, double d0) {
-    constexpr double fixed = 48.0 * 1024.0 * 1024.0;
-    constexpr double bytes_of_a_sample = 1500.0;
-    constexpr double samples_on_square = 1.5;
-    constexpr double most = 1e15;  // no sum of estimates overflows
-    const double around = scene.brushes.empty() ? bake::most_shell_samples : 0.0;
-    const double samples = samples_on_square * area_of(scene) / (d0 * d0) +
-                           static_cast<double>(scene.vertices.size() + scene.points.size()) + around;
-    return static_cast<std::uint64_t>(std::min(fixed + bytes_of_a_sample * samples, most));
-}
 
 BakeSchedule::BakeSchedule(std::vector<std::uint64_t> needs, std::uint64_t budget, std::size_t slots)
     : needs_(std::move(needs)), budget_(budget), slots_(slots), waiting_(needs_.size()) {

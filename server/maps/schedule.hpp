@@ -1,4 +1,4 @@
-// The order in which several maps are baked at once.
+// The order in which several maps are baked at the same time.
 #pragma once
 
 #include <cstddef>
@@ -6,23 +6,16 @@
 #include <optional>
 #include <vector>
 
-#include "scene/scene.hpp"
-
 namespace camdir::maps {
 
-// Memory that a bake of the scene takes, in bytes, from above: 48 MiB, and 1.5 kB for every sample of the
-// obstacles, of which uniform sampling makes at most 1.5 on each d0^2 of their area and one a vertex or
-// point, and of the shell. `d0` in map units. Measured on the maps of OpenArena.
-[[nodiscard]] std::uint64_t estimate_memory(const scene::Scene& scene, double d0);
-
-// Which job may start: the neediest of those that fit beside what runs into the budget, and any job when
-// nothing runs, so that one above the budget runs alone. One thread at a time.
+// Decides which job may start next: the one with the largest need among those that fit into the budget beside
+// the running ones; any job when none runs, so that a job above the budget runs alone. One thread at a time.
 class BakeSchedule {
   public:
-    // `needs`: bytes of each job. `budget`: bytes. `slots`: jobs at once, at least 1.
+    // `needs`: bytes of each job. `budget`: bytes. `slots`: jobs that run at the same time, at least 1.
     BakeSchedule(std::vector<std::uint64_t> needs, std::uint64_t budget, std::size_t slots);
 
-    // Starts a job and returns its number; nothing when none may start before a running one is finished.
+    // Starts a job and returns its index; nothing when none may start before a running one ends.
     [[nodiscard]] std::optional<std::size_t> start();
     void finish(std::size_t job);
 
@@ -33,9 +26,9 @@ class BakeSchedule {
     std::vector<std::uint64_t> needs_;
     std::uint64_t budget_;
     std::size_t slots_;
-    std::vector<std::size_t> waiting_;  // the neediest first, of equals the first
+    std::vector<std::size_t> waiting_;  // largest need first, ties by index
     std::size_t running_ = 0;
-    std::uint64_t used_ = 0;  // needs of what runs
+    std::uint64_t used_ = 0;  // needs of the running jobs
 };
 
 }  // namespace camdir::maps

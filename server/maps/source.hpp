@@ -1,4 +1,4 @@
-// How the commands say, and remember, the way in which a map's source is read.
+// Reads a map's source with the options of a configuration or of a baked file.
 #pragma once
 
 #include <optional>
@@ -14,13 +14,13 @@
 
 namespace camdir::maps {
 
-// `x,y,z`; finite.
+// `x,y,z`, finite numbers.
 [[nodiscard]] std::optional<Vec3d> parse_point(std::string_view text);
 
 // `y` or `z`.
 [[nodiscard]] std::optional<scene::UpAxis> parse_up(std::string_view name);
 
-// Those of a configured map. Errors name the key.
+// The options of a configured map. Errors name the key.
 [[nodiscard]] Result<scene::ReadOptions> read_options_of(const config::Map& map);
 
 // Those that a file was baked with; what its baker did not write is as by default.
@@ -29,8 +29,8 @@ namespace camdir::maps {
 // Reads the source of a configured map.
 [[nodiscard]] Result<scene::Scene> load_source(const config::Map& map);
 
-// Reads the source as it was read for the bake; fails when its unit is another one. A source without spawn
-// points gets those of the file: the place that the bake chose.
+// Reads the source with the options of the bake; fails when its unit differs. A source without spawn points
+// gets those of the baked file.
 [[nodiscard]] Result<scene::Scene> load_source(const freespace::Freespace& baked, const std::string& map);
 
 }  // namespace camdir::maps

@@ -12,7 +12,7 @@ namespace {
 constexpr const char* time_pattern = "%Y-%m-%dT%H:%M:%S.%eZ";
 
 // 2026-01-02T03:04:05.678Z info: message
-// One line whatever is in the names from outside that a message quotes.
+// Control characters are replaced: names from outside cannot start a new line of the log.
 class TextLines final : public spdlog::formatter {
   public:
     void format(const spdlog::details::log_msg& message, spdlog::memory_buf_t& line) override {

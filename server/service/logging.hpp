@@ -1,13 +1,13 @@
-// The server's log: standard error, as text or as a JSON object a line.
+// The server's log on standard error: plain text, or one JSON object per line.
 #pragma once
 
 #include "config/config.hpp"
 
 namespace camdir::service {
 
-// Makes spdlog's default logger.
+// Creates spdlog's default logger.
 void start_logging(const config::Log& config);
-// Of a reloaded configuration the level takes effect.
+// Applies the level of a reloaded configuration.
 void set_log_level(const config::Log& config);
 
 }  // namespace camdir::service

@@ -16,8 +16,8 @@ namespace {
 
 constexpr std::chrono::milliseconds watch_period{200};
 constexpr std::chrono::seconds start_extension{60};
-constexpr std::chrono::milliseconds longest_turn{5000};  // a worker that takes longer hangs
-constexpr std::chrono::milliseconds view_patience{500};
+constexpr std::chrono::milliseconds max_turn{5000};  // a worker whose turn takes longer has hung
+constexpr std::chrono::milliseconds view_timeout{500};
 
 void log_lines(spdlog::level::level_enum level, const std::string& text) {
     std::istringstream lines(text);
@@ -46,14 +46,38 @@ Service::Service(std::filesystem::path file, config::Config config, std::unique_
       config_(std::move(config)),
       gateway_(std::move(gateway)),
       director_(config_, maps_, *gateway_),
-      loader_(maps_, [this] { director_.maps_changed(); }) {
+      loader_(map_sink()) {
     for (const config::Map& map : config_.maps)
         maps_.add(map.name, map.strict);
 }
 
+maps::LoaderSink Service::map_sink() {
+    maps::LoaderSink sink;
+    sink.added = [this](const config::Map& map) {
+        maps_.add(map.name, map.strict);
+        director_.maps_changed();
+    };
+    sink.removed = [this](const std::string& name) {
+        maps_.remove(name);
+        director_.maps_changed();
+    };
+    sink.loading = [this](const std::string& name, const std::string& activity) {
+        maps_.set_loading(name, activity);
+    };
+    sink.ready = [this](const std::string& name, freespace::Freespace freespace, double bake_seconds) {
+        maps_.set_ready(name, std::move(freespace), bake_seconds);
+        director_.maps_changed();
+    };
+    sink.failed = [this](const std::string& name, const std::string& reason) {
+        maps_.set_failed(name, reason);
+        director_.maps_changed();
+    };
+    return sink;
+}
+
 http::Sources Service::sources() {
     http::Sources sources;
-    sources.healthy = [this] { return director_.responsive(longest_turn); };
+    sources.healthy = [this] { return director_.responsive(max_turn); };
     sources.missing = [this] { return missing(); };
     sources.metrics = [this] {
         auto families = http::director_metrics(director_.statistics());
@@ -61,7 +85,7 @@ http::Sources Service::sources() {
             families.insert(families.end(), more.begin(), more.end());
         return families;
     };
-    sources.status = [this] { return http::status_page(director_.view(view_patience), maps_.entries()); };
+    sources.status = [this] { return http::status_page(director_.view(view_timeout), maps_.entries()); };
     return sources;
 }
 
@@ -91,21 +115,21 @@ void Service::run(Signals& signals) {
 }
 
 void Service::watch(bool& ready) {
-    if (director_.responsive(longest_turn)) tell_alive();
+    if (director_.responsive(max_turn)) notify_alive();
     if (ready) return;
     const auto waits_for = missing();
-    if (!waits_for.empty()) return tell_starting(waits_for.front(), start_extension);
+    if (!waits_for.empty()) return notify_starting(waits_for.front(), start_extension);
     ready = true;
     spdlog::info("ready");
-    tell_ready("serving " + std::to_string(config_.maps.size()) + " maps");
+    notify_ready("serving " + std::to_string(config_.maps.size()) + " maps");
 }
 
 void Service::reload() {
-    tell_reloading();
+    notify_reloading();
     auto loaded = config::load(file_);
     if (!loaded) {
         log_lines(spdlog::level::err, loaded.error().message);
-        spdlog::error("{}: not reloaded, the configuration before stays in force", file_.string());
+        spdlog::error("{}: not reloaded, the previous configuration stays in effect", file_.string());
         return;
     }
     for (const std::string& pointer : config::changes_for_restart(config_, *loaded))
@@ -122,7 +146,7 @@ void Service::reload() {
 
 void Service::drain() {
     spdlog::info("draining");
-    tell_stopping();
+    notify_stopping();
     draining_ = true;
     gateway_->stop_receiving();
     loader_.stop();

@@ -1,4 +1,4 @@
-// The server: what `camera-director serve` runs until it is told to stop.
+// The server: what `camera-director serve` runs.
 #pragma once
 
 #include <atomic>
@@ -18,8 +18,8 @@ namespace camdir::service {
 
 class Service {
   public:
-    // Joins the DDS domain first, before anything that opens many descriptors (DDS uses select), then listens
-    // for http. `file` is read again on SIGHUP.
+    // Joins the DDS domain before anything that opens many file descriptors (DDS uses select), then listens
+    // for HTTP. `file` is read again on SIGHUP.
     [[nodiscard]] static Result<std::unique_ptr<Service>> open(std::filesystem::path file,
                                                                config::Config config);
 
@@ -29,6 +29,7 @@ class Service {
   private:
     Service(std::filesystem::path file, config::Config config, std::unique_ptr<dds::Gateway> gateway);
 
+    [[nodiscard]] maps::LoaderSink map_sink();
     [[nodiscard]] http::Sources sources();
     [[nodiscard]] std::vector<std::string> missing() const;
     void watch(bool& ready);
@@ -36,12 +37,12 @@ class Service {
     void drain();
 
     const std::filesystem::path file_;
-    config::Config config_;  // what runs
+    config::Config config_;  // in effect
     std::atomic<bool> draining_{false};
     std::unique_ptr<dds::Gateway> gateway_;
     director::MapLibrary maps_;
     director::Director director_;
-    maps::MapLoader loader_;
+    maps::Loader loader_;
     std::unique_ptr<http::Server> http_;  // null when off
 };
 

@@ -1,16 +1,50 @@
 #include "service/signals.hpp"
 
 #include <pthread.h>
+#include <unistd.h>
 
 #include <ctime>
+#include <initializer_list>
 
 namespace camdir::service {
+namespace {
 
-Signals::Signals() {
-    sigemptyset(&waited_for_);
-    for (const int signal : {SIGTERM, SIGINT, SIGHUP})
-        sigaddset(&waited_for_, signal);
-    pthread_sigmask(SIG_BLOCK, &waited_for_, &mask_before_);
+// Blocks them for this thread and those that it starts; returns the mask before.
+sigset_t block(std::initializer_list<int> numbers, sigset_t& signals) {
+    sigemptyset(&signals);
+    for (const int number : numbers)
+        sigaddset(&signals, number);
+    sigset_t mask_before{};
+    pthread_sigmask(SIG_BLOCK, &signals, &mask_before);
+    return mask_before;
+}
+
+// The number of the signal, or -1 when none came.
+int wait_for(const sigset_t& signals, std::chrono::milliseconds timeout) {
+    const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(timeout);
+    const timespec limit{static_cast<std::time_t>(seconds.count()),
+                         static_cast<long>(std::chrono::nanoseconds(timeout - seconds).count())};
+    return sigtimedwait(&signals, nullptr, &limit);
+}
+
+}  // namespace
+
+Interruption::Interruption() : mask_before_(block({SIGINT, SIGTERM}, signals_)) {
+    waiter_ = std::jthread([this](const std::stop_token& done) {
+        while (!done.stop_requested()) {
+            if (wait_for(signals_, std::chrono::milliseconds(50)) < 0) continue;
+            if (!requested_.request_stop()) ::_exit(exit_interrupted);
+        }
+    });
+}
+
+Interruption::~Interruption() {
+    waiter_.request_stop();
+    waiter_.join();
+    pthread_sigmask(SIG_SETMASK, &mask_before_, nullptr);
+}
+
+Signals::Signals() : mask_before_(block({SIGTERM, SIGINT, SIGHUP}, signals_)) {
     std::signal(SIGPIPE, SIG_IGN);
 }
 
@@ -18,11 +52,8 @@ Signals::~Signals() {
     pthread_sigmask(SIG_SETMASK, &mask_before_, nullptr);
 }
 
-Signal Signals::wait(std::chrono::milliseconds patience) {
-    const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(patience);
-    const timespec limit{static_cast<std::time_t>(seconds.count()),
-                         static_cast<long>(std::chrono::nanoseconds(patience - seconds).count())};
-    switch (sigtimedwait(&waited_for_, nullptr, &limit)) {
+Signal Signals::wait(std::chrono::milliseconds timeout) {
+    switch (wait_for(signals_, timeout)) {
         case SIGTERM:
         case SIGINT:
             return Signal::stop;

@@ -1,4 +1,4 @@
-// What a supervisor such as systemd is told (sd_notify); nothing happens without one.
+// Notifications to a supervisor such as systemd (sd_notify); without one they do nothing.
 #pragma once
 
 #include <chrono>
@@ -6,11 +6,11 @@
 
 namespace camdir::service {
 
-void tell_ready(const std::string& status);
-void tell_reloading();
-void tell_stopping();
-// The start goes on and needs up to `more` from now.
-void tell_starting(const std::string& status, std::chrono::seconds more);
-void tell_alive();
+void notify_ready(const std::string& status);
+void notify_reloading();
+void notify_stopping();
+// The start is still in progress and needs at most `more` from now.
+void notify_starting(const std::string& status, std::chrono::seconds more);
+void notify_alive();
 
 }  // namespace camdir::service

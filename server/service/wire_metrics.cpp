@@ -18,9 +18,9 @@ prometheus::MetricFamily counter(const std::string& name, const std::string& hel
 }  // namespace
 
 std::vector<prometheus::MetricFamily> wire_metrics(const dds::Counters& counters) {
-    auto accepted = http::counter_family("wire_received_total", "Samples handed to the director, by topic.");
-    auto dropped =
-        http::counter_family("wire_dropped_total", "Samples dropped at the border, by topic and defect.");
+    auto accepted = http::counter_family("wire_received_total", "Samples passed to the director, by topic.");
+    auto dropped = http::counter_family("wire_dropped_total",
+                                        "Samples dropped on receipt, by topic and validation error.");
     for (const dds::Topic topic : received_topics) {
         const char* name = dds::topic_name(topic);
         const auto& of_topic = counters.of(topic);
@@ -29,13 +29,14 @@ std::vector<prometheus::MetricFamily> wire_metrics(const dds::Counters& counters
             http::add_metric(dropped, static_cast<double>(of_topic.dropped[defect].load()),
                              {{"topic", name}, {"defect", dds::defect_names[defect]}});
     }
-    return {accepted,
-            dropped,
-            counter("wire_camera_frames_total", "Camera frames written.", counters.camera_frames_written),
-            counter("wire_statuses_total", "Observer statuses written.", counters.statuses_written),
-            counter("wire_write_failures_total", "Samples that DDS refused.", counters.write_failures),
-            counter("wire_endpoint_failures_total", "Matches whose endpoints could not be created.",
-                    counters.endpoint_failures)};
+    return {
+        accepted,
+        dropped,
+        counter("wire_camera_frames_total", "Camera frames written to DDS.", counters.camera_frames_written),
+        counter("wire_statuses_total", "Observer statuses written to DDS.", counters.statuses_written),
+        counter("wire_write_failures_total", "Samples that DDS did not accept.", counters.write_failures),
+        counter("wire_endpoint_failures_total", "Matches whose endpoints could not be created.",
+                counters.endpoint_failures)};
 }
 
 }  // namespace camdir::service

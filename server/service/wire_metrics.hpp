@@ -1,4 +1,4 @@
-// What crossed the border to DDS, as Prometheus metrics.
+// The counters of the DDS wire as Prometheus metrics.
 #pragma once
 
 #include <prometheus/metric_family.h>

@@ -15,7 +15,7 @@
 #include "load.hpp"
 #include "oracle/oracle.hpp"
 #include "scene/load.hpp"
-#include "service/interruption.hpp"
+#include "service/signals.hpp"
 #include "shot_judge.hpp"
 
 namespace camdir::soak {

@@ -6,7 +6,7 @@
 #include "evaluation/resample.hpp"
 #include "evaluation/trace.hpp"
 #include "load.hpp"
-#include "service/interruption.hpp"
+#include "service/signals.hpp"
 
 namespace camdir::soak {
 namespace {

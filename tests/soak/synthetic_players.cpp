@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "load.hpp"
-#include "service/interruption.hpp"
+#include "service/signals.hpp"
 #include "walker.hpp"
 
 namespace camdir::soak {

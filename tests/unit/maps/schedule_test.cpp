@@ -7,12 +7,9 @@
 #include <random>
 #include <vector>
 
-#include "support/q3_maps.hpp"
-
 namespace camdir::maps {
 namespace {
 
-namespace q3 = scene::q3;
 using testing::ElementsAre;
 
 std::vector<std::size_t> start_all(BakeSchedule& schedule) {
@@ -22,7 +19,7 @@ std::vector<std::size_t> start_all(BakeSchedule& schedule) {
     return started;
 }
 
-TEST(BakeSchedule, StartsTheNeediestThatFitIntoTheBudget) {
+TEST(BakeSchedule, StartsTheLargestNeedsThatFitIntoTheBudget) {
     BakeSchedule schedule({30, 50, 40, 20}, 100, 4);
     EXPECT_THAT(start_all(schedule), ElementsAre(1, 2)) << "50 + 40 leave no room for 30 or 20";
     schedule.finish(2);
@@ -31,7 +28,7 @@ TEST(BakeSchedule, StartsTheNeediestThatFitIntoTheBudget) {
     EXPECT_EQ(schedule.running(), 3U);
 }
 
-TEST(BakeSchedule, RunsWhatIsAboveTheBudgetAlone) {
+TEST(BakeSchedule, RunsAJobAboveTheBudgetAlone) {
     BakeSchedule schedule({10, 500, 10, 101}, 100, 4);
     EXPECT_THAT(start_all(schedule), ElementsAre(1));
     schedule.finish(1);
@@ -48,13 +45,13 @@ TEST(BakeSchedule, KeepsToItsSlotsAndBreaksTiesByOrder) {
     EXPECT_THAT(start_all(schedule), ElementsAre(2));
 }
 
-TEST(BakeSchedule, NothingToDoIsDone) {
+TEST(BakeSchedule, WithoutJobsAllAreStarted) {
     BakeSchedule schedule({}, 100, 2);
     EXPECT_TRUE(schedule.all_started());
     EXPECT_FALSE(schedule.start());
 }
 
-TEST(BakeSchedule, KeepsItsPromisesForAnyJobs) {
+TEST(BakeSchedule, HoldsItsLimitsForRandomJobs) {
     std::mt19937 random(7);
     for (int round = 0; round < 300; ++round) {
         constexpr std::uint64_t budget = 100;
@@ -70,7 +67,7 @@ TEST(BakeSchedule, KeepsItsPromisesForAnyJobs) {
                 ++times_started[job];
                 running.push_back(job);
             }
-            ASSERT_FALSE(running.empty()) << "it never waits for nothing, round " << round;
+            ASSERT_FALSE(running.empty()) << "waits although no job runs, round " << round;
             ASSERT_LE(running.size(), slots);
             std::uint64_t used = 0;
             for (const std::size_t job : running)
@@ -82,18 +79,6 @@ TEST(BakeSchedule, KeepsItsPromisesForAnyJobs) {
         }
         EXPECT_TRUE(std::all_of(times_started.begin(), times_started.end(), [](int n) { return n == 1; }));
     }
-}
-
-TEST(EstimateMemory, GrowsWithTheAreaInSquaresOfD0) {
-    const auto need = [](double side, double d0) {
-        q3::Bsp bsp = test::room_map(Box3d(Vec3d(0.0, 0.0, 0.0), Vec3d(side, side, side)));
-        test::add_spawn_point(bsp, Vec3d(side / 2.0, side / 2.0, 40.0));
-        return static_cast<double>(estimate_memory(test::scene_of(bsp), d0));
-    };
-    const double fixed = need(1024.0, 1e9);
-    EXPECT_NEAR((need(1024.0, 8.0) - fixed) / (need(1024.0, 16.0) - fixed), 4.0, 0.01);
-    EXPECT_GT(need(2048.0, 16.0), need(1024.0, 16.0));
-    EXPECT_LT(need(1024.0, 1e-9), 1e16) << "bounded: sums of estimates do not overflow";
 }
 
 }  // namespace

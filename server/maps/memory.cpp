@@ -1,0 +1,55 @@
+#include "maps/memory.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "bake/shell.hpp"
+#include "bake/triangle.hpp"
+
+namespace camdir::maps {
+namespace {
+
+double area_of(const scene::Scene& scene) {
+    double sum = 0.0;
+    for (const auto& [a, b, c] : scene.triangles)
+        sum += bake::area({scene.vertices[a], scene.vertices[b], scene.vertices[c]});
+    return sum;
+}
+
+// The line "0::/path" of the process's control groups; "/" where there is none.
+std::filesystem::path control_group() {
+    std::ifstream groups("/proc/self/cgroup");
+    for (std::string line; std::getline(groups, line);)
+        if (line.starts_with("0::/")) return line.substr(3);
+    return "/";
+}
+
+}  // namespace
+
+std::uint64_t estimate_memory(const scene::Scene& scene, double d0) {
+    constexpr double fixed = 48.0 * 1024.0 * 1024.0;
+    constexpr double bytes_of_a_sample = 1500.0;
+    constexpr double samples_on_square = 1.5;
+    constexpr double most = 1e15;  // no sum of estimates overflows
+    const double around = scene.brushes.empty() ? bake::most_shell_samples : 0.0;
+    const double samples = samples_on_square * area_of(scene) / (d0 * d0) +
+                           static_cast<double>(scene.vertices.size() + scene.points.size()) + around;
+    return static_cast<std::uint64_t>(std::min(fixed + bytes_of_a_sample * samples, most));
+}
+
+std::uint64_t default_memory_budget() {
+    std::uint64_t memory = static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) *
+                           static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+    for (std::filesystem::path group = control_group();; group = group.parent_path()) {
+        // "max" where there is no limit.
+        std::ifstream file("/sys/fs/cgroup" + group.string() + "/memory.max");
+        if (std::uint64_t limit = 0; file >> limit) memory = std::min(memory, limit);
+        if (!group.has_relative_path()) return memory / 2;
+    }
+}
+
+}  // namespace camdir::maps

@@ -1,0 +1,116 @@
+#include "maps/loader.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "base/file.hpp"
+#include "support/eventually.hpp"
+#include "support/q3_maps.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace camdir::maps {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+using testing::StartsWith;
+
+class LoaderTest : public testing::Test {
+  protected:
+    config::Map add_room(const std::string& name) {
+        auto bsp = test::room_map(Box3d(Vec3d(0.0, 0.0, 0.0), Vec3d(512.0, 384.0, 256.0)));
+        test::add_spawn_point(bsp, Vec3d(256.0, 192.0, 40.0));
+        config::Map map;
+        map.name = name;
+        map.file = folder_ / (name + ".vfs");
+        map.source = folder_ / (name + ".bsp");
+        map.d0 = 64.0;
+        EXPECT_TRUE(write_file(map.source, test::encode(bsp)));
+        return map;
+    }
+
+    // Loads the maps to the end; what the sink received, without the activities.
+    std::vector<std::string> load(const std::vector<config::Map>& maps) {
+        events_.clear();
+        std::size_t pending = 0;
+        {
+            const std::scoped_lock lock(mutex_);
+            ended_ = 0;
+        }
+        loader_.load(maps);
+        {
+            const std::scoped_lock lock(mutex_);
+            for (const std::string& event : events_)
+                pending += event.starts_with("added ") ? 1 : 0;
+        }
+        EXPECT_TRUE(test::eventually([&] {
+            const std::scoped_lock lock(mutex_);
+            return ended_ >= pending;
+        }));
+        loader_.stop();
+        return events_;
+    }
+
+    void note(const std::string& event, bool ends = false) {
+        const std::scoped_lock lock(mutex_);
+        events_.push_back(event);
+        if (ends) ++ended_;
+    }
+
+    LoaderSink sink() {
+        LoaderSink sink;
+        sink.added = [this](const config::Map& map) { note("added " + map.name); };
+        sink.removed = [this](const std::string& map) { note("removed " + map); };
+        sink.loading = [](const std::string&, const std::string&) {};
+        sink.ready = [this](const std::string& map, const freespace::Freespace& freespace, double seconds) {
+            EXPECT_FALSE(freespace.triangles().empty());
+            note((seconds > 0.0 ? "baked " : "opened ") + map, true);
+        };
+        sink.failed = [this](const std::string& map, const std::string& reason) {
+            note("failed " + map + ": " + reason, true);
+        };
+        return sink;
+    }
+
+    test::TemporaryFolder folder_;
+    std::mutex mutex_;
+    std::vector<std::string> events_;
+    std::size_t ended_ = 0;
+    Loader loader_{sink()};
+};
+
+TEST_F(LoaderTest, BakesOnceAndThenLoadsOnlyWhatChanged) {
+    const config::Map a = add_room("a");
+    EXPECT_THAT(load({a}), ElementsAre("added a", "baked a"));
+    EXPECT_THAT(load({a}), IsEmpty());
+    config::Map finer = a;
+    finer.d0 = 48.0;
+    EXPECT_THAT(load({finer}), ElementsAre("added a", "baked a"));
+    std::filesystem::last_write_time(
+        a.file, std::filesystem::file_time_type::clock::now() + std::chrono::seconds(10));
+    EXPECT_THAT(load({finer}), ElementsAre("added a", "opened a"));
+    EXPECT_THAT(load({}), ElementsAre("removed a"));
+    EXPECT_THAT(load({finer}), ElementsAre("added a", "opened a"));
+}
+
+TEST_F(LoaderTest, OpensFilesBeforeItBakes) {
+    const config::Map a = add_room("a");
+    const config::Map b = add_room("b");
+    ASSERT_THAT(load({b}), ElementsAre("added b", "baked b"));
+    EXPECT_THAT(load({}), ElementsAre("removed b"));
+    EXPECT_THAT(load({a, b}), ElementsAre("added a", "added b", "opened b", "baked a"));
+}
+
+TEST_F(LoaderTest, AMapThatFailsDoesNotStopTheOthers) {
+    config::Map missing;
+    missing.name = "missing";
+    missing.file = folder_ / "missing.vfs";
+    EXPECT_THAT(
+        load({missing, add_room("a")}),
+        ElementsAre("added missing", "added a", StartsWith("failed missing: " + missing.file), "baked a"));
+}
+
+}  // namespace
+}  // namespace camdir::maps
