@@ -17,14 +17,14 @@ constexpr double min_d0 = 2.0;
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-constexpr std::size_t longest_profile_name = 31;  // ObserverRequest.profile
+constexpr std::size_t max_profile_name = 31;  // ObserverRequest.profile
 
-// What is wrong with a file: every problem, in the order of the file.
-class Problems {
+// The validation errors of a file, in its order.
+class ValidationErrors {
   public:
     void add(const std::string& pointer, const json& value, const std::string& expected) {
         std::string shown = value.dump(-1, ' ', true, json::error_handler_t::replace);
-        if (shown.size() > longest_shown) shown = shown.substr(0, longest_shown) + "...";
+        if (shown.size() > max_shown) shown = shown.substr(0, max_shown) + "...";
         add(pointer + ": " + shown + ": expected " + expected);
     }
     void add(std::string line) { lines_.push_back(std::move(line)); }
@@ -39,7 +39,7 @@ class Problems {
     }
 
   private:
-    static constexpr std::size_t longest_shown = 60;
+    static constexpr std::size_t max_shown = 60;
     std::vector<std::string> lines_;
 };
 
@@ -77,27 +77,28 @@ std::string unknown(const std::string& name, const std::vector<std::string>& kno
 }
 
 void read_object(const std::string& section, const std::string& pointer, const json& object,
-                 const Target& target, Problems& problems) {
-    if (!object.is_object()) return problems.add(pointer, object, "an object");
+                 const Target& target, ValidationErrors& errors) {
+    if (!object.is_object()) return errors.add(pointer, object, "an object");
     for (const auto& [name, value] : object.items()) {
         const std::string place = pointer + "/" + escaped(name);
         const Key* key = find_key(section, name);
         if (key == nullptr)
-            problems.add(place + ": " + unknown(name, names_in(section)));
+            errors.add(place + ": " + unknown(name, names_in(section)));
         else if (!assign(*key, value, target))
-            problems.add(place, value, expected(*key));
+            errors.add(place, value, expected(*key));
     }
     for (const Key& key : keys())
         if (key.section == section && key.required && !object.contains(key.name))
-            problems.add(pointer + "/" + key.name + ": missing: expected " + expected(key));
+            errors.add(pointer + "/" + key.name + ": missing: expected " + expected(key));
 }
 
-// One spelling of a path of a configuration in `folder`.
+// An absolute form of a path in a configuration in `folder`, the same for every spelling.
 std::string normal(const fs::path& folder, const std::string& path) {
     return (fs::current_path() / folder / path).lexically_normal().string();
 }
 
-// The files that the maps' sources are, or may lie in: `archive.pk3` of `archive.pk3:maps/name.bsp`.
+// The files of the maps' sources, and the archives that may hold them: `archive.pk3` of
+// `archive.pk3:maps/name.bsp`.
 std::set<std::string> source_files(const std::vector<Map>& maps, const fs::path& folder) {
     std::set<std::string> files;
     for (const Map& map : maps) {
@@ -110,23 +111,23 @@ std::set<std::string> source_files(const std::vector<Map>& maps, const fs::path&
     return files;
 }
 
-void read_maps(const json& list, Config& config, Problems& problems) {
-    if (!list.is_array()) return problems.add("/maps", list, "a list of objects");
+void read_maps(const json& list, Config& config, ValidationErrors& errors) {
+    if (!list.is_array()) return errors.add("/maps", list, "a list of objects");
     std::set<std::string> names;
     for (std::size_t i = 0; i < list.size(); ++i) {
         const std::string pointer = "/maps/" + std::to_string(i);
         Map map;
-        read_object("/maps/*", pointer, list[i], {nullptr, &map, nullptr}, problems);
+        read_object("/maps/*", pointer, list[i], {nullptr, &map, nullptr}, errors);
         if (map.d0 > 0.0 && map.d0 < min_d0)
-            problems.add(pointer + "/d0", map.d0, "a number from 2 to 256, or 0");
+            errors.add(pointer + "/d0", map.d0, "a number from 2 to 256, or 0");
         if (!map.name.empty() && !names.insert(map.name).second)
-            problems.add(pointer + "/name", map.name, "a name that no other map has");
+            errors.add(pointer + "/name", map.name, "a name that no other map has");
         config.maps.push_back(std::move(map));
     }
 }
 
-// A bake writes over the file.
-void check_files(const Config& config, const fs::path& folder, Problems& problems) {
+// A bake overwrites `file`, which therefore must not be a source.
+void check_files(const Config& config, const fs::path& folder, ValidationErrors& errors) {
     const std::set<std::string> sources = source_files(config.maps, folder);
     std::set<std::string> files;
     for (std::size_t i = 0; i < config.maps.size(); ++i) {
@@ -134,45 +135,45 @@ void check_files(const Config& config, const fs::path& folder, Problems& problem
         const std::string pointer = "/maps/" + std::to_string(i) + "/file";
         if (file.empty()) continue;
         if (!files.insert(normal(folder, file)).second)
-            problems.add(pointer, file, "a file that no other map has");
+            errors.add(pointer, file, "a file that no other map has");
         if (sources.contains(normal(folder, file)))
-            problems.add(pointer, file, "a file that is no map's source");
+            errors.add(pointer, file, "a file that is not a map's source");
     }
 }
 
-void read_profiles(const json& object, Config& config, Problems& problems) {
-    if (!object.is_object()) return problems.add("/profiles", object, "an object of profiles by name");
+void read_profiles(const json& object, Config& config, ValidationErrors& errors) {
+    if (!object.is_object()) return errors.add("/profiles", object, "an object of profiles by name");
     for (const auto& [name, value] : object.items()) {
         const std::string pointer = "/profiles/" + escaped(name);
-        if (name.empty() || name.size() > longest_profile_name)
-            problems.add(pointer, name, "a name of 1 to " + std::to_string(longest_profile_name) + " bytes");
-        read_object("/profiles/*", pointer, value, {nullptr, nullptr, &config.profiles[name]}, problems);
+        if (name.empty() || name.size() > max_profile_name)
+            errors.add(pointer, name, "a name of 1 to " + std::to_string(max_profile_name) + " bytes");
+        read_object("/profiles/*", pointer, value, {nullptr, nullptr, &config.profiles[name]}, errors);
     }
 }
 
-void read_section(const std::string& name, const json& value, Config& config, Problems& problems) {
+void read_section(const std::string& name, const json& value, Config& config, ValidationErrors& errors) {
     const std::string pointer = "/" + name;
-    if (pointer == "/maps") return read_maps(value, config, problems);
-    if (pointer == "/profiles") return read_profiles(value, config, problems);
-    read_object(pointer, pointer, value, {&config, nullptr, nullptr}, problems);
+    if (pointer == "/maps") return read_maps(value, config, errors);
+    if (pointer == "/profiles") return read_profiles(value, config, errors);
+    read_object(pointer, pointer, value, {&config, nullptr, nullptr}, errors);
 }
 
-void read_root(const json& root, Config& config, Problems& problems) {
-    if (!root.is_object()) return problems.add("", root, "an object");
+void read_root(const json& root, Config& config, ValidationErrors& errors) {
+    if (!root.is_object()) return errors.add("", root, "an object");
     std::vector<std::string> known;
     for (const Section& section : sections())
         known.push_back(section.pointer.substr(1));
     for (const auto& [name, value] : root.items()) {
         if (std::find(known.begin(), known.end(), name) != known.end())
-            read_section(name, value, config, problems);
+            read_section(name, value, config, errors);
         else
-            problems.add("/" + escaped(name) + ": " + unknown(name, known));
+            errors.add("/" + escaped(name) + ": " + unknown(name, known));
     }
 }
 
-void check_references(const Config& config, Problems& problems) {
+void check_references(const Config& config, ValidationErrors& errors) {
     if (!config.profiles.contains(config.matches.default_profile))
-        problems.add("/matches/default_profile", config.matches.default_profile, "the name of a profile");
+        errors.add("/matches/default_profile", config.matches.default_profile, "the name of a profile");
 }
 
 void resolve_paths(Config& config, const fs::path& folder) {
@@ -189,11 +190,11 @@ Result<Config> parse(const std::string& text, const std::string& name, const fs:
     if (!root) return fail(name + ": " + root.error().message);
     Config config;
     config.profiles["default"];
-    Problems problems;
-    read_root(*root, config, problems);
-    check_references(config, problems);
-    check_files(config, folder, problems);
-    if (!problems.none()) return fail(problems.joined(name + ": ", "\n"));
+    ValidationErrors errors;
+    read_root(*root, config, errors);
+    check_references(config, errors);
+    check_files(config, folder, errors);
+    if (!errors.none()) return fail(errors.joined(name + ": ", "\n"));
     resolve_paths(config, folder);
     return config;
 }
@@ -210,9 +211,9 @@ Result<camera::Profile> override_profile(const camera::Profile& base, const std:
     if (overrides.empty()) return profile;
     const auto object = parse_json(overrides);
     if (!object) return fail(object.error().message);
-    Problems problems;
-    read_object("/profiles/*", "", *object, {nullptr, nullptr, &profile}, problems);
-    if (!problems.none()) return fail(problems.joined("", "; "));
+    ValidationErrors errors;
+    read_object("/profiles/*", "", *object, {nullptr, nullptr, &profile}, errors);
+    if (!errors.none()) return fail(errors.joined("", "; "));
     return profile;
 }
 

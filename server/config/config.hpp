@@ -19,18 +19,18 @@ struct Dds {
     bool multicast = false;
     std::int64_t participant_index = 0;  // -1 = none
     std::int64_t port = 7400;            // the domain's base port
-    std::vector<std::string> peers;      // addresses, asked by unicast
+    std::vector<std::string> peers;      // addresses, contacted by unicast
     std::vector<std::string> partitions = {"match/*"};
-    std::int64_t director_id = 0;  // 0 = drawn at start
-    std::int64_t strength = 100;   // ownership strength: the highest live director is heard
+    std::int64_t director_id = 0;  // 0 = chosen at random at start
+    std::int64_t strength = 100;   // ownership strength: observers receive from the strongest live director
     std::int64_t lease_ms = 200;   // after which a hung director is replaced by its standby
-    std::string xml;               // Cyclone configuration used instead of the keys about the network
+    std::string xml;               // Cyclone configuration that replaces the keys of the network
 };
 
 struct Http {
     bool enabled = true;
     std::string address = "127.0.0.1";
-    std::int64_t port = 9464;  // 0 = any free one, told in the log
+    std::int64_t port = 9464;  // 0 = any free one, which the log names
 };
 
 struct Map {
@@ -42,7 +42,7 @@ struct Map {
     std::string sampling = "adaptive";
     double loss = 16.0;
     std::int64_t triangles = 0;
-    // scene::ReadOptions
+    // Of scene::ReadOptions, by the same names.
     double metres_per_unit = 0.0;
     std::string up;
     std::string origin;
@@ -55,7 +55,7 @@ struct Map {
 struct Matches {
     std::string default_profile = "default";
     std::int64_t silence_frames = 30;  // a match without poses for silence_frames / rate_hz is silent
-    double forget_s = 300.0;           // a match whose server is lost is over after
+    double forget_s = 300.0;           // a match whose server disappeared ends after this
     double automatic_hold_s = 5.0;
     double automatic_lead = 1.0;
     double automatic_half_life_s = 10.0;
@@ -66,7 +66,7 @@ struct Limits {
     std::int64_t players = 256;    // a match
     std::int64_t observers = 256;  // a match
     std::int64_t shots = 256;      // a match
-    std::int64_t workers = 0;      // threads; 0 = one a core
+    std::int64_t workers = 0;      // threads; 0 = one per core
 };
 
 struct Log {
@@ -78,17 +78,17 @@ struct Config {
     Dds dds;
     Http http;
     std::vector<Map> maps;                            // names are distinct
-    std::map<std::string, camera::Profile> profiles;  // "default" is always there
+    std::map<std::string, camera::Profile> profiles;  // always has "default"
     Matches matches;
     Limits limits;
     Log log;
 };
 
 // Reads and validates a file. Relative paths in it are taken from its folder. The error names every problem,
-// one a line: JSON pointer, value, what was expected.
+// one per line: JSON pointer, value, expectation.
 [[nodiscard]] Result<Config> load(const std::filesystem::path& file);
 
-// The same from text. `name` stands for the file in errors; `folder` is what relative paths start from.
+// The same from text. `name` is the file's name in errors; relative paths are resolved from `folder`.
 [[nodiscard]] Result<Config> parse(const std::string& text, const std::string& name,
                                    const std::filesystem::path& folder);
 
@@ -96,7 +96,7 @@ struct Config {
 [[nodiscard]] Result<camera::Profile> override_profile(const camera::Profile& base,
                                                        const std::string& overrides);
 
-// JSON pointers of the keys that differ and take effect only after a restart.
+// JSON pointers of the keys that differ and need a restart to take effect.
 [[nodiscard]] std::vector<std::string> changes_for_restart(const Config& running, const Config& loaded);
 
 // JSON Schema (2020-12) of the file.

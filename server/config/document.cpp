@@ -1,4 +1,4 @@
-// The schema and the reference page, from the table of keys.
+// The schema and the reference page, generated from the table of keys.
 #include <charconv>
 
 #include "config/keys.hpp"
@@ -19,11 +19,11 @@ ordered key_schema(const Key& key) {
         schema["type"] = type;
         schema["minimum"] = key.minimum;
         schema["maximum"] = key.maximum;
-    } else if (type == "text") {
+    } else if (type == "string") {
         schema["type"] = "string";
         if (key.minimum > 0) schema["minLength"] = static_cast<std::int64_t>(key.minimum);
         if (!key.choices.empty()) schema["enum"] = key.choices;
-    } else if (type == "list of texts") {
+    } else if (type == "list of strings") {
         schema["type"] = "array";
         schema["items"] = {{"type", "string"}, {"minLength", 1}};
         schema["minItems"] = static_cast<std::int64_t>(key.minimum);
@@ -77,7 +77,7 @@ std::string range_cell(const Key& key) {
     const auto text = [&](double value) {
         return whole ? std::to_string(static_cast<std::int64_t>(value)) : end(value);
     };
-    const std::string of = type == "text" ? " bytes" : type == "list of texts" ? " texts" : "";
+    const std::string of = type == "string" ? " bytes" : type == "list of strings" ? " strings" : "";
     return text(key.minimum) + " .. " + text(key.maximum) + of;
 }
 

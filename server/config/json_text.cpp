@@ -10,7 +10,7 @@ using nlohmann::json;
 
 constexpr int deepest = 16;
 
-// Sees the parser's events and remembers the first thing that is wrong.
+// Receives the parser's events and keeps the first error.
 class Checker {
   public:
     bool operator()(int depth, json::parse_event_t event, const json& parsed) {
@@ -23,24 +23,24 @@ class Checker {
                 break;
             case json::parse_event_t::key:
                 if (!keys_.back().insert(parsed.get<std::string>()).second)
-                    note("the key " + parsed.dump() + " is there twice in one object");
+                    note("duplicate key " + parsed.dump());
                 break;
             default:
                 break;
         }
         if (depth > deepest) note("nested deeper than " + std::to_string(deepest) + " levels");
-        return depth <= deepest;  // what is deeper is not kept
+        return depth <= deepest;  // deeper values are discarded
     }
 
-    [[nodiscard]] const std::string& problem() const { return problem_; }
+    [[nodiscard]] const std::string& error() const { return error_; }
 
   private:
-    void note(std::string problem) {
-        if (problem_.empty()) problem_ = std::move(problem);
+    void note(std::string error) {
+        if (error_.empty()) error_ = std::move(error);
     }
 
     std::vector<std::set<std::string>> keys_;
-    std::string problem_;
+    std::string error_;
 };
 
 // nlohmann::json's messages begin with "[json.exception.parse_error.101] parse error ".
@@ -59,8 +59,12 @@ Result<json> parse_json(const std::string& text) {
     } catch (const json::exception& error) {
         return fail(without_prefix(error.what()));
     }
-    if (!checker.problem().empty()) return fail(checker.problem());
+    if (!checker.error().empty()) return fail(checker.error());
     return parsed;
+}
+
+std::string format_json(const nlohmann::ordered_json& value) {
+    return value.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace camdir::config

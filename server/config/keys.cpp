@@ -10,9 +10,9 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double largest_id = 9007199254740991.0;  // what every JSON reader keeps exactly
+constexpr double largest_id = 9007199254740991.0;  // every JSON reader keeps it exactly
 
-// The double that is written as shortly as the float: 0.1F becomes 0.1.
+// The double whose shortest decimal form is the float's: 0.1F becomes 0.1.
 double shortest(float value) {
     std::array<char, 32> text{};
     const auto end = std::to_chars(text.data(), text.data() + text.size(), value);
@@ -42,34 +42,34 @@ void add_dds(std::vector<Key>& table) {
     table.push_back({section, "interface", slot(&Dds::interface),
                      "Network interface, by name or address; empty: Cyclone DDS chooses.", "", 0, 255});
     table.push_back({section, "multicast", slot(&Dds::multicast),
-                     "Whether the network carries multicast; without it only `peers` and those who know this "
+                     "Uses multicast for discovery; without it only `peers` and processes that know this "
                      "director's address are found."});
     table.push_back(
         {section, "participant_index", slot(&Dds::participant_index),
          "Fixes the ports, so that others can name this director as their peer. Each process of a host "
-         "and domain needs its own; -1: any that are free.",
+         "and domain needs its own index; -1: any free ports.",
          "", -1, 119});
     table.push_back({section, "port", slot(&Dds::port), "Base port of the domain's ports.", "", 1024, 60000});
     table.push_back(
         {section, "peers", slot(&Dds::peers),
-         "Addresses (`host` or `host:port`) asked by unicast, for example those of other directors.", "", 0,
-         64});
+         "Addresses (`host` or `host:port`) that are contacted by unicast, for example other directors.", "",
+         0, 64});
     table.push_back({section, "partitions", slot(&Dds::partitions),
-                     "Patterns of the partitions in which matches are looked for.", "", 1, 64});
+                     "Patterns of the partitions in which matches are discovered.", "", 1, 64});
     table.push_back({section, "director_id", slot(&Dds::director_id),
-                     "Told in every camera frame; 0: drawn at start.", "", 0, largest_id});
+                     "Sent with every camera frame; 0: chosen at random at start.", "", 0, largest_id});
     table.push_back(
         {section, "strength", slot(&Dds::strength),
-         "Ownership strength: of several directors of one match, observers hear the strongest that is "
-         "alive. Give a standby less than its leader.",
+         "Ownership strength: when several directors serve a match, observers receive from the strongest "
+         "one that is alive. Give a standby a lower strength than its leader.",
          "", 0, 2147483647});
     table.push_back({section, "lease_ms", slot(&Dds::lease_ms),
-                     "A director that hangs or dies is replaced by its standby after this.", "ms", 20,
-                     60000});
+                     "Time after which a director that hangs or has died is replaced by its standby.", "ms",
+                     20, 60000});
     table.push_back(
         {section, "xml", slot(&Dds::xml),
-         "Cyclone DDS configuration (XML) in place of what interface, multicast, participant_index, port "
-         "and peers say; for security and tuning.",
+         "Cyclone DDS configuration (XML) that replaces interface, multicast, participant_index, port and "
+         "peers; for security and tuning.",
          "", 0, 65536});
 }
 
@@ -80,7 +80,7 @@ void add_http(std::vector<Key>& table) {
         {section, "enabled", slot(&Http::enabled), "Serves /healthz, /readyz, /metrics, /status."});
     table.push_back({section, "address", slot(&Http::address), "Address to listen on.", "", 1, 255});
     table.push_back(
-        {section, "port", slot(&Http::port), "Port; 0: any free one, told in the log.", "", 0, 65535});
+        {section, "port", slot(&Http::port), "Port; 0: any free one, which the log names.", "", 0, 65535});
 }
 
 void add_maps(std::vector<Key>& table) {
@@ -88,7 +88,7 @@ void add_maps(std::vector<Key>& table) {
     table.push_back({section,
                      "name",
                      in_map(&Map::name),
-                     "The name that game servers give in MatchInfo.",
+                     "The name that game servers send in MatchInfo.",
                      "",
                      1,
                      255,
@@ -109,9 +109,10 @@ void add_maps(std::vector<Key>& table) {
         {section,
          "source",
          in_map(&Map::source),
-         "The map, or `archive.pk3:maps/name.bsp`: a BSP, a mesh or a point cloud. When given, `file` is "
-         "baked from it at start, or by `bake --config`, if it is missing, damaged, or made from other bytes "
-         "or with other keys.",
+         "The map's file, or `archive.pk3:maps/name.bsp`: a BSP, a mesh or a point cloud. When given, `file` "
+         "is baked from it at start, or by `bake --config`, if it is missing, damaged, or was baked from "
+         "other "
+         "bytes or with other parameters.",
          "",
          0,
          4095,
@@ -121,8 +122,8 @@ void add_maps(std::vector<Key>& table) {
     table.push_back({section,
                      "d0",
                      in_map(&Map::d0),
-                     "Sampling distance of that bake, from 2 up: openings narrower than about one and a half "
-                     "times this are closed. 0: 16, and for a point cloud the points' spacing.",
+                     "Sampling distance of the bake, at least 2: openings narrower than about one and a half "
+                     "times this are closed. 0: 16, or the points' spacing for a point cloud.",
                      "0.0254 m",
                      0,
                      256,
@@ -162,8 +163,8 @@ void add_maps(std::vector<Key>& table) {
     table.push_back({section,
                      "seeds",
                      in_map(&Map::seeds),
-                     "Points `x,y,z` in the free space, in map units with z up, beside the source's spawn "
-                     "points. Without either the largest connected part is baked.",
+                     "Points `x,y,z` in the free space, in map units with z up, in addition to the source's "
+                     "spawn points. Without seeds and spawn points the largest connected part is baked.",
                      "",
                      0,
                      256,
@@ -173,7 +174,7 @@ void add_maps(std::vector<Key>& table) {
     table.push_back({section,
                      "sampling",
                      in_map(&Map::sampling),
-                     "Samples of that bake: `adaptive`, sparse where the free space is wide, or `uniform`.",
+                     "Sampling of the bake: `adaptive`, sparse where the free space is wide, or `uniform`.",
                      "",
                      0,
                      255,
@@ -184,8 +185,8 @@ void add_maps(std::vector<Key>& table) {
         {section,
          "loss",
          in_map(&Map::loss),
-         "Mesh reduction of that bake: free distance that the centre of a ball may lose, in percent of "
-         "the mean over the map, at most 3/2 d0; 0 keeps the whole mesh.",
+         "Mesh reduction of the bake: free distance that the centre of a ball may lose, in percent of "
+         "the mean over the map, at most 3/2 d0; 0: no reduction.",
          "%",
          0,
          100,
@@ -195,24 +196,23 @@ void add_maps(std::vector<Key>& table) {
     table.push_back({section,
                      "triangles",
                      in_map(&Map::triangles),
-                     "The reduction ends at this many triangles; 0: only the loss ends it.",
+                     "The reduction ends at this many triangles; 0: at the allowed loss.",
                      "",
                      0,
                      1e9,
                      {},
                      false,
                      true});
-    table.push_back(
-        {section,
-         "strict",
-         in_map(&Map::strict),
-         "Refuses matches whose map file differs from the one that was baked, instead of warning.",
-         "",
-         0,
-         0,
-         {},
-         false,
-         true});
+    table.push_back({section,
+                     "strict",
+                     in_map(&Map::strict),
+                     "Refuses matches whose map file differs from the baked one, instead of a warning.",
+                     "",
+                     0,
+                     0,
+                     {},
+                     false,
+                     true});
 }
 
 void add_profiles(std::vector<Key>& table) {
@@ -235,59 +235,58 @@ void add_matches(std::vector<Key>& table) {
     table.push_back({section,
                      "default_profile",
                      slot(&Matches::default_profile),
-                     "The profile of requests that name none.",
+                     "The profile of requests that do not name one.",
                      "",
                      1,
                      31,
                      {},
                      false,
                      true});
-    table.push_back({section,
-                     "silence_frames",
-                     slot(&Matches::silence_frames),
-                     "A match without poses for this many frames of its rate is silent: its cameras hold.",
-                     "frames",
-                     1,
-                     100000,
-                     {},
-                     false,
-                     true});
     table.push_back(
         {section,
-         "forget_s",
-         slot(&Matches::forget_s),
-         "A match whose game server is gone without a word is over after this long without poses.",
-         "s",
-         0,
-         86400,
+         "silence_frames",
+         slot(&Matches::silence_frames),
+         "A match without poses for this many frames of its rate is silent: its cameras stand still.",
+         "frames",
+         1,
+         100000,
          {},
          false,
          true});
     table.push_back({section,
+                     "forget_s",
+                     slot(&Matches::forget_s),
+                     "A match whose game server disappeared ends after this time without poses.",
+                     "s",
+                     0,
+                     86400,
+                     {},
+                     false,
+                     true});
+    table.push_back({section,
                      "automatic_hold_s",
                      slot(&Matches::automatic_hold_s),
-                     "An automatic target is kept at least this long while he lives.",
+                     "An automatic target is kept at least this long while the player is alive.",
                      "s",
                      0,
                      600,
                      {},
                      false,
                      true});
-    table.push_back(
-        {section,
-         "automatic_lead",
-         slot(&Matches::automatic_lead),
-         "How much more must have happened around another player before the automatic target changes.",
-         "kills",
-         0,
-         100,
-         {},
-         false,
-         true});
+    table.push_back({section,
+                     "automatic_lead",
+                     slot(&Matches::automatic_lead),
+                     "Lead in recent events that another player needs before the automatic target changes.",
+                     "kills",
+                     0,
+                     100,
+                     {},
+                     false,
+                     true});
     table.push_back({section,
                      "automatic_half_life_s",
                      slot(&Matches::automatic_half_life_s),
-                     "After this an event counts half for the automatic target.",
+                     "Time after which an event counts half in the choice of the automatic target.",
                      "s",
                      0.1,
                      600,
@@ -304,8 +303,8 @@ void add_limits(std::vector<Key>& table) {
         {section, "players", slot(&Limits::players), "Players of a match that are tracked.", "", 1, 256});
     table.push_back({section, "observers", slot(&Limits::observers), "Observers of a match.", "", 1, 65536});
     table.push_back({section, "shots", slot(&Limits::shots), "Cameras of a match.", "", 1, 256});
-    table.push_back({section, "workers", slot(&Limits::workers), "Threads that move cameras; 0: one a core.",
-                     "", 0, 1024});
+    table.push_back({section, "workers", slot(&Limits::workers),
+                     "Threads that compute cameras; 0: one per core.", "", 0, 1024});
 }
 
 void add_log(std::vector<Key>& table) {
@@ -324,7 +323,7 @@ void add_log(std::vector<Key>& table) {
     table.push_back({section,
                      "format",
                      slot(&Log::format),
-                     "Text for people, or a JSON object a line.",
+                     "Plain text, or one JSON object per line.",
                      "",
                      0,
                      16,
@@ -335,7 +334,7 @@ bool in_range(const Key& key, double value) {
     return value >= key.minimum && value <= key.maximum;
 }
 
-bool holds_text(const Key& key, const json& value) {
+bool holds_string(const Key& key, const json& value) {
     if (!value.is_string()) return false;
     const auto& text = value.get_ref<const std::string&>();
     if (text.find('\0') != std::string::npos) return false;
@@ -352,11 +351,12 @@ bool fits(const Key& key, const json& value) {
     } else if constexpr (std::is_floating_point_v<T>) {
         return value.is_number() && in_range(key, value.get<double>());
     } else if constexpr (std::is_same_v<T, std::string>) {
-        return holds_text(key, value) && in_range(key, static_cast<double>(value.get_ref<const T&>().size()));
+        return holds_string(key, value) &&
+               in_range(key, static_cast<double>(value.get_ref<const T&>().size()));
     } else {
         return value.is_array() && in_range(key, static_cast<double>(value.size())) &&
                std::all_of(value.begin(), value.end(), [&](const json& entry) {
-                   return holds_text(key, entry) && !entry.get_ref<const std::string&>().empty();
+                   return holds_string(key, entry) && !entry.get_ref<const std::string&>().empty();
                });
     }
 }
@@ -377,12 +377,12 @@ const std::vector<Section>& sections() {
     static const std::vector<Section> list = {
         {"/dds", "The network. Takes effect at a restart."},
         {"/http", "Health, readiness, metrics and status. Takes effect at a restart."},
-        {"/maps", "A list: the maps that are served. Reloaded by SIGHUP."},
+        {"/maps", "The list of maps that are served. Reloaded by SIGHUP."},
         {"/profiles",
-         "By name: how a shot looks; observers ask for a profile by its name and may override its keys. "
+         "Camera profiles by name; observers request a profile by its name and may override its keys. "
          "`default` always exists. Units are 0.0254 m on every map. Reloaded by SIGHUP."},
-        {"/matches", "Life of matches, and the choice of automatic targets. Reloaded by SIGHUP."},
-        {"/limits", "What is more than this is refused. Takes effect at a restart."},
+        {"/matches", "Lifetime of matches, and the choice of automatic targets. Reloaded by SIGHUP."},
+        {"/limits", "Whatever exceeds a limit is refused. Takes effect at a restart."},
         {"/log", "Written to standard error. `level` is reloaded by SIGHUP."}};
     return list;
 }
@@ -434,7 +434,8 @@ bool assign(const Key& key, const json& value, const Target& target) {
 }
 
 std::string type_name(const Key& key) {
-    static constexpr std::array names = {"boolean", "integer", "number", "number", "text", "list of texts"};
+    static constexpr std::array names = {"boolean", "integer", "number",
+                                         "number",  "string",  "list of strings"};
     return names[key.slot.index()];
 }
 
@@ -447,8 +448,8 @@ std::string expected(const Key& key) {
             list += " \"" + choice + '"';
         return list;
     }
-    if (type == "text") return "a text of " + range(key) + " bytes";
-    if (type == "list of texts") return "a list of " + range(key) + " texts that are not empty";
+    if (type == "string") return "a string of " + range(key) + " bytes";
+    if (type == "list of strings") return "a list of " + range(key) + " non-empty strings";
     return (type == "integer" ? "an integer from " : "a number from ") + range(key);
 }
 

@@ -12,7 +12,7 @@
 
 namespace camdir::config {
 
-// What a key's value is written into: the file's section, the entry of a list, or the profile.
+// Where a key's value is stored: the configuration, a map of its list, or a profile.
 struct Target {
     Config* config = nullptr;
     Map* map = nullptr;
@@ -30,15 +30,15 @@ struct Key {
         slot;
     std::string help;
     std::string unit = {};
-    // Of a number its value, of a text its bytes, of a list its entries.
+    // Range of a number's value, of a string's size in bytes, of a list's number of entries.
     double minimum = std::numeric_limits<double>::lowest();
     double maximum = std::numeric_limits<double>::max();
-    std::vector<std::string> choices = {};  // of a text
+    std::vector<std::string> choices = {};  // of a string; empty: any
     bool required = false;
     bool reloads = false;  // takes effect on SIGHUP
 };
 
-// In the order of the documentation, a section's keys together.
+// In the order of the documentation, grouped by section.
 [[nodiscard]] const std::vector<Key>& keys();
 
 struct Section {
@@ -50,16 +50,16 @@ struct Section {
 // The value in `target` as JSON.
 [[nodiscard]] nlohmann::json value_of(const Key& key, const Target& target);
 
-// The value that a key has when it is left out.
+// The value of a key that is not given.
 [[nodiscard]] nlohmann::json default_of(const Key& key);
 
-// Writes a JSON value into the target. False: not of the key's type or range, nothing is written.
+// Stores a JSON value in the target. False when it is not of the key's type or range; nothing is stored then.
 [[nodiscard]] bool assign(const Key& key, const nlohmann::json& value, const Target& target);
 
 // "an integer from 0 to 230"
 [[nodiscard]] std::string expected(const Key& key);
 
-// "boolean", "integer", "number", "text", "list of texts"
+// "boolean", "integer", "number", "string", "list of strings"
 [[nodiscard]] std::string type_name(const Key& key);
 
 }  // namespace camdir::config

@@ -6,7 +6,7 @@
 namespace camdir::config {
 namespace {
 
-constexpr std::size_t longest_word = 64;
+constexpr std::size_t max_word = 64;
 
 std::size_t edit_distance(const std::string& a, const std::string& b) {
     std::vector<std::size_t> row(b.size() + 1);
@@ -26,7 +26,7 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 }  // namespace
 
 std::string nearest_spelling(const std::string& word, const std::vector<std::string>& candidates) {
-    if (word.size() > longest_word) return {};
+    if (word.size() > max_word) return {};
     std::string nearest;
     std::size_t least = std::max<std::size_t>(2, word.size() / 3) + 1;
     for (const std::string& candidate : candidates) {

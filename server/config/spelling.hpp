@@ -1,4 +1,4 @@
-// Did you mean?
+// Suggestions for misspelt names.
 #pragma once
 
 #include <string>
@@ -6,8 +6,7 @@
 
 namespace camdir::config {
 
-// The candidate that is fewest insertions, deletions and replacements away from `word`; empty when none is
-// near.
+// The candidate with the smallest edit distance to `word`; empty when none is close.
 [[nodiscard]] std::string nearest_spelling(const std::string& word,
                                            const std::vector<std::string>& candidates);
 

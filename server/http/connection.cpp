@@ -11,8 +11,8 @@ bool Connection::ready(short event) const {
     for (;;) {
         const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline_ - Clock::now()).count();
         if (left <= 0) return false;
-        pollfd wanted{socket_, event, 0};
-        const int count = ::poll(&wanted, 1, static_cast<int>(left));
+        pollfd polled{socket_, event, 0};
+        const int count = ::poll(&polled, 1, static_cast<int>(left));
         if (count >= 0 || errno != EINTR) return count > 0;
     }
 }

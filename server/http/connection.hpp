@@ -1,4 +1,4 @@
-// One connection's bytes, bounded in time and in number.
+// A connection with limits on time and bytes.
 #pragma once
 
 #include <httplib.h>
@@ -8,8 +8,9 @@
 
 namespace camdir::http {
 
-// httplib's stream over a socket, for one request and its answer: what comes after `deadline`, and what is
-// read beyond a few kilobytes, fails. httplib's own waits anew for every byte, and reads lines of any length.
+// httplib's stream over a socket, for one request and its answer: reads and writes fail after `deadline`, and
+// reads fail beyond a few kilobytes. httplib's own stream restarts its timeout at every byte and reads lines
+// of any length.
 class Connection final : public httplib::Stream {
   public:
     using Clock = std::chrono::steady_clock;
@@ -31,7 +32,7 @@ class Connection final : public httplib::Stream {
 
     socket_t socket_;
     Clock::time_point deadline_;
-    std::size_t readable_ = 16 * 1024;  // bytes: room for all headers that a browser sends
+    std::size_t readable_ = 16 * 1024;  // bytes left to read; enough for a browser's headers
 };
 
 }  // namespace camdir::http

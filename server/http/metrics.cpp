@@ -58,7 +58,7 @@ MetricFamily drops(const Statistics& statistics) {
         {Counter::drop_players, "players"},
         {Counter::drop_events, "events"},
         {Counter::drop_control, "control"}};
-    MetricFamily result = counter_family("dropped_total", "What came in and was dropped, by reason.");
+    MetricFamily result = counter_family("dropped_total", "Input that was dropped, by reason.");
     for (const auto& [reason, label] : reasons)
         add_metric(result, static_cast<double>(statistics[reason]), {{"reason", label}});
     return result;
@@ -84,34 +84,33 @@ void add_metric(MetricFamily& family, double value, std::vector<prometheus::Clie
 }
 
 std::vector<MetricFamily> director_metrics(const Statistics& s) {
-    return {counter("match_infos_total", "MatchInfo samples.", s[Counter::match_infos]),
+    return {counter("match_infos_total", "MatchInfo samples received.", s[Counter::match_infos]),
             counter("pose_frames_total", "Pose frames of running matches.", s[Counter::pose_frames]),
             counter("events_total", "Match events.", s[Counter::events]),
             counter("requests_total", "Observer requests, new or changed.", s[Counter::requests]),
             counter("camera_frames_total", "Camera frames published.", s[Counter::camera_frames]),
             counter("cameras_total", "Cameras in them.", s[Counter::cameras]),
-            counter("cuts_total", "Cameras that jumped, declared.", s[Counter::cuts]),
-            counter("searches_total", "Times that a camera began to search for its player.",
-                    s[Counter::searches]),
-            counter("silences_total", "Times that a match fell silent.", s[Counter::silences]),
+            counter("cuts_total", "Declared jumps of cameras.", s[Counter::cuts]),
+            counter("searches_total", "Searches of a camera for its lost player.", s[Counter::searches]),
+            counter("silences_total", "Matches that became silent.", s[Counter::silences]),
             counter("refused_matches_total", "Matches above the limit.", s[Counter::refused_matches]),
             counter("refused_requests_total", "Requests refused.", s[Counter::refused_requests]),
-            counter("map_hash_mismatches_total", "Matches whose map file is not the one that was baked.",
+            counter("map_hash_mismatches_total", "Matches whose map file differs from the baked one.",
                     s[Counter::map_hash_mismatches]),
             drops(s),
             gauge("matches", "Matches that have a game server.", s.matches),
-            gauge("silent_matches", "Those of them that are silent.", s.silent_matches),
+            gauge("silent_matches", "Matches that are silent.", s.silent_matches),
             gauge("observers", "Observers.", s.observers),
             gauge("shots", "Shots, each with a camera.", s.shots),
-            histogram("step_seconds", "Time of one shot's tracker step.", s.step),
-            histogram("latency_seconds", "From the receiving of a pose frame to its cameras' leaving.",
+            histogram("step_seconds", "Duration of one tracker step of one shot.", s.step),
+            histogram("latency_seconds", "Time from receiving a pose frame to publishing its cameras.",
                       s.latency)};
 }
 
 std::vector<MetricFamily> map_metrics(const std::map<std::string, director::MapEntry>& maps) {
-    MetricFamily loaded = gauge_family("map_loaded", "1: the map can be used.");
+    MetricFamily loaded = gauge_family("map_loaded", "1 when the map can be used.");
     MetricFamily bake =
-        gauge_family("map_bake_seconds", "Duration of the map's bake by this process; 0: none.");
+        gauge_family("map_bake_seconds", "Duration of the map's bake by this process, 0 without one.");
     for (const auto& [name, entry] : maps) {
         add_metric(loaded, entry.freespace ? 1.0 : 0.0, {{"map", name}});
         add_metric(bake, entry.bake_seconds, {{"map", name}});

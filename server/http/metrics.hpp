@@ -1,4 +1,4 @@
-// The director's numbers as Prometheus metrics.
+// The director's statistics as Prometheus metrics.
 #pragma once
 
 #include <prometheus/metric_family.h>
@@ -12,7 +12,7 @@
 
 namespace camdir::http {
 
-// A family without metrics; `name` without the project's prefix.
+// A family without metrics. `name` is given without the prefix camera_director_.
 [[nodiscard]] prometheus::MetricFamily counter_family(const std::string& name, const std::string& help);
 [[nodiscard]] prometheus::MetricFamily gauge_family(const std::string& name, const std::string& help);
 

@@ -18,32 +18,32 @@ namespace camdir::http {
 namespace {
 
 constexpr std::size_t threads = 4;
-constexpr std::ptrdiff_t most_connections = 16;   // served or waiting for a thread
-constexpr std::chrono::seconds patience{3};       // for a request and its answer
-constexpr std::chrono::seconds idle_patience{5};  // for the next request of a connection
+constexpr std::ptrdiff_t max_connections = 16;      // served or waiting for a thread
+constexpr std::chrono::seconds request_timeout{3};  // with its answer
+constexpr std::chrono::seconds idle_timeout{5};     // until the next request of a connection
 constexpr std::chrono::milliseconds stop_period{100};
-constexpr int most_requests_a_connection = 100;
+constexpr int max_requests_per_connection = 100;
 
-// httplib's own pool queues without bound; this one lets the accepting thread wait.
+// httplib's own pool has an unbounded queue; this one makes the accepting thread wait.
 class BoundedPool final : public httplib::TaskQueue {
   public:
     void enqueue(std::function<void()> serve) override {
         std::unique_lock lock(mutex_);
-        free_again_.wait(lock, [this] { return connections_ < most_connections; });
+        slot_free_.wait(lock, [this] { return connections_ < max_connections; });
         ++connections_;
         lock.unlock();
         pool_.enqueue([this, serve = std::move(serve)] {
             serve();
             const std::lock_guard done(mutex_);
             --connections_;
-            free_again_.notify_one();
+            slot_free_.notify_one();
         });
     }
     void shutdown() override { pool_.shutdown(); }
 
   private:
     std::mutex mutex_;
-    std::condition_variable free_again_;
+    std::condition_variable slot_free_;
     std::ptrdiff_t connections_ = 0;
     httplib::ThreadPool pool_{threads};
 };
@@ -52,8 +52,8 @@ class BoundedPool final : public httplib::TaskQueue {
 class BoundedServer final : public httplib::Server {
   private:
     bool process_and_close_socket(socket_t socket) override {
-        for (int left = most_requests_a_connection; left > 0 && next_request(socket); --left) {
-            Connection connection(socket, Connection::Clock::now() + patience);
+        for (int left = max_requests_per_connection; left > 0 && next_request(socket); --left) {
+            Connection connection(socket, Connection::Clock::now() + request_timeout);
             bool closed = false;
             if (!process_request(connection, left == 1, closed, nullptr) || closed) break;
         }
@@ -61,9 +61,9 @@ class BoundedServer final : public httplib::Server {
         return ::close(socket) == 0;
     }
 
-    // Waits for its first byte; false when none comes or the server stops.
+    // Waits for the first byte of a request; false when none comes or the server stops.
     [[nodiscard]] bool next_request(socket_t socket) const {
-        const auto end = Connection::Clock::now() + idle_patience;
+        const auto end = Connection::Clock::now() + idle_timeout;
         while (svr_sock_ != INVALID_SOCKET && Connection::Clock::now() < end) {
             pollfd readable{socket, POLLIN, 0};
             const int count = ::poll(&readable, 1, static_cast<int>(stop_period.count()));
@@ -82,7 +82,7 @@ void show_health(const Sources& sources, httplib::Response& response) {
     if (sources.healthy())
         answer_text(response, 200, "ok\n");
     else
-        answer_text(response, 503, "a worker does not answer\n");
+        answer_text(response, 503, "a worker does not respond\n");
 }
 
 void show_readiness(const Sources& sources, httplib::Response& response) {
@@ -105,7 +105,7 @@ struct Server::Listener {
     explicit Listener(Sources shown) : sources(std::move(shown)) {
         server.new_task_queue = [] { return new BoundedPool; };  // httplib deletes it
         server.set_payload_max_length(0);
-        // httplib's default shares a taken port instead of refusing it.
+        // httplib's default shares a port that is in use instead of failing.
         server.set_socket_options([](socket_t socket) {
             const int on = 1;
             ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);

@@ -1,4 +1,4 @@
-// The operator's window: GET /healthz, /readyz, /metrics, /status.
+// The operator's pages: GET /healthz, /readyz, /metrics, /status.
 #pragma once
 
 #include <prometheus/metric_family.h>
@@ -17,14 +17,14 @@ namespace camdir::http {
 // What the pages show. Called from the server's threads.
 struct Sources {
     std::function<bool()> healthy;                      // false: a restart would help
-    std::function<std::vector<std::string>()> missing;  // what readiness waits for; empty = ready
+    std::function<std::vector<std::string>()> missing;  // what readiness still waits for; empty: ready
     std::function<std::vector<prometheus::MetricFamily>()> metrics;
     std::function<std::string()> status;  // JSON
 };
 
-// Serves from the constructor's end to the destructor with a fixed number of threads; connections beyond a
-// few wait in the kernel. Requests that carry a body, are larger than 16 KB or take longer than 3 s, their
-// answer included, are cut off.
+// Serves until it is destroyed, with a fixed number of threads; more than a few connections wait in the
+// kernel. Requests that have a body, are larger than 16 KB or take longer than 3 s including the answer are
+// cut off.
 class Server {
   public:
     // Fails when the address cannot be listened on.

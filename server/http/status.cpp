@@ -2,12 +2,14 @@
 
 #include <nlohmann/json.hpp>
 
+#include "config/json_text.hpp"
+
 namespace camdir::http {
 namespace {
 
 using json = nlohmann::ordered_json;
 
-json shown(const director::ShotView& shot) {
+json page_of(const director::ShotView& shot) {
     json page = {{"camera_id", shot.camera_id},
                  {"automatic", shot.automatic},
                  {"profile", shot.profile},
@@ -17,7 +19,7 @@ json shown(const director::ShotView& shot) {
     return page;
 }
 
-json shown(const director::ObserverView& observer) {
+json page_of(const director::ObserverView& observer) {
     static constexpr const char* states[] = {"refused", "accepted", "waiting for map", "waiting for player"};
     return {{"observer_id", observer.observer_id},
             {"state", states[static_cast<std::size_t>(observer.state)]},
@@ -25,7 +27,7 @@ json shown(const director::ObserverView& observer) {
             {"reason", observer.reason}};
 }
 
-json shown(const director::MatchView& match) {
+json page_of(const director::MatchView& match) {
     if (!match.answered) return {{"match_id", match.match_id}, {"state", "no answer"}};
     json page = {{"match_id", match.match_id}, {"state", match.state},
                  {"epoch", match.epoch},       {"map", match.map_name},
@@ -33,13 +35,13 @@ json shown(const director::MatchView& match) {
                  {"players", match.players},   {"last_pose_number", match.last_pose_number},
                  {"shots", json::array()},     {"observers", json::array()}};
     for (const auto& shot : match.shots)
-        page["shots"].push_back(shown(shot));
+        page["shots"].push_back(page_of(shot));
     for (const auto& observer : match.observers)
-        page["observers"].push_back(shown(observer));
+        page["observers"].push_back(page_of(observer));
     return page;
 }
 
-json shown(const std::string& name, const director::MapEntry& map) {
+json page_of(const std::string& name, const director::MapEntry& map) {
     static constexpr const char* states[] = {"loading", "ready", "failed"};
     json page = {
         {"name", name}, {"state", states[static_cast<std::size_t>(map.state)]}, {"reason", map.reason}};
@@ -56,10 +58,10 @@ json shown(const std::string& name, const director::MapEntry& map) {
 std::string status_page(const director::View& view, const std::map<std::string, director::MapEntry>& maps) {
     json page = {{"maps", json::array()}, {"matches", json::array()}};
     for (const auto& [name, map] : maps)
-        page["maps"].push_back(shown(name, map));
+        page["maps"].push_back(page_of(name, map));
     for (const auto& match : view.matches)
-        page["matches"].push_back(shown(match));
-    return page.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
+        page["matches"].push_back(page_of(match));
+    return config::format_json(page);
 }
 
 }  // namespace camdir::http

@@ -13,11 +13,11 @@
 namespace camdir::render {
 namespace {
 
-constexpr int samples_per_side = 2;  // of a pixel
-constexpr int shade_rays = 4;        // of a sample; each sample of a pixel has its own directions
+constexpr int samples_per_side = 2;  // per side of a pixel
+constexpr int shade_rays = 4;        // per sample; each sample of a pixel has its own directions
 constexpr int directions = samples_per_side * samples_per_side * shade_rays;
-constexpr int max_layers = 64;              // surfaces seen through one another
-constexpr float invisible = 0.02F;          // share of the light that is not worth a ray
+constexpr int max_layers = 64;              // transparent surfaces along a ray
+constexpr float invisible = 0.02F;          // remaining share of light below which a ray ends
 constexpr float shade_reach_share = 0.04F;  // of the map's diagonal
 constexpr Colour background{1.0F, 1.0F, 1.0F};
 constexpr Colour stone{0.88F, 0.87F, 0.85F};
@@ -65,7 +65,7 @@ class Painter {
         float opacity;
     };
 
-    // Front to back: what is seen of each surface times what is left of the light.
+    // Blends the surfaces along the ray front to back.
     [[nodiscard]] Colour blend_along(const Ray& ray, int sample) const {
         Colour sum;
         float left = 1.0F;
@@ -96,7 +96,7 @@ class Painter {
         }
     }
 
-    // Its edges are darker where the triangles are large enough in the picture to show them.
+    // Draws edges darker where the triangles are large enough in the picture.
     [[nodiscard]] Surface mesh_surface(const Hit& hit, const Ray& ray) const {
         const Colour colour = colour_scale(rays_.free_distance(hit) / layers_.free_distance_maximum);
         const float pixel = footprint(hit);
@@ -119,14 +119,14 @@ class Painter {
         return 0.6F + 0.4F * std::abs(hit.normal.dot(ray.direction.cast<float>()));
     }
 
-    // A plan shows floors above one another: the lower, the darker.
+    // In a plan lower floors are darker.
     [[nodiscard]] float depth_cue(const Ray& ray, const Hit& hit) const {
         if (!view_.parallel) return 1.0F;
         const auto z = static_cast<float>(ray.origin.z() + ray.direction.z() * hit.distance);
         return 0.72F + 0.28F * std::clamp((z - bottom_) / rise_, 0.0F, 1.0F);
     }
 
-    // A light from above and ambient occlusion: the share of short rays around the normal that meet nothing.
+    // Light from above and ambient occlusion: the share of short rays around the normal that hit nothing.
     [[nodiscard]] float shade(const Hit& hit, const Ray& ray, int sample) const {
         const Vec3f along = ray.direction.cast<float>();
         const Vec3f normal = hit.normal.dot(along) > 0.0F ? Vec3f(-hit.normal) : hit.normal;

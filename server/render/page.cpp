@@ -20,7 +20,7 @@ using Surface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy
 constexpr Colour ink{0.10F, 0.11F, 0.13F};
 constexpr Colour paper{1.0F, 1.0F, 1.0F};
 
-// All lengths of a page follow from its size, so that a smaller page is the same page.
+// All lengths scale with the size of the page.
 struct Layout {
     explicit Layout(const PageSize& page)
         : width(page.width),
@@ -50,7 +50,7 @@ class Pen {
         cairo_set_font_size(cairo_.get(), size);
     }
 
-    // Cairo draws nothing more after a text that is no UTF-8.
+    // Invalid UTF-8 would put the cairo context into an error state.
     double text_width(const std::string& text) {
         cairo_text_extents_t extents;
         cairo_text_extents(cairo_.get(), to_utf8(text).c_str(), &extents);
@@ -63,7 +63,7 @@ class Pen {
         cairo_show_text(cairo_.get(), to_utf8(text).c_str());
     }
 
-    // Smaller where the text would be wider than `width`.
+    // In a smaller font when the text would be wider than `width`.
     void fitted_text(double x, double y, const std::string& text, double size, bool bold, double width) {
         font(size, bold);
         const double wide = text_width(text);
@@ -120,7 +120,7 @@ std::string number(double value) {
 void draw_colour_scale(Pen& pen, const Layout& layout, const Legend& legend, double left, double width) {
     const double top = layout.border * 0.5 + layout.font * 1.15;
     const double height = layout.font * 0.8;
-    // Whole pixels, so that no two steps share one.
+    // Whole pixels, so that steps do not blend.
     const int steps = static_cast<int>(width);
     for (int x = 0; x < steps; ++x) {
         pen.colour(colour_scale((static_cast<float>(x) + 0.5F) / static_cast<float>(steps)));
@@ -159,8 +159,8 @@ double round_down(double limit) {
     return power;
 }
 
-// Right in the footer; returns where it starts.
-double draw_length_bar(Pen& pen, const Layout& layout, const Legend& legend) {
+// At the right end of the footer; returns its left end.
+double draw_scale_bar(Pen& pen, const Layout& layout, const Legend& legend) {
     const double right = layout.width - layout.border;
     if (!(legend.units_per_pixel > 0.0)) return right;
     const double length = round_down(legend.units_per_pixel * layout.width * 0.2);
@@ -198,15 +198,15 @@ void draw_mark(Pen& pen, const KeyEntry& entry, double x, double y, double size)
 }
 
 void draw_footer(Pen& pen, const Layout& layout, const Legend& legend) {
-    const double available = draw_length_bar(pen, layout, legend) - 3.0 * layout.border;
+    const double available = draw_scale_bar(pen, layout, legend) - 3.0 * layout.border;
     const double entries = static_cast<double>(legend.key.size());
     pen.font(layout.font, false);
     double texts = 0.0;
     for (const KeyEntry& entry : legend.key)
         texts += pen.text_width(entry.meaning);
     // Of an entry: the mark, a gap, the text, a wider gap.
-    const double wanted = texts + entries * layout.font * 3.6;
-    const double scale = std::min(1.0, available / std::max(wanted, 1.0));
+    const double needed = texts + entries * layout.font * 3.6;
+    const double scale = std::min(1.0, available / std::max(needed, 1.0));
     const double font = layout.font * scale;
     pen.font(font, false);
     double x = layout.border;

@@ -1,4 +1,4 @@
-// A picture as it is published: title and colour scale above it, key and length bar below it.
+// A page with a picture: title and colour scale above it, legend and scale bar below it.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace camdir::render {
 
-// One entry of the key: what a mark of these colours means.
+// One entry of the legend: the meaning of marks with these colours.
 struct KeyEntry {
     enum class Mark { disc, line, thin_line };
     Mark mark;
@@ -28,12 +28,12 @@ struct Legend {
 };
 
 struct PageSize {
-    int width, height;  // pixels, both within smallest_page .. largest_page
+    int width, height;  // pixels, both within min_page .. max_page
 };
-inline constexpr int smallest_page = 200;
-inline constexpr int largest_page = 8192;
+inline constexpr int min_page = 200;
+inline constexpr int max_page = 8192;
 
-// Rows of a page that are left for the picture, which is as wide as the page.
+// Rows of the picture on a page; it is as wide as the page.
 [[nodiscard]] int picture_height(const PageSize& page);
 
 // The smallest of 1, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10 times a power of ten that is not less than value > 0.

@@ -12,7 +12,7 @@
 namespace camdir::render {
 namespace {
 
-// What a ray's filter needs to know.
+// The input of a ray's filter.
 struct Context {
     RTCIntersectContext embree;
     Vec3f seen_along;
@@ -26,8 +26,8 @@ Context context_of(const View& view, const Vec3f& seen_along) {
     return context;
 }
 
-// Refuses what the view leaves out. The geometry's user data is set where backs can be cut away.
-void leave_out(const RTCFilterFunctionNArguments* arguments) {
+// Rejects hits that the view hides. The geometry's user data is set where back faces can be hidden.
+void reject_hidden(const RTCFilterFunctionNArguments* arguments) {
     if (*arguments->valid == 0) return;
     const auto& context = *reinterpret_cast<const Context*>(arguments->context);
     const auto& ray = *reinterpret_cast<const RTCRay*>(arguments->ray);
@@ -102,8 +102,8 @@ RayScene::RayScene(const Layers& layers, const View& view)
 }
 
 void RayScene::add(RTCGeometry geometry, Hit::Kind kind, std::uint32_t layer) {
-    rtcSetGeometryIntersectFilterFunction(geometry, leave_out);
-    rtcSetGeometryOccludedFilterFunction(geometry, leave_out);
+    rtcSetGeometryIntersectFilterFunction(geometry, reject_hidden);
+    rtcSetGeometryOccludedFilterFunction(geometry, reject_hidden);
     if (kind == Hit::map) rtcSetGeometryUserData(geometry, this);
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(all_.get(), geometry);

@@ -1,4 +1,4 @@
-// The layers of a picture as geometry that rays can meet (Embree).
+// The layers of a picture as geometry for ray casting (Embree).
 #pragma once
 
 #include <cstdint>
@@ -29,10 +29,10 @@ class RayScene {
   public:
     RayScene(const Layers& layers, const View& view);
 
-    // The nearest surface farther than `from` along the ray that the view shows.
+    // The nearest surface farther than `from` along the ray that is visible in the view.
     [[nodiscard]] Hit first_hit(const Ray& ray, float from) const;
 
-    // Whether a part of the map that a ray along `seen_along` would show is within `reach`.
+    // Whether a part of the map that is visible along `seen_along` lies within `reach`.
     [[nodiscard]] bool map_blocks(const Vec3f& from, const Vec3f& direction, float reach,
                                   const Vec3f& seen_along) const;
 

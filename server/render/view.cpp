@@ -8,8 +8,8 @@
 namespace camdir::render {
 namespace {
 
-constexpr double margin = 1.04;   // of the picture around the box
-constexpr double farthest = 1e7;  // map units
+constexpr double margin = 1.04;         // size of the picture relative to the box
+constexpr double max_coordinate = 1e7;  // map units
 
 Vec3d direction(double yaw, double pitch) {
     return {std::cos(yaw) * std::cos(pitch), std::sin(yaw) * std::cos(pitch), std::sin(pitch)};
@@ -27,7 +27,7 @@ std::array<Vec3d, 8> corners(const Box3d& box) {
     return result;
 }
 
-// Moves back along the view direction until every corner is inside the picture.
+// The distance along the view direction from which every corner is inside the picture.
 double distance_to_fit(const View& view, const Box3d& box, double aspect) {
     const Vec3d left = view.up.cross(view.forward);
     double distance = 0.0;
@@ -52,7 +52,8 @@ Result<View> viewpoint(const std::string& text) {
         }
     }
     const double distance = std::max({std::abs(numbers[0]), std::abs(numbers[1]), std::abs(numbers[2])});
-    if (distance > farthest) return fail("view '" + text + "': coordinates are within +-10000000 map units");
+    if (distance > max_coordinate)
+        return fail("view '" + text + "': coordinates are within +-10000000 map units");
     if (std::abs(numbers[3]) > 360.0 || std::abs(numbers[4]) > 90.0)
         return fail("view '" + text + "': yaw is within +-360 degrees, pitch within +-90");
     if (!(stream >> std::ws).eof()) return fail("view '" + text + "': text after the fifth number");

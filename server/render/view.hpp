@@ -1,4 +1,4 @@
-// Where a picture is taken from. A camera at `position` that looks along `forward`.
+// The viewpoint of a picture: a camera at `position` that looks along `forward`.
 #pragma once
 
 #include <limits>
@@ -17,9 +17,9 @@ struct View {
     // Half the picture's height: as a tangent for a perspective view, in map units for a parallel one.
     double half_height = 0.5;
     bool parallel = false;
-    // Look through the backs of obstacles: from outside, into the rooms.
+    // Hide the back faces of obstacles, so that rooms are visible from outside.
     bool cut_away = false;
-    // Nothing above this height is drawn, map units.
+    // Everything above this height is hidden, map units.
     double top = std::numeric_limits<double>::infinity();
 };
 
@@ -32,10 +32,10 @@ struct Ray {
 // -1 .. 1 from bottom to top.
 [[nodiscard]] Ray ray_through(const View& view, double x, double y, double aspect);
 
-// Where a point is in the picture, in ray_through's x and y; nothing when it lies behind the camera.
+// The position of a point in the picture, in ray_through's x and y; nothing when it is behind the camera.
 [[nodiscard]] std::optional<Eigen::Vector2d> project(const View& view, const Vec3d& point, double aspect);
 
-// Map units that a pixel at the point shows; the picture has `height` rows.
+// Width of a pixel at the point in map units; the picture has `height` rows.
 [[nodiscard]] double units_per_pixel(const View& view, const Vec3d& point, int height);
 
 // From straight above, north (y) up, with the whole box in the picture.

@@ -32,7 +32,7 @@ TEST(Config, EmptyObjectGivesTheDefaults) {
     EXPECT_TRUE(config.maps.empty());
 }
 
-TEST(Config, ReadsWhatIsThere) {
+TEST(Config, ReadsKeysOfEverySection) {
     const Config config = good(R"({
         "dds": {"domain": 7, "peers": ["a", "b:7411"]},
         "maps": [{"name": "dm1", "file": "dm1.vfs", "source": "/maps/pak.pk3:maps/dm1.bsp",
@@ -49,7 +49,7 @@ TEST(Config, ReadsWhatIsThere) {
     EXPECT_EQ(config.matches.default_profile, "close");
 }
 
-TEST(Config, RelativePathsStartAtTheFilesFolder) {
+TEST(Config, ResolvesRelativePathsFromTheFilesFolder) {
     const Config config = good(R"({"maps": [{"name": "a", "file": "x/a.vfs", "source": "pak.pk3:maps/a.bsp"},
                                             {"name": "b", "file": "/data/b.vfs"}]})");
     EXPECT_EQ(config.maps[0].file, "/etc/director/x/a.vfs");
@@ -67,13 +67,13 @@ TEST(Config, ReportsEveryProblem) {
                                 HasSubstr("test: /mapps: unknown key, did you mean \"maps\"?")));
 }
 
-TEST(Config, SuggestsOnlyWhatIsNear) {
+TEST(Config, SuggestsOnlySimilarKeys) {
     EXPECT_THAT(problem(R"({"http": {"completely_else": 1}})"),
                 AllOf(HasSubstr("/http/completely_else: unknown key"), Not(HasSubstr("did you mean"))));
 }
 
-TEST(Config, RefusesWhatIsThereTwice) {
-    EXPECT_THAT(problem(R"({"http": {"port": 1, "port": 2}})"), HasSubstr("the key \"port\" is there twice"));
+TEST(Config, RefusesDuplicates) {
+    EXPECT_THAT(problem(R"({"http": {"port": 1, "port": 2}})"), HasSubstr("duplicate key \"port\""));
     EXPECT_THAT(problem(R"({"maps": [{"name": "a", "file": "1"}, {"name": "a", "file": "2"}]})"),
                 HasSubstr("/maps/1/name: \"a\": expected a name that no other map has"));
     EXPECT_THAT(problem(R"({"maps": [{"name": "a", "file": "1"}, {"name": "b", "file": "1"}]})"),
@@ -86,19 +86,20 @@ TEST(Config, RefusesToBakeOverASource) {
     for (const char* source : {"a.bsp", "./a.bsp", "a.bsp:maps/a.bsp"})
         EXPECT_THAT(problem(R"({"maps": [{"name": "a", "file": "a.bsp", "source": ")" + std::string(source) +
                             R"("}]})"),
-                    HasSubstr("/maps/0/file: \"a.bsp\": expected a file that is no map's source"));
+                    HasSubstr("/maps/0/file: \"a.bsp\": expected a file that is not a map's source"));
     EXPECT_THAT(problem(R"({"maps": [{"name": "a", "file": "a.vfs", "source": "p.pk3:maps/a.bsp"},
                                      {"name": "b", "file": "p.pk3"}]})"),
-                HasSubstr("/maps/1/file: \"p.pk3\": expected a file that is no map's source"));
+                HasSubstr("/maps/1/file: \"p.pk3\": expected a file that is not a map's source"));
     const auto absolute =
         parse(R"({"maps": [{"name": "a", "file": "/etc/director/a.bsp", "source": "a.bsp"}]})", "test",
               "/etc/director");
     ASSERT_FALSE(absolute);
-    EXPECT_THAT(absolute.error().message, HasSubstr("expected a file that is no map's source"));
+    EXPECT_THAT(absolute.error().message, HasSubstr("expected a file that is not a map's source"));
 }
 
 TEST(Config, RefusesMissingKeys) {
-    EXPECT_THAT(problem(R"({"maps": [{"file": "1"}]})"), HasSubstr("/maps/0/name: missing: expected a text"));
+    EXPECT_THAT(problem(R"({"maps": [{"file": "1"}]})"),
+                HasSubstr("/maps/0/name: missing: expected a string"));
 }
 
 TEST(Config, RefusesWrongShapes) {
@@ -119,12 +120,12 @@ TEST(Config, RefusesBrokenText) {
     EXPECT_NE(problem(R"({"dds": {"domain": 1e999}})"), "no problem");
 }
 
-TEST(Config, RefusesADefaultProfileThatIsNot) {
+TEST(Config, RefusesAnUnknownDefaultProfile) {
     EXPECT_THAT(problem(R"({"matches": {"default_profile": "x"}})"),
                 HasSubstr("/matches/default_profile: \"x\": expected the name of a profile"));
 }
 
-TEST(Config, RefusesProfileNamesThatNoRequestCanName) {
+TEST(Config, RefusesProfileNamesThatDoNotFitIntoARequest) {
     EXPECT_THAT(problem(R"({"profiles": {"": {}}})"),
                 HasSubstr("/profiles/: \"\": expected a name of 1 to 31 bytes"));
     EXPECT_NE(problem("{\"profiles\": {\"" + std::string(32, 'p') + "\": {}}}"), "no problem");
@@ -173,7 +174,7 @@ TEST(Overrides, AreRefusedInOneLine) {
     EXPECT_FALSE(override_profile({}, "{"));
 }
 
-TEST(Changes, OnlyWhatNeedsARestartIsNamed) {
+TEST(Changes, NamesOnlyKeysThatNeedARestart) {
     const Config running = good("{}");
     const Config loaded = good(R"({"http": {"port": 1}, "limits": {"workers": 3}, "log": {"level": "debug"},
                                    "profiles": {"x": {}}, "maps": [{"name": "a", "file": "b"}]})");

@@ -37,5 +37,14 @@ TEST(Reference, HasARowForEveryKey) {
         EXPECT_THAT(page, testing::HasSubstr("| `" + key.name + "` | ")) << key.name;
 }
 
+TEST(Reference, IsInTheServersReadme) {
+    const Bytes readme = read_file(CAMERA_DIRECTOR_SERVER_README).value();
+    const std::string text(reinterpret_cast<const char*>(readme.data()), readme.size());
+    std::string page = reference();
+    page.pop_back();  // the empty line after the last table
+    EXPECT_NE(text.find(page), std::string::npos)
+        << "replace the tables by the output of: camera-director serve --print-reference";
+}
+
 }  // namespace
 }  // namespace camdir::config

@@ -47,7 +47,7 @@ bool is_number(const Key& key) {
     return type_name(key) == "integer" || type_name(key) == "number";
 }
 
-TEST(EveryKey, TakesItsDefault) {
+TEST(EveryKey, AcceptsItsDefault) {
     for (const Key& key : keys()) {
         if (key.required) continue;
         const auto config = parsed(key, default_of(key));
@@ -55,7 +55,7 @@ TEST(EveryKey, TakesItsDefault) {
     }
 }
 
-TEST(EveryKey, TakesItsBoundsAndNothingBeyond) {
+TEST(EveryKey, AcceptsItsBoundsAndNothingBeyond) {
     for (const Key& key : keys()) {
         if (!is_number(key)) continue;
         const bool whole = type_name(key) == "integer";
@@ -79,20 +79,20 @@ TEST(EveryKey, RefusesOtherTypes) {
         expect_refused(key, json());
         expect_refused(key, json::object());
         if (type != "boolean") expect_refused(key, true);
-        if (type != "list of texts") expect_refused(key, json::array());
-        if (type != "text") expect_refused(key, "text");
+        if (type != "list of strings") expect_refused(key, json::array());
+        if (type != "string") expect_refused(key, "string");
         if (!is_number(key)) expect_refused(key, 1);
         if (type == "integer") expect_refused(key, key.minimum + 0.5);
-        if (type == "list of texts") {
+        if (type == "list of strings") {
             expect_refused(key, json::array({1}));
             expect_refused(key, json::array({""}));
         }
     }
 }
 
-TEST(EveryKey, RefusesTextsThatAreNoChoiceOrTooLong) {
+TEST(EveryKey, RefusesStringsThatAreTooLongOrNotAChoice) {
     for (const Key& key : keys()) {
-        if (type_name(key) != "text") continue;
+        if (type_name(key) != "string") continue;
         expect_refused(key, std::string(1, '\0'));
         if (!key.choices.empty()) {
             expect_refused(key, "no such choice");
@@ -105,7 +105,7 @@ TEST(EveryKey, RefusesTextsThatAreNoChoiceOrTooLong) {
     }
 }
 
-TEST(EveryKey, SaysWhatItIsFor) {
+TEST(EveryKey, HasAHelpText) {
     for (const Key& key : keys()) {
         EXPECT_GT(key.help.size(), 10U);
     }

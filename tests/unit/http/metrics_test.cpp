@@ -32,7 +32,7 @@ TEST(Metrics, ShowEveryCounterOnce) {
         EXPECT_EQ(shown.count(static_cast<double>(value)), 1U) << value;
 }
 
-TEST(Metrics, SayWhyThingsAreDropped) {
+TEST(Metrics, LabelDropsWithTheirReason) {
     Statistics statistics;
     statistics.counters[static_cast<std::size_t>(Counter::drop_old_epoch)] = 5;
     const auto families = director_metrics(statistics);

@@ -54,14 +54,14 @@ class ServerTest : public testing::Test {
     std::unique_ptr<Server> server_;
 };
 
-TEST_F(ServerTest, TellsHealth) {
+TEST_F(ServerTest, ReportsHealth) {
     auto http = client();
     EXPECT_EQ(http.Get("/healthz")->status, 200);
     healthy_ = false;
     EXPECT_EQ(http.Get("/healthz")->status, 503);
 }
 
-TEST_F(ServerTest, TellsWhatReadinessWaitsFor) {
+TEST_F(ServerTest, ReportsWhatReadinessWaitsFor) {
     auto http = client();
     EXPECT_EQ(http.Get("/readyz")->status, 200);
     ready_ = false;
@@ -89,7 +89,7 @@ TEST_F(ServerTest, ServesNothingElse) {
     EXPECT_EQ(client().Get("/healthz")->status, 200);
 }
 
-// A connection that says what httplib's client would not.
+// A connection that sends bytes which httplib's client would not send.
 class RawClient {
   public:
     explicit RawClient(std::uint16_t port) : socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
@@ -113,7 +113,7 @@ class RawClient {
     int socket_;
 };
 
-TEST_F(ServerTest, ARequestWithoutEndIsCutOff) {
+TEST_F(ServerTest, CutsOffAnEndlessRequest) {
     const RawClient endless(server_->port());
     const std::string more(1 << 20U, 'x');
     int megabytes = 0;
@@ -122,12 +122,12 @@ TEST_F(ServerTest, ARequestWithoutEndIsCutOff) {
     EXPECT_LT(megabytes, 64);
 }
 
-TEST_F(ServerTest, ClientsThatDribbleDoNotKeepOthersOut) {
+TEST_F(ServerTest, SlowClientsDoNotBlockOthers) {
     std::vector<std::unique_ptr<RawClient>> slow;
     for (int i = 0; i < 5; ++i)
         slow.push_back(std::make_unique<RawClient>(server_->port()));
     std::atomic<bool> answered{false};
-    std::thread dribble([&] {
+    std::thread sender([&] {
         while (!answered) {
             for (const auto& each : slow)
                 (void)each->send("x");
@@ -136,11 +136,11 @@ TEST_F(ServerTest, ClientsThatDribbleDoNotKeepOthersOut) {
     });
     const auto answer = client().Get("/healthz");
     answered = true;
-    dribble.join();
+    sender.join();
     EXPECT_TRUE(answer);
 }
 
-TEST_F(ServerTest, ManyClientsAtOnceAreServed) {
+TEST_F(ServerTest, ServesManyClientsAtOnce) {
     std::vector<std::thread> threads;
     std::atomic<int> good{0};
     for (int i = 0; i < 40; ++i)
@@ -153,7 +153,7 @@ TEST_F(ServerTest, ManyClientsAtOnceAreServed) {
     EXPECT_EQ(good, 40);
 }
 
-TEST_F(ServerTest, ATakenPortIsAnError) {
+TEST_F(ServerTest, FailsOnAPortInUse) {
     config::Http taken;
     taken.port = server_->port();
     const auto second = Server::start(taken, {});
@@ -162,7 +162,7 @@ TEST_F(ServerTest, ATakenPortIsAnError) {
               "http: cannot listen on 127.0.0.1 port " + std::to_string(server_->port()));
 }
 
-TEST(Server, AnAddressThatIsNoneIsAnError) {
+TEST(Server, FailsOnAnInvalidAddress) {
     config::Http config;
     config.address = "no such address";
     EXPECT_FALSE(Server::start(config, {}));

@@ -35,7 +35,7 @@ TEST(Status, ShowsMapsMatchesShotsAndObservers) {
     EXPECT_EQ(page["matches"][1]["state"], "no answer");
 }
 
-TEST(Status, SurvivesNamesThatAreNoText) {
+TEST(Status, AcceptsNamesThatAreNotUtf8) {
     director::MatchView match;
     match.match_id = "\xff\xfe";
     match.answered = true;

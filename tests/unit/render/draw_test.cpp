@@ -25,10 +25,10 @@ const Colour& pixel_at(const Picture& picture, const View& view, const Vec3d& po
                       static_cast<int>((1.0 - place.y()) * 0.5 * height));
 }
 
-void expect_colour(const Colour& seen, const Colour& wanted) {
-    EXPECT_NEAR(seen.red, wanted.red, 0.005F);
-    EXPECT_NEAR(seen.green, wanted.green, 0.005F);
-    EXPECT_NEAR(seen.blue, wanted.blue, 0.005F);
+void expect_colour(const Colour& seen, const Colour& expected) {
+    EXPECT_NEAR(seen.red, expected.red, 0.005F);
+    EXPECT_NEAR(seen.green, expected.green, 0.005F);
+    EXPECT_NEAR(seen.blue, expected.blue, 0.005F);
 }
 
 void expect_grey(const Colour& seen) {
@@ -53,7 +53,7 @@ Layers ball_in_the_middle(float radius = 20.0F) {
     return layers;
 }
 
-TEST(Draw, ShowsABallWhereItIsAndNothingElsewhere) {
+TEST(Draw, DrawsABallAtItsPlaceOnly) {
     const View view = plan();
     const Picture picture = draw(ball_in_the_middle(), view, width, height).value();
     expect_colour(pixel_at(picture, view, {50.0, 50.0, 0.0}), red);
@@ -61,7 +61,7 @@ TEST(Draw, ShowsABallWhereItIsAndNothingElsewhere) {
     expect_colour(picture.at(0, 0), {1.0F, 1.0F, 1.0F});
 }
 
-TEST(Draw, CutsAwayBacksAndWhatLiesAboveTheTop) {
+TEST(Draw, HidesBackFacesAndEverythingAboveTheTop) {
     View view = plan();
     const scene::Scene ceiling = sheet(30.0, false);
     const scene::Scene upper_floor = sheet(30.0, true);
@@ -91,7 +91,7 @@ TEST(Draw, ColoursTheMeshByFreeDistance) {
     }
 }
 
-TEST(Draw, BlendsATransparentMeshOverWhatIsBehind) {
+TEST(Draw, BlendsATransparentMeshOverTheBackground) {
     const auto mesh = test::make_freespace(test::square_contents());
     const View view = plan();
     Layers layers;
@@ -103,7 +103,7 @@ TEST(Draw, BlendsATransparentMeshOverWhatIsBehind) {
                   colour_scale(1.0F) * 0.25F + Colour{1.0F, 1.0F, 1.0F} * 0.75F);
 }
 
-TEST(Draw, ShowsTheRoadmapAlongEdgesAlone) {
+TEST(Draw, DrawsTheRoadmapAlongEdgesOnly) {
     const auto mesh = test::make_freespace(test::square_contents());
     EXPECT_EQ(roadmap_edges(mesh).size(), 5U) << "four sides and a diagonal";
     const View view = plan();
@@ -128,7 +128,7 @@ TEST(Draw, RoadmapLeavesOutEdgesThatAreNotInFreespace) {
     EXPECT_LT(roadmap_edges(mesh).size(), 5U);
 }
 
-TEST(Draw, BreaksAPathWhereItsPointsAreNotFinite) {
+TEST(Draw, InterruptsAPathAtPointsThatAreNotFinite) {
     const View view = plan();
     Layers layers;
     const float nan = std::numeric_limits<float>::quiet_NaN();
@@ -146,7 +146,7 @@ TEST(Draw, BreaksAPathWhereItsPointsAreNotFinite) {
     EXPECT_LT(pixel_at(picture, view, {75.0, 50.0, 0.0}).green, 0.2F);
 }
 
-TEST(Draw, ShowsACloudsPoints) {
+TEST(Draw, DrawsThePointsOfACloud) {
     scene::Scene cloud;
     cloud.points = {{30.0, 30.0, 0.0}, {70.0, 70.0, 0.0}};
     cloud.bounds = box;
@@ -160,7 +160,7 @@ TEST(Draw, ShowsACloudsPoints) {
     expect_colour(pixel_at(picture, view, {50.0, 50.0, 0.0}), {1.0F, 1.0F, 1.0F});
 }
 
-TEST(Draw, IsTheSameForAnyThreads) {
+TEST(Draw, DoesNotDependOnTheNumberOfThreads) {
     std::mt19937 random(3);
     const auto mesh = test::make_freespace(test::random_contents(random, 12, 9, 40));
     const scene::Scene floor = sheet(-5.0, true);
@@ -181,7 +181,7 @@ TEST(Draw, IsTheSameForAnyThreads) {
     }
 }
 
-TEST(Draw, StopsWhenAsked) {
+TEST(Draw, StopsOnRequest) {
     std::stop_source stop;
     stop.request_stop();
     const auto picture = draw(ball_in_the_middle(), plan(), width, height, {}, stop.get_token());

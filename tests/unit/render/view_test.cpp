@@ -18,7 +18,7 @@ TEST(ParseView, ReadsAViewpoint) {
     EXPECT_TRUE(parse_view("0,0,0,0,90", bounds, 1.0)->forward.isApprox(Vec3d::UnitZ()));
 }
 
-TEST(ParseView, RefusesWhatIsNone) {
+TEST(ParseView, RejectsInvalidText) {
     for (const char* text : {"", "top", "1,2,3", "1,2,3,4", "1,2,3,4,5,6", "nan,0,0,0,0", "0,0,0,inf,0",
                              "1;2;3;4;5", "1e9,0,0,0,0", "0,0,0,361,0", "0,0,0,0,91", "1,2,3,4,5x"}) {
         const auto view = parse_view(text, bounds, 1.0);
@@ -37,7 +37,7 @@ TEST(View, PlanAndOverviewHoldTheWholeBox) {
                 farthest = std::max(farthest, place->cwiseAbs().maxCoeff());
             }
             EXPECT_LT(farthest, 1.0);
-            EXPECT_GT(farthest, 0.9) << "and not much more";
+            EXPECT_GT(farthest, 0.9) << "and little more";
         }
     }
 }
