@@ -5,15 +5,15 @@
 #include "app/bake_config.hpp"
 #include "app/commands.hpp"
 #include "app/progress.hpp"
-#include "app/read_options.hpp"
-#include "app/writable.hpp"
 #include "bake/bake.hpp"
 #include "base/file.hpp"
+#include "config/json_text.hpp"
 #include "freespace/freespace.hpp"
+#include "maps/progress.hpp"
 #include "maps/report.hpp"
 #include "maps/source.hpp"
 #include "scene/load.hpp"
-#include "service/interruption.hpp"
+#include "service/signals.hpp"
 
 namespace camdir::app {
 namespace {
@@ -25,7 +25,7 @@ struct BakeOptions {
     bake::Parameters parameters;
     scene::ReadOptions read;
     bool quiet = false;
-    // Of a whole configuration.
+    // For the form with --config.
     std::string config;
     std::uint64_t memory_mib = 0;
     bool force = false;
@@ -39,11 +39,34 @@ void print_source(const scene::Scene& scene, const bake::Parameters& parameters)
               << " spawn points, d0 " << d0 * scene.metres_per_unit << " m\n";
 }
 
+// One line for the whole bake: how much is done, times, and the stage.
+class BakeDisplay {
+  public:
+    explicit BakeDisplay(ProgressLine& line) : line_(line) {}
+
+    void update(const bake::Progress& progress) {
+        const double now = line_.seconds();
+        progress_.update(progress, now);
+        estimate_.update(progress_.fraction(now), now);
+        line_.show([bake = progress_, estimate = estimate_](double seconds) {
+            const double fraction = bake.fraction(seconds);
+            return bar(fraction) + "  " + times_text(seconds, estimate.remaining(fraction, seconds)) + "  " +
+                   bake.stage();
+        });
+    }
+
+  private:
+    ProgressLine& line_;
+    maps::BakeProgress progress_;
+    maps::TimeEstimate estimate_;
+};
+
 Result<bake::Baked> bake_shown(const scene::Scene& scene, const BakeOptions& options,
                                const std::stop_token& stop) {
     if (options.quiet) return bake::bake(scene, options.parameters, {}, stop);
     ProgressLine line;
-    const auto show = [&](const bake::Progress& p) { line.show(p.stage, p.done, p.total); };
+    BakeDisplay display(line);
+    const auto show = [&](const bake::Progress& progress) { display.update(progress); };
     const auto finished = [&](const bake::StageReport& report) {
         line.clear();
         std::cerr << maps::line_of(report) << '\n';
@@ -51,7 +74,7 @@ Result<bake::Baked> bake_shown(const scene::Scene& scene, const BakeOptions& opt
     return bake::bake(scene, options.parameters, show, stop, finished);
 }
 
-// The map's file, or the archive that it lies in.
+// Whether `file` is the map's file, or the archive that holds it.
 bool is_source(const std::string& file, const std::string& map) {
     std::error_code error;
     for (std::size_t colon = map.find(':'); colon != std::string::npos; colon = map.find(':', colon + 1))
@@ -63,8 +86,7 @@ Result<void> bake_to_file(const BakeOptions& options) {
     const service::Interruption interruption;
     for (const std::string& file : {options.output, options.report})
         if (is_source(file, options.map)) return fail(file + ": is the map; expected another file to write");
-    for (const std::string& file : {options.output, options.report})
-        if (auto writable = check_writable(file); !writable) return writable;
+    if (auto writable = check_outputs({options.output, options.report}); !writable) return writable;
 
     const auto scene = scene::load(options.map, options.read);
     if (!scene) return tl::unexpected(scene.error());
@@ -77,7 +99,7 @@ Result<void> bake_to_file(const BakeOptions& options) {
     if (!options.report.empty()) {
         nlohmann::ordered_json json = maps::to_json(report);
         json["peak_memory_bytes"] = maps::peak_memory_bytes();
-        if (auto written = write_file(options.report, maps::report_text(json)); !written) return written;
+        if (auto written = write_file(options.report, config::format_json(json)); !written) return written;
     }
     if (!options.quiet)
         std::cerr << options.output << ": " << report.vertices << " vertices, " << report.triangles
@@ -86,20 +108,18 @@ Result<void> bake_to_file(const BakeOptions& options) {
     return {};
 }
 
-// What a user may give decides between the two ways to use the command.
-void check_usage(const CLI::App& command) {
+// The command has two forms: a map and an output, or a configuration.
+void check_usage(const CLI::App& command, const BakeOptions& options) {
     if (command.count("--config") == 0) {
-        for (const char* wanted : {"MAP", "--output"})
-            if (command.count(wanted) == 0)
-                throw CLI::RequiredError(std::string(wanted) + " (or --config alone)");
-        if (command["--output"]->as<std::string>() == "-" && command.count("--report") > 0 &&
-            command["--report"]->as<std::string>() == "-")
-            throw CLI::ValidationError("only one of --output and --report can be standard output");
-        return;
+        for (const char* required : {"MAP", "--output"})
+            if (command.count(required) == 0)
+                throw CLI::RequiredError(std::string(required) + " (or --config alone)");
+        return check_one_standard_output({{"--output", options.output}, {"--report", options.report}});
     }
-    const std::set<std::string> of_both{"help", "config", "memory", "force", "threads", "report", "quiet"};
+    const std::set<std::string> in_both_forms{"help",    "config", "memory", "force",
+                                              "threads", "report", "quiet"};
     for (const CLI::Option* option : command.get_options())
-        if (option->count() > 0 && !of_both.contains(option->get_single_name()))
+        if (option->count() > 0 && !in_both_forms.contains(option->get_single_name()))
             throw CLI::ExcludesError("--config", option->get_name());
 }
 
@@ -107,25 +127,61 @@ int run_bake(const BakeOptions& options) {
     if (!options.config.empty())
         return bake_config({options.config, options.report, options.parameters.threads, options.memory_mib,
                             options.force, options.quiet});
-    const auto done = bake_to_file(options);
-    return done ? exit_done : report(done.error());
+    return exit_code_of(bake_to_file(options));
 }
 
-// For --config.
+Vec3d checked_point(const std::string& option, const std::string& text) {
+    const auto point = maps::parse_point(text);
+    if (!point) throw CLI::ValidationError(option, "'" + text + "': expected three numbers, x,y,z");
+    return *point;
+}
+
+// How the source is read.
+void add_read_options(CLI::App& command, scene::ReadOptions& options) {
+    command
+        .add_option_function<double>(
+            "--metres-per-unit", [&options](double value) { options.metres_per_unit = value; },
+            "Length of a map unit; default: 0.0254 for a BSP, 1 for a mesh or a point cloud")
+        ->check(CLI::Range(1e-6, 1e6));
+    command
+        .add_option_function<std::string>(
+            "--up", [&options](const std::string& axis) { options.up = maps::parse_up(axis); },
+            "Axis of a mesh or a point cloud that points up: y or z; default: y for glTF, else z. With y, "
+            "(x, y, z) becomes (z, x, y)")
+        ->check(CLI::IsMember({"y", "z"}));
+    command.add_option_function<std::string>(
+        "--origin", [&options](const std::string& text) { options.origin = checked_point("--origin", text); },
+        "x,y,z of a mesh or a point cloud, in its own axes, that becomes 0,0,0");
+    command
+        .add_option_function<std::vector<std::string>>(
+            "--seed",
+            [&options](const std::vector<std::string>& texts) {
+                options.seeds.clear();
+                for (const std::string& text : texts)
+                    options.seeds.push_back(checked_point("--seed", text));
+            },
+            "x,y,z in the free space, in map units with z up, in addition to the map's spawn points; "
+            "repeatable. Without seeds and spawn points the largest connected part is baked")
+        ->type_name("X,Y,Z")
+        ->expected(1)
+        ->take_all();
+}
+
+// The form with --config.
 void add_config_options(CLI::App& command, BakeOptions& options) {
     auto* config = command
                        .add_option("--config", options.config,
-                                   "Bake what is missing or stale of the maps of this configuration instead: "
-                                   "each with the parameters and into the file that it says there")
+                                   "Bake the missing and stale maps of this configuration instead, each with "
+                                   "the parameters and into the file given there")
                        ->type_name("FILE");
     command
         .add_option("--memory", options.memory_mib,
-                    "MiB that maps baked at once may take; a map that needs more is baked alone; 0: half "
-                    "of the machine's")
+                    "MiB for maps that are baked at the same time; a map that needs more is baked alone; "
+                    "0: half of the machine's memory")
         ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 30U))
         ->needs(config)
         ->capture_default_str();
-    command.add_flag("--force", options.force, "Bake also what is not stale")->needs(config);
+    command.add_flag("--force", options.force, "Bake maps that are not stale too")->needs(config);
 }
 
 }  // namespace
@@ -133,7 +189,7 @@ void add_config_options(CLI::App& command, BakeOptions& options) {
 void add_bake(CLI::App& root, Run& run) {
     auto options = std::make_shared<BakeOptions>();
     CLI::App* command = root.add_subcommand(
-        "bake", "Make a MAP.vfs, the freespace of a map, or those of all maps of a configuration");
+        "bake", "Bake a map into a MAP.vfs, its freespace representation, or all maps of a configuration");
     command->add_option(
         "MAP", options->map,
         "Map file, or archive.pk3:maps/name.bsp: a BSP, a mesh (OBJ, PLY, STL, glTF) or a point "
@@ -150,12 +206,12 @@ void add_bake(CLI::App& root, Run& run) {
         ->add_option(
             "--loss", options->parameters.loss,
             "Mesh reduction: free distance that the centre of a ball may lose, in percent of the mean over "
-            "the map, at most 3/2 d0; 0 keeps the whole mesh")
+            "the map, at most 3/2 d0; 0: no reduction")
         ->check(CLI::Range(0.0, bake::max_loss))
         ->capture_default_str();
     command
         ->add_option("--triangles", options->parameters.triangles,
-                     "End the reduction at this many triangles; 0 goes on to the allowed loss")
+                     "End the reduction at this many triangles; 0: at the allowed loss")
         ->capture_default_str();
     command
         ->add_option_function<std::string>(
@@ -166,15 +222,15 @@ void add_bake(CLI::App& root, Run& run) {
             "adaptive: sparse where the free space is wide; uniform: d0 everywhere")
         ->check(CLI::IsMember({"adaptive", "uniform"}))
         ->default_str(std::string(name_of(bake::Sampling::adaptive)));
-    command->add_option("--threads", options->parameters.threads, "0 is one a core")
+    command->add_option("--threads", options->parameters.threads, "Number of threads; 0: one per core")
         ->check(CLI::Range(0U, 1024U))
         ->capture_default_str();
-    command->add_flag("--quiet", options->quiet, "Print nothing but errors");
+    command->add_flag("--quiet", options->quiet, "Print only errors");
     command->add_option("--report", options->report,
                         "Write seconds and counts of each stage and the peak of memory as JSON");
     add_config_options(*command, *options);
     command->callback([options, command, &run] {
-        check_usage(*command);
+        check_usage(*command, *options);
         run = [options] { return run_bake(*options); };
     });
 }

@@ -1,10 +1,7 @@
 #include "app/bake_config.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <chrono>
-#include <fstream>
 #include <iomanip>
 #include <iostream>
 #include <iterator>
@@ -14,10 +11,12 @@
 
 #include "app/commands.hpp"
 #include "app/progress.hpp"
-#include "app/writable.hpp"
 #include "base/file.hpp"
+#include "config/json_text.hpp"
 #include "maps/batch.hpp"
-#include "service/interruption.hpp"
+#include "maps/memory.hpp"
+#include "maps/progress.hpp"
+#include "service/signals.hpp"
 
 namespace camdir::app {
 namespace {
@@ -26,62 +25,79 @@ using nlohmann::ordered_json;
 
 constexpr std::uint64_t mebibyte = 1024U * 1024U;
 
-std::string figures(const maps::MapOutcome& outcome) {
+std::string figures(const maps::BakeOutcome& outcome) {
     return std::to_string(outcome.samples) + " samples, " + std::to_string(outcome.triangles) +
            " triangles, " + std::to_string(outcome.file_bytes) + " bytes";
 }
 
-std::string line_of(const maps::MapOutcome& outcome) {
-    std::string line = outcome.map + ": " + std::string(name_of(outcome.state));
-    if (outcome.state == maps::MapState::baked)
+std::string line_of(const maps::BakeOutcome& outcome) {
+    std::string line = outcome.map + ": " + std::string(name_of(outcome.status));
+    if (outcome.status == maps::BakeStatus::baked)
         return line + " in " + maps::seconds_text(outcome.seconds) + ": " + figures(outcome);
     return outcome.reason.empty() ? line : line + ": " + outcome.reason;
 }
 
-// Tells how the batch goes: a line that is rewritten with the running maps, and a line a map that ended.
+// How far the maps of a batch are. A value.
+struct BatchProgress {
+    std::size_t to_bake = 0;
+    std::size_t finished = 0;
+    std::map<std::string, maps::BakeProgress> running;  // by the map's name
+    maps::TimeEstimate estimate;
+
+    // Every map counts the same.
+    [[nodiscard]] double fraction(double seconds) const {
+        auto done = static_cast<double>(finished);
+        for (const auto& [map, progress] : running)
+            done += progress.fraction(seconds);
+        return done / static_cast<double>(std::max<std::size_t>(to_bake, 1));
+    }
+
+    [[nodiscard]] std::string text(double seconds) const {
+        const double done = fraction(seconds);
+        std::string line = bar(done) + "  " + times_text(seconds, estimate.remaining(done, seconds));
+        if (to_bake > 1) line += "  " + std::to_string(finished) + " of " + std::to_string(to_bake) + " maps";
+        for (const auto& [map, progress] : running)
+            line += "  " + map + " " + progress.stage();
+        return line;
+    }
+};
+
+// Shows a line with the progress of the batch, and prints a line for each map that is finished.
 class BatchDisplay {
   public:
     explicit BatchDisplay(bool quiet) : quiet_(quiet) {}
 
-    void examined(std::size_t to_bake) { to_bake_ = to_bake; }
+    void examined(std::size_t to_bake) { batch_.to_bake = to_bake; }
 
     void progress(const std::string& map, const bake::Progress& progress) {
-        std::string& text = running_[map];
-        text = map + " " + std::string(progress.stage);
-        // A map alone has the bar for its stages.
-        if (to_bake_ == 1 && !quiet_) return line_.show(text, progress.done, progress.total);
-        if (progress.total > 0) text += " " + std::to_string(100 * progress.done / progress.total) + " %";
-        draw();
+        batch_.running[map].update(progress, line_.seconds());
+        show();
     }
 
-    void finished(const maps::MapOutcome& outcome) {
-        if (running_.erase(outcome.map) > 0) ++baked_;
-        if (quiet_ && outcome.state != maps::MapState::failed) return;
+    void finished(const maps::BakeOutcome& outcome) {
+        if (batch_.running.erase(outcome.map) > 0) ++batch_.finished;
+        if (quiet_ && outcome.status != maps::BakeStatus::failed) return;
         line_.clear();
         std::cerr << line_of(outcome) << '\n';
-        draw();
+        show();
     }
 
   private:
-    void draw() {
-        if (quiet_ || running_.empty()) return;
-        std::string text = std::to_string(baked_) + " of " + std::to_string(to_bake_) + " maps " +
-                           bar(baked_, std::max<std::size_t>(to_bake_, 1)) + " ";
-        for (const auto& [map, state] : running_)
-            text += "  " + state;
-        line_.show(text);
+    void show() {
+        if (quiet_ || batch_.running.empty()) return;
+        const double now = line_.seconds();
+        batch_.estimate.update(batch_.fraction(now), now);
+        line_.show([batch = batch_](double seconds) { return batch.text(seconds); });
     }
 
     const bool quiet_;
-    std::size_t to_bake_ = 0;
-    std::size_t baked_ = 0;
-    std::map<std::string, std::string> running_;  // by the map's name, how far it is
+    BatchProgress batch_;
     ProgressLine line_;
 };
 
-void print_table(const std::vector<maps::MapOutcome>& outcomes) {
+void print_table(const std::vector<maps::BakeOutcome>& outcomes) {
     std::size_t width = 3;
-    for (const maps::MapOutcome& outcome : outcomes)
+    for (const maps::BakeOutcome& outcome : outcomes)
         width = std::max(width, outcome.map.size());
     std::ostringstream table;
     table << '\n'
@@ -89,17 +105,17 @@ void print_table(const std::vector<maps::MapOutcome>& outcomes) {
           << "  state        " << std::right << std::setw(10) << "seconds" << std::setw(11) << "samples"
           << std::setw(11) << "triangles" << std::setw(12) << "bytes"
           << "  reason\n";
-    for (const maps::MapOutcome& outcome : outcomes)
+    for (const maps::BakeOutcome& outcome : outcomes)
         table << std::left << std::setw(static_cast<int>(width)) << outcome.map << "  " << std::setw(13)
-              << name_of(outcome.state) << std::right << std::setw(10) << std::fixed << std::setprecision(2)
+              << name_of(outcome.status) << std::right << std::setw(10) << std::fixed << std::setprecision(2)
               << outcome.seconds << std::setw(11) << outcome.samples << std::setw(11) << outcome.triangles
               << std::setw(12) << outcome.file_bytes << "  " << outcome.reason << '\n';
     std::cerr << table.str();
 }
 
-ordered_json json_of(const maps::MapOutcome& outcome) {
+ordered_json json_of(const maps::BakeOutcome& outcome) {
     ordered_json json = {{"map", outcome.map},
-                         {"state", name_of(outcome.state)},
+                         {"state", name_of(outcome.status)},
                          {"reason", outcome.reason},
                          {"seconds", outcome.seconds},
                          {"samples", outcome.samples},
@@ -110,31 +126,31 @@ ordered_json json_of(const maps::MapOutcome& outcome) {
 }
 
 Result<void> write_report(const BakeConfigOptions& options, const maps::BatchParameters& parameters,
-                          double seconds, const std::vector<maps::MapOutcome>& outcomes) {
+                          double seconds, const std::vector<maps::BakeOutcome>& outcomes) {
     if (options.report.empty()) return {};
     ordered_json maps = ordered_json::array();
-    for (const maps::MapOutcome& outcome : outcomes)
+    for (const maps::BakeOutcome& outcome : outcomes)
         maps.push_back(json_of(outcome));
     const ordered_json report = {{"config", options.config},
                                  {"memory_budget_bytes", parameters.memory},
                                  {"peak_memory_bytes", maps::peak_memory_bytes()},
                                  {"seconds", seconds},
                                  {"maps", maps}};
-    return write_file(options.report, maps::report_text(report));
+    return write_file(options.report, config::format_json(report));
 }
 
-int exit_code_of(const std::vector<maps::MapOutcome>& outcomes) {
-    const auto any = [&](maps::MapState state) {
+int exit_code_of(const std::vector<maps::BakeOutcome>& outcomes) {
+    const auto any = [&](maps::BakeStatus status) {
         return std::any_of(outcomes.begin(), outcomes.end(),
-                           [&](const maps::MapOutcome& outcome) { return outcome.state == state; });
+                           [&](const maps::BakeOutcome& outcome) { return outcome.status == status; });
     };
-    if (any(maps::MapState::interrupted)) return exit_interrupted;
-    return any(maps::MapState::failed) ? exit_failed : exit_done;
+    if (any(maps::BakeStatus::interrupted)) return exit_interrupted;
+    return any(maps::BakeStatus::failed) ? exit_failed : exit_done;
 }
 
 Result<int> run(const BakeConfigOptions& options) {
     const service::Interruption interruption;
-    if (auto writable = check_writable(options.report); !writable) return tl::unexpected(writable.error());
+    if (auto writable = check_outputs({options.report}); !writable) return tl::unexpected(writable.error());
     auto config = config::load(options.config);
     if (!config) return tl::unexpected(config.error());
     std::vector<config::Map> maps;
@@ -143,15 +159,16 @@ Result<int> run(const BakeConfigOptions& options) {
     if (maps.empty() && !options.quiet) std::cerr << options.config << ": no map has a source to bake\n";
 
     const maps::BatchParameters parameters{
-        options.threads, options.memory_mib == 0 ? default_memory() : options.memory_mib * mebibyte,
+        options.threads,
+        options.memory_mib == 0 ? maps::default_memory_budget() : options.memory_mib * mebibyte,
         options.force};
     BatchDisplay display(options.quiet);
     const maps::BatchSink sink{
         [&](std::size_t to_bake) { display.examined(to_bake); },
         [&](const std::string& map, const bake::Progress& p) { display.progress(map, p); },
-        [&](const maps::MapOutcome& outcome) { display.finished(outcome); }};
+        [&](const maps::BakeOutcome& outcome) { display.finished(outcome); }};
     const auto begin = std::chrono::steady_clock::now();
-    const std::vector<maps::MapOutcome> outcomes =
+    const std::vector<maps::BakeOutcome> outcomes =
         maps::bake_maps(maps, parameters, sink, interruption.token());
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
     if (!options.quiet && !maps.empty()) print_table(outcomes);
@@ -160,26 +177,7 @@ Result<int> run(const BakeConfigOptions& options) {
     return exit_code_of(outcomes);
 }
 
-// This process's, "/" where there is none: the line "0::/path" of its groups.
-std::filesystem::path control_group() {
-    std::ifstream groups("/proc/self/cgroup");
-    for (std::string line; std::getline(groups, line);)
-        if (line.starts_with("0::/")) return line.substr(3);
-    return "/";
-}
-
 }  // namespace
-
-std::uint64_t default_memory() {
-    std::uint64_t memory = static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) *
-                           static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
-    for (std::filesystem::path group = control_group();; group = group.parent_path()) {
-        // "max" where there is no limit.
-        std::ifstream file("/sys/fs/cgroup" + group.string() + "/memory.max");
-        if (std::uint64_t limit = 0; file >> limit) memory = std::min(memory, limit);
-        if (!group.has_relative_path()) return memory / 2;
-    }
-}
 
 int bake_config(const BakeConfigOptions& options) {
     const Result<int> code = run(options);

@@ -1,11 +1,14 @@
-// The subcommands of camera-director, one a file of this folder.
+// The subcommands of camera-director, one a file of this folder, and what they share.
 #pragma once
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <initializer_list>
+#include <string>
+#include <utility>
 
 #include "base/error.hpp"
-#include "service/interruption.hpp"
+#include "service/signals.hpp"
 
 namespace camdir::app {
 
@@ -28,5 +31,14 @@ void add_render(CLI::App& root, Run& run);
 
 // Prints the error to standard error as `camera-director: message`; returns the exit code that it stands for.
 [[nodiscard]] int report(const Error& error);
+
+// exit_done, or reports the error.
+[[nodiscard]] int exit_code_of(const Result<void>& done);
+
+// Whether each file can be created in its folder; an empty name and "-" always can. For use before long work.
+[[nodiscard]] Result<void> check_outputs(std::initializer_list<std::string> files);
+
+// Options and the files that they name. Throws CLI::ValidationError when more than one file is "-".
+void check_one_standard_output(std::initializer_list<std::pair<const char*, std::string>> outputs);
 
 }  // namespace camdir::app

@@ -1,4 +1,4 @@
-// camera-director evaluate: the cameras of a recorded match, judged against its map.
+// camera-director evaluate: measures the cameras of a recorded match against its map.
 #include <algorithm>
 #include <iostream>
 #include <memory>
@@ -6,7 +6,6 @@
 
 #include "app/commands.hpp"
 #include "app/progress.hpp"
-#include "app/writable.hpp"
 #include "base/file.hpp"
 #include "config/config.hpp"
 #include "evaluation/metrics.hpp"
@@ -19,7 +18,7 @@
 #include "maps/source.hpp"
 #include "oracle/oracle.hpp"
 #include "scene/load.hpp"
-#include "service/interruption.hpp"
+#include "service/signals.hpp"
 
 namespace camdir::app {
 namespace {
@@ -49,9 +48,8 @@ void check_usage(const EvaluateOptions& options) {
         throw CLI::ValidationError("--config", "only the tracker has a profile");
     if (!options.tracks() && !options.terms.empty())
         throw CLI::ValidationError("--terms", "only the tracker has an objective");
-    const auto outputs = {options.cameras, options.terms, options.json};
-    if (std::count(outputs.begin(), outputs.end(), "-") > 1)
-        throw CLI::ValidationError("only one of --cameras, --terms and --json can be standard output");
+    check_one_standard_output(
+        {{"--cameras", options.cameras}, {"--terms", options.terms}, {"--json", options.json}});
 }
 
 Result<evaluation::Trace> read_trace(const EvaluateOptions& options) {
@@ -62,17 +60,17 @@ Result<evaluation::Trace> read_trace(const EvaluateOptions& options) {
     return resampled;
 }
 
-struct Map {
+struct SourceMap {
     scene::Scene scene;
     double point_radius = 0.0;  // of the obstacles in a cloud
 };
 
-// The baked file says how a mesh or a point cloud is to be read.
-Result<Map> open_map(const EvaluateOptions& options) {
+// The baked file holds the options for reading a mesh or a point cloud.
+Result<SourceMap> open_map(const EvaluateOptions& options) {
     if (options.freespace.empty()) {
         auto scene = scene::load(options.map);
         if (!scene) return tl::unexpected(scene.error());
-        if (scene->points.empty()) return Map{std::move(*scene)};
+        if (scene->points.empty()) return SourceMap{std::move(*scene)};
         return fail(options.map +
                     ": is a point cloud; name the FILE.vfs too, which says how far its "
                     "surfaces may be from its points");
@@ -81,7 +79,7 @@ Result<Map> open_map(const EvaluateOptions& options) {
     if (!freespace) return tl::unexpected(freespace.error());
     auto scene = maps::load_source(*freespace, options.map);
     if (!scene) return tl::unexpected(scene.error());
-    return Map{std::move(*scene), freespace->metadata().d0};
+    return SourceMap{std::move(*scene), freespace->metadata().d0};
 }
 
 Result<camera::Profile> find_profile(const EvaluateOptions& options) {
@@ -112,7 +110,7 @@ Result<evaluation::Recording> run_tracker(const EvaluateOptions& options, const 
     return evaluation::record(*freespace, *profile, trace, show, stop);
 }
 
-// The cameras to judge; those that are not the tracker's have neither terms nor times.
+// The cameras to measure. Only the tracker's have objective terms and times.
 Result<evaluation::Recording> make_cameras(const EvaluateOptions& options, const evaluation::Trace& trace,
                                            const scene::Scene& scene, ProgressLine& line,
                                            const std::stop_token& stop) {
@@ -154,8 +152,8 @@ Result<void> write_results(const EvaluateOptions& options, const evaluation::Tra
 
 Result<void> evaluate(const EvaluateOptions& options) {
     const service::Interruption interruption;
-    for (const std::string& file : {options.cameras, options.terms, options.json})
-        if (auto writable = check_writable(file); !writable) return writable;
+    if (auto writable = check_outputs({options.cameras, options.terms, options.json}); !writable)
+        return writable;
     ProgressLine line;
     line.show("reading " + options.trace, 0, 0);
     const auto trace = read_trace(options);
@@ -198,17 +196,14 @@ void add_evaluate(CLI::App& root, Run& run) {
         ->excludes(camera);
     command
         ->add_option("--output-hz", options->output_hz,
-                     "Step and judge so often a second, poses interpolated; default: at the trace's frames")
+                     "Steps per second, with interpolated poses; default: the trace's frames")
         ->check(CLI::Range(1.0, 1000.0));
     command->add_option("--cameras", options->cameras, "Write the cameras, CSV; - = standard output");
     command->add_option("--terms", options->terms, "Write the tracker's objective terms, CSV");
     command->add_option("--json", options->json, "Write the metrics, JSON; - = standard output");
     command->callback([options, &run] {
         check_usage(*options);
-        run = [options] {
-            const auto done = evaluate(*options);
-            return done ? exit_done : report(done.error());
-        };
+        run = [options] { return exit_code_of(evaluate(*options)); };
     });
 }
 

@@ -2,7 +2,6 @@
 #include <memory>
 
 #include "app/commands.hpp"
-#include "app/writable.hpp"
 #include "base/file.hpp"
 #include "export/glb.hpp"
 #include "export/ply.hpp"
@@ -17,13 +16,11 @@ struct ExportOptions {
 
 void check_usage(const ExportOptions& options) {
     if (options.ply.empty() && options.glb.empty()) throw CLI::RequiredError("--ply or --glb");
-    if (options.ply == "-" && options.glb == "-")
-        throw CLI::ValidationError("only one of --ply and --glb can be standard output");
+    check_one_standard_output({{"--ply", options.ply}, {"--glb", options.glb}});
 }
 
 Result<void> export_mesh(const ExportOptions& options) {
-    for (const std::string& file : {options.ply, options.glb})
-        if (auto writable = check_writable(file); !writable) return writable;
+    if (auto writable = check_outputs({options.ply, options.glb}); !writable) return writable;
     const auto freespace = freespace::Freespace::open(options.file);
     if (!freespace) return tl::unexpected(freespace.error());
     Result<void> written;
@@ -41,16 +38,13 @@ void add_export(CLI::App& root, Run& run) {
     CLI::App* command =
         root.add_subcommand("export", "Write the medial mesh of a baked map for mesh viewers.");
     command->add_option("FILE.vfs", options->file, "Baked map")->required();
-    command->add_option("--ply", options->ply, "Binary PLY file to write, - for standard output");
+    command->add_option("--ply", options->ply, "Binary PLY file to write; - is standard output");
     command->add_option("--glb", options->glb,
-                        "Binary glTF 2.0 file to write, - for standard output: the mesh coloured by free "
+                        "Binary glTF 2.0 file to write; - is standard output: the mesh coloured by free "
                         "distance, the roadmap, spawn points; metres, y up");
     command->callback([options, &run] {
         check_usage(*options);
-        run = [options] {
-            const Result<void> done = export_mesh(*options);
-            return done ? exit_done : report(done.error());
-        };
+        run = [options] { return exit_code_of(export_mesh(*options)); };
     });
 }
 

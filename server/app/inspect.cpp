@@ -1,4 +1,4 @@
-// camera-director inspect: what is in a MAP.vfs.
+// camera-director inspect: the contents of a MAP.vfs.
 #include <iomanip>
 #include <iostream>
 #include <limits>
@@ -43,6 +43,18 @@ std::string number(Number value) {
     return text.str();
 }
 
+// What the bake counted: a row for each number, the name of the stage in its first row.
+void print_counts(const std::vector<freespace::Count>& counts) {
+    if (counts.empty()) return;
+    std::cerr << "counts of the bake\n";
+    std::string stage;
+    for (const freespace::Count& count : counts) {
+        std::cerr << "  " << std::left << std::setw(14) << (count.stage == stage ? "" : count.stage)
+                  << std::right << std::setw(14) << number(count.value) << "  " << count.what << '\n';
+        stage = count.stage;
+    }
+}
+
 void print_table(const Freespace& freespace) {
     const freespace::Metadata& metadata = freespace.metadata();
     print_row("map", metadata.map_name);
@@ -57,8 +69,7 @@ void print_table(const Freespace& freespace) {
     print_row("bounds", triple(freespace.bounds().min()) + " .. " + triple(freespace.bounds().max()));
     for (const freespace::SpawnPoint& spawn : freespace.spawn_points())
         print_row("spawn point", triple(spawn.eye) + ", yaw " + number(spawn.yaw));
-    for (const freespace::Count& count : metadata.counts)
-        print_row("bake: " + count.stage, number(count.value) + " " + count.what);
+    print_counts(metadata.counts);
 }
 
 ordered_json to_json(const Freespace& freespace) {
@@ -69,7 +80,7 @@ ordered_json to_json(const Freespace& freespace) {
     ordered_json counts = ordered_json::array();
     for (const freespace::Count& count : metadata.counts)
         counts.push_back({{"stage", count.stage}, {"what", count.what}, {"value", count.value}});
-    // The parameters are JSON that the baker wrote; another baker's are kept as text.
+    // Parameters that are not JSON are shown as a string.
     ordered_json parameters = metadata.parameters;
     if (config::parse_json(metadata.parameters)) parameters = ordered_json::parse(metadata.parameters);
     return {{"map_name", metadata.map_name},
@@ -91,11 +102,7 @@ int inspect(const std::string& file, const std::string& json) {
     if (!freespace) return report(freespace.error());
     print_table(*freespace);
     if (json.empty()) return exit_done;
-    // Names in a file are bytes of any kind; JSON is UTF-8.
-    const std::string text =
-        to_json(*freespace).dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
-    const auto written = write_file(json, text);
-    return written ? exit_done : report(written.error());
+    return exit_code_of(write_file(json, config::format_json(to_json(*freespace))));
 }
 
 }  // namespace
@@ -105,10 +112,9 @@ void add_inspect(CLI::App& root, Run& run) {
         std::string file, json;
     };
     const auto options = std::make_shared<InspectOptions>();
-    CLI::App* command = root.add_subcommand("inspect", "Show what a baked map holds.");
+    CLI::App* command = root.add_subcommand("inspect", "Show the contents of a baked map.");
     command->add_option("FILE.vfs", options->file, "Baked map")->required();
-    command->add_option("--json", options->json,
-                        "Write the same as JSON to this file, - for standard output");
+    command->add_option("--json", options->json, "Write the same as JSON to this file; - is standard output");
     command->callback([options, &run] { run = [options] { return inspect(options->file, options->json); }; });
 }
 

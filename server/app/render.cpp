@@ -8,14 +8,14 @@
 
 #include "app/commands.hpp"
 #include "app/progress.hpp"
-#include "app/writable.hpp"
 #include "base/file.hpp"
+#include "config/json_text.hpp"
 #include "export/picture_layers.hpp"
 #include "maps/source.hpp"
 #include "render/draw.hpp"
 #include "render/page.hpp"
 #include "scene/load.hpp"
-#include "service/interruption.hpp"
+#include "service/signals.hpp"
 
 namespace camdir::app {
 namespace {
@@ -31,7 +31,7 @@ struct RenderOptions {
     std::string view = "auto";
     std::string size = "1600x1200";
     std::vector<double> between;
-    exports::Ways ways;
+    exports::Tracks tracks;
     double cut = std::numeric_limits<double>::infinity();
     float opacity = 0.5F;
     bool no_mesh = false;
@@ -43,16 +43,16 @@ Result<render::PageSize> parse_size(const std::string& text) {
     render::PageSize size{};
     char rest = '\0';
     if (std::sscanf(text.c_str(), "%5dx%5d%c", &size.width, &size.height, &rest) != 2 ||
-        std::min(size.width, size.height) < render::smallest_page ||
-        std::max(size.width, size.height) > render::largest_page) {
-        return fail("size '" + text + "': expected WIDTHxHEIGHT, each " +
-                    std::to_string(render::smallest_page) + " to " + std::to_string(render::largest_page));
+        std::min(size.width, size.height) < render::min_page ||
+        std::max(size.width, size.height) > render::max_page) {
+        return fail("size '" + text + "': expected WIDTHxHEIGHT, each " + std::to_string(render::min_page) +
+                    " to " + std::to_string(render::max_page));
     }
     return size;
 }
 
-// The end of the colour scale: nearly all vertices are below it.
-float usual_free_distance(const Freespace& freespace) {
+// The upper end of the colour scale: 98 % of the vertices are below it.
+float scale_maximum_of(const Freespace& freespace) {
     std::vector<float> distances;
     for (const freespace::Vertex& vertex : freespace.vertices())
         distances.push_back(vertex.free_distance);
@@ -78,7 +78,7 @@ render::Legend make_legend(const RenderOptions& options, const Freespace& freesp
            << " m";
     legend.subtitle = counts.str();
     legend.metres_per_unit = static_cast<double>(metadata.metres_per_unit);
-    if (!options.no_mesh || options.roadmap) legend.scale_maximum = usual_free_distance(freespace);
+    if (!options.no_mesh || options.roadmap) legend.scale_maximum = scale_maximum_of(freespace);
     return legend;
 }
 
@@ -106,7 +106,8 @@ Result<Composition> compose(const RenderOptions& options, const Freespace& frees
     const auto view = make_view(options, box, *page);
     if (!view) return tl::unexpected(view.error());
     Composition made{*page, *view, {}, make_legend(options, freespace)};
-    // Marks are as wide as in the middle of the map; from inside, where all is near, as at most a foot.
+    // Marks have the width of pixels at the middle of the map, but from inside, near them, at most half a
+    // foot.
     const double foot = 0.3 / static_cast<double>(freespace.metadata().metres_per_unit);
     const auto pixel =
         static_cast<float>(std::min(render::units_per_pixel(*view, box.center(), made.height()), 0.5 * foot));
@@ -125,7 +126,7 @@ Result<Composition> compose(const RenderOptions& options, const Freespace& frees
         if (!added) return tl::unexpected(added.error());
     }
     exports::add_spawn_points(freespace, pixel, made.layers, made.legend.key);
-    const auto added = exports::add_ways(options.ways, pixel, made.layers, made.legend.key);
+    const auto added = exports::add_tracks(options.tracks, pixel, made.layers, made.legend.key);
     if (!added) return tl::unexpected(added.error());
     return made;
 }
@@ -147,13 +148,12 @@ std::string to_json(const Composition& made, const Freespace& freespace, bool sa
                                 {"half_height", made.view.half_height},
                                 {"free_distance_maximum", made.legend.scale_maximum}};
     if (made.view.parallel) json["units_per_pixel"] = made.legend.units_per_pixel;
-    return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+    return config::format_json(json);
 }
 
 Result<void> render_file(const RenderOptions& options) {
     const service::Interruption interruption;
-    for (const std::string& file : {options.output, options.json})
-        if (auto writable = check_writable(file); !writable) return writable;
+    if (auto writable = check_outputs({options.output, options.json}); !writable) return writable;
     const auto freespace = Freespace::open(options.file);
     if (!freespace) return tl::unexpected(freespace.error());
     const auto map = maps::load_source(*freespace, options.map);
@@ -178,7 +178,7 @@ Result<void> render_file(const RenderOptions& options) {
                                 : write_file(options.json, to_json(*made, *freespace, same_source));
 }
 
-// A CLI11 check: what is wrong with the text, or nothing.
+// A CLI11 check: the error of the text, or an empty string.
 template <class Parse>
 std::function<std::string(const std::string&)> checked(Parse parse) {
     return [parse](const std::string& text) {
@@ -187,29 +187,30 @@ std::function<std::string(const std::string&)> checked(Parse parse) {
     };
 }
 
-void add_way_options(CLI::App& command, RenderOptions& options) {
-    auto* trace = command.add_option("--trace", options.ways.trace,
-                                     "Draw the players' ways of this recorded match, CSV or CSV.gz");
-    command.add_option("--cameras", options.ways.cameras, "Draw the cameras that `evaluate --cameras` wrote")
+void add_track_options(CLI::App& command, RenderOptions& options) {
+    auto* trace = command.add_option("--trace", options.tracks.trace,
+                                     "Draw the players' tracks of this recorded match, CSV or CSV.gz");
+    command
+        .add_option("--cameras", options.tracks.cameras, "Draw the cameras that `evaluate --cameras` wrote")
         ->needs(trace);
     command
-        .add_option("--between", options.between, "Draw the ways between these seconds of the match: FROM,TO")
+        .add_option("--between", options.between,
+                    "Draw the tracks between these seconds of the match: FROM,TO")
         ->delimiter(',')
         ->expected(2)
         ->check(CLI::Range(0.0, 1e9))
         ->needs(trace);
-    command.add_option("--players", options.ways.players, "Draw the ways of these players alone: 0,3")
+    command.add_option("--players", options.tracks.players, "Draw the tracks of these players only: 0,3")
         ->delimiter(',')
         ->needs(trace);
 }
 
 void check_usage(RenderOptions& options) {
-    if (options.output == "-" && options.json == "-")
-        throw CLI::ValidationError("only one of --output and --json can be standard output");
+    check_one_standard_output({{"--output", options.output}, {"--json", options.json}});
     if (options.between.empty()) return;
-    options.ways.from = options.between[0];
-    options.ways.until = options.between[1];
-    if (!(options.ways.from < options.ways.until))
+    options.tracks.from = options.between[0];
+    options.tracks.until = options.between[1];
+    if (!(options.tracks.from < options.tracks.until))
         throw CLI::ValidationError("--between", "expected FROM,TO with FROM before TO");
 }
 
@@ -218,11 +219,11 @@ void check_usage(RenderOptions& options) {
 void add_render(CLI::App& root, Run& run) {
     auto options = std::make_shared<RenderOptions>();
     CLI::App* command =
-        root.add_subcommand("render", "Draw a baked map: obstacles, medial mesh, roadmap, recorded ways.");
+        root.add_subcommand("render", "Draw a baked map: obstacles, medial mesh, roadmap, recorded tracks.");
     command->add_option("FILE.vfs", options->file, "Baked map")->required();
-    command->add_option("--map", options->map, "Its source: a file, or archive.pk3:maps/name.bsp")
+    command->add_option("--map", options->map, "The source map: a file, or archive.pk3:maps/name.bsp")
         ->required();
-    command->add_option("-o,--output", options->output, "PNG file to write, - for standard output")
+    command->add_option("-o,--output", options->output, "PNG file to write; - is standard output")
         ->required();
     const auto view = [](const std::string& text) {
         return render::parse_view(text, Box3d(Vec3d::Zero(), Vec3d::Ones()), 1.0);
@@ -236,25 +237,21 @@ void add_render(CLI::App& root, Run& run) {
     command->add_option("--size", options->size, "WIDTHxHEIGHT in pixels")
         ->capture_default_str()
         ->check(CLI::Validator(checked(parse_size), ""));
-    command
-        ->add_option("--cut", options->cut, "Leave out what lies above this height, map units: lower floors")
+    command->add_option("--cut", options->cut, "Hide everything above this height, map units")
         ->check(CLI::Range(-1e8, 1e8));
     command->add_flag("--roadmap", options->roadmap, "Draw the edges of the mesh that lie in free space");
-    command->add_flag("--no-mesh", options->no_mesh, "Leave out the triangles of the mesh");
-    command->add_option("--opacity", options->opacity, "Of the mesh's triangles")
+    command->add_flag("--no-mesh", options->no_mesh, "Do not draw the triangles of the mesh");
+    command->add_option("--opacity", options->opacity, "Opacity of the mesh's triangles")
         ->check(CLI::Range(0.05F, 1.0F))
         ->capture_default_str();
     command->add_flag("--samples", options->samples,
-                      "Draw points that uniform sampling takes on the obstacles, or those of the cloud");
-    add_way_options(*command, *options);
+                      "Draw points that uniform sampling puts on the obstacles, or those of the point cloud");
+    add_track_options(*command, *options);
     command->add_option("--json", options->json,
-                        "Write the viewpoint and the scale as JSON to this file, - for standard output");
+                        "Write the viewpoint and the scale as JSON to this file; - is standard output");
     command->callback([options, &run] {
         check_usage(*options);
-        run = [options] {
-            const Result<void> done = render_file(*options);
-            return done ? exit_done : report(done.error());
-        };
+        run = [options] { return exit_code_of(render_file(*options)); };
     });
 }
 

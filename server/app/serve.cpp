@@ -1,4 +1,4 @@
-// camera-director serve
+// camera-director serve: the server, or a check of its configuration.
 #include <spdlog/spdlog.h>
 
 #include <iostream>
@@ -61,9 +61,11 @@ void add_serve(CLI::App& root, Run& run) {
         *root.add_subcommand("serve", "Serve cameras until SIGTERM; SIGHUP reloads maps and profiles.");
     auto* config =
         command.add_option("--config", options->config, "Configuration (JSON).")->type_name("FILE");
-    command.add_flag("--check", options->check, "Validate the configuration and what it names, then exit.")
+    command
+        .add_flag("--check", options->check,
+                  "Validate the configuration and the maps that it names, then exit.")
         ->needs(config);
-    auto* print = command.add_option_group("print", "Print what the configuration can say, then exit");
+    auto* print = command.add_option_group("print", "Print documentation of the configuration, then exit");
     print->add_flag("--print-schema", options->print_schema, "JSON Schema of the configuration.");
     print->add_flag("--print-reference", options->print_reference, "Reference of its keys, Markdown.");
     command.require_option(1, 0);

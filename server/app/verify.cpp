@@ -1,4 +1,4 @@
-// camera-director verify: does a VFS-rep keep its promise on its map?
+// camera-director verify: tests a baked map against its source map.
 #include <chrono>
 #include <iomanip>
 #include <iostream>
@@ -9,13 +9,12 @@
 
 #include "app/commands.hpp"
 #include "app/progress.hpp"
-#include "app/writable.hpp"
 #include "base/file.hpp"
 #include "evaluation/verification.hpp"
 #include "freespace/freespace.hpp"
 #include "maps/source.hpp"
 #include "oracle/oracle.hpp"
-#include "service/interruption.hpp"
+#include "service/signals.hpp"
 
 namespace camdir::app {
 namespace {
@@ -127,7 +126,7 @@ void print_table(const VerifyOptions& options, const Verification& result, doubl
 
 Result<int> verify(const VerifyOptions& options) {
     const service::Interruption interruption;
-    if (auto writable = check_writable(options.json); !writable) return tl::unexpected(writable.error());
+    if (auto writable = check_outputs({options.json}); !writable) return tl::unexpected(writable.error());
     const auto freespace = freespace::Freespace::open(options.file);
     if (!freespace) return tl::unexpected(freespace.error());
     const auto scene = maps::load_source(*freespace, options.map);

@@ -1,0 +1,55 @@
+#include "app/commands.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+
+namespace camdir::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+Result<void> check_output(const std::string& file) {
+    if (file.empty() || file == "-") return {};
+    if (fs::is_directory(file)) return fail(file + ": is a folder, expected a file to write");
+    if (fs::exists(file) && !fs::is_regular_file(file)) {
+        if (::access(file.c_str(), W_OK) != 0) return fail(file + ": cannot be written");
+        return {};
+    }
+    fs::path folder = fs::path(file).parent_path();
+    if (folder.empty()) folder = ".";
+    if (::access(folder.c_str(), W_OK | X_OK) != 0)
+        return fail(file + ": cannot write into the folder " + folder.string());
+    return {};
+}
+
+}  // namespace
+
+int report(const Error& error) {
+    std::cerr << "camera-director: " << error.message << '\n';
+    return error.code == ErrorCode::interrupted ? exit_interrupted : exit_failed;
+}
+
+int exit_code_of(const Result<void>& done) {
+    return done ? exit_done : report(done.error());
+}
+
+Result<void> check_outputs(std::initializer_list<std::string> files) {
+    for (const std::string& file : files)
+        if (auto writable = check_output(file); !writable) return writable;
+    return {};
+}
+
+void check_one_standard_output(std::initializer_list<std::pair<const char*, std::string>> outputs) {
+    const auto count = std::count_if(outputs.begin(), outputs.end(),
+                                     [](const auto& output) { return output.second == "-"; });
+    if (count <= 1) return;
+    std::string names;
+    for (const auto& [option, file] : outputs)
+        names += (names.empty() ? "" : ", ") + std::string(option);
+    throw CLI::ValidationError("only one of " + names + " can be standard output");
+}
+
+}  // namespace camdir::app
