@@ -34,7 +34,7 @@ json with_room(double d0 = 64.0) {
     return config;
 }
 
-// Serves until ready, then stops; the log.
+// Serves until ready, then stops; returns the log.
 std::string log_of_a_start(const Folder& folder, const json& config) {
     Served served(folder, config);
     EXPECT_TRUE(served.logged("\"ready\"")) << served.log();
@@ -44,7 +44,7 @@ std::string log_of_a_start(const Folder& folder, const json& config) {
     return served.log();
 }
 
-TEST(Bake, OnlyWhatIsMissingOrStaleIsBaked) {
+TEST(Bake, BakesOnlyMissingOrStaleMaps) {
     const Folder folder;
     write(folder, "room.bsp", room(256.0));
     EXPECT_THAT(log_of_a_start(folder, with_room()),
@@ -65,7 +65,7 @@ TEST(Bake, OnlyWhatIsMissingOrStaleIsBaked) {
                 AllOf(HasSubstr("is used as it is"), Not(HasSubstr("baking"))));
 }
 
-TEST(Bake, WhatBakeConfigMadeIsNotBakedAgain) {
+TEST(Bake, UsesFilesOfBakeConfig) {
     const Folder folder;
     write(folder, "room.bsp", room(256.0));
     folder.write("config.json", with_room().dump());
@@ -74,7 +74,7 @@ TEST(Bake, WhatBakeConfigMadeIsNotBakedAgain) {
     EXPECT_THAT(log_of_a_start(folder, with_room()), Not(HasSubstr("baked")));
 }
 
-TEST(Bake, IsNotReadyMeanwhileAndStopsAtOnce) {
+TEST(Bake, IsNotReadyWhileBakingAndStopsAtOnce) {
     const auto map = openarena_map("oa_dm1");
     if (!map) GTEST_SKIP() << "openarena-081-maps is not installed";
     const Folder folder;
@@ -86,7 +86,7 @@ TEST(Bake, IsNotReadyMeanwhileAndStopsAtOnce) {
     ASSERT_TRUE(served.logged("map dm1: baking")) << served.log();
     EXPECT_THAT(served.get("/readyz", 503), HasSubstr("map dm1: "));
     EXPECT_EQ(served.get("/healthz"), "ok\n");
-    EXPECT_EQ(served.status()["maps"][1]["state"], "ready") << "what needs no baking comes first";
+    EXPECT_EQ(served.status()["maps"][1]["state"], "ready") << "maps that need no bake come first";
     served.signal(SIGTERM);
     EXPECT_EQ(served.exit_code(), 0) << served.log();
     EXPECT_FALSE(std::filesystem::exists(folder / "dm1.vfs"));

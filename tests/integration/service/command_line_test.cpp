@@ -1,6 +1,10 @@
-// camera-director serve as a user types it.
+// The command line of camera-director.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <fstream>
+#include <regex>
+#include <set>
 
 #include "served.hpp"
 
@@ -18,7 +22,7 @@ TEST(CommandLine, UsageErrorsExitWith2) {
     EXPECT_EQ(run_director({"serve", "--config", "x", "--no-such-option"}).exit_code, 2);
 }
 
-TEST(CommandLine, ABadConfigurationExitsWith1AndSaysWhy) {
+TEST(CommandLine, ABadConfigurationExitsWith1AndItsErrors) {
     const Folder folder;
     folder.write("config.json", R"({"dds": {"domain": 999}, "htpp": {}})");
     for (const auto& more : {std::vector<std::string>{}, std::vector<std::string>{"--check"}}) {
@@ -34,7 +38,7 @@ TEST(CommandLine, ABadConfigurationExitsWith1AndSaysWhy) {
     EXPECT_EQ(run_director({"serve", "--config", folder / "none.json"}).exit_code, 1);
 }
 
-TEST(CommandLine, CheckLooksAtTheMapsToo) {
+TEST(CommandLine, CheckIncludesTheMaps) {
     const Folder folder;
     json config = quiet_config();
     config["maps"] = {{{"name", "square"}, {"file", "square.vfs"}}};
@@ -55,6 +59,41 @@ TEST(CommandLine, PrintsItsSchemaAndReference) {
     const Ran reference = run_director({"serve", "--print-reference"});
     EXPECT_EQ(reference.exit_code, 0);
     EXPECT_THAT(reference.output, HasSubstr("| `domain` | integer | `0` | 0 .. 230 |"));
+}
+
+// The long options of a command as its help lists them, without --help.
+std::set<std::string> options_in_help(const std::string& command) {
+    const Ran ran = run_director({command, "--help"});
+    EXPECT_EQ(ran.exit_code, 0);
+    std::set<std::string> options;
+    const std::regex entry("\\n +(?:-\\w,)?(--[a-z0-9-]+)");
+    for (std::sregex_iterator found(ran.output.begin(), ran.output.end(), entry), end; found != end; ++found)
+        options.insert((*found)[1]);
+    options.erase("--help");
+    return options;
+}
+
+// Those of its usage lines in server/README.md; -o stands for --output.
+std::set<std::string> options_in_readme(const std::string& command) {
+    std::ifstream readme(CAMERA_DIRECTOR_SERVER_README);
+    std::set<std::string> options;
+    bool of_command = false;
+    const std::regex option("--[a-z0-9-]+");
+    for (std::string line; std::getline(readme, line);) {
+        const std::string start = "    camera-director ";
+        if (line.starts_with(start) || !line.starts_with("    "))
+            of_command = line.starts_with(start + command + " ");
+        if (!of_command) continue;
+        if (line.find(" -o ") != std::string::npos) options.insert("--output");
+        for (std::sregex_iterator found(line.begin(), line.end(), option), end; found != end; ++found)
+            options.insert(found->str());
+    }
+    return options;
+}
+
+TEST(CommandLine, TheReadmeNamesTheOptionsOfEveryCommand) {
+    for (const char* command : {"serve", "bake", "inspect", "verify", "export", "render", "evaluate"})
+        EXPECT_EQ(options_in_readme(command), options_in_help(command)) << command;
 }
 
 }  // namespace

@@ -58,17 +58,17 @@ class GameServer {
     std::int64_t time_ = 0;
 };
 
-// Sends frames until the observer's status or cameras are as wanted.
-bool play_until(GameServer& server, sdk::Observer& observer, const std::function<bool()>& wanted) {
+// Sends frames until the condition on the observer holds.
+bool play_until(GameServer& server, sdk::Observer& observer, const std::function<bool()>& condition) {
     return eventually([&] {
         server.send_frame();
         (void)observer.wait(std::chrono::milliseconds(10));
         observer.poll();
-        return wanted();
+        return condition();
     });
 }
 
-TEST(Reload, BringsTheMapThatAMatchWaitsFor) {
+TEST(Reload, LoadsTheMapThatAMatchWaitsFor) {
     const Folder folder;
     folder.write_square("square.vfs");
     folder.write_square("late.vfs");

@@ -11,7 +11,7 @@
 
 namespace camdir::test {
 
-// Where a director finds its configuration and maps.
+// A folder for the configuration and the maps of a director.
 class Folder {
   public:
     [[nodiscard]] std::filesystem::path operator/(const std::string& name) const { return folder_ / name; }
@@ -31,7 +31,7 @@ struct Ran {
 };
 [[nodiscard]] Ran run_director(const std::vector<std::string>& arguments);
 
-// A configuration that disturbs nobody: no fixed ports, a JSON log.
+// A configuration without fixed ports, with a JSON log.
 [[nodiscard]] nlohmann::json quiet_config();
 
 // `camera-director serve` with the configuration written to `folder`/config.json.
@@ -39,14 +39,14 @@ class Served {
   public:
     Served(const Folder& folder, const nlohmann::json& config);
 
-    // Waits until the log says so; false when it did not within a generous while.
+    // Waits until the log contains the text; false after a generous timeout.
     [[nodiscard]] bool logged(const std::string& text) const;
-    // GET; the body. Throws when the status is another.
+    // The body of a GET. Throws when the status differs.
     [[nodiscard]] std::string get(const std::string& path, int status = 200);
     [[nodiscard]] nlohmann::json status() { return nlohmann::json::parse(get("/status")); }
 
     void signal(int number) const { process_->send_signal(number); }
-    // Waits for its end.
+    // Waits until the process ends.
     [[nodiscard]] int exit_code() { return process_->wait(); }
     [[nodiscard]] std::string log() const { return process_->errors(); }
 

@@ -1,4 +1,4 @@
-// The process from start to end, without a match.
+// The life of the process, without a match.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -51,10 +51,10 @@ TEST(Service, StopsOnSigintWhileItStarts) {
     EXPECT_EQ(served.exit_code(), 0);
 }
 
-TEST(Service, AMapThatCannotBeLoadedIsToldAndTheOthersAreServed) {
+TEST(Service, ReportsAMapThatFailsAndServesTheOthers) {
     const Folder folder;
     folder.write_square("square.vfs");
-    folder.write("damaged.vfs", "this is no baked map");
+    folder.write("damaged.vfs", "not a baked map");
     json config = with_square();
     config["maps"].push_back({{"name", "damaged"}, {"file", "damaged.vfs"}});
     config["maps"].push_back({{"name", "unbaked"}, {"file", "unbaked.vfs"}, {"source", "unbaked.bsp"}});
@@ -72,7 +72,7 @@ TEST(Service, AMapThatCannotBeLoadedIsToldAndTheOthersAreServed) {
     }
 }
 
-TEST(Service, ANameFromOutsideForgesNoLineOfTheLog) {
+TEST(Service, NamesFromOutsideCannotForgeALineOfTheLog) {
     const Folder folder;
     json config = quiet_config();
     config["log"]["format"] = "text";
@@ -110,7 +110,7 @@ TEST(Service, SighupReloads) {
     EXPECT_EQ(served.exit_code(), 0);
 }
 
-TEST(Service, ATakenPortIsAnError) {
+TEST(Service, FailsOnAPortInUse) {
     const Folder folder;
     Served first(folder, quiet_config());
     const Folder other;
