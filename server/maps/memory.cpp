@@ -8,7 +8,7 @@
 #include <string>
 
 #include "bake/shell.hpp"
-#include "bake/triangle.hpp"
+#include "bake/geometry/triangle.hpp"
 
 namespace camdir::maps {
 namespace {

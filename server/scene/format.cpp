@@ -7,11 +7,11 @@
 #include <cstring>
 #include <string_view>
 
-#include "scene/gltf_buffers.hpp"
-#include "scene/las.hpp"
-#include "scene/pcd.hpp"
-#include "scene/ply.hpp"
-#include "scene/records.hpp"
+#include "scene/cloud/las.hpp"
+#include "scene/cloud/pcd.hpp"
+#include "scene/cloud/ply.hpp"
+#include "scene/cloud/records.hpp"
+#include "scene/mesh/gltf_buffers.hpp"
 
 namespace camdir::scene {
 namespace {

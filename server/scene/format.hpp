@@ -7,8 +7,8 @@
 #include <string>
 #include <variant>
 
-#include "scene/cloud_scene.hpp"
-#include "scene/mesh_scene.hpp"
+#include "scene/cloud/read_scene.hpp"
+#include "scene/mesh/read_scene.hpp"
 
 namespace camdir::scene {
 

@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "scene/format.hpp"
-#include "scene/gltf_buffers.hpp"
-#include "scene/q3_scene.hpp"
-#include "scene/quake_scene.hpp"
+#include "scene/mesh/gltf_buffers.hpp"
+#include "scene/quake/read_scene.hpp"
+#include "scene/quake3/read_scene.hpp"
 #include "scene/source.hpp"
 
 namespace camdir::scene {

@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <span>
 
-#include "scene/cloud_scene.hpp"
+#include "scene/cloud/read_scene.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using camdir::scene::CloudFormat;

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "scene/format.hpp"
-#include "scene/gltf_buffers.hpp"
+#include "scene/mesh/gltf_buffers.hpp"
 
 namespace {
 

@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <span>
 
-#include "scene/q3_scene.hpp"
+#include "scene/quake3/read_scene.hpp"
 #include "scene_promises.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <span>
 
-#include "scene/quake_scene.hpp"
+#include "scene/quake/read_scene.hpp"
 #include "scene_promises.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

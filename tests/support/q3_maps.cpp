@@ -7,8 +7,8 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "scene/q3_scene.hpp"
-#include "scene/solid.hpp"
+#include "scene/bsp/solid.hpp"
+#include "scene/quake3/read_scene.hpp"
 #include "support/bsp_writer.hpp"
 
 namespace camdir::test {

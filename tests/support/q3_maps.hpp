@@ -7,7 +7,7 @@
 
 #include "base/file.hpp"
 #include "base/geometry.hpp"
-#include "scene/q3_bsp.hpp"
+#include "scene/quake3/bsp.hpp"
 #include "scene/scene.hpp"
 
 namespace camdir::test {

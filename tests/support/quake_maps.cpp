@@ -5,8 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "scene/quake_scene.hpp"
-#include "scene/solid.hpp"
+#include "scene/bsp/solid.hpp"
+#include "scene/quake/read_scene.hpp"
 #include "support/bsp_writer.hpp"
 
 namespace camdir::test {

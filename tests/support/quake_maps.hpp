@@ -6,7 +6,7 @@
 
 #include "base/file.hpp"
 #include "base/geometry.hpp"
-#include "scene/quake_bsp.hpp"
+#include "scene/quake/bsp.hpp"
 #include "scene/scene.hpp"
 
 namespace camdir::test {

@@ -7,7 +7,7 @@
 #include "bake/bake.hpp"
 #include "freespace/distance.hpp"
 #include "freespace/freespace.hpp"
-#include "scene/cloud_scene.hpp"
+#include "scene/cloud/read_scene.hpp"
 #include "support/clouds.hpp"
 
 namespace camdir::bake {

@@ -3,8 +3,8 @@
 
 #include <random>
 
-#include "scene/polygon.hpp"
-#include "scene/weld.hpp"
+#include "scene/bsp/polygon.hpp"
+#include "scene/triangle_welder.hpp"
 #include "support/q3_maps.hpp"
 
 namespace camdir::scene {

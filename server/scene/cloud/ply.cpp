@@ -1,0 +1,185 @@
+#include "scene/cloud/ply.hpp"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "scene/cloud/records.hpp"
+
+namespace camdir::scene {
+namespace {
+
+struct Property {
+    std::string_view name;
+    std::optional<NumberType> type;  // none: a list, whose length differs from row to row
+};
+
+struct Element {
+    std::string_view name;
+    std::uint64_t count = 0;
+    std::vector<Property> properties;
+};
+
+struct PlyHeader {
+    std::string_view format;
+    std::vector<Element> elements;
+};
+
+constexpr std::size_t max_properties = 256;
+
+std::optional<NumberType> number_type(std::string_view name) {
+    static const std::map<std::string_view, NumberType> types = {
+        {"char", NumberType::int8},      {"int8", NumberType::int8},       {"uchar", NumberType::uint8},
+        {"uint8", NumberType::uint8},    {"short", NumberType::int16},     {"int16", NumberType::int16},
+        {"ushort", NumberType::uint16},  {"uint16", NumberType::uint16},   {"int", NumberType::int32},
+        {"int32", NumberType::int32},    {"uint", NumberType::uint32},     {"uint32", NumberType::uint32},
+        {"float", NumberType::float32},  {"float32", NumberType::float32}, {"double", NumberType::float64},
+        {"float64", NumberType::float64}};
+    const auto found = types.find(name);
+    return found == types.end() ? std::nullopt : std::optional(found->second);
+}
+
+using Words = std::vector<std::string_view>;
+
+Result<void> add_element(const Words& words, const Lines& lines, PlyHeader& header) {
+    const auto count = words.size() == 3 ? whole_number(words[2]) : std::nullopt;
+    if (!count) return lines.bad_line("expected `element NAME COUNT`");
+    if (header.elements.size() == max_properties) return lines.bad_line("more than 256 elements");
+    header.elements.push_back({words[1], *count, {}});
+    return {};
+}
+
+Result<void> add_property(const Words& words, const Lines& lines, PlyHeader& header) {
+    if (header.elements.empty()) return lines.bad_line("a property before any element");
+    std::vector<Property>& properties = header.elements.back().properties;
+    if (properties.size() == max_properties) return lines.bad_line("more than 256 properties");
+    if (words.size() == 5 && words[1] == "list") {
+        properties.push_back({words[4], std::nullopt});
+        return {};
+    }
+    const auto type = words.size() == 3 ? number_type(words[1]) : std::nullopt;
+    if (!type) return lines.bad_line("expected `property TYPE NAME` with a number's type");
+    properties.push_back({words[2], type});
+    return {};
+}
+
+Result<PlyHeader> read_ply_header(Lines& lines) {
+    PlyHeader header;
+    if (lines.next() != "ply") return lines.bad_line("expected `ply`");
+    while (const auto line = lines.next()) {
+        const Words words = words_of(*line);
+        if (words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
+        Result<void> read;
+        if (words[0] == "end_header") return header;
+        if (words[0] == "format" && words.size() == 3)
+            header.format = words[1];
+        else if (words[0] == "element")
+            read = add_element(words, lines, header);
+        else if (words[0] == "property")
+            read = add_property(words, lines, header);
+        else
+            read = lines.bad_line("'" + std::string(words[0].substr(0, 40)) + "'; expected a PLY header");
+        if (!read) return tl::unexpected(read.error());
+    }
+    return fail("the header has no end_header");
+}
+
+// Bytes of a row; nothing for rows with lists.
+std::optional<std::size_t> row_size(const Element& element) {
+    std::size_t size = 0;
+    for (const Property& property : element.properties) {
+        if (!property.type) return std::nullopt;
+        size += size_of(*property.type);
+    }
+    return size;
+}
+
+Result<std::array<std::size_t, 3>> coordinates(const Element& vertex) {
+    std::array<std::size_t, 3> places{};
+    constexpr std::array<std::string_view, 3> names = {"x", "y", "z"};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto found = std::find_if(vertex.properties.begin(), vertex.properties.end(),
+                                        [&](const Property& p) { return p.name == names[axis]; });
+        if (found == vertex.properties.end() || !found->type)
+            return fail("the element vertex has no properties x, y and z");
+        places[axis] = static_cast<std::size_t>(found - vertex.properties.begin());
+        const auto is_list = [](const Property& p) { return !p.type; };
+        if (std::any_of(vertex.properties.begin(), found, is_list))
+            return fail("the element vertex has a list before its coordinates");
+    }
+    return places;
+}
+
+Result<std::vector<Vec3d>> read_text(Lines& lines, const PlyHeader& header, const Element* vertex,
+                                     const std::array<std::size_t, 3>& places) {
+    for (const Element* before = header.elements.data(); before != vertex; ++before) {
+        for (std::uint64_t i = 0; i < before->count && lines.next(); ++i) {
+        }
+    }
+    return read_lines(lines, places, vertex->count);
+}
+
+Result<std::vector<Vec3d>> read_binary(std::span<const std::byte> data, const PlyHeader& header,
+                                       const Element* vertex, const std::array<std::size_t, 3>& places) {
+    const auto skip = [&](const Element& element) -> Result<void> {
+        const auto size = row_size(element);
+        if (!size) return fail("element " + std::string(element.name) + ": lists are not read here");
+        if (*size > 0 && data.size() / *size < element.count)
+            return fail("element " + std::string(element.name) + ": ends after " +
+                        std::to_string(data.size()) + " bytes; expected " + std::to_string(element.count) +
+                        " rows of " + std::to_string(*size));
+        data = data.subspan(*size * element.count);
+        return {};
+    };
+    for (const Element* before = header.elements.data(); before != vertex; ++before) {
+        if (const auto skipped = skip(*before); !skipped) return tl::unexpected(skipped.error());
+    }
+    const std::span<const std::byte> rows = data;
+    if (const auto complete = skip(*vertex); !complete) return tl::unexpected(complete.error());
+    Columns columns{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        std::size_t offset = 0;
+        for (std::size_t i = 0; i < places[axis]; ++i)
+            offset += size_of(*vertex->properties[i].type);
+        columns[axis] = {offset, *row_size(*vertex), *vertex->properties[places[axis]].type};
+    }
+    return read_columns(rows, columns, vertex->count, header.format == "binary_big_endian");
+}
+
+}  // namespace
+
+bool is_ply(std::span<const std::byte> bytes) {
+    const std::string_view text = text_of(bytes);
+    return text.starts_with("ply\n") || text.starts_with("ply\r\n");
+}
+
+Result<std::uint64_t> ply_face_count(std::span<const std::byte> bytes) {
+    Lines lines(text_of(bytes));
+    const auto header = read_ply_header(lines);
+    if (!header) return tl::unexpected(header.error());
+    std::uint64_t count = 0;
+    for (const Element& element : header->elements) {
+        if (element.name == "face" || element.name == "tristrips") count += element.count;
+    }
+    return count;
+}
+
+Result<std::vector<Vec3d>> read_ply_points(std::span<const std::byte> bytes) {
+    Lines lines(text_of(bytes));
+    const auto header = read_ply_header(lines);
+    if (!header) return tl::unexpected(header.error());
+    const auto vertex = std::find_if(header->elements.begin(), header->elements.end(),
+                                     [](const Element& element) { return element.name == "vertex"; });
+    if (vertex == header->elements.end()) return fail("the header has no element vertex");
+    const auto places = coordinates(*vertex);
+    if (!places) return tl::unexpected(places.error());
+    if (const auto fits = check_point_count(vertex->count); !fits) return tl::unexpected(fits.error());
+    if (header->format == "ascii") return read_text(lines, *header, &*vertex, *places);
+    if (header->format == "binary_little_endian" || header->format == "binary_big_endian")
+        return read_binary(std::as_bytes(std::span(lines.rest())), *header, &*vertex, *places);
+    return fail("format '" + std::string(header->format.substr(0, 40)) +
+                "'; expected ascii, binary_little_endian or binary_big_endian");
+}
+
+}  // namespace camdir::scene

@@ -1,0 +1,126 @@
+#include "scene/mesh/read_scene.hpp"
+
+#include "scene/coordinate_transform.hpp"
+#include "scene/mesh/import.hpp"
+#include "scene/triangle_welder.hpp"
+
+namespace camdir::scene {
+namespace {
+
+// Nodes may repeat a mesh any number of times.
+constexpr std::uint64_t max_triangles = 20'000'000;
+// Nominal units, as for BSP maps.
+constexpr double weld_tolerance = 0.01;
+constexpr double box_margin = 1.0;
+
+const char* name_of(MeshFormat format) {
+    constexpr std::array<const char*, 5> names = {"OBJ", "PLY", "STL", "glTF", "glTF binary"};
+    return names[static_cast<std::size_t>(format)];
+}
+
+bool has_y_up(MeshFormat format) {
+    return format == MeshFormat::gltf || format == MeshFormat::glb;
+}
+
+// Collects the triangles of one mesh of one node after the other.
+class MeshCollector {
+  public:
+    explicit MeshCollector(const Frame& frame)
+        : frame_(frame), welder_(weld_tolerance * frame.nominal_unit()) {}
+
+    [[nodiscard]] Result<void> add(const aiMesh& mesh, const aiMatrix4x4& transform);
+    [[nodiscard]] Result<Scene> finish();
+
+  private:
+    [[nodiscard]] Result<Vec3d> corner(const aiMesh& mesh, unsigned index,
+                                       const aiMatrix4x4& transform) const;
+
+    const Frame& frame_;
+    Welder welder_;
+    std::uint64_t triangles_ = 0;
+    std::uint64_t flat_ = 0;
+    std::uint64_t no_triangles_ = 0;
+};
+
+Result<Vec3d> MeshCollector::corner(const aiMesh& mesh, unsigned index, const aiMatrix4x4& transform) const {
+    if (index >= mesh.mNumVertices)
+        return fail("mesh '" + std::string(mesh.mName.C_Str()) + "': vertex " + std::to_string(index) +
+                    " does not exist; it has " + std::to_string(mesh.mNumVertices));
+    const aiVector3D p = transform * mesh.mVertices[index];
+    return frame_.place({p.x, p.y, p.z}, "vertex", index);
+}
+
+Result<void> MeshCollector::add(const aiMesh& mesh, const aiMatrix4x4& transform) {
+    for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
+        const aiFace& face = mesh.mFaces[i];
+        if (face.mNumIndices < 3) {
+            ++no_triangles_;
+            continue;
+        }
+        if (++triangles_ > max_triangles)
+            return fail("more than " + std::to_string(max_triangles) + " triangles, which is the limit");
+        std::array<Vec3d, 3> corners;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Result<Vec3d> placed = corner(mesh, face.mIndices[k], transform);
+            if (!placed) return tl::unexpected(placed.error());
+            corners[k] = *placed;
+        }
+        if (!welder_.add(corners[0], corners[1], corners[2])) ++flat_;
+    }
+    return {};
+}
+
+Result<Scene> MeshCollector::finish() {
+    Scene scene;
+    scene.vertices = welder_.take_vertices();
+    scene.triangles = welder_.take_triangles();
+    if (scene.triangles.empty())
+        return fail("no triangle with an area of its own among its " + std::to_string(triangles_));
+    scene.metres_per_unit = frame_.metres_per_unit();
+    for (const Vec3d& vertex : scene.vertices)
+        scene.bounds.extend(vertex);
+    const Vec3d margin = Vec3d::Constant(box_margin * frame_.nominal_unit());
+    scene.bounds = Box3d(scene.bounds.min() - margin, scene.bounds.max() + margin);
+    if (flat_ > 0) scene.left_out.push_back({"triangles that are flat or repeated", "", flat_});
+    if (no_triangles_ > 0) scene.left_out.push_back({"points and lines", "", no_triangles_});
+    return scene;
+}
+
+struct PlacedNode {
+    const aiNode* node;
+    aiMatrix4x4 transform;
+};
+
+}  // namespace
+
+Result<Scene> mesh_scene_of(const aiScene& imported, MeshFormat format, const ReadOptions& options) {
+    const Frame frame(options, has_y_up(format) ? UpAxis::y : UpAxis::z);
+    MeshCollector collector(frame);
+    std::vector<PlacedNode> open;
+    if (imported.mRootNode != nullptr) open.push_back({imported.mRootNode, aiMatrix4x4()});
+    while (!open.empty()) {
+        const auto [node, above] = open.back();
+        open.pop_back();
+        const aiMatrix4x4 transform = above * node->mTransformation;
+        for (unsigned i = 0; i < node->mNumMeshes; ++i) {
+            if (node->mMeshes[i] >= imported.mNumMeshes)
+                return fail("mesh " + std::to_string(node->mMeshes[i]) + " does not exist");
+            const Result<void> added = collector.add(*imported.mMeshes[node->mMeshes[i]], transform);
+            if (!added) return tl::unexpected(added.error());
+        }
+        for (unsigned i = node->mNumChildren; i-- > 0;)
+            open.push_back({node->mChildren[i], transform});
+    }
+    Result<Scene> scene = collector.finish();
+    if (scene) scene->kind = std::string("mesh (") + name_of(format) + ")";
+    return scene;
+}
+
+Result<Scene> read_mesh_scene(std::span<const std::byte> bytes, MeshFormat format,
+                              const Companions& companions, const ReadOptions& options) {
+    return import_mesh(bytes, format, companions).and_then([&](const Imported& imported) {
+        return mesh_scene_of(*imported.scene(), format, options);
+    });
+}
+
+}  // namespace camdir::scene

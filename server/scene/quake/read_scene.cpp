@@ -1,0 +1,203 @@
+#include "scene/quake/read_scene.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene/bsp/scene_builder.hpp"
+#include "scene/quake/bsp.hpp"
+#include "scene/quake/tree.hpp"
+
+namespace camdir::scene {
+namespace {
+
+// Players appear 1 above the entity; their eyes are so far above their origin.
+constexpr int eye_height_quake = 1 + 22;
+constexpr int eye_height_goldsrc = 1 + 28;
+// How far behind a face its leaf is looked for: more than rounding in the planes, less than any wall.
+constexpr double behind = 0.125;
+
+bool is_one_of(std::string_view name, std::initializer_list<std::string_view> names) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+// Of the entities with brush models: what never moves and blocks the view.
+bool is_static(std::string_view class_name) {
+    if (class_name.starts_with("func_detail")) return class_name != "func_detail_illusionary";
+    return is_one_of(class_name,
+                     {"func_wall", "func_breakable", "func_conveyor", "func_group", "func_static"});
+}
+
+std::string lower_case(std::string text) {
+    for (char& c : text)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return text;
+}
+
+bool is_liquid(std::string_view texture) {
+    return texture.starts_with('!') || texture.starts_with('*');
+}
+
+// Drawn by no game: marks for the compilers.
+bool is_tool(std::string_view texture) {
+    return texture.starts_with("clip") || is_one_of(texture, {"trigger", "aaatrigger", "null", "skip", "hint",
+                                                              "hintskip", "origin", "bevel"});
+}
+
+Box3d box_of(const quake::Model& model) {
+    Box3d box;
+    box.extend(Vec3d(model.mins[0], model.mins[1], model.mins[2]));
+    box.extend(Vec3d(model.maxs[0], model.maxs[1], model.maxs[2]));
+    return box;
+}
+
+Polygon translated(Polygon polygon, const Vec3d& translation) {
+    for (Vec3d& corner : polygon)
+        corner += translation;
+    return polygon;
+}
+
+class Reader {
+  public:
+    explicit Reader(const quake::Bsp& bsp) : bsp_(bsp), tree_(bsp), collector_(box_of(bsp.models[0])) {}
+
+    [[nodiscard]] Result<Scene> read();
+
+  private:
+    [[nodiscard]] Result<void> add_model(std::size_t number, const Vec3d& translation);
+    [[nodiscard]] Result<void> add_volumes(const quake::Model& model, const Vec3d& translation);
+    void leave_out_model(std::size_t number, std::string_view class_name);
+    // Behind the face lies a solid leaf of its model.
+    [[nodiscard]] bool closes_solid(const quake::Model& model, const quake::Face& face,
+                                    const Polygon& polygon) const;
+
+    [[nodiscard]] std::span<const quake::Face> faces_of(const quake::Model& model) const;
+    [[nodiscard]] std::string_view texture_of(const quake::Face& face) const;
+    [[nodiscard]] Polygon polygon_of(const quake::Face& face) const;
+
+    const quake::Bsp& bsp_;
+    quake::Tree tree_;
+    Collector collector_;
+};
+
+Result<Scene> Reader::read() {
+    const Result<std::vector<Entity>> entities = parse_entities(bsp_.entities);
+    if (!entities) return tl::unexpected(entities.error());
+    const Result<std::vector<PlacedModel>> models = placed_models(*entities, bsp_.models.size(), is_static);
+    if (!models) return tl::unexpected(models.error());
+
+    if (const Result<void> world = add_model(0, Vec3d::Zero()); !world) return tl::unexpected(world.error());
+    for (const PlacedModel& placed : *models) {
+        if (!placed.is_obstacle) {
+            leave_out_model(placed.model, placed.class_name);
+            continue;
+        }
+        const Result<void> added = add_model(placed.model, placed.origin);
+        if (!added) return tl::unexpected(added.error());
+    }
+    const Result<void> spawned = collector_.add_spawn_points(
+        *entities, bsp_.version == quake::version_quake ? eye_height_quake : eye_height_goldsrc);
+    if (!spawned) return tl::unexpected(spawned.error());
+    return collector_.take(metres_of_nominal_unit);
+}
+
+// Faces that close what is solid are parts of its surface, which the volumes give without holes. A model
+// whose faces are all left out is no obstacle, and neither is its volume.
+Result<void> Reader::add_model(std::size_t number, const Vec3d& translation) {
+    const quake::Model& model = bsp_.models[number];
+    const bool is_world = number == 0;
+    bool is_obstacle = is_world;
+    for (const quake::Face& face : faces_of(model)) {
+        const Polygon polygon = polygon_of(face);
+        const std::string_view texture = texture_of(face);
+        const std::string name = lower_case(std::string(texture));
+        const bool closes = closes_solid(model, face, polygon);
+        if (is_liquid(name)) {
+            collector_.leave_out("liquid", texture, area(polygon));
+        } else if (is_tool(name) && !(is_world && closes)) {
+            collector_.leave_out("tool texture", texture, area(polygon));
+        } else {
+            if (!closes) collector_.add_surface(translated(polygon, translation));
+            is_obstacle = true;
+        }
+    }
+    return is_obstacle ? add_volumes(model, translation) : Result<void>();
+}
+
+Result<void> Reader::add_volumes(const quake::Model& model, const Vec3d& translation) {
+    Box3d box = box_of(model);
+    box.min() -= Vec3d::Ones();
+    box.max() += Vec3d::Ones();
+    const std::int32_t root = model.head_nodes[0];
+    const auto add_part = [&](const Polygon& part) { collector_.add_surface(translated(part, translation)); };
+    return tree_.for_each_solid_leaf(root, box, [&](const Solid& leaf) -> Result<void> {
+        for (const SolidFace& face : leaf.faces) {
+            const Result<void> added = tree_.for_each_open_part(root, face, add_part);
+            if (!added) return added;
+        }
+        Solid moved = leaf;
+        moved.bounds.translate(translation);
+        for (Plane& plane : moved.planes)
+            plane.distance += plane.normal.dot(translation);
+        collector_.add_volume(moved);
+        if (collector_.plane_count() <= bsp_.max_volume_planes()) return {};
+        return fail("lump 5 (nodes): the solid leaves have more than " +
+                    std::to_string(bsp_.max_volume_planes()) +
+                    " planes, which is the limit for a file of this size");
+    });
+}
+
+void Reader::leave_out_model(std::size_t number, std::string_view class_name) {
+    const char* const reason = class_name.starts_with("trigger_") ? "trigger" : "entity";
+    for (const quake::Face& face : faces_of(bsp_.models[number]))
+        collector_.leave_out(reason, class_name, area(polygon_of(face)));
+}
+
+bool Reader::closes_solid(const quake::Model& model, const quake::Face& face, const Polygon& polygon) const {
+    if (polygon.empty()) return false;
+    Vec3d middle = Vec3d::Zero();
+    for (const Vec3d& corner : polygon)
+        middle += corner / static_cast<double>(polygon.size());
+    const Vec3d normal = quake::to_plane(bsp_.planes[face.plane]).normal * (face.side == 0 ? 1.0 : -1.0);
+    return tree_.in_solid_leaf(model.head_nodes[0], middle - normal * behind);
+}
+
+std::span<const quake::Face> Reader::faces_of(const quake::Model& model) const {
+    return std::span(bsp_.faces)
+        .subspan(static_cast<std::size_t>(model.first_face), static_cast<std::size_t>(model.face_count));
+}
+
+std::string_view Reader::texture_of(const quake::Face& face) const {
+    return bsp_.textures[static_cast<std::size_t>(bsp_.texture_infos[face.texture_info].texture)];
+}
+
+Polygon Reader::polygon_of(const quake::Face& face) const {
+    Polygon polygon;
+    for (std::int32_t i = 0; i < face.edge_count; ++i) {
+        const std::int32_t signed_edge = bsp_.surface_edges[static_cast<std::size_t>(face.first_edge + i)];
+        const quake::Edge& edge = bsp_.edges[static_cast<std::size_t>(std::abs(signed_edge))];
+        const auto& p = bsp_.vertices[edge.vertices[signed_edge < 0 ? 1 : 0]].position;
+        polygon.emplace_back(p[0], p[1], p[2]);
+    }
+    return polygon;
+}
+
+}  // namespace
+
+bool is_quake_bsp(std::span<const std::byte> bytes) {
+    std::int32_t version = 0;
+    if (bytes.size() < sizeof version) return false;
+    std::memcpy(&version, bytes.data(), sizeof version);
+    return version == quake::version_quake || version == quake::version_goldsrc;
+}
+
+Result<Scene> read_quake_scene(std::span<const std::byte> bytes) {
+    const Result<quake::Bsp> bsp = quake::parse_bsp(bytes);
+    if (!bsp) return tl::unexpected(bsp.error());
+    return Reader(*bsp).read();
+}
+
+}  // namespace camdir::scene

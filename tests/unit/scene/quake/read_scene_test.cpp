@@ -1,0 +1,195 @@
+// What of a Quake or GoldSrc map becomes an obstacle.
+#include "scene/quake/read_scene.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <random>
+
+#include "support/oracle_twins.hpp"
+#include "support/q3_maps.hpp"
+#include "support/quake_maps.hpp"
+#include "support/scene_measures.hpp"
+
+namespace camdir::scene {
+namespace {
+
+using test::area_of;
+using test::depth_in_solid;
+using test::has_surface_at;
+using test::left_out_counts;
+using test::QuakeMap;
+using test::surface_of;
+
+const Box3d hall(Vec3d(-256.0, -192.0, 0.0), Vec3d(256.0, 192.0, 256.0));
+const Box3d crate(Vec3d(10.0, 10.0, 10.0), Vec3d(74.0, 74.0, 74.0));
+const Vec3d crate_top(42.0, 42.0, 74.0);
+
+class QuakeScene : public testing::TestWithParam<std::int32_t> {
+  protected:
+    [[nodiscard]] static QuakeMap room() {
+        QuakeMap map;
+        map.version = GetParam();
+        map.room = hall;
+        return map;
+    }
+};
+
+INSTANTIATE_TEST_SUITE_P(Versions, QuakeScene, testing::Values(quake::version_quake, quake::version_goldsrc),
+                         [](const auto& test) { return "Version" + std::to_string(test.param); });
+
+TEST_P(QuakeScene, RoomIsItsInnerSurface) {
+    const Scene scene = test::scene_of(room());
+    EXPECT_NEAR(area_of(scene), surface_of(hall), 1e-6);
+    EXPECT_EQ(scene.vertices.size(), 8U) << "welded";
+    EXPECT_EQ(scene.triangles.size(), 12U);
+    EXPECT_DOUBLE_EQ(scene.metres_per_unit, 0.0254);
+    EXPECT_TRUE(scene.left_out.empty());
+}
+
+TEST_P(QuakeScene, SolidAndSkyAreObstaclesAndLiquidsAreNot) {
+    struct Kind {
+        const char* texture;
+        std::int32_t contents;
+        bool is_obstacle;
+    };
+    for (const Kind& kind : {Kind{"stone", quake::solid, true}, Kind{"sky_night", quake::sky, true},
+                             Kind{"!water", -3, false}, Kind{"*lava", -5, false}}) {
+        SCOPED_TRACE(kind.texture);
+        QuakeMap map = room();
+        map.boxes = {{crate, kind.texture, kind.contents}};
+        const Scene scene = test::scene_of(map);
+        EXPECT_EQ(has_surface_at(scene, crate_top), kind.is_obstacle);
+        EXPECT_EQ(depth_in_solid(scene, crate.center()) >= 0.0, kind.is_obstacle);
+        if (kind.is_obstacle) continue;
+        const std::string name = std::string("liquid: ") + kind.texture;
+        EXPECT_EQ(left_out_counts(scene)[name], 6U);
+        EXPECT_NEAR(test::left_out_areas(scene)[name], surface_of(crate), 1e-3);
+    }
+}
+
+TEST_P(QuakeScene, StaticEntitiesAreTakenWhereTheyStand) {
+    const Vec3d origin(64.0, -32.0, 100.0);
+    for (const char* name : {"func_wall", "func_breakable", "func_detail_wall"}) {
+        SCOPED_TRACE(name);
+        QuakeMap map = room();
+        map.entities = {{name, origin, {{crate}}}};
+        const Scene scene = test::scene_of(map);
+        EXPECT_TRUE(has_surface_at(scene, crate_top + origin));
+        EXPECT_FALSE(has_surface_at(scene, crate_top));
+        EXPECT_GE(depth_in_solid(scene, crate.center() + origin), 0.0);
+        EXPECT_LT(depth_in_solid(scene, crate.center()), 0.0);
+        EXPECT_NEAR(area_of(scene), surface_of(hall) + surface_of(crate), 1e-6);
+    }
+}
+
+TEST_P(QuakeScene, OtherEntitiesAreLeftOutByClass) {
+    QuakeMap map = room();
+    for (const char* name : {"func_door", "func_illusionary", "func_detail_illusionary", "trigger_once"})
+        map.entities.push_back({name, Vec3d::Zero(), {{crate}}});
+    const Scene scene = test::scene_of(map);
+    EXPECT_NEAR(area_of(scene), surface_of(hall), 1e-6);
+    EXPECT_LT(depth_in_solid(scene, crate.center()), 0.0);
+    EXPECT_THAT(left_out_counts(scene),
+                testing::UnorderedElementsAre(testing::Pair("entity: func_door", 6),
+                                              testing::Pair("entity: func_illusionary", 6),
+                                              testing::Pair("entity: func_detail_illusionary", 6),
+                                              testing::Pair("trigger: trigger_once", 6)));
+    EXPECT_NEAR(test::left_out_areas(scene)["entity: func_door"], surface_of(crate), 1e-3);
+}
+
+TEST_P(QuakeScene, ToolTexturesAreLeftOut) {
+    for (const char* texture : {"clip", "CLIPBevel", "AAATRIGGER", "null", "Skip", "hint", "origin"}) {
+        SCOPED_TRACE(texture);
+        QuakeMap map = room();
+        map.boxes = {{crate, texture, quake::empty}};
+        map.entities = {{"func_wall", Vec3d(-150.0, 0.0, 0.0), {{crate, texture}}}};
+        const Scene scene = test::scene_of(map);
+        EXPECT_NEAR(area_of(scene), surface_of(hall), 1e-6);
+        EXPECT_LT(depth_in_solid(scene, crate.center() - Vec3d(150.0, 0.0, 0.0)), 0.0);
+        EXPECT_EQ(left_out_counts(scene)[std::string("tool texture: ") + texture], 12U);
+    }
+}
+
+TEST_P(QuakeScene, ToolTexturesThatCloseRockStay) {
+    QuakeMap map = room();
+    map.wall_texture = "NULL";
+    map.boxes = {{crate, "skip", quake::solid}};
+    const Scene scene = test::scene_of(map);
+    EXPECT_NEAR(area_of(scene), surface_of(hall) + surface_of(crate), 1e-6);
+    EXPECT_TRUE(scene.left_out.empty());
+}
+
+TEST_P(QuakeScene, SurfacesAreClosedWhateverFacesTheCompilerKept) {
+    QuakeMap map = room();
+    map.boxes = {{crate}, {crate.translated(Vec3d(100.0, 0.0, 64.0)), "sky", quake::sky}};
+    map.entities = {{"func_wall", Vec3d(-150.0, 0.0, 0.0), {{crate}}}};
+    quake::Bsp bsp = test::bsp_of(map);
+    // One face stays, so that the entity has something to see.
+    bsp.models[0].face_count = 0;
+    bsp.models[1].face_count = 1;
+    const Result<Scene> scene = read_quake_scene(test::encode(bsp));
+    ASSERT_TRUE(scene.has_value()) << scene.error().message;
+    EXPECT_NEAR(area_of(*scene), surface_of(hall) + 3.0 * surface_of(crate), 1e-6);
+    EXPECT_TRUE(has_surface_at(*scene, crate_top - Vec3d(150.0, 0.0, 0.0)));
+}
+
+TEST_P(QuakeScene, FacesWithoutRockBehindThemAreSurfaces) {
+    QuakeMap map = room();
+    map.boxes = {{crate, "stone", quake::empty}};
+    const Scene scene = test::scene_of(map);
+    EXPECT_NEAR(area_of(scene), surface_of(hall) + surface_of(crate), 1e-6);
+    EXPECT_LT(depth_in_solid(scene, crate.center()), 0.0);
+}
+
+TEST_P(QuakeScene, SpawnPointsStandAtEyeHeight) {
+    QuakeMap map = room();
+    map.boxes = {{Box3d(Vec3d(50.0, 50.0, 40.0), Vec3d(150.0, 150.0, 60.0))}};
+    map.entities = {{"info_player_start", Vec3d(-100.0, 100.0, 24.0), {}},
+                    {"info_player_coop", Vec3d(100.0, 100.0, 24.0), {}},
+                    {"info_player_teamspawn", Vec3d(-100.0, 100.0, -5.0), {}},
+                    {"info_intermission", Vec3d(0.0, 0.0, 200.0), {}},
+                    {"info_player_deathmatch", Vec3d(-100.0, 300.0, 100.0), {}}};
+    const Scene scene = test::scene_of(map);
+    const double lift = GetParam() == quake::version_quake ? 23.0 : 29.0;
+    ASSERT_EQ(scene.spawn_points.size(), 3U);
+    EXPECT_EQ(scene.spawn_points[0].eye, Vec3d(-100.0, 100.0, 24.0 + lift));
+    EXPECT_DOUBLE_EQ(scene.spawn_points[0].yaw, std::numbers::pi / 2.0);
+    EXPECT_EQ(scene.spawn_points[1].kind, "info_player_coop");
+    EXPECT_EQ(scene.spawn_points[1].eye.z(), 39.0) << "under the low ceiling";
+    EXPECT_EQ(scene.spawn_points[2].eye.z(), -5.0 + lift) << "sunk into the floor";
+    EXPECT_EQ(left_out_counts(scene)["spawn point in solid: info_player_deathmatch"], 1U);
+}
+
+TEST_P(QuakeScene, VolumesAreTheRockAndNothingElse) {
+    const unsigned seed = 41;
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    for (int round = 0; round < 4; ++round) {
+        QuakeMap map = room();
+        for (int cell = 0; cell < 5; ++cell) {  // one a cell, so that they do not overlap
+            const Box3d space(Vec3d(-240.0 + 80.0 * cell, -180.0, 10.0),
+                              Vec3d(-170.0 + 80.0 * cell, 180.0, 240.0));
+            Box3d box(test::random_point_in(random, space));
+            box.extend(test::random_point_in(random, space));
+            map.boxes.push_back({Box3d(box.min().array().floor(), box.max().array().ceil())});
+        }
+        const Scene scene = test::scene_of(map);
+        double surface = surface_of(hall);
+        for (const test::QuakeBox& box : map.boxes)
+            surface += surface_of(box.box);
+        EXPECT_NEAR(area_of(scene), surface, 1e-3);
+        const Box3d around(hall.min() - Vec3d::Constant(15.0), hall.max() + Vec3d::Constant(15.0));
+        for (int i = 0; i < 2000; ++i) {
+            const Vec3d point = test::random_point_in(random, around);
+            const bool in_rock =
+                !hall.contains(point) || std::any_of(map.boxes.begin(), map.boxes.end(),
+                                                     [&](const auto& b) { return b.box.contains(point); });
+            ASSERT_EQ(depth_in_solid(scene, point) >= 0.0, in_rock) << point.transpose();
+        }
+    }
+}
+
+}  // namespace
+}  // namespace camdir::scene
