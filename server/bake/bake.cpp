@@ -54,8 +54,8 @@ std::span<const NamedStage> stages_of(const Pipeline& pipeline) {
 // What the reader left out, told like a stage.
 StageReport left_out_of(const scene::Scene& scene) {
     std::map<std::string, double> counts;
-    for (const scene::LeftOut& left_out : scene.left_out)
-        counts[left_out.reason] += static_cast<double>(left_out.count);
+    for (const scene::Skipped& skipped : scene.skipped)
+        counts[skipped.reason] += static_cast<double>(skipped.count);
     StageReport report{"left out", 0.0, {}};
     for (const auto& [reason, count] : counts)
         report.counts.push_back({report.stage, reason, count});
@@ -86,7 +86,7 @@ Result<Baked> run(const scene::Scene& scene, const Parameters& parameters, const
         reports.push_back(std::move(stage));
         if (finished) finished(reports.back());
     };
-    if (!scene.left_out.empty()) report(left_out_of(scene));
+    if (!scene.skipped.empty()) report(left_out_of(scene));
     for (const auto& [name, run_stage] : stages_of(pipeline)) {
         Stage stage(name, progress, stop);
         if (auto done = (pipeline.*run_stage)(stage); !done) return tl::unexpected(std::move(done.error()));

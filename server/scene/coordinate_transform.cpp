@@ -19,12 +19,12 @@ std::string text_of(const Vec3d& p) {
 
 }  // namespace
 
-Frame::Frame(const ReadOptions& options, UpAxis up)
+CoordinateTransform::CoordinateTransform(const ReadOptions& options, UpAxis up)
     : metres_per_unit_(options.metres_per_unit.value_or(1.0)),
       up_(options.up.value_or(up)),
       origin_(options.origin) {}
 
-Result<Vec3d> Frame::place(const Vec3d& source, const char* what, std::size_t index) const {
+Result<Vec3d> CoordinateTransform::place(const Vec3d& source, const char* what, std::size_t index) const {
     const Vec3d moved = source - origin_;
     const double limit = std::min(max_nominal_coordinate * nominal_unit(), file_coordinate_limit);
     if (!(moved.cwiseAbs().maxCoeff() < limit) || !moved.allFinite()) {

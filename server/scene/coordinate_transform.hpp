@@ -7,10 +7,10 @@
 
 namespace camdir::scene {
 
-class Frame {
+class CoordinateTransform {
   public:
     // `up` is what the format says; the options win.
-    Frame(const ReadOptions& options, UpAxis up);
+    CoordinateTransform(const ReadOptions& options, UpAxis up);
 
     [[nodiscard]] double metres_per_unit() const { return metres_per_unit_; }
     // Map units in a nominal unit.

@@ -36,7 +36,7 @@ struct SpawnPoint {
 };
 
 // Something the reader found in the source and left out on purpose; shown by `inspect`.
-struct LeftOut {
+struct Skipped {
     std::string reason;       // liquid, not solid, entity, outside the world's box, ...
     std::string what;         // the texture, shader or class of entities; empty: all with this reason
     std::uint64_t count = 0;  // surfaces; spawn points where the reason says so
@@ -67,7 +67,7 @@ struct Scene {
 
     Box3d bounds;  // of the playable world; encloses `vertices` and `points`
     std::vector<SpawnPoint> spawn_points;
-    std::vector<LeftOut> left_out;
+    std::vector<Skipped> skipped;
 };
 
 // Inside the brush or on its surface.

@@ -18,16 +18,16 @@ std::size_t mix(std::uint64_t a, std::uint64_t b, std::uint64_t c) {
 
 }  // namespace
 
-std::size_t Welder::Hash::operator()(const Cell& cell) const {
+std::size_t TriangleWelder::Hash::operator()(const Cell& cell) const {
     return mix(static_cast<std::uint64_t>(cell[0]), static_cast<std::uint64_t>(cell[1]),
                static_cast<std::uint64_t>(cell[2]));
 }
 
-std::size_t Welder::Hash::operator()(const Corners& corners) const {
+std::size_t TriangleWelder::Hash::operator()(const Corners& corners) const {
     return mix(corners[0], corners[1], corners[2]);
 }
 
-bool Welder::add(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+bool TriangleWelder::add(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
     const Corners corners = {vertex_at(a), vertex_at(b), vertex_at(c)};
     if (is_flat(corners)) return false;
     Corners ascending = corners;
@@ -37,7 +37,7 @@ bool Welder::add(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
     return true;
 }
 
-std::uint32_t Welder::vertex_at(const Vec3d& point) {
+std::uint32_t TriangleWelder::vertex_at(const Vec3d& point) {
     const auto cell_of = [&](Eigen::Index axis) {
         return static_cast<std::int64_t>(std::floor(point[axis] / tolerance_));
     };
@@ -61,7 +61,7 @@ std::uint32_t Welder::vertex_at(const Vec3d& point) {
     return found;
 }
 
-bool Welder::is_flat(const Corners& corners) const {
+bool TriangleWelder::is_flat(const Corners& corners) const {
     const Vec3d& a = vertices_[corners[0]];
     const Vec3d& b = vertices_[corners[1]];
     const Vec3d& c = vertices_[corners[2]];

@@ -14,9 +14,9 @@ namespace camdir::scene {
 // Collects triangles given by their corners. A corner takes the place of the first one seen within
 // `tolerance` of it. Triangles that are thereby flat (a corner less than a hundredth of the tolerance from
 // the opposite side) or that are there already are dropped. The result depends on the order of the calls.
-class Welder {
+class TriangleWelder {
   public:
-    explicit Welder(double tolerance) : tolerance_(tolerance) {}
+    explicit TriangleWelder(double tolerance) : tolerance_(tolerance) {}
 
     // True when the triangle was kept.
     bool add(const Vec3d& a, const Vec3d& b, const Vec3d& c);

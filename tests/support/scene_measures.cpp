@@ -7,7 +7,7 @@
 namespace camdir::test {
 namespace {
 
-std::string key_of(const scene::LeftOut& entry) {
+std::string key_of(const scene::Skipped& entry) {
     return entry.what.empty() ? entry.reason : entry.reason + ": " + entry.what;
 }
 
@@ -34,17 +34,17 @@ bool has_surface_at(const scene::Scene& scene, const Vec3d& point) {
     });
 }
 
-std::map<std::string, std::uint64_t> left_out_counts(const scene::Scene& scene) {
+std::map<std::string, std::uint64_t> skipped_counts(const scene::Scene& scene) {
     std::map<std::string, std::uint64_t> counts;
-    for (const scene::LeftOut& entry : scene.left_out) {
+    for (const scene::Skipped& entry : scene.skipped) {
         counts[key_of(entry)] = entry.count;
     }
     return counts;
 }
 
-std::map<std::string, double> left_out_areas(const scene::Scene& scene) {
+std::map<std::string, double> skipped_areas(const scene::Scene& scene) {
     std::map<std::string, double> areas;
-    for (const scene::LeftOut& entry : scene.left_out) {
+    for (const scene::Skipped& entry : scene.skipped) {
         areas[key_of(entry)] = entry.area;
     }
     return areas;

@@ -13,8 +13,8 @@ namespace camdir::test {
 // An obstacle triangle comes within 0.01 of the point.
 [[nodiscard]] bool has_surface_at(const scene::Scene& scene, const Vec3d& point);
 
-// Scene::left_out by "reason: what", or "reason" alone.
-[[nodiscard]] std::map<std::string, std::uint64_t> left_out_counts(const scene::Scene& scene);
-[[nodiscard]] std::map<std::string, double> left_out_areas(const scene::Scene& scene);
+// Scene::skipped by "reason: what", or "reason" alone.
+[[nodiscard]] std::map<std::string, std::uint64_t> skipped_counts(const scene::Scene& scene);
+[[nodiscard]] std::map<std::string, double> skipped_areas(const scene::Scene& scene);
 
 }  // namespace camdir::test

@@ -122,7 +122,7 @@ Result<std::vector<Entity>> parse_entities(std::string_view text) {
 
 Result<std::vector<PlacedModel>> placed_models(const std::vector<Entity>& entities, std::size_t model_count,
                                                bool (*is_obstacle)(std::string_view)) {
-    enum class Use { none, left_out, obstacle };
+    enum class Use { none, skipped, obstacle };
     std::vector<Use> uses(model_count, Use::none);
     std::vector<PlacedModel> placed;
     for (const Entity& entity : entities) {
@@ -136,7 +136,7 @@ Result<std::vector<PlacedModel>> placed_models(const std::vector<Entity>& entiti
         PlacedModel found{*model, entity.class_name(), is_obstacle(entity.class_name()), Vec3d::Zero()};
         if (!found.is_obstacle) {
             if (use == Use::none) placed.push_back(found);
-            use = std::max(use, Use::left_out);
+            use = std::max(use, Use::skipped);
             continue;
         }
         if (use == Use::obstacle) return fail(who + " belongs to another entity already");

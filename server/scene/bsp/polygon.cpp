@@ -22,7 +22,7 @@ Plane flipped(const Plane& plane) {
     return {-plane.normal, -plane.distance};
 }
 
-Polygon square_on(const Plane& plane, double half_side) {
+Polygon base_winding(const Plane& plane, double half_side) {
     Eigen::Index thinnest = 0;
     plane.normal.cwiseAbs().minCoeff(&thinnest);
     const Vec3d u = plane.normal.cross(Vec3d::Unit(thinnest)).normalized() * half_side;
@@ -36,7 +36,7 @@ bool lies_on(const Polygon& polygon, const Plane& plane, double tolerance) {
                        [&](const Vec3d& p) { return std::abs(height_above(plane, p)) <= tolerance; });
 }
 
-Polygon cut_behind(const Polygon& polygon, const Plane& plane, double tolerance) {
+Polygon clip(const Polygon& polygon, const Plane& plane, double tolerance) {
     Polygon behind;
     bool has_volume = false;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -54,11 +54,11 @@ Polygon cut_behind(const Polygon& polygon, const Plane& plane, double tolerance)
     return behind;
 }
 
-Polygon cut_to_box(Polygon polygon, const Box3d& box) {
+Polygon clip_to_box(Polygon polygon, const Box3d& box) {
     for (Eigen::Index axis = 0; axis < 3 && !polygon.empty(); ++axis) {
         const Vec3d up = Vec3d::Unit(axis);
-        polygon = cut_behind(polygon, Plane{up, box.max()[axis]}, 0.0);
-        polygon = cut_behind(polygon, Plane{-up, -box.min()[axis]}, 0.0);
+        polygon = clip(polygon, Plane{up, box.max()[axis]}, 0.0);
+        polygon = clip(polygon, Plane{-up, -box.min()[axis]}, 0.0);
     }
     return polygon;
 }

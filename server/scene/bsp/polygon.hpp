@@ -21,17 +21,17 @@ using Polygon = std::vector<Vec3d>;
 
 // A square in `plane`, counter-clockwise seen from where the normal points, with its centre at the point
 // of the plane nearest to the origin.
-[[nodiscard]] Polygon square_on(const Plane& plane, double half_side);
+[[nodiscard]] Polygon base_winding(const Plane& plane, double half_side);
 
 // All corners lie within `tolerance` of the plane.
 [[nodiscard]] bool lies_on(const Polygon& polygon, const Plane& plane, double tolerance);
 
 // The part behind the plane (normal.dot(p) <= distance). Corners within `tolerance` count as on the plane;
 // empty when no corner is further behind it than that.
-[[nodiscard]] Polygon cut_behind(const Polygon& polygon, const Plane& plane, double tolerance);
+[[nodiscard]] Polygon clip(const Polygon& polygon, const Plane& plane, double tolerance);
 
 // The part inside the box.
-[[nodiscard]] Polygon cut_to_box(Polygon polygon, const Box3d& box);
+[[nodiscard]] Polygon clip_to_box(Polygon polygon, const Box3d& box);
 
 // Indices into `polygon` of triangles that cover it: a zigzag that takes the shorter diagonal each time.
 [[nodiscard]] std::vector<std::array<std::size_t, 3>> triangulate(const Polygon& polygon);

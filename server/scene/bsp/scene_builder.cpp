@@ -13,22 +13,22 @@ const char* const outside = "outside the world's box";
 
 }  // namespace
 
-Collector::Collector(const Box3d& world)
+SceneBuilder::SceneBuilder(const Box3d& world)
     : box_(world.min() - Vec3d::Constant(box_margin), world.max() + Vec3d::Constant(box_margin)),
       welder_(weld_tolerance) {}
 
-void Collector::add_surface(const Polygon& polygon) {
-    const Polygon inside = cut_to_box(polygon, box_);
-    if (inside.empty()) return leave_out(outside, "", area(polygon));
+void SceneBuilder::add_surface(const Polygon& polygon) {
+    const Polygon inside = clip_to_box(polygon, box_);
+    if (inside.empty()) return skip(outside, "", area(polygon));
     for (const auto& [a, b, c] : triangulate(inside)) {
         welder_.add(inside[a], inside[b], inside[c]);
     }
 }
 
-bool Collector::add_volume(const Solid& solid) {
+bool SceneBuilder::add_volume(const Solid& solid) {
     if (!solid.bounds.intersects(box_)) {
         for (const SolidFace& face : solid.faces)
-            leave_out(outside, "", area(face.polygon));
+            skip(outside, "", area(face.polygon));
         return false;
     }
     scene_.brushes.push_back({static_cast<std::uint32_t>(scene_.planes.size()),
@@ -37,14 +37,13 @@ bool Collector::add_volume(const Solid& solid) {
     return true;
 }
 
-void Collector::leave_out(const std::string& reason, std::string_view what, double area,
-                          std::uint64_t count) {
-    LeftOut& entry = left_out_[{reason, std::string(what)}];
+void SceneBuilder::skip(const std::string& reason, std::string_view what, double area, std::uint64_t count) {
+    Skipped& entry = skipped_[{reason, std::string(what)}];
     entry.count += count;
     entry.area += area;
 }
 
-Result<void> Collector::add_spawn_points(const std::vector<Entity>& entities, int eye_height) {
+Result<void> SceneBuilder::add_spawn_points(const std::vector<Entity>& entities, int eye_height) {
     for (const Entity& entity : entities) {
         if (!is_spawn_point(entity.class_name())) continue;
         const Result<Vec3d> origin = entity.origin();
@@ -52,12 +51,12 @@ Result<void> Collector::add_spawn_points(const std::vector<Entity>& entities, in
         if (const std::optional<Vec3d> eye = eye_above(*origin, eye_height))
             scene_.spawn_points.push_back({*eye, entity.yaw(), std::string(entity.class_name())});
         else
-            leave_out("spawn point in solid", entity.class_name(), 0.0);
+            skip("spawn point in solid", entity.class_name(), 0.0);
     }
     return {};
 }
 
-Scene Collector::take(double metres_per_unit) {
+Scene SceneBuilder::take(double metres_per_unit) {
     scene_.metres_per_unit = metres_per_unit;
     scene_.vertices = welder_.take_vertices();
     scene_.triangles = welder_.take_triangles();
@@ -65,20 +64,20 @@ Scene Collector::take(double metres_per_unit) {
     for (const Vec3d& vertex : scene_.vertices) {
         scene_.bounds.extend(vertex);
     }
-    for (auto& [key, entry] : left_out_) {
-        scene_.left_out.push_back({key.first, key.second, entry.count, entry.area});
+    for (auto& [key, entry] : skipped_) {
+        scene_.skipped.push_back({key.first, key.second, entry.count, entry.area});
     }
     return std::move(scene_);
 }
 
-bool Collector::in_solid(const Vec3d& point) const {
+bool SceneBuilder::in_solid(const Vec3d& point) const {
     return !box_.contains(point) ||
            std::any_of(scene_.brushes.begin(), scene_.brushes.end(), [&](const Brush& brush) {
                return brush.bounds.contains(point) && contains(scene_, brush, point);
            });
 }
 
-std::optional<Vec3d> Collector::eye_above(const Vec3d& origin, int eye_height) const {
+std::optional<Vec3d> SceneBuilder::eye_above(const Vec3d& origin, int eye_height) const {
     std::optional<Vec3d> eye;
     for (int height = 0; height <= eye_height; ++height) {
         const Vec3d candidate = origin + Vec3d(0.0, 0.0, height);

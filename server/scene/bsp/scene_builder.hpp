@@ -13,10 +13,10 @@
 
 namespace camdir::scene {
 
-class Collector {
+class SceneBuilder {
   public:
     // `world` is the box of the map's own world: surfaces end there.
-    explicit Collector(const Box3d& world);
+    explicit SceneBuilder(const Box3d& world);
 
     // A convex polygon of an obstacle. Corners are welded, flat triangles dropped.
     void add_surface(const Polygon& polygon);
@@ -24,8 +24,8 @@ class Collector {
     // The volume of an obstacle, without its surface. False, and counted, when it lies outside the world.
     bool add_volume(const Solid& solid);
 
-    // `what`: texture, shader or class of entities, as LeftOut says.
-    void leave_out(const std::string& reason, std::string_view what, double area, std::uint64_t count = 1);
+    // `what`: texture, shader or class of entities, as Skipped says.
+    void skip(const std::string& reason, std::string_view what, double area, std::uint64_t count = 1);
 
     // Players' eyes are `eye_height` above a spawn point's entity, or as high above it as there is room below
     // the first volume: ceilings may be low, and some entities are sunk into the floor. Call it after the
@@ -34,7 +34,7 @@ class Collector {
 
     [[nodiscard]] std::size_t plane_count() const { return scene_.planes.size(); }
 
-    // Everything collected; the collector is empty afterwards.
+    // Everything collected; the builder is empty afterwards.
     [[nodiscard]] Scene take(double metres_per_unit);
 
   private:
@@ -43,9 +43,9 @@ class Collector {
     [[nodiscard]] std::optional<Vec3d> eye_above(const Vec3d& origin, int eye_height) const;
 
     Box3d box_;
-    Welder welder_;
+    TriangleWelder welder_;
     Scene scene_;
-    std::map<std::pair<std::string, std::string>, LeftOut> left_out_;
+    std::map<std::pair<std::string, std::string>, Skipped> skipped_;
 };
 
 }  // namespace camdir::scene

@@ -14,11 +14,11 @@ constexpr double tolerance = 1e-6;
 
 // What the other half spaces leave of a side. Of sides in the same plane only the first has a face.
 Polygon face_of(const std::vector<Plane>& planes, std::size_t side) {
-    Polygon face = square_on(planes[side], half_side);
+    Polygon face = base_winding(planes[side], half_side);
     for (std::size_t other = 0; other < planes.size() && !face.empty(); ++other) {
         if (other == side) continue;
         if (!lies_on(face, planes[other], tolerance))
-            face = cut_behind(face, planes[other], tolerance);
+            face = clip(face, planes[other], tolerance);
         else if (other < side)
             face.clear();
     }
@@ -59,7 +59,7 @@ Solid make_solid(const Box3d& box) {
     return make_solid(std::move(planes));
 }
 
-Solid cut_behind(const Solid& solid, const Plane& plane) {
+Solid clip(const Solid& solid, const Plane& plane) {
     double lowest = std::numeric_limits<double>::infinity();
     double highest = -lowest;
     for (const SolidFace& face : solid.faces) {
@@ -73,10 +73,10 @@ Solid cut_behind(const Solid& solid, const Plane& plane) {
     if (highest <= tolerance) return solid;
 
     Solid behind;
-    Polygon section = square_on(plane, half_side);
+    Polygon section = base_winding(plane, half_side);
     for (std::size_t side = 0; side < solid.planes.size(); ++side) {
-        add_side(behind, solid.planes[side], cut_behind(solid.faces[side].polygon, plane, tolerance));
-        section = cut_behind(section, solid.planes[side], tolerance);
+        add_side(behind, solid.planes[side], clip(solid.faces[side].polygon, plane, tolerance));
+        section = clip(section, solid.planes[side], tolerance);
     }
     add_side(behind, plane, std::move(section));
     return behind;

@@ -26,7 +26,7 @@ struct Solid {
 
 // The part of `solid` behind the plane. Every plane of `solid` must have its face, in the same order, and so
 // it is with the result; without planes when nothing is left.
-[[nodiscard]] Solid cut_behind(const Solid& solid, const Plane& plane);
+[[nodiscard]] Solid clip(const Solid& solid, const Plane& plane);
 
 [[nodiscard]] double area(const Polygon& polygon);
 

@@ -41,15 +41,15 @@ const char* name_of(CloudFormat format) {
     return names[static_cast<std::size_t>(format)];
 }
 
-void leave_out(Scene& scene, std::string reason, std::size_t count) {
-    if (count > 0) scene.left_out.push_back({std::move(reason), "", count});
+void skip(Scene& scene, std::string reason, std::size_t count) {
+    if (count > 0) scene.skipped.push_back({std::move(reason), "", count});
 }
 
 // In PCD a NaN says that the scanner saw nothing there.
 void drop_missing(std::vector<Vec3d>& points, Scene& scene) {
     const auto missing = [](const Vec3d& p) { return p.array().isNaN().any(); };
     const auto kept = std::remove_if(points.begin(), points.end(), missing);
-    leave_out(scene, "points without a position", static_cast<std::size_t>(points.end() - kept));
+    skip(scene, "points without a position", static_cast<std::size_t>(points.end() - kept));
     points.erase(kept, points.end());
 }
 
@@ -59,7 +59,7 @@ void drop_repeated(std::vector<Vec3d>& points, Scene& scene) {
         return std::tuple(a.x(), a.y(), a.z()) < std::tuple(b.x(), b.y(), b.z());
     });
     const auto kept = std::unique(points.begin(), points.end());
-    leave_out(scene, "repeated points", static_cast<std::size_t>(points.end() - kept));
+    skip(scene, "repeated points", static_cast<std::size_t>(points.end() - kept));
     points.erase(kept, points.end());
 }
 
@@ -80,7 +80,7 @@ void drop_outliers(std::vector<Vec3d>& points, Scene& scene) {
     for (std::size_t i = 0; i < points.size(); ++i) {
         if (distances[i] <= limit) points[kept++] = points[i];
     }
-    leave_out(scene, "outliers", points.size() - kept);
+    skip(scene, "outliers", points.size() - kept);
     points.resize(kept);
 }
 
@@ -90,13 +90,13 @@ Result<Scene> read_cloud_scene(std::span<const std::byte> bytes, CloudFormat for
                                const ReadOptions& options) {
     auto points = read_points(bytes, format);
     if (!points) return tl::unexpected(points.error());
-    const Frame frame(options, UpAxis::z);
+    const CoordinateTransform coordinates(options, UpAxis::z);
     Scene scene;
     scene.kind = std::string("point cloud (") + name_of(format) + ")";
-    scene.metres_per_unit = frame.metres_per_unit();
+    scene.metres_per_unit = coordinates.metres_per_unit();
     if (format == CloudFormat::pcd) drop_missing(*points, scene);
     for (std::size_t i = 0; i < points->size(); ++i) {
-        const auto placed = frame.place((*points)[i], "point", i);
+        const auto placed = coordinates.place((*points)[i], "point", i);
         if (!placed) return tl::unexpected(placed.error());
         (*points)[i] = *placed;
     }

@@ -23,10 +23,10 @@ bool has_y_up(MeshFormat format) {
 }
 
 // Collects the triangles of one mesh of one node after the other.
-class MeshCollector {
+class MeshBuilder {
   public:
-    explicit MeshCollector(const Frame& frame)
-        : frame_(frame), welder_(weld_tolerance * frame.nominal_unit()) {}
+    explicit MeshBuilder(const CoordinateTransform& coordinates)
+        : coordinates_(coordinates), welder_(weld_tolerance * coordinates.nominal_unit()) {}
 
     [[nodiscard]] Result<void> add(const aiMesh& mesh, const aiMatrix4x4& transform);
     [[nodiscard]] Result<Scene> finish();
@@ -35,22 +35,22 @@ class MeshCollector {
     [[nodiscard]] Result<Vec3d> corner(const aiMesh& mesh, unsigned index,
                                        const aiMatrix4x4& transform) const;
 
-    const Frame& frame_;
-    Welder welder_;
+    const CoordinateTransform& coordinates_;
+    TriangleWelder welder_;
     std::uint64_t triangles_ = 0;
     std::uint64_t flat_ = 0;
     std::uint64_t no_triangles_ = 0;
 };
 
-Result<Vec3d> MeshCollector::corner(const aiMesh& mesh, unsigned index, const aiMatrix4x4& transform) const {
+Result<Vec3d> MeshBuilder::corner(const aiMesh& mesh, unsigned index, const aiMatrix4x4& transform) const {
     if (index >= mesh.mNumVertices)
         return fail("mesh '" + std::string(mesh.mName.C_Str()) + "': vertex " + std::to_string(index) +
                     " does not exist; it has " + std::to_string(mesh.mNumVertices));
     const aiVector3D p = transform * mesh.mVertices[index];
-    return frame_.place({p.x, p.y, p.z}, "vertex", index);
+    return coordinates_.place({p.x, p.y, p.z}, "vertex", index);
 }
 
-Result<void> MeshCollector::add(const aiMesh& mesh, const aiMatrix4x4& transform) {
+Result<void> MeshBuilder::add(const aiMesh& mesh, const aiMatrix4x4& transform) {
     for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
         const aiFace& face = mesh.mFaces[i];
         if (face.mNumIndices < 3) {
@@ -70,19 +70,19 @@ Result<void> MeshCollector::add(const aiMesh& mesh, const aiMatrix4x4& transform
     return {};
 }
 
-Result<Scene> MeshCollector::finish() {
+Result<Scene> MeshBuilder::finish() {
     Scene scene;
     scene.vertices = welder_.take_vertices();
     scene.triangles = welder_.take_triangles();
     if (scene.triangles.empty())
         return fail("no triangle with an area of its own among its " + std::to_string(triangles_));
-    scene.metres_per_unit = frame_.metres_per_unit();
+    scene.metres_per_unit = coordinates_.metres_per_unit();
     for (const Vec3d& vertex : scene.vertices)
         scene.bounds.extend(vertex);
-    const Vec3d margin = Vec3d::Constant(box_margin * frame_.nominal_unit());
+    const Vec3d margin = Vec3d::Constant(box_margin * coordinates_.nominal_unit());
     scene.bounds = Box3d(scene.bounds.min() - margin, scene.bounds.max() + margin);
-    if (flat_ > 0) scene.left_out.push_back({"triangles that are flat or repeated", "", flat_});
-    if (no_triangles_ > 0) scene.left_out.push_back({"points and lines", "", no_triangles_});
+    if (flat_ > 0) scene.skipped.push_back({"triangles that are flat or repeated", "", flat_});
+    if (no_triangles_ > 0) scene.skipped.push_back({"points and lines", "", no_triangles_});
     return scene;
 }
 
@@ -94,8 +94,8 @@ struct PlacedNode {
 }  // namespace
 
 Result<Scene> mesh_scene_of(const aiScene& imported, MeshFormat format, const ReadOptions& options) {
-    const Frame frame(options, has_y_up(format) ? UpAxis::y : UpAxis::z);
-    MeshCollector collector(frame);
+    const CoordinateTransform coordinates(options, has_y_up(format) ? UpAxis::y : UpAxis::z);
+    MeshBuilder builder(coordinates);
     std::vector<PlacedNode> open;
     if (imported.mRootNode != nullptr) open.push_back({imported.mRootNode, aiMatrix4x4()});
     while (!open.empty()) {
@@ -105,13 +105,13 @@ Result<Scene> mesh_scene_of(const aiScene& imported, MeshFormat format, const Re
         for (unsigned i = 0; i < node->mNumMeshes; ++i) {
             if (node->mMeshes[i] >= imported.mNumMeshes)
                 return fail("mesh " + std::to_string(node->mMeshes[i]) + " does not exist");
-            const Result<void> added = collector.add(*imported.mMeshes[node->mMeshes[i]], transform);
+            const Result<void> added = builder.add(*imported.mMeshes[node->mMeshes[i]], transform);
             if (!added) return tl::unexpected(added.error());
         }
         for (unsigned i = node->mNumChildren; i-- > 0;)
             open.push_back({node->mChildren[i], transform});
     }
-    Result<Scene> scene = collector.finish();
+    Result<Scene> scene = builder.finish();
     if (scene) scene->kind = std::string("mesh (") + name_of(format) + ")";
     return scene;
 }

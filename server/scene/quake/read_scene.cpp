@@ -62,14 +62,14 @@ Polygon translated(Polygon polygon, const Vec3d& translation) {
 
 class Reader {
   public:
-    explicit Reader(const quake::Bsp& bsp) : bsp_(bsp), tree_(bsp), collector_(box_of(bsp.models[0])) {}
+    explicit Reader(const quake::Bsp& bsp) : bsp_(bsp), tree_(bsp), builder_(box_of(bsp.models[0])) {}
 
     [[nodiscard]] Result<Scene> read();
 
   private:
     [[nodiscard]] Result<void> add_model(std::size_t number, const Vec3d& translation);
     [[nodiscard]] Result<void> add_volumes(const quake::Model& model, const Vec3d& translation);
-    void leave_out_model(std::size_t number, std::string_view class_name);
+    void skip_model(std::size_t number, std::string_view class_name);
     // Behind the face lies a solid leaf of its model.
     [[nodiscard]] bool closes_solid(const quake::Model& model, const quake::Face& face,
                                     const Polygon& polygon) const;
@@ -80,7 +80,7 @@ class Reader {
 
     const quake::Bsp& bsp_;
     quake::Tree tree_;
-    Collector collector_;
+    SceneBuilder builder_;
 };
 
 Result<Scene> Reader::read() {
@@ -92,16 +92,16 @@ Result<Scene> Reader::read() {
     if (const Result<void> world = add_model(0, Vec3d::Zero()); !world) return tl::unexpected(world.error());
     for (const PlacedModel& placed : *models) {
         if (!placed.is_obstacle) {
-            leave_out_model(placed.model, placed.class_name);
+            skip_model(placed.model, placed.class_name);
             continue;
         }
         const Result<void> added = add_model(placed.model, placed.origin);
         if (!added) return tl::unexpected(added.error());
     }
-    const Result<void> spawned = collector_.add_spawn_points(
+    const Result<void> spawned = builder_.add_spawn_points(
         *entities, bsp_.version == quake::version_quake ? eye_height_quake : eye_height_goldsrc);
     if (!spawned) return tl::unexpected(spawned.error());
-    return collector_.take(metres_of_nominal_unit);
+    return builder_.take(metres_of_nominal_unit);
 }
 
 // Faces that close what is solid are parts of its surface, which the volumes give without holes. A model
@@ -116,11 +116,11 @@ Result<void> Reader::add_model(std::size_t number, const Vec3d& translation) {
         const std::string name = lower_case(std::string(texture));
         const bool closes = closes_solid(model, face, polygon);
         if (is_liquid(name)) {
-            collector_.leave_out("liquid", texture, area(polygon));
+            builder_.skip("liquid", texture, area(polygon));
         } else if (is_tool(name) && !(is_world && closes)) {
-            collector_.leave_out("tool texture", texture, area(polygon));
+            builder_.skip("tool texture", texture, area(polygon));
         } else {
-            if (!closes) collector_.add_surface(translated(polygon, translation));
+            if (!closes) builder_.add_surface(translated(polygon, translation));
             is_obstacle = true;
         }
     }
@@ -132,7 +132,7 @@ Result<void> Reader::add_volumes(const quake::Model& model, const Vec3d& transla
     box.min() -= Vec3d::Ones();
     box.max() += Vec3d::Ones();
     const std::int32_t root = model.head_nodes[0];
-    const auto add_part = [&](const Polygon& part) { collector_.add_surface(translated(part, translation)); };
+    const auto add_part = [&](const Polygon& part) { builder_.add_surface(translated(part, translation)); };
     return tree_.for_each_solid_leaf(root, box, [&](const Solid& leaf) -> Result<void> {
         for (const SolidFace& face : leaf.faces) {
             const Result<void> added = tree_.for_each_open_part(root, face, add_part);
@@ -142,18 +142,18 @@ Result<void> Reader::add_volumes(const quake::Model& model, const Vec3d& transla
         moved.bounds.translate(translation);
         for (Plane& plane : moved.planes)
             plane.distance += plane.normal.dot(translation);
-        collector_.add_volume(moved);
-        if (collector_.plane_count() <= bsp_.max_volume_planes()) return {};
+        builder_.add_volume(moved);
+        if (builder_.plane_count() <= bsp_.max_volume_planes()) return {};
         return fail("lump 5 (nodes): the solid leaves have more than " +
                     std::to_string(bsp_.max_volume_planes()) +
                     " planes, which is the limit for a file of this size");
     });
 }
 
-void Reader::leave_out_model(std::size_t number, std::string_view class_name) {
+void Reader::skip_model(std::size_t number, std::string_view class_name) {
     const char* const reason = class_name.starts_with("trigger_") ? "trigger" : "entity";
     for (const quake::Face& face : faces_of(bsp_.models[number]))
-        collector_.leave_out(reason, class_name, area(polygon_of(face)));
+        builder_.skip(reason, class_name, area(polygon_of(face)));
 }
 
 bool Reader::closes_solid(const quake::Model& model, const quake::Face& face, const Polygon& polygon) const {

@@ -56,8 +56,8 @@ Result<void> Tree::for_each_solid_leaf(std::int32_t root, const Box3d& box,
             return fail("lump 5 (nodes): element " + std::to_string(here.child) + ": more than " +
                         std::to_string(max_planes) + " planes bound it; expected a map's tree");
         const scene::Plane& cut = plane(here.child);
-        open.push_back({child(here.child, 1), cut_behind(here.place, cut)});
-        open.push_back({child(here.child, 0), cut_behind(here.place, flipped(cut))});
+        open.push_back({child(here.child, 1), clip(here.place, cut)});
+        open.push_back({child(here.child, 0), clip(here.place, flipped(cut))});
     }
     return {};
 }
@@ -83,8 +83,8 @@ Result<void> Tree::for_each_open_part(std::int32_t root, const SolidFace& face,
             open.push_back({child(here.child, outside), here.polygon});
             continue;
         }
-        Polygon behind = cut_behind(here.polygon, cut, tolerance);
-        Polygon before = cut_behind(here.polygon, flipped(cut), tolerance);
+        Polygon behind = clip(here.polygon, cut, tolerance);
+        Polygon before = clip(here.polygon, flipped(cut), tolerance);
         if (!behind.empty()) open.push_back({child(here.child, 1), std::move(behind)});
         if (!before.empty()) open.push_back({child(here.child, 0), std::move(before)});
     }

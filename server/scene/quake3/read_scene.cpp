@@ -71,17 +71,17 @@ std::vector<Polygon> soup_triangles(const q3::Bsp& bsp, const q3::Face& face) {
 
 class Reader {
   public:
-    explicit Reader(const q3::Bsp& bsp) : bsp_(bsp), tree_(bsp), collector_(world_of(bsp)) {}
+    explicit Reader(const q3::Bsp& bsp) : bsp_(bsp), tree_(bsp), builder_(world_of(bsp)) {}
 
     [[nodiscard]] Result<Scene> read();
 
   private:
-    // `left_out_as` is the class of an entity that is no obstacle; empty: the model is one.
+    // `skipped_as` is the class of an entity that is no obstacle; empty: the model is one.
     [[nodiscard]] Result<void> add_model(std::size_t number, const Vec3d& translation,
-                                         std::string_view left_out_as = {});
-    void add_brush(const q3::Brush& brush, const Vec3d& translation, std::string_view left_out_as);
+                                         std::string_view skipped_as = {});
+    void add_brush(const q3::Brush& brush, const Vec3d& translation, std::string_view skipped_as);
     [[nodiscard]] Result<void> add_face(const q3::Face& face, const Vec3d& translation,
-                                        std::string_view left_out_as);
+                                        std::string_view skipped_as);
     [[nodiscard]] Result<std::vector<Polygon>> triangles_of(const q3::Face& face);
     [[nodiscard]] const q3::Shader& shader(std::int32_t number) const {
         return bsp_.shaders[static_cast<std::size_t>(number)];
@@ -89,7 +89,7 @@ class Reader {
 
     const q3::Bsp& bsp_;
     q3::Tree tree_;
-    Collector collector_;
+    SceneBuilder builder_;
     std::size_t patch_triangles_ = 0;
 };
 
@@ -105,47 +105,47 @@ Result<Scene> Reader::read() {
                                              placed.is_obstacle ? std::string_view() : placed.class_name);
         if (!added) return tl::unexpected(added.error());
     }
-    const Result<void> spawned = collector_.add_spawn_points(*entities, eye_height);
+    const Result<void> spawned = builder_.add_spawn_points(*entities, eye_height);
     if (!spawned) return tl::unexpected(spawned.error());
-    return collector_.take(metres_of_nominal_unit);
+    return builder_.take(metres_of_nominal_unit);
 }
 
-Result<void> Reader::add_model(std::size_t number, const Vec3d& translation, std::string_view left_out_as) {
+Result<void> Reader::add_model(std::size_t number, const Vec3d& translation, std::string_view skipped_as) {
     const q3::Model& model = bsp_.models[number];
     for (std::int32_t i = 0; i < model.brush_count; ++i) {
-        add_brush(bsp_.brushes[static_cast<std::size_t>(model.first_brush + i)], translation, left_out_as);
+        add_brush(bsp_.brushes[static_cast<std::size_t>(model.first_brush + i)], translation, skipped_as);
     }
     for (std::int32_t i = 0; i < model.face_count; ++i) {
         const q3::Face& face = bsp_.faces[static_cast<std::size_t>(model.first_face + i)];
-        if (const Result<void> added = add_face(face, translation, left_out_as); !added) return added;
+        if (const Result<void> added = add_face(face, translation, skipped_as); !added) return added;
     }
     return {};
 }
 
-void Reader::add_brush(const q3::Brush& brush, const Vec3d& translation, std::string_view left_out_as) {
+void Reader::add_brush(const q3::Brush& brush, const Vec3d& translation, std::string_view skipped_as) {
     const q3::Shader& kind = shader(brush.shader);
     const Solid solid = make_solid(planes_of(bsp_, brush, translation));
     const bool obstacle = is_obstacle(kind);
-    if (!left_out_as.empty() || !obstacle) {
+    if (!skipped_as.empty() || !obstacle) {
         for (const SolidFace& face : solid.faces) {
             if (obstacle)
-                collector_.leave_out("entity", left_out_as, area(face.polygon));
+                builder_.skip("entity", skipped_as, area(face.polygon));
             else
-                collector_.leave_out(why_no_obstacle(kind), name_of(kind), area(face.polygon));
+                builder_.skip(why_no_obstacle(kind), name_of(kind), area(face.polygon));
         }
         return;
     }
-    if (solid.faces.empty()) return collector_.leave_out("brush without volume", name_of(kind), 0.0);
-    if (!collector_.add_volume(solid)) return;
+    if (solid.faces.empty()) return builder_.skip("brush without volume", name_of(kind), 0.0);
+    if (!builder_.add_volume(solid)) return;
     for (const SolidFace& face : solid.faces) {
         if (tree_.is_seen(face.polygon, face.normal))
-            collector_.add_surface(face.polygon);
+            builder_.add_surface(face.polygon);
         else
-            collector_.leave_out("face that nobody can see", "", area(face.polygon));
+            builder_.skip("face that nobody can see", "", area(face.polygon));
     }
 }
 
-Result<void> Reader::add_face(const q3::Face& face, const Vec3d& translation, std::string_view left_out_as) {
+Result<void> Reader::add_face(const q3::Face& face, const Vec3d& translation, std::string_view skipped_as) {
     const Result<std::vector<Polygon>> triangles = triangles_of(face);
     if (!triangles) return tl::unexpected(triangles.error());
     const q3::Shader& kind = shader(face.shader);
@@ -153,11 +153,11 @@ Result<void> Reader::add_face(const q3::Face& face, const Vec3d& translation, st
         for (Vec3d& corner : triangle)
             corner += translation;
         if (!is_obstacle(kind))
-            collector_.leave_out(why_no_obstacle(kind), name_of(kind), area(triangle));
-        else if (!left_out_as.empty())
-            collector_.leave_out("entity", left_out_as, area(triangle));
+            builder_.skip(why_no_obstacle(kind), name_of(kind), area(triangle));
+        else if (!skipped_as.empty())
+            builder_.skip("entity", skipped_as, area(triangle));
         else
-            collector_.add_surface(triangle);
+            builder_.add_surface(triangle);
     }
     return {};
 }

@@ -46,8 +46,8 @@ bool Tree::is_seen(const Polygon& polygon, const Vec3d& normal) const {
         const auto node = static_cast<std::size_t>(visit.child);
         const auto& [front, back] = bsp_.nodes[node].children;
         const scene::Plane& plane = planes_[node];
-        Polygon before = cut_behind(visit.polygon, flipped(plane), tolerance);
-        Polygon behind = cut_behind(visit.polygon, plane, tolerance);
+        Polygon before = clip(visit.polygon, flipped(plane), tolerance);
+        Polygon behind = clip(visit.polygon, plane, tolerance);
         // On the plane although it was moved: what stands on the plane looks along its own normal.
         if (before.empty() && behind.empty())
             (plane.normal.dot(normal) >= 0.0 ? before : behind) = visit.polygon;

@@ -86,7 +86,7 @@ TEST(CloudBake, WithoutSeedsTheLargestPartStaysAndSaysWhereItIs) {
 
 TEST(CloudBake, SaysWhatItWasMadeFrom) {
     auto scene = scene_of(test::walls_of(room, 0.25));
-    scene.left_out.push_back({"outliers", "", 3});
+    scene.skipped.push_back({"outliers", "", 3});
     scene.options.seeds = {{0.5, 0.0, 1.0}};
     const freespace::Metadata metadata = bake_of(scene, {.d0 = 8.0}).metadata();
     EXPECT_NE(metadata.parameters.find(R"json("kind": "point cloud (XYZ)")json"), std::string::npos);

@@ -28,7 +28,7 @@ TEST(Polygon, SquareLiesOnItsPlaneAndFacesItsNormal) {
     std::mt19937 random(1);
     for (int i = 0; i < 100; ++i) {
         const Plane plane = random_plane(random);
-        const Polygon square = square_on(plane, 10.0);
+        const Polygon square = base_winding(plane, 10.0);
         EXPECT_TRUE(lies_on(square, plane, 1e-9));
         EXPECT_NEAR(area_of(square), 400.0, 1e-6);
         EXPECT_GT((square[1] - square[0]).cross(square[2] - square[1]).dot(plane.normal), 0.0);
@@ -38,10 +38,10 @@ TEST(Polygon, SquareLiesOnItsPlaneAndFacesItsNormal) {
 TEST(Polygon, CutsPartitionTheArea) {
     std::mt19937 random(2);
     for (int i = 0; i < 1000; ++i) {
-        const Polygon square = square_on(random_plane(random), 2.0);
+        const Polygon square = base_winding(random_plane(random), 2.0);
         const Plane knife = random_plane(random);
-        const Polygon behind = cut_behind(square, knife, 0.0);
-        const Polygon before = cut_behind(square, {-knife.normal, -knife.distance}, 0.0);
+        const Polygon behind = clip(square, knife, 0.0);
+        const Polygon before = clip(square, {-knife.normal, -knife.distance}, 0.0);
         EXPECT_NEAR(area_of(behind) + area_of(before), area_of(square), 1e-9);
         for (const Vec3d& corner : behind) {
             EXPECT_LE(knife.normal.dot(corner), knife.distance + 1e-9);
@@ -50,17 +50,17 @@ TEST(Polygon, CutsPartitionTheArea) {
 }
 
 TEST(Polygon, CutToBoxKeepsWhatIsInside) {
-    const Polygon square = square_on({Vec3d::UnitZ(), 0.5}, 10.0);
-    EXPECT_NEAR(area_of(cut_to_box(square, unit)), 4.0, 1e-12);
-    EXPECT_TRUE(cut_to_box(square_on({Vec3d::UnitZ(), 1.5}, 10.0), unit).empty());
+    const Polygon square = base_winding({Vec3d::UnitZ(), 0.5}, 10.0);
+    EXPECT_NEAR(area_of(clip_to_box(square, unit)), 4.0, 1e-12);
+    EXPECT_TRUE(clip_to_box(base_winding({Vec3d::UnitZ(), 1.5}, 10.0), unit).empty());
 }
 
 TEST(Polygon, TrianglesCoverTheArea) {
     std::mt19937 random(3);
     for (int i = 0; i < 200; ++i) {
-        Polygon polygon = square_on(random_plane(random), 2.0);
+        Polygon polygon = base_winding(random_plane(random), 2.0);
         for (int cut = 0; cut < 6; ++cut) {
-            polygon = cut_behind(polygon, random_plane(random), 0.0);
+            polygon = clip(polygon, random_plane(random), 0.0);
         }
         double sum = 0.0;
         for (const auto& [a, b, c] : triangulate(polygon)) {
@@ -71,7 +71,7 @@ TEST(Polygon, TrianglesCoverTheArea) {
 }
 
 TEST(Weld, NearCornersBecomeOneAndFlatTrianglesVanish) {
-    Welder welder(0.01);
+    TriangleWelder welder(0.01);
     EXPECT_TRUE(welder.add({0, 0, 0}, {1, 0, 0}, {0, 1, 0}));
     EXPECT_TRUE(welder.add({1.004, 0, 0}, {0, 0.996, 0}, {1, 1, 0}));
     EXPECT_FALSE(welder.add({0, 1, 0}, {0, 0, 0.004}, {1, 0, 0})) << "is there already";
@@ -82,7 +82,7 @@ TEST(Weld, NearCornersBecomeOneAndFlatTrianglesVanish) {
 
 TEST(Weld, NoTwoVerticesStayWithinTheTolerance) {
     std::mt19937 random(4);
-    Welder welder(0.1);
+    TriangleWelder welder(0.1);
     for (int i = 0; i < 2000; ++i) {
         welder.add(test::random_point_in(random, unit), test::random_point_in(random, unit),
                    test::random_point_in(random, unit));

@@ -97,7 +97,7 @@ TEST(Cloud, EveryEncodingGivesTheSamePoints) {
           read(binary_ply(false), CloudFormat::ply), read(binary_ply(true), CloudFormat::ply),
           read("# made\n" + test::xyz_of(points), CloudFormat::xyz)}) {
         EXPECT_EQ(scene.points, points) << scene.kind;
-        EXPECT_TRUE(scene.left_out.empty());
+        EXPECT_TRUE(scene.skipped.empty());
         EXPECT_EQ(scene.metres_per_unit, 1.0);
         EXPECT_EQ(scene.bounds.max().z(), 8.0);
     }
@@ -129,10 +129,10 @@ TEST(Cloud, LeavesOutRepeatedMissingAndStrayPoints) {
                        "\nDATA ascii\n" + nan + test::xyz_of(walls);
     const Scene scene = read(text, CloudFormat::pcd);
     EXPECT_EQ(scene.points.size(), count);
-    ASSERT_EQ(scene.left_out.size(), 3U);
-    EXPECT_EQ(scene.left_out[0].count, 1U);
-    EXPECT_EQ(scene.left_out[1].count, 1U);
-    EXPECT_EQ(scene.left_out[2].count, 2U);
+    ASSERT_EQ(scene.skipped.size(), 3U);
+    EXPECT_EQ(scene.skipped[0].count, 1U);
+    EXPECT_EQ(scene.skipped[1].count, 1U);
+    EXPECT_EQ(scene.skipped[2].count, 2U);
     EXPECT_GT(scene.point_spacing, 0.25);
     EXPECT_LT(scene.point_spacing, 0.4);
 }
@@ -189,11 +189,11 @@ TEST_P(Scan, IsReadWhole) {
     if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is missing";
     const Scene scene = load(file.string()).value();
     std::size_t count = scene.points.size();
-    for (const LeftOut& left_out : scene.left_out)
-        count += left_out.count;
+    for (const Skipped& skipped : scene.skipped)
+        count += skipped.count;
     EXPECT_EQ(count, GetParam().second);
-    for (const LeftOut& left_out : scene.left_out) {
-        EXPECT_LT(left_out.reason == "outliers" ? left_out.count : 0U, count / 1000);
+    for (const Skipped& skipped : scene.skipped) {
+        EXPECT_LT(skipped.reason == "outliers" ? skipped.count : 0U, count / 1000);
     }
     EXPECT_GT(scene.points.size(), count * 45 / 100) << "one of them has every second point twice";
     EXPECT_LT(scene.bounds.sizes().maxCoeff(), 30.0);

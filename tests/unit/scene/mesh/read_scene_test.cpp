@@ -133,8 +133,8 @@ TEST_F(Mesh, SeedsJoinTheSpawnPoints) {
 
 TEST_F(Mesh, CountsWhatItLeavesOut) {
     const Scene scene = load(write("a.obj", obj)).value();
-    ASSERT_EQ(scene.left_out.size(), 1U);
-    EXPECT_EQ(scene.left_out[0].count, 1U);
+    ASSERT_EQ(scene.skipped.size(), 1U);
+    EXPECT_EQ(scene.skipped[0].count, 1U);
 }
 
 }  // namespace

@@ -18,8 +18,8 @@ namespace {
 using test::area_of;
 using test::depth_in_solid;
 using test::has_surface_at;
-using test::left_out_counts;
 using test::QuakeMap;
+using test::skipped_counts;
 using test::surface_of;
 
 const Box3d hall(Vec3d(-256.0, -192.0, 0.0), Vec3d(256.0, 192.0, 256.0));
@@ -45,7 +45,7 @@ TEST_P(QuakeScene, RoomIsItsInnerSurface) {
     EXPECT_EQ(scene.vertices.size(), 8U) << "welded";
     EXPECT_EQ(scene.triangles.size(), 12U);
     EXPECT_DOUBLE_EQ(scene.metres_per_unit, 0.0254);
-    EXPECT_TRUE(scene.left_out.empty());
+    EXPECT_TRUE(scene.skipped.empty());
 }
 
 TEST_P(QuakeScene, SolidAndSkyAreObstaclesAndLiquidsAreNot) {
@@ -64,8 +64,8 @@ TEST_P(QuakeScene, SolidAndSkyAreObstaclesAndLiquidsAreNot) {
         EXPECT_EQ(depth_in_solid(scene, crate.center()) >= 0.0, kind.is_obstacle);
         if (kind.is_obstacle) continue;
         const std::string name = std::string("liquid: ") + kind.texture;
-        EXPECT_EQ(left_out_counts(scene)[name], 6U);
-        EXPECT_NEAR(test::left_out_areas(scene)[name], surface_of(crate), 1e-3);
+        EXPECT_EQ(skipped_counts(scene)[name], 6U);
+        EXPECT_NEAR(test::skipped_areas(scene)[name], surface_of(crate), 1e-3);
     }
 }
 
@@ -91,12 +91,12 @@ TEST_P(QuakeScene, OtherEntitiesAreLeftOutByClass) {
     const Scene scene = test::scene_of(map);
     EXPECT_NEAR(area_of(scene), surface_of(hall), 1e-6);
     EXPECT_LT(depth_in_solid(scene, crate.center()), 0.0);
-    EXPECT_THAT(left_out_counts(scene),
+    EXPECT_THAT(skipped_counts(scene),
                 testing::UnorderedElementsAre(testing::Pair("entity: func_door", 6),
                                               testing::Pair("entity: func_illusionary", 6),
                                               testing::Pair("entity: func_detail_illusionary", 6),
                                               testing::Pair("trigger: trigger_once", 6)));
-    EXPECT_NEAR(test::left_out_areas(scene)["entity: func_door"], surface_of(crate), 1e-3);
+    EXPECT_NEAR(test::skipped_areas(scene)["entity: func_door"], surface_of(crate), 1e-3);
 }
 
 TEST_P(QuakeScene, ToolTexturesAreLeftOut) {
@@ -108,7 +108,7 @@ TEST_P(QuakeScene, ToolTexturesAreLeftOut) {
         const Scene scene = test::scene_of(map);
         EXPECT_NEAR(area_of(scene), surface_of(hall), 1e-6);
         EXPECT_LT(depth_in_solid(scene, crate.center() - Vec3d(150.0, 0.0, 0.0)), 0.0);
-        EXPECT_EQ(left_out_counts(scene)[std::string("tool texture: ") + texture], 12U);
+        EXPECT_EQ(skipped_counts(scene)[std::string("tool texture: ") + texture], 12U);
     }
 }
 
@@ -118,7 +118,7 @@ TEST_P(QuakeScene, ToolTexturesThatCloseRockStay) {
     map.boxes = {{crate, "skip", quake::solid}};
     const Scene scene = test::scene_of(map);
     EXPECT_NEAR(area_of(scene), surface_of(hall) + surface_of(crate), 1e-6);
-    EXPECT_TRUE(scene.left_out.empty());
+    EXPECT_TRUE(scene.skipped.empty());
 }
 
 TEST_P(QuakeScene, SurfacesAreClosedWhateverFacesTheCompilerKept) {
@@ -159,7 +159,7 @@ TEST_P(QuakeScene, SpawnPointsStandAtEyeHeight) {
     EXPECT_EQ(scene.spawn_points[1].kind, "info_player_coop");
     EXPECT_EQ(scene.spawn_points[1].eye.z(), 39.0) << "under the low ceiling";
     EXPECT_EQ(scene.spawn_points[2].eye.z(), -5.0 + lift) << "sunk into the floor";
-    EXPECT_EQ(left_out_counts(scene)["spawn point in solid: info_player_deathmatch"], 1U);
+    EXPECT_EQ(skipped_counts(scene)["spawn point in solid: info_player_deathmatch"], 1U);
 }
 
 TEST_P(QuakeScene, VolumesAreTheRockAndNothingElse) {

@@ -18,7 +18,7 @@ const Box3d crate(Vec3d(0.0, 0.0, 0.0), Vec3d(64.0, 64.0, 64.0));
 
 using test::area_of;
 using test::has_surface_at;
-using test::left_out_counts;
+using test::skipped_counts;
 using test::surface_of;
 
 TEST(Q3Scene, RoomIsItsInnerSurface) {
@@ -31,7 +31,7 @@ TEST(Q3Scene, RoomIsItsInnerSurface) {
     for (const Vec3d& vertex : scene.vertices) {
         EXPECT_TRUE(scene.bounds.contains(vertex));
     }
-    EXPECT_GT(left_out_counts(scene)["face that nobody can see"], 0U);
+    EXPECT_GT(skipped_counts(scene)["face that nobody can see"], 0U);
 }
 
 TEST(Q3Scene, ClipWaterAndGhostBrushesAreNoObstaclesButSkyIs) {
@@ -55,12 +55,12 @@ TEST(Q3Scene, LeftOutIsCounted) {
     test::add_entity_model(bsp, "func_door", Vec3d::Zero());
     test::add_box(bsp, crate, test::stone);
     const Scene scene = test::scene_of(bsp);
-    const auto counts = left_out_counts(scene);
+    const auto counts = skipped_counts(scene);
     EXPECT_THAT(counts, testing::IsSupersetOf({testing::Pair("clip: test/clip", 6),
                                                testing::Pair("liquid: test/water", 6),
                                                testing::Pair("entity: func_door", 6)}));
     EXPECT_GE(counts.at("not solid: test/ghost"), 2U) << "the soup and the patch";
-    const auto areas = test::left_out_areas(scene);
+    const auto areas = test::skipped_areas(scene);
     EXPECT_NEAR(areas.at("liquid: test/water"), surface_of(crate), 1e-6);
     EXPECT_NEAR(areas.at("entity: func_door"), surface_of(crate), 1e-6);
     EXPECT_NEAR(areas.at("not solid: test/ghost"), 40.5, 1e-6);
@@ -112,7 +112,7 @@ TEST(Q3Scene, SurfacesEndAtTheWorldsBox) {
     bsp.models.front().face_count = 2;
     const Scene scene = test::scene_of(bsp);
     EXPECT_LT(area_of(scene), surface_of(hall) * 2.0);
-    EXPECT_EQ(left_out_counts(scene)["outside the world's box"], 1U);
+    EXPECT_EQ(skipped_counts(scene)["outside the world's box"], 1U);
 }
 
 TEST(Q3Scene, SpawnPointsStandAtEyeHeight) {
@@ -138,7 +138,7 @@ TEST(Q3Scene, SpawnEyeStaysBelowTheCeilingAndOutOfSolid) {
     ASSERT_EQ(scene.spawn_points.size(), 2U);
     EXPECT_EQ(scene.spawn_points[0].eye.z(), 39.0) << "under the low ceiling";
     EXPECT_EQ(scene.spawn_points[1].eye.z(), 30.0) << "sunk into the floor";
-    EXPECT_EQ(left_out_counts(scene)["spawn point in solid: info_player_deathmatch"], 1U);
+    EXPECT_EQ(skipped_counts(scene)["spawn point in solid: info_player_deathmatch"], 1U);
 }
 
 TEST(Q3Scene, BrushFacesLieOnTheirBrush) {
