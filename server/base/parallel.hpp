@@ -1,4 +1,4 @@
-// Parallel loops whose order the thread sanitizer sees.
+// Parallel loops that the thread sanitizer understands.
 #pragma once
 
 #include <tbb/blocked_range.h>
@@ -15,20 +15,20 @@
 namespace camdir {
 namespace detail {
 
-// A point that one thread passes before another. oneTBB is not instrumented: without it the sanitizer takes
-// everything that a loop's body shares with its caller for a race.
-class Order {
+// What precedes release() happens before what follows acquire(). oneTBB is not instrumented: without fences
+// the sanitizer reports everything that a loop's body shares with its caller as a race.
+class HappensBeforeFence {
   public:
 #if defined(__SANITIZE_THREAD__)
-    void before() {
+    void release() {
         __tsan_release(this);
     }
-    void after() {
+    void acquire() {
         __tsan_acquire(this);
     }
 #else
-    void before() {}
-    void after() {}
+    void release() {}
+    void acquire() {}
 #endif
 };
 
@@ -38,16 +38,16 @@ class Order {
 // returns when all are done.
 template <class Index, class Body>
 void parallel_for_ranges(Index first, Index last, Index grain, const Body& body) {
-    detail::Order begin;
-    detail::Order end;
-    begin.before();
+    detail::HappensBeforeFence begin;
+    detail::HappensBeforeFence end;
+    begin.release();
     tbb::parallel_for(tbb::blocked_range<Index>(first, last, grain),
                       [&](const tbb::blocked_range<Index>& range) {
-                          begin.after();
+                          begin.acquire();
                           body(range.begin(), range.end());
-                          end.before();
+                          end.release();
                       });
-    end.after();
+    end.acquire();
 }
 
 // body(i) for first <= i < last, likewise.
@@ -59,7 +59,7 @@ void parallel_for(Index first, Index last, const Body& body) {
     });
 }
 
-// oneTBB hands parts of the sequence from thread to thread where the sanitizer cannot follow.
+// The sanitizer cannot see how oneTBB passes parts of the sequence between threads.
 template <class Iterator, class Compare>
 void parallel_sort(Iterator first, Iterator last, const Compare& compare) {
 #if defined(__SANITIZE_THREAD__)

@@ -13,7 +13,7 @@ bool continues(std::string_view text, std::size_t place) {
     return place < text.size() && (at(text, place) & 0xc0U) == 0x80U;
 }
 
-// Neither an overlong form, nor a surrogate, nor beyond U+10FFFF: all can be told by the second byte.
+// Neither an overlong form, nor a surrogate, nor beyond U+10FFFF: the second byte decides.
 bool may_follow(unsigned first, unsigned second) {
     switch (first) {
         case 0xe0:
@@ -29,7 +29,7 @@ bool may_follow(unsigned first, unsigned second) {
     }
 }
 
-// Bytes of the character that the text begins with; 0: it begins with none.
+// Bytes of the character at the start of the text; 0: there is none.
 std::size_t first_character(std::string_view text) {
     const unsigned first = at(text, 0);
     if (first < 0x80) return 1;
@@ -44,8 +44,8 @@ std::size_t first_character(std::string_view text) {
 
 }  // namespace
 
-std::size_t utf8_prefix(std::string_view text, std::size_t most) {
-    std::size_t length = std::min(text.size(), most);
+std::size_t utf8_prefix(std::string_view text, std::size_t max) {
+    std::size_t length = std::min(text.size(), max);
     while (length > 0 && continues(text, length))
         --length;
     return length;

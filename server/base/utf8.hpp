@@ -1,4 +1,4 @@
-// Texts from outside: names are bytes of any kind.
+// Strings from outside, which may hold any bytes.
 #pragma once
 
 #include <cstddef>
@@ -7,8 +7,8 @@
 
 namespace camdir {
 
-// The largest number of bytes up to `most` that ends between characters.
-[[nodiscard]] std::size_t utf8_prefix(std::string_view text, std::size_t most);
+// The largest number of bytes up to `max` that ends between characters.
+[[nodiscard]] std::size_t utf8_prefix(std::string_view text, std::size_t max);
 
 // With a question mark for every byte that belongs to no character.
 [[nodiscard]] std::string to_utf8(std::string_view text);
