@@ -35,10 +35,10 @@ struct SpawnPoint {
     std::string kind;  // the format's own name for it: info_player_deathmatch, seed, ...
 };
 
-// Something the reader found in the source and left out on purpose; shown by `inspect`.
+// Something the reader found in the source and skipped on purpose; `inspect` shows the reasons.
 struct Skipped {
-    std::string reason;       // liquid, not solid, entity, outside the world's box, ...
-    std::string what;         // the texture, shader or class of entities; empty: all with this reason
+    std::string reason;       // liquid, not solid, mover: func_door, outside the world's box, ...
+    std::string what;         // the texture or shader, the class of spawn points; empty: all with this reason
     std::uint64_t count = 0;  // surfaces; spawn points where the reason says so
     double area = 0.0;        // of those surfaces, square map units
 };
@@ -55,8 +55,9 @@ struct Scene {
     std::vector<Vec3d> vertices;
     std::vector<std::array<std::uint32_t, 3>> triangles;
 
-    // Instead of triangles, of a point cloud: points of the surfaces, ascending, no two alike. Neighbours lie
-    // about `point_spacing` apart: for 95 % of the points the mean distance to the nearest 8 is at most that.
+    // Of a point cloud, instead of triangles: points on the surfaces, ascending and all different. Neighbours
+    // lie about `point_spacing` apart: for 95 % of the points the mean distance to the nearest 8 is at most
+    // that.
     std::vector<Vec3d> points;
     double point_spacing = 0.0;
 

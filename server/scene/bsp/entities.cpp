@@ -5,6 +5,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "base/utf8.hpp"
+
 namespace camdir::scene {
 namespace {
 
@@ -12,7 +14,7 @@ class Text {
   public:
     explicit Text(std::string_view text) : text_(text) {}
 
-    // The next character that is no space; 0 at the end. Compilers end the text with zero bytes.
+    // Skips blanks; 0 at the end. Compilers end the text with zero bytes.
     [[nodiscard]] char peek() {
         while (at_ < text_.size() && (text_[at_] == ' ' || (text_[at_] >= '\t' && text_[at_] <= '\r')))
             ++at_;
@@ -121,10 +123,10 @@ Result<std::vector<Entity>> parse_entities(std::string_view text) {
 }
 
 Result<std::vector<PlacedModel>> placed_models(const std::vector<Entity>& entities, std::size_t model_count,
-                                               bool (*is_obstacle)(std::string_view)) {
+                                               BspFamily family) {
     enum class Use { none, skipped, obstacle };
     std::vector<Use> uses(model_count, Use::none);
-    std::vector<PlacedModel> placed;
+    std::vector<PlacedModel> placed = {{0, "worldspawn", BrushUse::obstacle, Vec3d::Zero()}};
     for (const Entity& entity : entities) {
         const std::optional<std::size_t> model = entity.brush_model();
         if (!model || *model == 0) continue;
@@ -133,8 +135,8 @@ Result<std::vector<PlacedModel>> placed_models(const std::vector<Entity>& entiti
         if (*model >= model_count)
             return fail(who + " does not exist; expected a number below " + std::to_string(model_count));
         Use& use = uses[*model];
-        PlacedModel found{*model, entity.class_name(), is_obstacle(entity.class_name()), Vec3d::Zero()};
-        if (!found.is_obstacle) {
+        PlacedModel found{*model, entity.class_name(), brush_use(family, entity.class_name()), Vec3d::Zero()};
+        if (found.use != BrushUse::obstacle) {
             if (use == Use::none) placed.push_back(found);
             use = std::max(use, Use::skipped);
             continue;
@@ -149,10 +151,18 @@ Result<std::vector<PlacedModel>> placed_models(const std::vector<Entity>& entiti
     return placed;
 }
 
+std::string skip_reason(const PlacedModel& placed) {
+    constexpr std::size_t max_class_bytes = 64;
+    const std::string class_name = to_utf8(placed.class_name);
+    return std::string(name_of(placed.use)) + ": " +
+           (class_name.empty() ? "without a name"
+                               : class_name.substr(0, utf8_prefix(class_name, max_class_bytes)));
+}
+
 bool is_spawn_point(std::string_view class_name) {
     constexpr std::array<std::string_view, 4> of_teams = {"team_CTF_redplayer", "team_CTF_blueplayer",
                                                           "team_CTF_redspawn", "team_CTF_bluespawn"};
-    if (class_name == "info_player_intermission") return false;  // a view of the map, not of a player
+    if (class_name == "info_player_intermission") return false;  // a camera that overlooks the map
     return class_name.starts_with("info_player_") ||
            std::find(of_teams.begin(), of_teams.end(), class_name) != of_teams.end();
 }

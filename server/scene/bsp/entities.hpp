@@ -10,11 +10,11 @@
 
 #include "base/error.hpp"
 #include "base/geometry.hpp"
-#include "scene/scene.hpp"
+#include "scene/bsp/brush_classes.hpp"
 
 namespace camdir::scene {
 
-// What a file's numbers must keep to, so that no sum of them overflows or loses the precision of the bake.
+// Limit of the numbers in a file: their sums neither overflow nor lose the precision that a bake needs.
 inline constexpr float max_coordinate = 1 << 20;
 
 // Views into the text that was parsed.
@@ -39,17 +39,19 @@ struct Entity {
 
 // An entity's brush model, where the entity puts it.
 struct PlacedModel {
-    std::size_t model;  // > 0: model 0 is the world
+    std::size_t model;  // 0: the world
     std::string_view class_name;
-    bool is_obstacle;
+    BrushUse use;
     Vec3d origin;
 };
 
-// The models of all entities, each once; `is_obstacle` chooses by class name. Fails when a model is not below
-// `model_count`, or when an obstacle has no sound origin or shares its model with another.
+// The world, then the models of all entities, each once. Fails when a model is not below `model_count`, or
+// when an obstacle has no valid origin or shares its model with another.
 [[nodiscard]] Result<std::vector<PlacedModel>> placed_models(const std::vector<Entity>& entities,
-                                                             std::size_t model_count,
-                                                             bool (*is_obstacle)(std::string_view));
+                                                             std::size_t model_count, BspFamily family);
+
+// Why a model that is no obstacle is skipped: "mover: func_door". Valid UTF-8, and short whatever the class.
+[[nodiscard]] std::string skip_reason(const PlacedModel& placed);
 
 // Players appear here: deathmatch, single player, cooperative and team spawn points.
 [[nodiscard]] bool is_spawn_point(std::string_view class_name);

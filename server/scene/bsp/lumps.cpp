@@ -48,6 +48,17 @@ bool is_plane(const std::array<float, 3>& normal, float distance) {
     return std::abs(length - 1.0F) < 0.01F && is_coordinate(distance);
 }
 
+Plane to_plane(const std::array<float, 3>& normal, float distance) {
+    return normalized({Vec3d(normal[0], normal[1], normal[2]), distance});
+}
+
+Box3d to_box(const std::array<float, 3>& mins, const std::array<float, 3>& maxs) {
+    Box3d box;
+    box.extend(Vec3d(mins[0], mins[1], mins[2]));
+    box.extend(Vec3d(maxs[0], maxs[1], maxs[2]));
+    return box;
+}
+
 bool in_range(std::int32_t index, std::size_t size) {
     return index >= 0 && static_cast<std::size_t>(index) < size;
 }

@@ -1,4 +1,4 @@
-// The lumps of a BSP file, of whatever version: a table of offsets and lengths, and the arrays that it names.
+// The lumps of a BSP file, of whatever version: a table of offsets and lengths, and the arrays there.
 #pragma once
 
 #include <array>
@@ -11,6 +11,7 @@
 #include <type_traits>
 
 #include "base/error.hpp"
+#include "scene/bsp/polygon.hpp"
 
 namespace camdir::scene {
 
@@ -54,6 +55,9 @@ class Lumps {
 [[nodiscard]] bool is_coordinate(float value);
 [[nodiscard]] bool is_position(const std::array<float, 3>& position);
 [[nodiscard]] bool is_plane(const std::array<float, 3>& normal, float distance);  // length 1 within 1 %
+
+[[nodiscard]] Plane to_plane(const std::array<float, 3>& normal, float distance);  // of length 1 exactly
+[[nodiscard]] Box3d to_box(const std::array<float, 3>& mins, const std::array<float, 3>& maxs);
 
 [[nodiscard]] bool in_range(std::int32_t index, std::size_t size);
 [[nodiscard]] bool in_range(std::int32_t first, std::int32_t count, std::size_t size);

@@ -1,4 +1,4 @@
-// Convex polygons in space: cutting and triangulation.
+// Convex polygons in space: clipping and triangulation.
 #pragma once
 
 #include <array>

@@ -6,7 +6,7 @@ namespace camdir::scene {
 namespace {
 
 constexpr double weld_tolerance = 0.01;
-// The world's box is the geometry's own, exact: room for rounding.
+// The world's box fits the geometry exactly; this leaves room for rounding.
 constexpr double box_margin = 1.0;
 
 const char* const outside = "outside the world's box";
@@ -16,6 +16,21 @@ const char* const outside = "outside the world's box";
 SceneBuilder::SceneBuilder(const Box3d& world)
     : box_(world.min() - Vec3d::Constant(box_margin), world.max() + Vec3d::Constant(box_margin)),
       welder_(weld_tolerance) {}
+
+Result<Scene> SceneBuilder::build(std::string_view entities, std::size_t model_count, BspFamily family,
+                                  int eye_height,
+                                  const std::function<Result<void>(const PlacedModel&)>& add_model) {
+    const Result<std::vector<Entity>> parsed = parse_entities(entities);
+    if (!parsed) return tl::unexpected(parsed.error());
+    const Result<std::vector<PlacedModel>> models = placed_models(*parsed, model_count, family);
+    if (!models) return tl::unexpected(models.error());
+    for (const PlacedModel& placed : *models) {
+        if (const Result<void> added = add_model(placed); !added) return tl::unexpected(added.error());
+    }
+    const Result<void> spawned = add_spawn_points(*parsed, eye_height);
+    if (!spawned) return tl::unexpected(spawned.error());
+    return take();
+}
 
 void SceneBuilder::add_surface(const Polygon& polygon) {
     const Polygon inside = clip_to_box(polygon, box_);
@@ -56,8 +71,8 @@ Result<void> SceneBuilder::add_spawn_points(const std::vector<Entity>& entities,
     return {};
 }
 
-Scene SceneBuilder::take(double metres_per_unit) {
-    scene_.metres_per_unit = metres_per_unit;
+Scene SceneBuilder::take() {
+    scene_.metres_per_unit = metres_of_nominal_unit;
     scene_.vertices = welder_.take_vertices();
     scene_.triangles = welder_.take_triangles();
     scene_.bounds = box_;

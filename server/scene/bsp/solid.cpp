@@ -9,7 +9,7 @@ namespace {
 
 // Larger than any map: coordinates are below 2^20.
 constexpr double half_side = 1 << 22;
-// Above the rounding of cuts at that size in double precision, far below that of the file's float planes.
+// Above the rounding of clips at that size in double precision, far below that of the file's float planes.
 constexpr double tolerance = 1e-6;
 
 // What the other half spaces leave of a side. Of sides in the same plane only the first has a face.

@@ -24,8 +24,8 @@ struct Solid {
 // A box as a solid: six planes, six faces in the same order.
 [[nodiscard]] Solid make_solid(const Box3d& box);
 
-// The part of `solid` behind the plane. Every plane of `solid` must have its face, in the same order, and so
-// it is with the result; without planes when nothing is left.
+// The part of `solid` behind the plane. Every plane of `solid` must have its face, in the same order; the
+// result has the same property, and no planes when nothing is left.
 [[nodiscard]] Solid clip(const Solid& solid, const Plane& plane);
 
 [[nodiscard]] double area(const Polygon& polygon);

@@ -123,7 +123,7 @@ bool exists(const Bsp& bsp, std::int32_t child) {
 }
 
 // Also proves that what can be reached from the models' roots are trees: no node has two parents, no root has
-// one, and no two models share one. What such a graph keeps as a cycle cannot be reached.
+// one, and no two models share one. Cycles elsewhere cannot be reached.
 Result<void> check_trees(const Lumps& lumps, const Bsp& bsp) {
     if (bsp.nodes.size() > max_nodes)
         return lumps.bad_lump(nodes, std::to_string(bsp.nodes.size()) + " nodes; expected at most " +
@@ -216,6 +216,11 @@ Result<void> check_models(const Lumps& lumps, const Bsp& bsp) {
 std::int32_t Bsp::child_of(const Node& node, std::size_t side) const {
     const std::uint16_t child = node.children[side];
     return child < nodes.size() ? child : child - 65536;
+}
+
+scene::Plane Bsp::plane(std::int32_t index) const {
+    const Plane& plane = planes[static_cast<std::size_t>(index)];
+    return to_plane(plane.normal, plane.distance);
 }
 
 Result<Bsp> parse_bsp(std::span<const std::byte> bytes) {

@@ -1,5 +1,5 @@
 // A BSP file of Quake (version 29) or GoldSrc (version 30) as it is on disk: its lumps, with every index
-// checked. The two differ in nothing that is read here.
+// checked. What is read here is the same in both.
 #pragma once
 
 #include <array>
@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "scene/scene.hpp"
 
 namespace camdir::scene::quake {
 
@@ -75,9 +76,11 @@ struct Bsp {
     std::vector<std::int32_t> surface_edges;  // negative: the edge -n from its second vertex to its first
     std::vector<Model> models;
 
-    // A node's child: a node, or -(leaf + 1). The file counts leaves down from 65535, so that maps with more
-    // than 32767 nodes can be told.
+    // A node's child: a node, or -(leaf + 1). The file counts leaves down from 65535, which allows more than
+    // 32767 nodes.
     [[nodiscard]] std::int32_t child_of(const Node& node, std::size_t side) const;
+
+    [[nodiscard]] scene::Plane plane(std::int32_t index) const;
 
     // Limit of the planes around the volumes of solid leaves, which the file does not bound by itself. Real
     // maps stay below a tenth.

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "scene/bsp/lumps.hpp"
 #include "scene/bsp/scene_builder.hpp"
 #include "scene/quake/bsp.hpp"
 #include "scene/quake/tree.hpp"
@@ -14,21 +15,14 @@
 namespace camdir::scene {
 namespace {
 
-// Players appear 1 above the entity; their eyes are so far above their origin.
+// Players appear 1 unit above the entity; the rest is the height of their eyes.
 constexpr int eye_height_quake = 1 + 22;
 constexpr int eye_height_goldsrc = 1 + 28;
-// How far behind a face its leaf is looked for: more than rounding in the planes, less than any wall.
+// A face's leaf is looked up this far behind it: more than rounding in the planes, less than any wall.
 constexpr double behind = 0.125;
 
 bool is_one_of(std::string_view name, std::initializer_list<std::string_view> names) {
     return std::find(names.begin(), names.end(), name) != names.end();
-}
-
-// Of the entities with brush models: what never moves and blocks the view.
-bool is_static(std::string_view class_name) {
-    if (class_name.starts_with("func_detail")) return class_name != "func_detail_illusionary";
-    return is_one_of(class_name,
-                     {"func_wall", "func_breakable", "func_conveyor", "func_group", "func_static"});
 }
 
 std::string lower_case(std::string text) {
@@ -41,17 +35,10 @@ bool is_liquid(std::string_view texture) {
     return texture.starts_with('!') || texture.starts_with('*');
 }
 
-// Drawn by no game: marks for the compilers.
+// For the compilers; no game draws them.
 bool is_tool(std::string_view texture) {
     return texture.starts_with("clip") || is_one_of(texture, {"trigger", "aaatrigger", "null", "skip", "hint",
                                                               "hintskip", "origin", "bevel"});
-}
-
-Box3d box_of(const quake::Model& model) {
-    Box3d box;
-    box.extend(Vec3d(model.mins[0], model.mins[1], model.mins[2]));
-    box.extend(Vec3d(model.maxs[0], model.maxs[1], model.maxs[2]));
-    return box;
 }
 
 Polygon translated(Polygon polygon, const Vec3d& translation) {
@@ -60,16 +47,17 @@ Polygon translated(Polygon polygon, const Vec3d& translation) {
     return polygon;
 }
 
-class Reader {
+class QuakeReader {
   public:
-    explicit Reader(const quake::Bsp& bsp) : bsp_(bsp), tree_(bsp), builder_(box_of(bsp.models[0])) {}
+    explicit QuakeReader(const quake::Bsp& bsp)
+        : bsp_(bsp), tree_(bsp), builder_(to_box(bsp.models[0].mins, bsp.models[0].maxs)) {}
 
     [[nodiscard]] Result<Scene> read();
 
   private:
     [[nodiscard]] Result<void> add_model(std::size_t number, const Vec3d& translation);
     [[nodiscard]] Result<void> add_volumes(const quake::Model& model, const Vec3d& translation);
-    void skip_model(std::size_t number, std::string_view class_name);
+    void skip_model(const PlacedModel& placed);
     // Behind the face lies a solid leaf of its model.
     [[nodiscard]] bool closes_solid(const quake::Model& model, const quake::Face& face,
                                     const Polygon& polygon) const;
@@ -83,30 +71,20 @@ class Reader {
     SceneBuilder builder_;
 };
 
-Result<Scene> Reader::read() {
-    const Result<std::vector<Entity>> entities = parse_entities(bsp_.entities);
-    if (!entities) return tl::unexpected(entities.error());
-    const Result<std::vector<PlacedModel>> models = placed_models(*entities, bsp_.models.size(), is_static);
-    if (!models) return tl::unexpected(models.error());
-
-    if (const Result<void> world = add_model(0, Vec3d::Zero()); !world) return tl::unexpected(world.error());
-    for (const PlacedModel& placed : *models) {
-        if (!placed.is_obstacle) {
-            skip_model(placed.model, placed.class_name);
-            continue;
-        }
-        const Result<void> added = add_model(placed.model, placed.origin);
-        if (!added) return tl::unexpected(added.error());
-    }
-    const Result<void> spawned = builder_.add_spawn_points(
-        *entities, bsp_.version == quake::version_quake ? eye_height_quake : eye_height_goldsrc);
-    if (!spawned) return tl::unexpected(spawned.error());
-    return builder_.take(metres_of_nominal_unit);
+Result<Scene> QuakeReader::read() {
+    const int eye_height = bsp_.version == quake::version_quake ? eye_height_quake : eye_height_goldsrc;
+    return builder_.build(bsp_.entities, bsp_.models.size(), BspFamily::quake, eye_height,
+                          [&](const PlacedModel& placed) -> Result<void> {
+                              if (placed.use == BrushUse::obstacle)
+                                  return add_model(placed.model, placed.origin);
+                              skip_model(placed);
+                              return {};
+                          });
 }
 
 // Faces that close what is solid are parts of its surface, which the volumes give without holes. A model
-// whose faces are all left out is no obstacle, and neither is its volume.
-Result<void> Reader::add_model(std::size_t number, const Vec3d& translation) {
+// whose faces are all skipped is no obstacle, and neither is its volume.
+Result<void> QuakeReader::add_model(std::size_t number, const Vec3d& translation) {
     const quake::Model& model = bsp_.models[number];
     const bool is_world = number == 0;
     bool is_obstacle = is_world;
@@ -127,8 +105,8 @@ Result<void> Reader::add_model(std::size_t number, const Vec3d& translation) {
     return is_obstacle ? add_volumes(model, translation) : Result<void>();
 }
 
-Result<void> Reader::add_volumes(const quake::Model& model, const Vec3d& translation) {
-    Box3d box = box_of(model);
+Result<void> QuakeReader::add_volumes(const quake::Model& model, const Vec3d& translation) {
+    Box3d box = to_box(model.mins, model.maxs);
     box.min() -= Vec3d::Ones();
     box.max() += Vec3d::Ones();
     const std::int32_t root = model.head_nodes[0];
@@ -150,31 +128,32 @@ Result<void> Reader::add_volumes(const quake::Model& model, const Vec3d& transla
     });
 }
 
-void Reader::skip_model(std::size_t number, std::string_view class_name) {
-    const char* const reason = class_name.starts_with("trigger_") ? "trigger" : "entity";
-    for (const quake::Face& face : faces_of(bsp_.models[number]))
-        builder_.skip(reason, class_name, area(polygon_of(face)));
+void QuakeReader::skip_model(const PlacedModel& placed) {
+    const std::string reason = skip_reason(placed);
+    for (const quake::Face& face : faces_of(bsp_.models[placed.model]))
+        builder_.skip(reason, "", area(polygon_of(face)));
 }
 
-bool Reader::closes_solid(const quake::Model& model, const quake::Face& face, const Polygon& polygon) const {
+bool QuakeReader::closes_solid(const quake::Model& model, const quake::Face& face,
+                               const Polygon& polygon) const {
     if (polygon.empty()) return false;
     Vec3d middle = Vec3d::Zero();
     for (const Vec3d& corner : polygon)
         middle += corner / static_cast<double>(polygon.size());
-    const Vec3d normal = quake::to_plane(bsp_.planes[face.plane]).normal * (face.side == 0 ? 1.0 : -1.0);
+    const Vec3d normal = bsp_.plane(face.plane).normal * (face.side == 0 ? 1.0 : -1.0);
     return tree_.in_solid_leaf(model.head_nodes[0], middle - normal * behind);
 }
 
-std::span<const quake::Face> Reader::faces_of(const quake::Model& model) const {
+std::span<const quake::Face> QuakeReader::faces_of(const quake::Model& model) const {
     return std::span(bsp_.faces)
         .subspan(static_cast<std::size_t>(model.first_face), static_cast<std::size_t>(model.face_count));
 }
 
-std::string_view Reader::texture_of(const quake::Face& face) const {
+std::string_view QuakeReader::texture_of(const quake::Face& face) const {
     return bsp_.textures[static_cast<std::size_t>(bsp_.texture_infos[face.texture_info].texture)];
 }
 
-Polygon Reader::polygon_of(const quake::Face& face) const {
+Polygon QuakeReader::polygon_of(const quake::Face& face) const {
     Polygon polygon;
     for (std::int32_t i = 0; i < face.edge_count; ++i) {
         const std::int32_t signed_edge = bsp_.surface_edges[static_cast<std::size_t>(face.first_edge + i)];
@@ -197,7 +176,7 @@ bool is_quake_bsp(std::span<const std::byte> bytes) {
 Result<Scene> read_quake_scene(std::span<const std::byte> bytes) {
     const Result<quake::Bsp> bsp = quake::parse_bsp(bytes);
     if (!bsp) return tl::unexpected(bsp.error());
-    return Reader(*bsp).read();
+    return QuakeReader(*bsp).read();
 }
 
 }  // namespace camdir::scene

@@ -7,7 +7,7 @@ namespace camdir::scene::quake {
 namespace {
 
 constexpr std::size_t max_planes = 256;
-// That of the cuts that make the leaves.
+// As for the clips that make the leaves.
 constexpr double tolerance = 1e-6;
 
 struct Visit {
@@ -22,14 +22,10 @@ struct Part {
 
 }  // namespace
 
-scene::Plane to_plane(const Plane& plane) {
-    return normalized({Vec3d(plane.normal[0], plane.normal[1], plane.normal[2]), plane.distance});
-}
-
 Tree::Tree(const Bsp& bsp) : bsp_(bsp), steps_left_(bsp.max_surface_steps()) {
     planes_.reserve(bsp.nodes.size());
     for (const Node& node : bsp.nodes)
-        planes_.push_back(to_plane(bsp.planes[static_cast<std::size_t>(node.plane)]));
+        planes_.push_back(bsp.plane(node.plane));
 }
 
 bool Tree::in_solid_leaf(std::int32_t root, const Vec3d& point) const {

@@ -1,4 +1,4 @@
-// The trees of Quake and GoldSrc maps: what is solid there, and its surface. It is what such maps have for
+// The trees of Quake and GoldSrc maps: what is solid there, and its surface. Such maps have no
 // brushes.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace camdir::scene::quake {
 
-// One tree a model, each told by its root: Model::head_nodes[0]. Solid is what no camera may enter: leaves
+// One tree a model, identified by its root, Model::head_nodes[0]. Solid is what no camera may enter: leaves
 // with contents solid or sky.
 class Tree {
   public:
@@ -21,7 +21,7 @@ class Tree {
     [[nodiscard]] bool in_solid_leaf(std::int32_t root, const Vec3d& point) const;
 
     // Calls `visit` with each solid leaf as a convex solid: the part of `box` on its side of every plane on
-    // the path from the root. Every plane has its face. Leaves without volume are passed over. Fails when
+    // the path from the root. Every plane has its face. Leaves without volume are skipped. Fails when
     // more than 256 planes bound a place, which no real map comes near.
     [[nodiscard]] Result<void> for_each_solid_leaf(
         std::int32_t root, const Box3d& box, const std::function<Result<void>(const Solid&)>& visit) const;
@@ -41,8 +41,5 @@ class Tree {
     std::vector<scene::Plane> planes_;  // of the nodes
     std::size_t steps_left_;
 };
-
-// Of unit length, in double precision.
-[[nodiscard]] scene::Plane to_plane(const Plane& plane);
 
 }  // namespace camdir::scene::quake

@@ -57,7 +57,7 @@ Result<void> check_planes(const Lumps& lumps, const Bsp& bsp) {
 }
 
 // Also proves that the nodes form a tree: no node is the child of two others or of itself, and node 0,
-// where every descent starts, is nobody's child. What such a graph keeps as a cycle cannot be reached.
+// where every descent starts, is no child. Cycles elsewhere cannot be reached.
 Result<void> check_nodes(const Lumps& lumps, const Bsp& bsp) {
     if (bsp.nodes.empty()) return lumps.bad_lump(3, "is empty; expected at least one node");
     std::vector<bool> is_child(bsp.nodes.size());
@@ -183,6 +183,11 @@ Result<void> check_vertices(const Lumps& lumps, const Bsp& bsp) {
 }
 
 }  // namespace
+
+scene::Plane Bsp::plane(std::int32_t index) const {
+    const Plane& plane = planes[static_cast<std::size_t>(index)];
+    return to_plane(plane.normal, plane.distance);
+}
 
 Result<Bsp> parse_bsp(std::span<const std::byte> bytes) {
     if (bytes.size() < header_size)

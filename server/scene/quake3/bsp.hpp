@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "scene/scene.hpp"
 
 namespace camdir::scene::q3 {
 
@@ -77,6 +78,8 @@ struct Bsp {
     std::vector<Vertex> vertices;
     std::vector<std::int32_t> indices;
     std::vector<Face> faces;
+
+    [[nodiscard]] scene::Plane plane(std::int32_t index) const;
 
     // Limit of the triangles that soups, and patches when tessellated, may come to: faces may share vertices
     // and a patch of nine may be huge, but memory stays in proportion to the file. Real maps stay below a

@@ -9,7 +9,7 @@ namespace camdir::scene::q3 {
 namespace {
 
 constexpr double max_deviation = 1.0;  // map units
-// What of it the bend along each direction may take; the rest is for twist.
+// Of max_deviation the share of the bend along each direction; the rest is for twist.
 constexpr double curve_deviation = 0.4;
 
 // Biquadratic: spans of 3 x 3 control points that share their borders.

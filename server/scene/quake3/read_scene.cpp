@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/bsp/lumps.hpp"
 #include "scene/bsp/scene_builder.hpp"
 #include "scene/quake3/bsp.hpp"
 #include "scene/quake3/patches.hpp"
@@ -13,24 +14,11 @@
 namespace camdir::scene {
 namespace {
 
-// The game lets players appear 9 above the entity; their eyes are 26 above their origin.
+// Players appear 9 units above the entity; their eyes are 26 above their origin.
 constexpr int eye_height = 9 + 26;
-
-Box3d world_of(const q3::Bsp& bsp) {
-    const q3::Model& world = bsp.models[0];
-    Box3d box;
-    box.extend(Vec3d(world.mins[0], world.mins[1], world.mins[2]));
-    box.extend(Vec3d(world.maxs[0], world.maxs[1], world.maxs[2]));
-    return box;
-}
 
 bool is_obstacle(const q3::Shader& shader) {
     return (shader.contents & q3::contents_solid) != 0 || (shader.surface_flags & q3::surface_sky) != 0;
-}
-
-// Of the entities with brush models: what never moves and blocks the view.
-bool is_static(std::string_view class_name) {
-    return class_name == "func_static";
 }
 
 const char* why_no_obstacle(const q3::Shader& shader) {
@@ -49,7 +37,7 @@ std::vector<Plane> planes_of(const q3::Bsp& bsp, const q3::Brush& brush, const V
     std::vector<Plane> planes;
     for (std::int32_t i = 0; i < brush.side_count; ++i) {
         const q3::BrushSide& side = bsp.brush_sides[static_cast<std::size_t>(brush.first_side + i)];
-        Plane plane = q3::to_plane(bsp.planes[static_cast<std::size_t>(side.plane)]);
+        Plane plane = bsp.plane(side.plane);
         plane.distance += plane.normal.dot(translation);
         planes.push_back(plane);
     }
@@ -69,19 +57,17 @@ std::vector<Polygon> soup_triangles(const q3::Bsp& bsp, const q3::Face& face) {
     return triangles;
 }
 
-class Reader {
+class Quake3Reader {
   public:
-    explicit Reader(const q3::Bsp& bsp) : bsp_(bsp), tree_(bsp), builder_(world_of(bsp)) {}
+    explicit Quake3Reader(const q3::Bsp& bsp)
+        : bsp_(bsp), tree_(bsp), builder_(to_box(bsp.models[0].mins, bsp.models[0].maxs)) {}
 
     [[nodiscard]] Result<Scene> read();
 
   private:
-    // `skipped_as` is the class of an entity that is no obstacle; empty: the model is one.
-    [[nodiscard]] Result<void> add_model(std::size_t number, const Vec3d& translation,
-                                         std::string_view skipped_as = {});
-    void add_brush(const q3::Brush& brush, const Vec3d& translation, std::string_view skipped_as);
-    [[nodiscard]] Result<void> add_face(const q3::Face& face, const Vec3d& translation,
-                                        std::string_view skipped_as);
+    [[nodiscard]] Result<void> add_model(const PlacedModel& placed);
+    void add_brush(const q3::Brush& brush, const PlacedModel& placed);
+    [[nodiscard]] Result<void> add_face(const q3::Face& face, const PlacedModel& placed);
     [[nodiscard]] Result<std::vector<Polygon>> triangles_of(const q3::Face& face);
     [[nodiscard]] const q3::Shader& shader(std::int32_t number) const {
         return bsp_.shaders[static_cast<std::size_t>(number)];
@@ -93,46 +79,34 @@ class Reader {
     std::size_t patch_triangles_ = 0;
 };
 
-Result<Scene> Reader::read() {
-    const Result<std::vector<Entity>> entities = parse_entities(bsp_.entities);
-    if (!entities) return tl::unexpected(entities.error());
-    const Result<std::vector<PlacedModel>> models = placed_models(*entities, bsp_.models.size(), is_static);
-    if (!models) return tl::unexpected(models.error());
-
-    if (const Result<void> world = add_model(0, Vec3d::Zero()); !world) return tl::unexpected(world.error());
-    for (const PlacedModel& placed : *models) {
-        const Result<void> added = add_model(placed.model, placed.origin,
-                                             placed.is_obstacle ? std::string_view() : placed.class_name);
-        if (!added) return tl::unexpected(added.error());
-    }
-    const Result<void> spawned = builder_.add_spawn_points(*entities, eye_height);
-    if (!spawned) return tl::unexpected(spawned.error());
-    return builder_.take(metres_of_nominal_unit);
+Result<Scene> Quake3Reader::read() {
+    return builder_.build(bsp_.entities, bsp_.models.size(), BspFamily::quake3, eye_height,
+                          [&](const PlacedModel& placed) { return add_model(placed); });
 }
 
-Result<void> Reader::add_model(std::size_t number, const Vec3d& translation, std::string_view skipped_as) {
-    const q3::Model& model = bsp_.models[number];
+Result<void> Quake3Reader::add_model(const PlacedModel& placed) {
+    const q3::Model& model = bsp_.models[placed.model];
     for (std::int32_t i = 0; i < model.brush_count; ++i) {
-        add_brush(bsp_.brushes[static_cast<std::size_t>(model.first_brush + i)], translation, skipped_as);
+        add_brush(bsp_.brushes[static_cast<std::size_t>(model.first_brush + i)], placed);
     }
     for (std::int32_t i = 0; i < model.face_count; ++i) {
         const q3::Face& face = bsp_.faces[static_cast<std::size_t>(model.first_face + i)];
-        if (const Result<void> added = add_face(face, translation, skipped_as); !added) return added;
+        if (const Result<void> added = add_face(face, placed); !added) return added;
     }
     return {};
 }
 
-void Reader::add_brush(const q3::Brush& brush, const Vec3d& translation, std::string_view skipped_as) {
+void Quake3Reader::add_brush(const q3::Brush& brush, const PlacedModel& placed) {
     const q3::Shader& kind = shader(brush.shader);
-    const Solid solid = make_solid(planes_of(bsp_, brush, translation));
-    const bool obstacle = is_obstacle(kind);
-    if (!skipped_as.empty() || !obstacle) {
-        for (const SolidFace& face : solid.faces) {
-            if (obstacle)
-                builder_.skip("entity", skipped_as, area(face.polygon));
-            else
-                builder_.skip(why_no_obstacle(kind), name_of(kind), area(face.polygon));
-        }
+    const Solid solid = make_solid(planes_of(bsp_, brush, placed.origin));
+    if (!is_obstacle(kind)) {
+        for (const SolidFace& face : solid.faces)
+            builder_.skip(why_no_obstacle(kind), name_of(kind), area(face.polygon));
+        return;
+    }
+    if (placed.use != BrushUse::obstacle) {
+        for (const SolidFace& face : solid.faces)
+            builder_.skip(skip_reason(placed), "", area(face.polygon));
         return;
     }
     if (solid.faces.empty()) return builder_.skip("brush without volume", name_of(kind), 0.0);
@@ -145,25 +119,25 @@ void Reader::add_brush(const q3::Brush& brush, const Vec3d& translation, std::st
     }
 }
 
-Result<void> Reader::add_face(const q3::Face& face, const Vec3d& translation, std::string_view skipped_as) {
+Result<void> Quake3Reader::add_face(const q3::Face& face, const PlacedModel& placed) {
     const Result<std::vector<Polygon>> triangles = triangles_of(face);
     if (!triangles) return tl::unexpected(triangles.error());
     const q3::Shader& kind = shader(face.shader);
     for (Polygon triangle : *triangles) {
         for (Vec3d& corner : triangle)
-            corner += translation;
+            corner += placed.origin;
         if (!is_obstacle(kind))
             builder_.skip(why_no_obstacle(kind), name_of(kind), area(triangle));
-        else if (!skipped_as.empty())
-            builder_.skip("entity", skipped_as, area(triangle));
+        else if (placed.use != BrushUse::obstacle)
+            builder_.skip(skip_reason(placed), "", area(triangle));
         else
             builder_.add_surface(triangle);
     }
     return {};
 }
 
-// None for the drawings of brush faces, and for flares.
-Result<std::vector<Polygon>> Reader::triangles_of(const q3::Face& face) {
+// None for brush faces, which the brushes give, and for flares.
+Result<std::vector<Polygon>> Quake3Reader::triangles_of(const q3::Face& face) {
     if (face.type == q3::triangle_soup) return soup_triangles(bsp_, face);
     std::vector<Polygon> triangles;
     if (face.type != q3::patch) return triangles;
@@ -186,7 +160,7 @@ bool is_q3_bsp(std::span<const std::byte> bytes) {
 Result<Scene> read_q3_scene(std::span<const std::byte> bytes) {
     const Result<q3::Bsp> bsp = q3::parse_bsp(bytes);
     if (!bsp) return tl::unexpected(bsp.error());
-    return Reader(*bsp).read();
+    return Quake3Reader(*bsp).read();
 }
 
 }  // namespace camdir::scene

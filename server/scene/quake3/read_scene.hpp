@@ -9,12 +9,12 @@
 
 namespace camdir::scene {
 
-// The bytes start with the mark of a Quake 3 BSP, of whatever version.
+// The bytes start with the signature of a Quake 3 BSP, of whatever version.
 [[nodiscard]] bool is_q3_bsp(std::span<const std::byte> bytes);
 
 // Obstacles: solid brushes (those of sky too), solid patches within 1 unit, solid triangle soups, of the
-// world and of func_static. A brush's face is kept when part of it looks into the playable world. Name,
-// source and hash of the scene are left empty.
+// world and of the brush entities that brush_use() says. A brush's face is kept when part of it looks into
+// the playable world. Name, source and hash of the scene are left empty.
 [[nodiscard]] Result<Scene> read_q3_scene(std::span<const std::byte> bytes);
 
 }  // namespace camdir::scene

@@ -5,8 +5,8 @@
 namespace camdir::scene::q3 {
 namespace {
 
-// How far in front of a face its leaf is looked for: more than rounding in the planes, less than any gap
-// that could be seen.
+// A face's leaf is looked up this far in front of it: more than rounding in the planes, less than any
+// visible gap.
 constexpr double offset = 0.125;
 // Fragments thinner than this belong to the neighbour.
 constexpr double tolerance = 0.01;
@@ -18,14 +18,10 @@ struct Visit {
 
 }  // namespace
 
-scene::Plane to_plane(const Plane& plane) {
-    return normalized({Vec3d(plane.normal[0], plane.normal[1], plane.normal[2]), plane.distance});
-}
-
 Tree::Tree(const Bsp& bsp) : bsp_(bsp) {
     planes_.reserve(bsp.nodes.size());
     for (const Node& node : bsp.nodes) {
-        planes_.push_back(to_plane(bsp.planes[static_cast<std::size_t>(node.plane)]));
+        planes_.push_back(bsp.plane(node.plane));
     }
 }
 
@@ -48,7 +44,7 @@ bool Tree::is_seen(const Polygon& polygon, const Vec3d& normal) const {
         const scene::Plane& plane = planes_[node];
         Polygon before = clip(visit.polygon, flipped(plane), tolerance);
         Polygon behind = clip(visit.polygon, plane, tolerance);
-        // On the plane although it was moved: what stands on the plane looks along its own normal.
+        // Still on the plane after the shift: the normal decides the side.
         if (before.empty() && behind.empty())
             (plane.normal.dot(normal) >= 0.0 ? before : behind) = visit.polygon;
         if (!before.empty()) open.push_back({front, std::move(before)});

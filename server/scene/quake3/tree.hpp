@@ -24,7 +24,4 @@ class Tree {
     std::vector<scene::Plane> planes_;
 };
 
-// Of unit length, in double precision.
-[[nodiscard]] scene::Plane to_plane(const Plane& plane);
-
 }  // namespace camdir::scene::q3

@@ -71,7 +71,8 @@ TEST_P(QuakeScene, SolidAndSkyAreObstaclesAndLiquidsAreNot) {
 
 TEST_P(QuakeScene, StaticEntitiesAreTakenWhereTheyStand) {
     const Vec3d origin(64.0, -32.0, 100.0);
-    for (const char* name : {"func_wall", "func_breakable", "func_detail_wall"}) {
+    for (const char* name : {"func_wall", "func_breakable", "func_detail_wall", "func_healthcharger",
+                             "func_recharge", "func_button", "func_rot_button", "func_pushable"}) {
         SCOPED_TRACE(name);
         QuakeMap map = room();
         map.entities = {{name, origin, {{crate}}}};
@@ -84,22 +85,36 @@ TEST_P(QuakeScene, StaticEntitiesAreTakenWhereTheyStand) {
     }
 }
 
-TEST_P(QuakeScene, OtherEntitiesAreLeftOutByClass) {
+TEST_P(QuakeScene, OtherEntitiesAreSkippedByClass) {
     QuakeMap map = room();
-    for (const char* name : {"func_door", "func_illusionary", "func_detail_illusionary", "trigger_once"})
+    for (const char* name : {"func_door", "func_rotating", "func_wall_toggle", "func_illusionary",
+                             "func_detail_illusionary", "trigger_once", "func_of_a_mod"})
         map.entities.push_back({name, Vec3d::Zero(), {{crate}}});
     const Scene scene = test::scene_of(map);
     EXPECT_NEAR(area_of(scene), surface_of(hall), 1e-6);
     EXPECT_LT(depth_in_solid(scene, crate.center()), 0.0);
-    EXPECT_THAT(skipped_counts(scene),
-                testing::UnorderedElementsAre(testing::Pair("entity: func_door", 6),
-                                              testing::Pair("entity: func_illusionary", 6),
-                                              testing::Pair("entity: func_detail_illusionary", 6),
-                                              testing::Pair("trigger: trigger_once", 6)));
-    EXPECT_NEAR(test::skipped_areas(scene)["entity: func_door"], surface_of(crate), 1e-3);
+    EXPECT_THAT(
+        skipped_counts(scene),
+        testing::UnorderedElementsAre(
+            testing::Pair("mover: func_door", 6), testing::Pair("mover: func_rotating", 6),
+            testing::Pair("mover: func_wall_toggle", 6), testing::Pair("no obstacle: func_illusionary", 6),
+            testing::Pair("no obstacle: func_detail_illusionary", 6),
+            testing::Pair("no obstacle: trigger_once", 6), testing::Pair("unknown class: func_of_a_mod", 6)));
+    EXPECT_NEAR(test::skipped_areas(scene)["mover: func_door"], surface_of(crate), 1e-3);
 }
 
-TEST_P(QuakeScene, ToolTexturesAreLeftOut) {
+TEST_P(QuakeScene, ClassNamesFromTheFileAreReportedAsShortText) {
+    QuakeMap map = room();
+    map.entities = {{"func_\xff", Vec3d::Zero(), {{crate}}},
+                    {std::string(1000, 'x'), Vec3d::Zero(), {{crate}}},
+                    {"", Vec3d::Zero(), {{crate}}}};
+    EXPECT_THAT(skipped_counts(test::scene_of(map)),
+                testing::UnorderedElementsAre(testing::Pair("unknown class: func_?", 6),
+                                              testing::Pair("unknown class: " + std::string(64, 'x'), 6),
+                                              testing::Pair("unknown class: without a name", 6)));
+}
+
+TEST_P(QuakeScene, ToolTexturesAreSkipped) {
     for (const char* texture : {"clip", "CLIPBevel", "AAATRIGGER", "null", "Skip", "hint", "origin"}) {
         SCOPED_TRACE(texture);
         QuakeMap map = room();

@@ -58,11 +58,11 @@ TEST(Q3Scene, LeftOutIsCounted) {
     const auto counts = skipped_counts(scene);
     EXPECT_THAT(counts, testing::IsSupersetOf({testing::Pair("clip: test/clip", 6),
                                                testing::Pair("liquid: test/water", 6),
-                                               testing::Pair("entity: func_door", 6)}));
+                                               testing::Pair("mover: func_door", 6)}));
     EXPECT_GE(counts.at("not solid: test/ghost"), 2U) << "the soup and the patch";
     const auto areas = test::skipped_areas(scene);
     EXPECT_NEAR(areas.at("liquid: test/water"), surface_of(crate), 1e-6);
-    EXPECT_NEAR(areas.at("entity: func_door"), surface_of(crate), 1e-6);
+    EXPECT_NEAR(areas.at("mover: func_door"), surface_of(crate), 1e-6);
     EXPECT_NEAR(areas.at("not solid: test/ghost"), 40.5, 1e-6);
     EXPECT_NEAR(area_of(scene), surface_of(hall), 1e-6);
 }
@@ -77,6 +77,21 @@ TEST(Q3Scene, StaticModelsAreTakenWhereTheirEntityStands) {
     EXPECT_FALSE(has_surface_at(scene, {32.0, 32.0, 64.0}));
     EXPECT_GE(test::depth_in_solid(scene, crate.center() + origin), 0.0);
     EXPECT_NEAR(area_of(scene), surface_of(hall) + surface_of(crate), 1e-6);
+}
+
+TEST(Q3Scene, OtherModelsAreSkippedByClass) {
+    q3::Bsp bsp = test::room_map(hall);
+    for (const char* name : {"func_button", "func_bobbing", "func_of_a_mod", ""}) {
+        test::add_entity_model(bsp, name, Vec3d::Zero());
+        test::add_box(bsp, crate, test::stone);
+    }
+    const Scene scene = test::scene_of(bsp);
+    EXPECT_NEAR(area_of(scene), surface_of(hall), 1e-6);
+    EXPECT_THAT(skipped_counts(scene),
+                testing::IsSupersetOf({testing::Pair("mover: func_button", 6),
+                                       testing::Pair("mover: func_bobbing", 6),
+                                       testing::Pair("unknown class: func_of_a_mod", 6),
+                                       testing::Pair("unknown class: without a name", 6)}));
 }
 
 TEST(Q3Scene, PatchesAndSoupsAreObstacles) {
