@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstdint>
 #include <cstring>
 #include <string_view>
@@ -16,7 +15,7 @@
 namespace camdir::scene {
 namespace {
 
-// Enough of a text to see how its lines begin.
+// The part of a text in which its first line is looked for.
 constexpr std::size_t sniffed_bytes = 65536;
 
 bool is_binary_stl(std::span<const std::byte> bytes) {
@@ -28,7 +27,7 @@ bool is_binary_stl(std::span<const std::byte> bytes) {
     return bytes.size() == header + facet * std::size_t{count};
 }
 
-// The words of the first line that has some and is no comment.
+// Of the first line that is neither blank nor a comment.
 std::vector<std::string_view> first_words(std::string_view text) {
     Lines lines(text.substr(0, sniffed_bytes));
     while (const auto line = lines.next()) {
@@ -45,9 +44,7 @@ bool starts_obj(std::string_view word) {
 }
 
 bool is_number(std::string_view word) {
-    double number = 0.0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-    return error == std::errc() && end == word.data() + word.size();
+    return number_of(word).has_value();
 }
 
 }  // namespace

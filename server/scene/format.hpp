@@ -12,9 +12,8 @@
 
 namespace camdir::scene {
 
-// Told by what the bytes start with; text without a mark of its own by its first line or by the file's
-// extension (.obj). A PLY is a mesh when its header promises faces. Nothing for what is neither; BSPs have
-// marks of their own.
+// The first bytes decide; for text without a signature its first line or the file's extension. A PLY is a
+// mesh when its header declares faces. monostate: neither; BSPs have signatures of their own.
 [[nodiscard]] Result<std::variant<std::monostate, MeshFormat, CloudFormat>> format_of(
     std::span<const std::byte> bytes, const std::string& extension);
 

@@ -23,7 +23,7 @@ struct CompanionFile {
     Bytes bytes;
 };
 
-// A map with all that belongs to it.
+// A map with the files that it refers to.
 struct Content {
     Source source;
     Format format;

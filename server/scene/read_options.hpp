@@ -11,9 +11,9 @@ namespace camdir::scene {
 enum class UpAxis { y, z };
 
 struct ReadOptions {
-    // Metres of one map unit, > 0. Without: what the format says (BSP 0.0254), else 1.
+    // Metres of one map unit, > 0. Default: what the format says (BSP 0.0254), else 1.
     std::optional<double> metres_per_unit;
-    // Axis that points up in the source. Without: what the format says (glTF y), else z. A source with y up
+    // Axis that points up in the source. Default: what the format says (glTF y), else z. A source with y up
     // has z forward: its (x, y, z) becomes (z, x, y). Meshes and point clouds only.
     std::optional<UpAxis> up;
     // Point of the source, in its own axes, that becomes (0, 0, 0). Meshes and point clouds only.

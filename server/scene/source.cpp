@@ -56,7 +56,7 @@ Result<Archive> open_archive(const std::string& path) {
     return fail(path + ": cannot open as a zip archive: " + reason);
 }
 
-// Grows with what is really unpacked: the size that the archive declares is not believed.
+// Grows with what is unpacked: the size that the archive declares may be wrong.
 Result<Bytes> unpack(zip_file_t* member, const std::string& source) {
     Bytes bytes;
     std::array<std::byte, 65536> block;

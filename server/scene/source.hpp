@@ -18,7 +18,7 @@ struct Source {
     Bytes bytes;
 };
 
-// `source` is a file, or `archive.pk3:member`. An existing file wins over the reading with a colon.
+// `source` is a file, or `archive.pk3:member`. A file whose name has a colon takes precedence over a member.
 // Errors name the file, the member and the reason.
 [[nodiscard]] Result<Source> read_source(const std::string& source);
 

@@ -1,5 +1,6 @@
-// The project's own part around Assimp. Arbitrary bytes are told apart, as a glTF name its buffers, and give
-// the numbers of an imported scene: it becomes a scene that keeps its promises, or an error of one line.
+// The project's own part around Assimp. Of arbitrary bytes the format is detected, the origin is subtracted
+// and the buffers of a glTF are listed; they are also the numbers of an imported scene, which becomes a scene
+// that keeps its promises, or an error of one line.
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
@@ -7,6 +8,7 @@
 
 #include "scene/format.hpp"
 #include "scene/mesh/gltf_buffers.hpp"
+#include "scene/mesh/subtract_origin.hpp"
 
 namespace {
 
@@ -82,6 +84,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (!format && format.error().message.empty()) std::abort();
     const auto buffers = scene::gltf_buffers(bytes);
     if (!buffers && buffers.error().message.empty()) std::abort();
+
+    const Vec3d origin(448262.0, 5412345.0, 300.0);
+    const auto obj = scene::subtract_origin_from_obj(bytes, origin);
+    const auto ply = scene::subtract_origin_from_ply(bytes, origin);
+    if ((!obj && obj.error().message.empty()) || (!ply && ply.error().message.empty())) std::abort();
 
     Input input(data, size);
     aiScene imported;

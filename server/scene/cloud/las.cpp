@@ -10,7 +10,7 @@
 namespace camdir::scene {
 namespace {
 
-// Bytes of the public header block that every version has, and of the one of version 1.4.
+// Bytes of the public header block: of every version, and up to the 64-bit count of version 1.4.
 constexpr std::size_t header_size = 227;
 constexpr std::size_t header_size_4 = 255;
 constexpr std::uint8_t compressed_bits = 0xc0;

@@ -46,7 +46,7 @@ std::optional<NumberType> number_type(const Field& field) {
 
 using Words = std::vector<std::string_view>;
 
-// One word a field after the keyword.
+// After the keyword one word for each field.
 template <class Set>
 Result<void> set_fields(const Words& words, const Lines& lines, PcdHeader& header, const Set& set) {
     if (words.size() != header.fields.size() + 1)
@@ -60,9 +60,9 @@ Result<void> set_fields(const Words& words, const Lines& lines, PcdHeader& heade
     return {};
 }
 
-bool set_number(std::string_view word, std::uint64_t most, std::uint64_t& to) {
+bool set_number(std::string_view word, std::uint64_t max, std::uint64_t& to) {
     const auto number = whole_number(word);
-    if (!number || *number == 0 || *number > most) return false;
+    if (!number || *number == 0 || *number > max) return false;
     to = *number;
     return true;
 }
@@ -178,7 +178,7 @@ Result<std::vector<std::byte>> decompress(std::span<const std::byte> data, std::
     if (unpacked != expected)
         return fail("the compressed data holds " + std::to_string(unpacked) + " bytes; the fields need " +
                     std::to_string(expected));
-    // Three bytes of LZF stand for at most 264.
+    // Three bytes of LZF unpack to at most 264.
     if (unpacked / 88 > std::uint64_t{compressed} + 1)
         return fail("the compressed data cannot hold the " + std::to_string(unpacked) +
                     " bytes that it promises");

@@ -13,7 +13,7 @@ namespace camdir::scene {
 // The text starts with comments and the word VERSION or FIELDS.
 [[nodiscard]] bool is_pcd(std::span<const std::byte> bytes);
 
-// Points in the file's order; those without a position (NaN) are in it. Errors name the line or the byte.
+// Points in the file's order, including those without a position (NaN). Errors name the line or the byte.
 [[nodiscard]] Result<std::vector<Vec3d>> read_pcd(std::span<const std::byte> bytes);
 
 }  // namespace camdir::scene

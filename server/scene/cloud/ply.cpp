@@ -111,40 +111,33 @@ Result<std::array<std::size_t, 3>> coordinates(const Element& vertex) {
     return places;
 }
 
-Result<std::vector<Vec3d>> read_text(Lines& lines, const PlyHeader& header, const Element* vertex,
-                                     const std::array<std::size_t, 3>& places) {
-    for (const Element* before = header.elements.data(); before != vertex; ++before) {
-        for (std::uint64_t i = 0; i < before->count && lines.next(); ++i) {
+// Passes the rows of `element`. A row of text is a line.
+Result<void> skip_rows(const Element& element, bool is_text, Lines& lines) {
+    if (is_text) {
+        for (std::uint64_t i = 0; i < element.count && lines.next(); ++i) {
         }
+        return {};
     }
-    return read_lines(lines, places, vertex->count);
+    const auto size = row_size(element);
+    if (!size) return fail("element " + std::string(element.name) + ": lists are not read here");
+    if (*size > 0 && lines.rest().size() / *size < element.count)
+        return fail("element " + std::string(element.name) + ": ends after " +
+                    std::to_string(lines.rest().size()) + " bytes; expected " +
+                    std::to_string(element.count) + " rows of " + std::to_string(*size));
+    lines.skip(*size * element.count);
+    return {};
 }
 
-Result<std::vector<Vec3d>> read_binary(std::span<const std::byte> data, const PlyHeader& header,
-                                       const Element* vertex, const std::array<std::size_t, 3>& places) {
-    const auto skip = [&](const Element& element) -> Result<void> {
-        const auto size = row_size(element);
-        if (!size) return fail("element " + std::string(element.name) + ": lists are not read here");
-        if (*size > 0 && data.size() / *size < element.count)
-            return fail("element " + std::string(element.name) + ": ends after " +
-                        std::to_string(data.size()) + " bytes; expected " + std::to_string(element.count) +
-                        " rows of " + std::to_string(*size));
-        data = data.subspan(*size * element.count);
-        return {};
-    };
-    for (const Element* before = header.elements.data(); before != vertex; ++before) {
-        if (const auto skipped = skip(*before); !skipped) return tl::unexpected(skipped.error());
-    }
-    const std::span<const std::byte> rows = data;
-    if (const auto complete = skip(*vertex); !complete) return tl::unexpected(complete.error());
+// `begin` is the byte of the first row. Of text only the types mean something.
+Columns columns_of(const Element& vertex, const std::array<std::size_t, 3>& places, std::size_t begin) {
     Columns columns{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        std::size_t offset = 0;
+        std::size_t offset = begin;
         for (std::size_t i = 0; i < places[axis]; ++i)
-            offset += size_of(*vertex->properties[i].type);
-        columns[axis] = {offset, *row_size(*vertex), *vertex->properties[places[axis]].type};
+            offset += size_of(*vertex.properties[i].type);
+        columns[axis] = {offset, row_size(vertex).value_or(0), *vertex.properties[places[axis]].type};
     }
-    return read_columns(rows, columns, vertex->count, header.format == "binary_big_endian");
+    return columns;
 }
 
 }  // namespace
@@ -165,21 +158,38 @@ Result<std::uint64_t> ply_face_count(std::span<const std::byte> bytes) {
     return count;
 }
 
-Result<std::vector<Vec3d>> read_ply_points(std::span<const std::byte> bytes) {
+Result<PlyVertices> find_ply_vertices(std::span<const std::byte> bytes) {
     Lines lines(text_of(bytes));
     const auto header = read_ply_header(lines);
     if (!header) return tl::unexpected(header.error());
-    const auto vertex = std::find_if(header->elements.begin(), header->elements.end(),
-                                     [](const Element& element) { return element.name == "vertex"; });
-    if (vertex == header->elements.end()) return fail("the header has no element vertex");
-    const auto places = coordinates(*vertex);
-    if (!places) return tl::unexpected(places.error());
-    if (const auto fits = check_point_count(vertex->count); !fits) return tl::unexpected(fits.error());
-    if (header->format == "ascii") return read_text(lines, *header, &*vertex, *places);
-    if (header->format == "binary_little_endian" || header->format == "binary_big_endian")
-        return read_binary(std::as_bytes(std::span(lines.rest())), *header, &*vertex, *places);
-    return fail("format '" + std::string(header->format.substr(0, 40)) +
-                "'; expected ascii, binary_little_endian or binary_big_endian");
+    const bool is_text = header->format == "ascii";
+    const bool big_endian = header->format == "binary_big_endian";
+    if (!is_text && !big_endian && header->format != "binary_little_endian")
+        return fail("format '" + std::string(header->format.substr(0, 40)) +
+                    "'; expected ascii, binary_little_endian or binary_big_endian");
+    for (const Element& element : header->elements) {
+        if (element.name != "vertex") {
+            if (const auto skipped = skip_rows(element, is_text, lines); !skipped)
+                return tl::unexpected(skipped.error());
+            continue;
+        }
+        const auto places = coordinates(element);
+        if (!places) return tl::unexpected(places.error());
+        const Columns columns = columns_of(element, *places, bytes.size() - lines.rest().size());
+        Lines rows_end = lines;
+        if (const auto complete = is_text ? Result<void>() : skip_rows(element, false, rows_end); !complete)
+            return tl::unexpected(complete.error());
+        return PlyVertices{element.count, is_text, big_endian, *places, lines, columns};
+    }
+    return fail("the header has no element vertex");
+}
+
+Result<std::vector<Vec3d>> read_ply_points(std::span<const std::byte> bytes) {
+    Result<PlyVertices> vertices = find_ply_vertices(bytes);
+    if (!vertices) return tl::unexpected(vertices.error());
+    if (const auto fits = check_point_count(vertices->count); !fits) return tl::unexpected(fits.error());
+    if (vertices->is_text) return read_lines(vertices->lines, vertices->places, vertices->count);
+    return read_columns(bytes, vertices->columns, vertices->count, vertices->big_endian);
 }
 
 }  // namespace camdir::scene

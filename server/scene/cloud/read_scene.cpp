@@ -45,7 +45,7 @@ void skip(Scene& scene, std::string reason, std::size_t count) {
     if (count > 0) scene.skipped.push_back({std::move(reason), "", count});
 }
 
-// In PCD a NaN says that the scanner saw nothing there.
+// In PCD a NaN means that the scanner saw nothing there.
 void drop_missing(std::vector<Vec3d>& points, Scene& scene) {
     const auto missing = [](const Vec3d& p) { return p.array().isNaN().any(); };
     const auto kept = std::remove_if(points.begin(), points.end(), missing);
@@ -53,7 +53,7 @@ void drop_missing(std::vector<Vec3d>& points, Scene& scene) {
     points.erase(kept, points.end());
 }
 
-// Also makes the scene independent of the order in the file.
+// Sorts too, which makes the scene independent of the order in the file.
 void drop_repeated(std::vector<Vec3d>& points, Scene& scene) {
     std::sort(points.begin(), points.end(), [](const Vec3d& a, const Vec3d& b) {
         return std::tuple(a.x(), a.y(), a.z()) < std::tuple(b.x(), b.y(), b.z());

@@ -14,7 +14,7 @@ namespace camdir::scene {
 
 enum class CloudFormat { pcd, ply, xyz, las };
 
-// Left out and counted: points without a position (PCD's NaN), repeated points, outliers. Refused: fewer than
+// Skipped and counted: points without a position (PCD's NaN), repeated points, outliers. Refused: fewer than
 // four points, other positions that are not finite. Name, source, hash and spawn points are left empty.
 [[nodiscard]] Result<Scene> read_cloud_scene(std::span<const std::byte> bytes, CloudFormat format,
                                              const ReadOptions& options);

@@ -53,14 +53,6 @@ bool is_separator(char c) {
     return c == ' ' || c == '\t' || c == ',' || c == ';' || c == '\r';
 }
 
-std::optional<double> number_of(std::string_view word) {
-    if (word.starts_with('+')) word.remove_prefix(1);
-    double number = 0.0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-    if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
-    return number;
-}
-
 }  // namespace
 
 Result<void> check_point_count(std::uint64_t count) {
@@ -114,6 +106,14 @@ std::vector<std::string_view> words_of(std::string_view line) {
         i += length;
     }
     return words;
+}
+
+std::optional<double> number_of(std::string_view word) {
+    if (word.starts_with('+')) word.remove_prefix(1);
+    double number = 0.0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+    if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
+    return number;
 }
 
 std::optional<std::uint64_t> whole_number(std::string_view word) {

@@ -14,7 +14,7 @@
 
 namespace camdir::scene {
 
-// More points than this are refused: what is made of them takes some GB.
+// More points are refused: baking them takes several GB.
 inline constexpr std::uint64_t max_points = 20'000'000;
 
 [[nodiscard]] Result<void> check_point_count(std::uint64_t count);
@@ -43,6 +43,7 @@ class Lines {
     [[nodiscard]] std::optional<std::string_view> next();
     [[nodiscard]] std::size_t number() const { return number_; }  // of the line last given, from 1
     [[nodiscard]] std::string_view rest() const { return rest_; }
+    void skip(std::size_t bytes) { rest_.remove_prefix(bytes); }  // at most the rest
     [[nodiscard]] tl::unexpected<Error> bad_line(const std::string& what) const;
 
   private:
@@ -52,11 +53,13 @@ class Lines {
 
 // Words between blanks, commas and semicolons.
 [[nodiscard]] std::vector<std::string_view> words_of(std::string_view line);
+// The whole word is a number; NaN and infinity are numbers.
+[[nodiscard]] std::optional<double> number_of(std::string_view word);
 // The whole word is a number below 2^63.
 [[nodiscard]] std::optional<std::uint64_t> whole_number(std::string_view word);
 
 // A position a line in words x, y, z (their places in the line); NaN is a number. Blank lines and lines that
-// start with # are passed over. With `count` ends after so many positions, and fails when there are fewer.
+// start with # are skipped. With `count`: exactly that many; fails when there are fewer.
 [[nodiscard]] Result<std::vector<Vec3d>> read_lines(Lines& lines, const std::array<std::size_t, 3>& places,
                                                     std::optional<std::uint64_t> count);
 

@@ -27,7 +27,7 @@ Result<std::string_view> json_of(std::span<const std::byte> bytes) {
     return text_of(bytes.subspan(begin, length));
 }
 
-// %20 is a blank. Nothing for broken escapes.
+// Decodes %20 and the like; nothing for broken escapes.
 std::optional<std::string> decoded(std::string_view uri) {
     std::string text;
     for (std::size_t i = 0; i < uri.size(); ++i) {
@@ -78,7 +78,7 @@ Result<std::vector<GltfBuffer>> gltf_buffers(std::span<const std::byte> bytes) {
         if (!buffer.is_object() || !buffer.contains("uri")) continue;
         if (!buffer["uri"].is_string() || !buffer.contains("byteLength") ||
             !buffer["byteLength"].is_number_unsigned())
-            return fail(pointer + ": expected a text uri and a whole number byteLength");
+            return fail(pointer + ": expected a string uri and a whole number byteLength");
         const auto& uri = buffer["uri"].get_ref<const std::string&>();
         if (uri.starts_with("data:")) continue;
         const auto path = decoded(uri);

@@ -1,4 +1,4 @@
-// The files of their own that a glTF keeps its numbers in.
+// The separate files that hold the numbers of a glTF.
 #pragma once
 
 #include <cstddef>
@@ -19,8 +19,8 @@ struct GltfBuffer {
 
 [[nodiscard]] bool is_glb(std::span<const std::byte> bytes);
 
-// The buffers of a .gltf or .glb that are neither in it nor data URIs. Fails for JSON that is broken or
-// deeply nested, and for addresses that are no relative path within the glTF's folder.
+// The buffers of a .gltf or .glb that are neither in it nor data URIs. Fails for broken or deeply nested
+// JSON, and for URIs other than relative paths within the glTF's folder.
 [[nodiscard]] Result<std::vector<GltfBuffer>> gltf_buffers(std::span<const std::byte> bytes);
 
 }  // namespace camdir::scene

@@ -15,7 +15,7 @@
 namespace camdir::scene {
 namespace {
 
-// The importers that stay, by an extension of each.
+// The importers that are kept, by an extension of each.
 constexpr std::array<const char*, 5> kept_extensions = {"obj", "ply", "stl", "gltf", "glb"};
 
 std::string main_name(MeshFormat format) {
@@ -41,7 +41,7 @@ class MemoryFiles : public Assimp::IOSystem {
     Companions files_;
 };
 
-// Several importers may read an extension: glTF has one a version.
+// Several importers may read an extension: glTF has one for each version.
 bool is_kept(const Assimp::Importer& importer, std::size_t index) {
     std::istringstream extensions(importer.GetImporterInfo(index)->mFileExtensions);
     std::string extension;

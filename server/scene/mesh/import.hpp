@@ -1,4 +1,4 @@
-// Assimp, kept to the four formats and to memory.
+// Assimp, restricted to four formats and to files in memory.
 #pragma once
 
 #include <memory>
@@ -24,7 +24,7 @@ class Imported {
     std::unique_ptr<Parts> parts_;
 };
 
-// Polygons come back as triangles, each mesh with its node. Errors are Assimp's own words.
+// Polygons come back as triangles, each mesh with its node. Errors are Assimp's messages.
 [[nodiscard]] Result<Imported> import_mesh(std::span<const std::byte> bytes, MeshFormat format,
                                            const Companions& companions);
 

@@ -1,13 +1,19 @@
 #include "scene/mesh/read_scene.hpp"
 
+#include <array>
+#include <optional>
+#include <utility>
+#include <vector>
+
 #include "scene/coordinate_transform.hpp"
 #include "scene/mesh/import.hpp"
+#include "scene/mesh/subtract_origin.hpp"
 #include "scene/triangle_welder.hpp"
 
 namespace camdir::scene {
 namespace {
 
-// Nodes may repeat a mesh any number of times.
+// Nodes may repeat a mesh any number of times, so that the file's size is no limit.
 constexpr std::uint64_t max_triangles = 20'000'000;
 // Nominal units, as for BSP maps.
 constexpr double weld_tolerance = 0.01;
@@ -22,7 +28,7 @@ bool has_y_up(MeshFormat format) {
     return format == MeshFormat::gltf || format == MeshFormat::glb;
 }
 
-// Collects the triangles of one mesh of one node after the other.
+// The triangles of all meshes of all nodes.
 class MeshBuilder {
   public:
     explicit MeshBuilder(const CoordinateTransform& coordinates)
@@ -39,7 +45,7 @@ class MeshBuilder {
     TriangleWelder welder_;
     std::uint64_t triangles_ = 0;
     std::uint64_t flat_ = 0;
-    std::uint64_t no_triangles_ = 0;
+    std::uint64_t other_primitives_ = 0;
 };
 
 Result<Vec3d> MeshBuilder::corner(const aiMesh& mesh, unsigned index, const aiMatrix4x4& transform) const {
@@ -47,14 +53,14 @@ Result<Vec3d> MeshBuilder::corner(const aiMesh& mesh, unsigned index, const aiMa
         return fail("mesh '" + std::string(mesh.mName.C_Str()) + "': vertex " + std::to_string(index) +
                     " does not exist; it has " + std::to_string(mesh.mNumVertices));
     const aiVector3D p = transform * mesh.mVertices[index];
-    return coordinates_.place({p.x, p.y, p.z}, "vertex", index);
+    return coordinates_.place_single({p.x, p.y, p.z}, "vertex", index);
 }
 
 Result<void> MeshBuilder::add(const aiMesh& mesh, const aiMatrix4x4& transform) {
     for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
         const aiFace& face = mesh.mFaces[i];
         if (face.mNumIndices < 3) {
-            ++no_triangles_;
+            ++other_primitives_;
             continue;
         }
         if (++triangles_ > max_triangles)
@@ -82,8 +88,19 @@ Result<Scene> MeshBuilder::finish() {
     const Vec3d margin = Vec3d::Constant(box_margin * coordinates_.nominal_unit());
     scene.bounds = Box3d(scene.bounds.min() - margin, scene.bounds.max() + margin);
     if (flat_ > 0) scene.skipped.push_back({"triangles that are flat or repeated", "", flat_});
-    if (no_triangles_ > 0) scene.skipped.push_back({"points and lines", "", no_triangles_});
+    if (other_primitives_ > 0) scene.skipped.push_back({"points and lines", "", other_primitives_});
     return scene;
+}
+
+// Nothing where Assimp keeps all the precision that the file has, and for STL and glTF.
+Result<std::optional<Bytes>> subtract_origin(std::span<const std::byte> bytes, MeshFormat format,
+                                             const Vec3d& origin) {
+    if (origin == Vec3d::Zero()) return std::nullopt;
+    if (format == MeshFormat::ply) return subtract_origin_from_ply(bytes, origin);
+    if (format != MeshFormat::obj) return std::nullopt;
+    return subtract_origin_from_obj(bytes, origin).map([](Bytes moved) {
+        return std::optional(std::move(moved));
+    });
 }
 
 struct PlacedNode {
@@ -118,9 +135,14 @@ Result<Scene> mesh_scene_of(const aiScene& imported, MeshFormat format, const Re
 
 Result<Scene> read_mesh_scene(std::span<const std::byte> bytes, MeshFormat format,
                               const Companions& companions, const ReadOptions& options) {
-    return import_mesh(bytes, format, companions).and_then([&](const Imported& imported) {
-        return mesh_scene_of(*imported.scene(), format, options);
-    });
+    const Result<std::optional<Bytes>> moved = subtract_origin(bytes, format, options.origin);
+    if (!moved) return tl::unexpected(moved.error());
+    ReadOptions rest = options;
+    if (*moved) rest.origin = Vec3d::Zero();
+    const auto imported =
+        import_mesh(*moved ? std::span<const std::byte>(**moved) : bytes, format, companions);
+    if (!imported) return tl::unexpected(imported.error());
+    return mesh_scene_of(*imported->scene(), format, rest);
 }
 
 }  // namespace camdir::scene

@@ -118,7 +118,35 @@ TEST(Cloud, UnitAxisAndOriginAreAsAsked) {
     EXPECT_THAT(scene.points, testing::Contains(Vec3d(8.25, 0.5, 0.25)));  // was (1, 0.75, 8)
 }
 
-TEST(Cloud, LeavesOutRepeatedMissingAndStrayPoints) {
+// UTM: single precision has steps of 0.03 and 0.5 there.
+TEST(Cloud, OriginIsSubtractedInDoublePrecision) {
+    const Vec3d utm(448262.0, 5412345.0, 300.0);
+    std::vector<Vec3d> far = points;
+    for (Vec3d& point : far)
+        point += utm + Vec3d(0.001, 0.002, 0.003);
+    std::string pcd = "VERSION 0.7\nFIELDS x y z\nSIZE 8 8 8\nTYPE F F F\nCOUNT 1 1 1\nPOINTS 6\nDATA ";
+    std::string binary = pcd + "binary\n";
+    std::string ply =
+        "ply\nformat binary_little_endian 1.0\nelement vertex 6\nproperty double x\nproperty double "
+        "y\nproperty double z\nend_header\n";
+    for (const Vec3d& point : far)
+        for (const double coordinate : point) {
+            test::append(binary, coordinate);
+            test::append(ply, coordinate);
+        }
+    ReadOptions options;
+    options.origin = utm + Vec3d(0.001, 0.002, 0.003);
+    for (const Scene& scene : {read(test::xyz_of(far), CloudFormat::xyz, options),
+                               read(pcd + "ascii\n" + test::xyz_of(far), CloudFormat::pcd, options),
+                               read(binary, CloudFormat::pcd, options), read(ply, CloudFormat::ply, options),
+                               read(test::las_of(far, utm), CloudFormat::las, options)}) {
+        ASSERT_EQ(scene.points.size(), points.size()) << scene.kind;
+        for (std::size_t i = 0; i < points.size(); ++i)
+            EXPECT_LT((scene.points[i] - points[i]).norm(), 1e-6) << scene.kind;
+    }
+}
+
+TEST(Cloud, SkipsRepeatedMissingAndStrayPoints) {
     std::vector<Vec3d> walls = test::walls_of(Box3d(Vec3d::Zero(), Vec3d(4.0, 4.0, 2.0)), 0.25);
     const std::size_t count = walls.size();
     const std::string nan = "nan nan nan\n";

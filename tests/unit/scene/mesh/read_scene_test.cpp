@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -131,7 +133,92 @@ TEST_F(Mesh, SeedsJoinTheSpawnPoints) {
     EXPECT_THAT(refusal(write("a.obj", obj), options), HasSubstr("outside the map's box"));
 }
 
-TEST_F(Mesh, CountsWhatItLeavesOut) {
+// A triangle at UTM coordinates, where single precision has steps of 0.03 and 0.5.
+const Vec3d utm(448262.0, 5412345.0, 300.0);
+const std::vector<Vec3d> utm_corners = {utm + Vec3d(0.234, 0.678, 0.001), utm + Vec3d(4.5, 0.678, 0.001),
+                                        utm + Vec3d(0.234, 1.123, 0.00002)};
+
+std::string utm_obj() {
+    return "v " + test::xyz_of({utm_corners[0]}) + "v\t" + test::xyz_of({utm_corners[1]}) + " v  " +
+           test::xyz_of({utm_corners[2]}) + "vn 0 0 1\nf 1 2 3\n";
+}
+
+std::string utm_ply(const std::string& format, const std::string& type) {
+    std::string bytes = "ply\nformat " + format + " 1.0\nelement vertex 3\nproperty uchar red\n";
+    for (const char* axis : {"x", "y", "z"})
+        bytes += "property " + type + ' ' + axis + '\n';
+    bytes += "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+    if (format == "ascii") {
+        for (const Vec3d& corner : utm_corners)
+            bytes += "200 " + test::xyz_of({corner});
+        return bytes + "3 0 1 2\n";
+    }
+    const auto append = [&](auto value) {
+        std::string number;
+        test::append(number, value);
+        if (format == "binary_big_endian") std::reverse(number.begin(), number.end());
+        bytes += number;
+    };
+    for (const Vec3d& corner : utm_corners) {
+        append(std::uint8_t{200});
+        for (const double coordinate : corner)
+            type == "double" ? append(coordinate) : append(static_cast<float>(coordinate));
+    }
+    append(std::uint8_t{3});
+    for (const std::int32_t index : {0, 1, 2})
+        append(index);
+    return bytes;
+}
+
+TEST_F(Mesh, OriginIsSubtractedInDoublePrecision) {
+    ReadOptions options;
+    options.origin = utm;
+    for (const std::string& path : {write("a.obj", utm_obj()), write("b.ply", utm_ply("ascii", "double")),
+                                    write("c.ply", utm_ply("ascii", "float")),
+                                    write("d.ply", utm_ply("binary_little_endian", "double")),
+                                    write("e.ply", utm_ply("binary_big_endian", "double"))}) {
+        SCOPED_TRACE(path);
+        const auto scene = load(path, options);
+        ASSERT_TRUE(scene.has_value()) << scene.error().message;
+        ASSERT_EQ(scene->vertices.size(), 3U);
+        for (std::size_t i = 0; i < 3; ++i)
+            EXPECT_LT((scene->vertices[i] - (utm_corners[i] - utm)).norm(), 2e-6);
+    }
+}
+
+TEST_F(Mesh, OriginRefusesWhatSinglePrecisionHasLost) {
+    ReadOptions options;
+    options.origin = utm;
+    const std::string stl = "solid made\nfacet normal 0 0 1\nouter loop\nvertex " +
+                            test::xyz_of({utm_corners[0]}) + "vertex " + test::xyz_of({utm_corners[1]}) +
+                            "vertex " + test::xyz_of({utm_corners[2]}) + "endloop\nendfacet\nendsolid made\n";
+    for (const std::string& path :
+         {write("a.stl", stl), write("b.ply", utm_ply("binary_little_endian", "float"))})
+        EXPECT_THAT(refusal(path, options),
+                    AllOf(HasSubstr("single precision, in steps of 0.5 map units"), HasSubstr("write OBJ")));
+    options.origin = Vec3d(1.0, 0.0, 0.0);
+    EXPECT_EQ(load(write("c.stl", ascii_stl), options).value().vertices[0].z(), 2.0) << "near enough";
+}
+
+TEST_F(Mesh, OriginNamesTheLineOfABrokenPosition) {
+    ReadOptions options;
+    options.origin = utm;
+    EXPECT_THAT(refusal(write("a.obj", "v 0 0 0\nv 1 0\nf 1 2 1\n"), options), HasSubstr("line 2"));
+    EXPECT_THAT(refusal(write("b.obj", "v 0 0 0\nv 1 0 x\nf 1 2 1\n"), options), HasSubstr("line 2: 'x'"));
+    const std::string cut = utm_ply("ascii", "float");
+    EXPECT_THAT(refusal(write("c.ply", cut.substr(0, cut.find("end_header") + 20)), options),
+                HasSubstr("expected at least 4"));
+}
+
+TEST_F(Mesh, WeightedObjPositionsAreDividedByTheirWeight) {
+    ReadOptions options;
+    options.origin = Vec3d(10.0, 0.0, 0.0);
+    const Scene scene =
+        load(write("a.obj", "v 22 0 4 2\nv 30 0 4 2\nv 22 2 4 2\nf 1 2 3\n"), options).value();
+    EXPECT_THAT(scene.vertices, UnorderedElementsAre(Vec3d(1, 0, 2), Vec3d(5, 0, 2), Vec3d(1, 1, 2)));
+}
+
+TEST_F(Mesh, CountsWhatItSkips) {
     const Scene scene = load(write("a.obj", obj)).value();
     ASSERT_EQ(scene.skipped.size(), 1U);
     EXPECT_EQ(scene.skipped[0].count, 1U);
