@@ -1,4 +1,4 @@
-// What tests ask a scene, computed the obvious way.
+// Properties of a scene, computed the obvious way.
 #pragma once
 
 #include <map>

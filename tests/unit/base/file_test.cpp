@@ -66,7 +66,7 @@ TEST_F(FileTest, ErrorsNameThePathAndTheReason) {
     EXPECT_THAT(write_file(nowhere, std::string("x")).error().message, testing::HasSubstr(nowhere.string()));
 }
 
-TEST_F(FileTest, NamedPipeIsRefusedInsteadOfWaitedFor) {
+TEST_F(FileTest, NamedPipeIsRefusedAtOnce) {
     const fs::path pipe = folder_ / "pipe";
     ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
     EXPECT_THAT(read_file(pipe).error().message, testing::HasSubstr("not a regular file"));
@@ -94,7 +94,7 @@ TEST_F(FileTest, PendingFileAppearsWhenItIsFinished) {
     EXPECT_EQ(entries(), 1U);
 }
 
-TEST_F(FileTest, PendingFileThatIsGivenUpLeavesNothing) {
+TEST_F(FileTest, AbandonedPendingFileLeavesNothing) {
     { ASSERT_TRUE(PendingFile::begin(folder_ / "made").value()); }
     EXPECT_EQ(entries(), 0U);
 }

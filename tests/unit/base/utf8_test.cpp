@@ -12,7 +12,7 @@ TEST(Utf8, PrefixEndsBetweenCharacters) {
         EXPECT_EQ(utf8_prefix(text, most), ends[most]) << most;
 }
 
-TEST(Utf8, WhatIsNoCharacterIsAskedFor) {
+TEST(Utf8, InvalidBytesBecomeQuestionMarks) {
     const std::string text = "a\u00e9\u20ac\U0001f600\u07ff\ud7ff\U0010ffff";
     EXPECT_EQ(to_utf8(text), text);
     EXPECT_EQ(to_utf8("caf\xe9 x"), "caf? x");

@@ -1,4 +1,4 @@
-// Polygons and welding: the parts that every format can use.
+// Polygons and welding.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -24,7 +24,7 @@ Plane random_plane(std::mt19937& random) {
     return {test::random_point_in(random, unit).normalized(), test::random_point_in(random, unit).x()};
 }
 
-TEST(Polygon, SquareLiesOnItsPlaneAndFacesItsNormal) {
+TEST(Polygon, BaseWindingLiesOnItsPlaneAndFacesItsNormal) {
     std::mt19937 random(1);
     for (int i = 0; i < 100; ++i) {
         const Plane plane = random_plane(random);
@@ -35,7 +35,7 @@ TEST(Polygon, SquareLiesOnItsPlaneAndFacesItsNormal) {
     }
 }
 
-TEST(Polygon, CutsPartitionTheArea) {
+TEST(Polygon, ClipsPartitionTheArea) {
     std::mt19937 random(2);
     for (int i = 0; i < 1000; ++i) {
         const Polygon square = base_winding(random_plane(random), 2.0);
@@ -49,7 +49,7 @@ TEST(Polygon, CutsPartitionTheArea) {
     }
 }
 
-TEST(Polygon, CutToBoxKeepsWhatIsInside) {
+TEST(Polygon, ClipToBoxKeepsWhatIsInside) {
     const Polygon square = base_winding({Vec3d::UnitZ(), 0.5}, 10.0);
     EXPECT_NEAR(area_of(clip_to_box(square, unit)), 4.0, 1e-12);
     EXPECT_TRUE(clip_to_box(base_winding({Vec3d::UnitZ(), 1.5}, 10.0), unit).empty());
@@ -70,7 +70,7 @@ TEST(Polygon, TrianglesCoverTheArea) {
     }
 }
 
-TEST(Weld, NearCornersBecomeOneAndFlatTrianglesVanish) {
+TEST(TriangleWelder, NearCornersBecomeOneAndFlatTrianglesVanish) {
     TriangleWelder welder(0.01);
     EXPECT_TRUE(welder.add({0, 0, 0}, {1, 0, 0}, {0, 1, 0}));
     EXPECT_TRUE(welder.add({1.004, 0, 0}, {0, 0.996, 0}, {1, 1, 0}));
@@ -80,7 +80,7 @@ TEST(Weld, NearCornersBecomeOneAndFlatTrianglesVanish) {
     EXPECT_EQ(welder.take_triangles().size(), 2U);
 }
 
-TEST(Weld, NoTwoVerticesStayWithinTheTolerance) {
+TEST(TriangleWelder, NoTwoVerticesStayWithinTheTolerance) {
     std::mt19937 random(4);
     TriangleWelder welder(0.1);
     for (int i = 0; i < 2000; ++i) {

@@ -52,8 +52,7 @@ TEST_P(RealMap, ReadsTheSameTwice) {
     EXPECT_EQ(again.vertices, scene_.vertices);
 }
 
-// Maps of Quake and GoldSrc: their volumes are the tree's, their surfaces the faces, and neither is derived
-// from the other.
+// Maps of Quake and GoldSrc, whose volumes and surfaces come from the tree.
 class TreeMap : public testing::TestWithParam<std::string> {
   protected:
     void SetUp() override {

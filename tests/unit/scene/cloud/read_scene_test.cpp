@@ -1,4 +1,4 @@
-// Point clouds: every format and encoding gives the same points; what is no cloud is refused by name.
+// Point clouds: every format and encoding gives the same points; other content is refused with a reason.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <liblzf/lzf.h>
@@ -16,7 +16,7 @@ namespace {
 
 using testing::HasSubstr;
 
-// Exact as floats and as thousandths, ascending as a scene keeps them.
+// Exact as floats and as thousandths; ascending, as in a scene.
 const std::vector<Vec3d> points = {{-1.5, 2.0, 0.25}, {0.0, 0.0, 0.0},   {0.0, 0.5, 0.0},
                                    {0.5, 0.0, 0.0},   {0.5, 0.5, -0.25}, {1.0, 0.75, 8.0}};
 
@@ -107,7 +107,7 @@ TEST(Cloud, EveryEncodingGivesTheSamePoints) {
         EXPECT_LT((las.points[i] - points[i]).norm(), 1e-9);
 }
 
-TEST(Cloud, UnitAxisAndOriginAreAsAsked) {
+TEST(Cloud, UnitAxisAndOriginAreApplied) {
     ReadOptions options;
     options.metres_per_unit = 0.01;
     options.up = UpAxis::y;
@@ -165,7 +165,7 @@ TEST(Cloud, SkipsRepeatedMissingAndStrayPoints) {
     EXPECT_LT(scene.point_spacing, 0.4);
 }
 
-TEST(Cloud, RefusesWhatIsNoCloud) {
+TEST(Cloud, RefusesDamagedAndForeignContent) {
     EXPECT_THAT(refusal("1 2 3\n", CloudFormat::xyz), HasSubstr("1 different points"));
     std::string near;  // their squared distances are 0
     for (int i = 0; i < 20; ++i)

@@ -113,7 +113,7 @@ TEST_F(Mesh, RefusesGltfWithoutItsBuffer) {
     EXPECT_THAT(refusal(write("f.gltf", "{\"a\":" + std::string(100000, '['))), HasSubstr("nested deeper"));
 }
 
-TEST_F(Mesh, RefusesWhatIsNoMesh) {
+TEST_F(Mesh, RefusesOtherContent) {
     EXPECT_THAT(refusal(write("a.obj", "v 0 0 0\nv 1 0 0\n")), HasSubstr("a.obj"));
     EXPECT_THAT(refusal(write("b.obj", "v 0 0 0\nv 1 0 0\nv nan 1 0\nf 1 2 3\n")), HasSubstr("b.obj"));
     EXPECT_THAT(refusal(write("c.stl", binary_stl().substr(0, 100))), HasSubstr("c.stl"));

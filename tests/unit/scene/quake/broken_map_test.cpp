@@ -1,4 +1,4 @@
-// Quake and GoldSrc maps that are not as they should be: one clear line each, and no crash.
+// Quake and GoldSrc maps that break the format: an error of one line each, and no crash.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// What of a Quake or GoldSrc map becomes an obstacle.
+// Which parts of a Quake or GoldSrc map become obstacles.
 #include "scene/quake/read_scene.hpp"
 
 #include <gmock/gmock.h>
@@ -141,7 +141,7 @@ TEST_P(QuakeScene, SurfacesAreClosedWhateverFacesTheCompilerKept) {
     map.boxes = {{crate}, {crate.translated(Vec3d(100.0, 0.0, 64.0)), "sky", quake::sky}};
     map.entities = {{"func_wall", Vec3d(-150.0, 0.0, 0.0), {{crate}}}};
     quake::Bsp bsp = test::bsp_of(map);
-    // One face stays, so that the entity has something to see.
+    // One face stays: an entity without any is no obstacle.
     bsp.models[0].face_count = 0;
     bsp.models[1].face_count = 1;
     const Result<Scene> scene = read_quake_scene(test::encode(bsp));

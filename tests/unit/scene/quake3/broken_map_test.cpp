@@ -1,4 +1,4 @@
-// Maps that are not as they should be: one clear line each, and no crash.
+// Quake 3 maps that break the format: an error of one line each, and no crash.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -106,7 +106,7 @@ TEST(BrokenMap, OtherVersionsAreNamed) {
     EXPECT_THAT(read_q3_scene(bytes).error().message, HasSubstr("the version is 47"));
 }
 
-TEST(BrokenMap, EveryTruncationIsAnErrorOrAWholeMap) {
+TEST(BrokenMap, EveryTruncationIsAnErrorOrACompleteMap) {
     const Bytes bytes = test::encode(whole_map());
     for (std::size_t size = 0; size + 4 < bytes.size(); size += 7) {
         EXPECT_FALSE(read_q3_scene(std::span(bytes).first(size))) << size;

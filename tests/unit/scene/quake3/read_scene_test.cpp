@@ -1,4 +1,4 @@
-// What of a Quake 3 map becomes an obstacle.
+// Which parts of a Quake 3 map become obstacles.
 #include "scene/quake3/read_scene.hpp"
 
 #include <gmock/gmock.h>
@@ -34,7 +34,7 @@ TEST(Q3Scene, RoomIsItsInnerSurface) {
     EXPECT_GT(skipped_counts(scene)["face that nobody can see"], 0U);
 }
 
-TEST(Q3Scene, ClipWaterAndGhostBrushesAreNoObstaclesButSkyIs) {
+TEST(Q3Scene, SkyIsAnObstacleAndClipWaterAndGhostBrushesAreNot) {
     for (const test::Shader shader : {test::stone, test::sky, test::clip, test::water, test::ghost}) {
         q3::Bsp bsp = test::room_map(hall);
         test::add_box(bsp, crate, shader);
@@ -46,7 +46,7 @@ TEST(Q3Scene, ClipWaterAndGhostBrushesAreNoObstaclesButSkyIs) {
     }
 }
 
-TEST(Q3Scene, LeftOutIsCounted) {
+TEST(Q3Scene, SkippedIsCounted) {
     q3::Bsp bsp = test::room_map(hall);
     test::add_box(bsp, crate, test::clip);
     test::add_box(bsp, crate, test::water);
