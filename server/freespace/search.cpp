@@ -93,9 +93,11 @@ void improve_everywhere(const MeshView& mesh, const Vec3f& point, const Effort& 
     stack[0] = {std::numeric_limits<float>::infinity(), IndexChild::node(0)};
     std::size_t height = 1;
     std::uint32_t leaves = 0;
-    while (height > 0 && leaves < effort.leaves) {
+    while (height > 0) {
+        const bool is_enough = best.value > effort.enough;
+        if (is_enough && leaves >= effort.leaves) break;
         const Candidate top = stack[--height];
-        const float to_beat = best.value + effort.slack * std::max(best.value, 0.0F);
+        const float to_beat = best.value + (is_enough ? effort.slack * std::max(best.value, 0.0F) : 0.0F);
         if (!(top.bound > to_beat)) continue;
         if (top.child.is_leaf()) {
             ++leaves;

@@ -14,13 +14,14 @@ void improve_by_hints_around(const MeshView& mesh, const Vec3f& point, SlabPoint
 // Tries `triangle` and every triangle that shares a vertex with it.
 void improve_by_ring(const Freespace& freespace, const Vec3f& point, std::uint32_t triangle, SlabPoint& best);
 
-// When a search by the index may end early.
+// When a search by the index may end early. A best value of at most `enough` is searched for completely.
 struct Effort {
-    float slack = 0.0F;                 // nothing is better than the best by more than this share of it
-    std::uint32_t leaves = 0xffffffff;  // looked into, the most promising first
+    float enough = -std::numeric_limits<float>::infinity();
+    float slack = 0.0F;                 // no slab need be better than the best by more than this share of it
+    std::uint32_t leaves = 0xffffffff;  // to look into, the most promising first
 };
 
-// Tries every triangle that the index cannot rule out: with all effort no slab is better than `best`
+// Tries every triangle that the index cannot rule out: with unlimited effort no slab is better than `best`
 // afterwards, but for rounding. A good `best` to begin with makes it cheap.
 void improve_everywhere(const MeshView& mesh, const Vec3f& point, const Effort& effort, SlabPoint& best);
 

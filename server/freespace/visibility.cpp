@@ -11,13 +11,12 @@ namespace {
 
 // A march takes a few balls; one that needs more creeps towards a pinch and is given up.
 constexpr int ball_limit = 128;
-// A hint is taken when its ball carries on by this share of its radius; the walk ends when no ball carries on
-// by the smaller one.
-constexpr double good_gain = 0.05;
+// The march ends when no ball carries it on by this share of the last ball's radius, or of the segment where
+// that is shorter.
 constexpr double least_gain = 0.01;
-// A ball a little smaller than the best one carries nearly as far and is found much sooner; and just outside
-// the slabs there are very many that nearly hold the point.
-constexpr Effort sight_effort{.slack = 0.25F, .leaves = 32};
+// A ball that is large enough is not improved for long: a slightly smaller one carries nearly as far.
+constexpr float sight_slack = 0.25F;
+constexpr std::uint32_t sight_leaves = 32;
 // Shrinks a ball before the exit from it is computed, so that rounding never carries the walk out of it.
 constexpr double shrink = 1.0 - 1e-9;
 
@@ -72,38 +71,40 @@ struct Step {
     std::uint32_t triangle;
     RayBall ball;
 
-    // Holds the beam at t, and carries it to the end or further by a share of the ball's radius.
+    // Holds the beam at t, and carries it to the end or by more than `gain`.
     [[nodiscard]] bool carries_on(const Ray& ray, double t, double beam, double gain) const {
         const double exit = ball.exit(beam);
-        return ball.clearance(t) > beam && (exit >= ray.length || exit - t > gain * ball.radius);
+        return ball.clearance(t) > beam && (exit >= ray.length || exit - t > gain);
     }
 };
 
-// A ball that holds the beam at t and carries it on. What is tried grows until one does.
-std::optional<Step> find_step(const Freespace& freespace, const Ray& ray, double t, double beam,
+// A ball that holds the beam at t and carries it on by more than `gain`. What is tried grows until one does;
+// a ball whose clearance at t exceeds the beam by more than `gain` is never missed, but for rounding.
+std::optional<Step> find_step(const Freespace& freespace, const Ray& ray, double t, double beam, double gain,
                               std::uint32_t previous) {
     const MeshView& mesh = freespace.mesh();
     const Vec3f point = ray.at(t);
     SlabPoint best = uncovered;
     best.value = static_cast<float>(beam);
     std::optional<Step> step;
-    const auto found = [&](double gain) {
+    const auto found = [&] {
         if (best.triangle == none) return false;
         step = Step{best.triangle, RayBall(ray, ball_at(mesh, best))};
         return step->carries_on(ray, t, beam, gain);
     };
     improve_by_hints(mesh, point, previous, best);
-    if (found(good_gain)) return step;
+    if (found()) return step;
     improve_by_hints_around(mesh, point, best);
-    if (found(good_gain)) return step;
-    improve_everywhere(mesh, point, sight_effort, best);
-    if (found(least_gain)) return step;
+    if (found()) return step;
+    const Effort effort{static_cast<float>(beam + gain), sight_slack, sight_leaves};
+    improve_everywhere(mesh, point, effort, best);
+    if (found()) return step;
     return std::nullopt;
 }
 
 Sight march(const Freespace& freespace, const Ray& ray, double beam, std::uint32_t previous) {
     Sight sight;
-    std::optional<Step> step = find_step(freespace, ray, 0.0, beam, previous);
+    std::optional<Step> step = find_step(freespace, ray, 0.0, beam, 0.0, previous);
     if (!step) return sight;
     double reached = 0.0;  // free up to here
     double clearance = step->ball.clearance(0.0);
@@ -114,7 +115,8 @@ Sight march(const Freespace& freespace, const Ray& ray, double beam, std::uint32
         reached = std::min(ball.exit(beam), ray.length);
         sight.clear = reached == ray.length;
         if (sight.clear) break;
-        step = find_step(freespace, ray, reached, beam, sight.triangle);
+        const double gain = least_gain * std::min(ball.radius, ray.length);
+        step = find_step(freespace, ray, reached, beam, gain, sight.triangle);
         if (!step) break;
         const double change = changeover(ball, step->ball, entered, reached);
         clearance = std::min({clearance, ball.clearance(change), step->ball.clearance(change)});
@@ -129,7 +131,7 @@ Sight march(const Freespace& freespace, const Ray& ray, double beam, std::uint32
 
 Sight sight(const Freespace& freespace, const Vec3f& from, const Vec3f& to, float radius,
             std::uint32_t previous) {
-    if (!from.allFinite() || !to.allFinite() || !std::isfinite(radius)) return {};
+    if (!from.allFinite() || !to.allFinite() || !std::isfinite(radius) || radius < 0.0F) return {};
     const Vec3d start = from.cast<double>();
     const Vec3d span = to.cast<double>() - start;
     const double length = span.norm();

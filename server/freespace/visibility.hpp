@@ -6,16 +6,22 @@
 namespace camdir::freespace {
 
 struct Sight {
-    bool clear = false;        // the whole segment lies in freespace (with the asked radius around it)
-    float free_length = 0.0F;  // how far from `from` the segment is known to be free; its length when clear
-    float clearance = 0.0F;    // lower bound of the clearance along the free part; > 0 when clear
+    bool clear = false;  // the whole segment is proved free, with a sphere of the asked radius around it
+    float free_length =
+        0.0F;  // how far from `from` it is proved free, map units; the segment's length if clear
+    float clearance = 0.0F;         // lower bound of the clearance along the free part; > 0 when clear
     std::uint32_t triangle = none;  // slab of the last free point: tracking state of its end
 };
 
-// Walks from ball to ball of the representation along the segment. Conservative: `clear` is never wrong,
-// whatever the input; a segment through a gap between slabs is reported as blocked. `radius` >= 0 asks
-// for a beam of that radius instead of a line. `previous` is the slab of `from`. Points that are not
-// finite give a blocked Sight of free length 0. Thread-safe, does not allocate.
+// Marches from ball to ball of the representation along the segment. `radius` > 0, map units, asks for a
+// sphere of that radius that is swept along the segment, 0 for the line itself. `previous` is the slab of
+// `from`, if known. Points that are not finite and radii that are negative or not finite give a blocked Sight
+// of free length 0. Thread-safe, does not allocate, deterministic.
+//
+// What is reported free lies in the slabs, but for a relative rounding of 1e-7. Blocked means not proved
+// free: an obstacle, a place that no slab covers, a pinch where no ball carries on by 1 % of the last ball's
+// radius (or of the segment's length), or more than 128 balls. `free_length` is 0 only when the free distance
+// of `from` does not exceed the radius by more than rounding.
 [[nodiscard]] Sight sight(const Freespace& freespace, const Vec3f& from, const Vec3f& to, float radius = 0.0F,
                           std::uint32_t previous = none);
 

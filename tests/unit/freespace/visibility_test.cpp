@@ -56,6 +56,9 @@ TEST(Sight, StrangeInputIsBlocked) {
             EXPECT_EQ(seen.free_length, 0.0F);
         }
     }
+    EXPECT_FALSE(sight(freespace, inside, {60, 50, 0}, -1.0F).clear);
+    EXPECT_EQ(sight(freespace, inside, {60, 50, 0}, -1.0F).free_length, 0.0F);
+    EXPECT_FALSE(sight(freespace, {50, 50, 41}, {60, 50, 41}, -30.0F).clear) << "in no slab";
     EXPECT_FALSE(sight(freespace, inside, {50, 3e38F, 0}).clear);
     EXPECT_TRUE(sight(freespace, inside, {60, 50, 0}, 0.0F, 12345).clear) << "a slab of another map";
     EXPECT_FALSE(sight(make_freespace(test::empty_contents()), inside, inside).clear);
@@ -111,6 +114,48 @@ TEST(Sight, SeesWhatTheSlabsCover) {
         missed += sight(freespace, from, to).clear ? 0 : 1;
     }
     EXPECT_EQ(missed, 0) << "of " << visible;
+}
+
+// Large balls that nearly touch an oblique plane, as above open ground: near the plane the boxes of the index
+// rule out few of them.
+Contents open_ground(std::mt19937& random) {
+    const auto uniform = [&](float low, float high) {
+        return std::uniform_real_distribution<float>(low, high)(random);
+    };
+    const Vec3f normal = Vec3f(1, 2, 3).normalized();
+    Contents contents = test::empty_contents();
+    for (std::uint32_t i = 0; i < 3'000; ++i) {
+        const Vec3f middle(uniform(-600, 600), uniform(-600, 600), uniform(0, 1'200));
+        for (int corner = 0; corner < 3; ++corner) {
+            const Vec3f p = middle + Vec3f(uniform(-60, 60), uniform(-60, 60), uniform(-60, 60));
+            contents.vertices.push_back({p.x(), p.y(), p.z(), normal.dot(p) - uniform(1, 40)});
+        }
+        contents.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+    }
+    return contents;
+}
+
+Vec3f random_direction(std::mt19937& random) {
+    std::normal_distribution<float> normal;
+    return Vec3f(normal(random), normal(random), normal(random)).normalized();
+}
+
+TEST(Sight, NeverFailsAtAStartWithRoom) {
+    std::mt19937 random(13);
+    for (const Contents& contents : {open_ground(random), random_contents(random, 14, 14, 200)}) {
+        const Freespace freespace = make_freespace(contents);
+        const float tolerance = 1e-5F * freespace.bounds().diagonal().norm();
+        for (int i = 0; i < 400;) {
+            const Vec3f from = covered_point(random, freespace);
+            const float free_distance = distance_everywhere(freespace, from).value;
+            const float radius = free_distance * static_cast<float>(random() % 100) / 100.0F;
+            if (free_distance > 100.0F || free_distance - radius < tolerance) continue;
+            ++i;
+            const Vec3f to = from + 120.0F * random_direction(random);
+            ASSERT_GT(sight(freespace, from, to, radius).free_length, 0.0F)
+                << from.transpose() << ", radius " << radius << " of " << free_distance;
+        }
+    }
 }
 
 TEST(Sight, DoesNotDependOnWhereTheOriginIs) {
