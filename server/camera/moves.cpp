@@ -4,6 +4,8 @@
 #include <initializer_list>
 #include <limits>
 
+#include "freespace/roadmap.hpp"
+
 namespace camdir::camera {
 namespace {
 
@@ -51,7 +53,7 @@ Vec3f move_to_safety(const freespace::Freespace& freespace, const Vec3f& positio
     float least = std::numeric_limits<float>::infinity();
     for (const std::uint32_t corner : {triangle.a, triangle.b, triangle.c}) {
         const freespace::Vertex& vertex = freespace.vertices()[corner];
-        if (vertex.free_distance <= 0.0F) continue;
+        if (!freespace::on_roadmap(vertex)) continue;
         const Vec3f move = vertex.position() - position;
         const float danger = move.norm() / vertex.free_distance;
         if (danger >= least) continue;

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "freespace/roadmap.hpp"
 #include "render/colour.hpp"
-#include "render/roadmap.hpp"
 
 namespace camdir::exports {
 namespace {
@@ -166,7 +166,7 @@ std::vector<std::size_t> add_meshes(Document& document, const Freespace& freespa
         corners.insert(corners.end(), {a, b, c});
     std::vector<std::size_t> nodes{add_indexed(document, "medial mesh", attributes, corners, mode_triangles)};
     std::vector<std::uint32_t> ends;
-    for (const render::Edge& edge : render::roadmap_edges(freespace))
+    for (const freespace::RoadmapEdge& edge : freespace::roadmap_edges(freespace))
         ends.insert(ends.end(), edge.begin(), edge.end());
     if (!ends.empty()) nodes.push_back(add_indexed(document, "roadmap", attributes, ends, mode_lines));
     return nodes;

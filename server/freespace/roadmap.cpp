@@ -7,10 +7,6 @@
 namespace camdir::freespace {
 namespace {
 
-bool on_roadmap(const Vertex& vertex) {
-    return vertex.free_distance > 0.0F;
-}
-
 template <class Visit>
 void for_each_neighbour(const Freespace& freespace, std::uint32_t vertex, const Visit& visit) {
     for (const std::uint32_t t : freespace.incident(vertex)) {
@@ -20,7 +16,26 @@ void for_each_neighbour(const Freespace& freespace, std::uint32_t vertex, const 
     }
 }
 
-std::vector<std::uint32_t> find_components(const Freespace& freespace) {
+// The heap's order: the smallest estimate on top, ties by number.
+constexpr auto later = [](const auto& a, const auto& b) {
+    return a.estimate != b.estimate ? a.estimate > b.estimate : a.vertex > b.vertex;
+};
+
+}  // namespace
+
+std::vector<RoadmapEdge> roadmap_edges(const Freespace& freespace) {
+    const auto vertices = freespace.vertices();
+    std::vector<RoadmapEdge> edges;
+    for (const auto& [a, b, c] : freespace.triangles())
+        for (const auto& [from, to] : {RoadmapEdge{a, b}, RoadmapEdge{b, c}, RoadmapEdge{c, a}})
+            if (on_roadmap(vertices[from]) && on_roadmap(vertices[to]))
+                edges.push_back({std::min(from, to), std::max(from, to)});
+    std::sort(edges.begin(), edges.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    return edges;
+}
+
+std::vector<std::uint32_t> roadmap_components(const Freespace& freespace) {
     const auto vertices = freespace.vertices();
     std::vector<std::uint32_t> component(vertices.size(), none);
     std::vector<std::uint32_t> pending;
@@ -41,37 +56,30 @@ std::vector<std::uint32_t> find_components(const Freespace& freespace) {
     return component;
 }
 
-// The heap's order: the smallest estimate on top, ties by number.
-constexpr auto later = [](const auto& a, const auto& b) {
-    return a.estimate != b.estimate ? a.estimate > b.estimate : a.vertex > b.vertex;
-};
-
-}  // namespace
-
 RoadmapSearch::RoadmapSearch(const Freespace& freespace)
-    : freespace_(freespace), component_(find_components(freespace)), labels_(freespace.vertices().size()) {
+    : freespace_(freespace), component_(roadmap_components(freespace)), labels_(freespace.vertices().size()) {
     // Each vertex is expanded once, over two edges of each of its triangles.
     open_.reserve(6 * freespace.triangles().size() + 3);
     path_.vertices.reserve(freespace.vertices().size());
 }
 
-RoadmapSearch::Gate RoadmapSearch::gate(const Vec3f& point) const {
-    Gate gate;
+RoadmapSearch::EntryVertices RoadmapSearch::entry_vertices(const Vec3f& point) const {
+    EntryVertices entry;
     const Distance slab = distance_everywhere(freespace_, point);
-    if (!slab.covered()) return gate;
+    if (!slab.covered()) return entry;
     const auto [a, b, c] = freespace_.triangles()[slab.triangle];
     for (const std::uint32_t corner : {a, b, c})
-        if (on_roadmap(freespace_.vertices()[corner])) gate.vertices[gate.count++] = corner;
-    return gate;
+        if (on_roadmap(freespace_.vertices()[corner])) entry.vertices[entry.count++] = corner;
+    return entry;
 }
 
-// The positive corners of one slab are neighbours, so a gate is in one component.
+// The entry vertices of a point are corners of one slab and so in one component.
 const RoadmapPath& RoadmapSearch::find(const Vec3f& from, const Vec3f& to) {
     path_.found = false;
     path_.length = 0.0F;
     path_.vertices.clear();
-    const Gate start = gate(from);
-    const Gate goal = gate(to);
+    const EntryVertices start = entry_vertices(from);
+    const EntryVertices goal = entry_vertices(to);
     if (start.count == 0 || goal.count == 0) return path_;
     if (component_[start.vertices[0]] != component_[goal.vertices[0]]) return path_;
 
@@ -84,7 +92,7 @@ const RoadmapPath& RoadmapSearch::find(const Vec3f& from, const Vec3f& to) {
         open_.pop_back();
         if (labels_[vertex].closed) continue;
         labels_[vertex].closed = true;
-        // A goal's estimate is its cost and the straight way to the end: the length of the whole path.
+        // The estimate of a goal's entry vertex is its cost plus the distance to the goal: the path's length.
         if (std::ranges::find(goal.span(), vertex) != goal.span().end()) {
             trace(vertex, estimate);
             break;

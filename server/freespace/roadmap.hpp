@@ -1,4 +1,5 @@
-// Shortest paths along the edges of V(S): the roadmap of the paper's section 5.3.
+// The roadmap of the paper's section 5.3 and shortest paths on it: the vertices of V(S) with d_f > 0, and the
+// edges of V(S) between them, whose whole length lies in freespace.
 #pragma once
 
 #include <array>
@@ -10,26 +11,37 @@
 
 namespace camdir::freespace {
 
+[[nodiscard]] inline bool on_roadmap(const Vertex& vertex) {
+    return vertex.free_distance > 0.0F;
+}
+
+// Two vertices of V(S), the smaller number first.
+using RoadmapEdge = std::array<std::uint32_t, 2>;
+
+// Every edge of the roadmap once, ascending.
+[[nodiscard]] std::vector<RoadmapEdge> roadmap_edges(const Freespace& freespace);
+
+// Of each vertex of V(S) the smallest vertex that the roadmap joins it to; `none` off the roadmap. Linear time.
+[[nodiscard]] std::vector<std::uint32_t> roadmap_components(const Freespace& freespace);
+
 struct RoadmapPath {
     bool found = false;
     float length = 0.0F;                  // from `from` over the vertices to `to`, map units
     std::vector<std::uint32_t> vertices;  // of V(S), in order; empty when not found
 };
 
-// A* over the edges of V(S) whose whole length lies in freespace (both ends have d_f > 0).
-// Owns the scratch memory of the search, so that repeated searches do not allocate. One thread at a time;
-// keeps the freespace alive.
+// A* over the roadmap. Owns the scratch memory of the search, so that repeated searches do not allocate. One
+// thread at a time; keeps the freespace alive.
 //
-// Ends: the slab with the largest free distance at a point is convex and holds the point and each of its
-// corners with d_f > 0, so the segments to these corners lie in freespace. The path may enter and leave at
-// any of them, whichever makes it shortest. (The paper takes the one nearest to the other end, which may be a
-// detour.)
+// Entry vertices: the slab with the largest free distance at a point is convex and holds the point and each of
+// its corners on the roadmap, so the segments to these corners lie in freespace. The path enters and leaves at
+// those that make it shortest. (The paper takes the one nearest to the other end, which may be a detour.)
 class RoadmapSearch {
   public:
     explicit RoadmapSearch(const Freespace& freespace);
 
-    // The shortest path from a covered point to a covered point; not found when a point is not covered or the
-    // roadmap does not join them. Ties go by the vertices' numbers. The result is valid until the next call.
+    // The shortest path between two covered points; not found when one of them is not covered or the roadmap
+    // does not join them. Ties are broken by vertex number. The result is valid until the next call.
     [[nodiscard]] const RoadmapPath& find(const Vec3f& from, const Vec3f& to);
 
   private:
@@ -43,22 +55,22 @@ class RoadmapSearch {
         float estimate;  // of the whole path
         std::uint32_t vertex;
     };
-    // The corners through which a point joins the roadmap.
-    struct Gate {
+    // The corners by which a point joins the roadmap.
+    struct EntryVertices {
         std::array<std::uint32_t, 3> vertices;
         std::uint32_t count = 0;
 
         [[nodiscard]] std::span<const std::uint32_t> span() const { return {vertices.data(), count}; }
     };
 
-    [[nodiscard]] Gate gate(const Vec3f& point) const;
+    [[nodiscard]] EntryVertices entry_vertices(const Vec3f& point) const;
     void begin_round();
     void reach(std::uint32_t vertex, std::uint32_t parent, float cost, const Vec3f& goal);
     void expand(std::uint32_t vertex, const Vec3f& goal);
     void trace(std::uint32_t last, float length);
 
     Freespace freespace_;
-    std::vector<std::uint32_t> component_;  // of each vertex with d_f > 0: what the roadmap joins
+    std::vector<std::uint32_t> component_;
     std::vector<Label> labels_;
     std::vector<Open> open_;  // a heap, the smallest estimate first
     std::uint32_t round_ = 0;

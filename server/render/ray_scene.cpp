@@ -145,7 +145,7 @@ void RayScene::add_mesh(const freespace::Freespace& mesh) {
 }
 
 void RayScene::add_roadmap(const freespace::Freespace& mesh) {
-    roadmap_ = roadmap_edges(mesh);
+    roadmap_ = freespace::roadmap_edges(mesh);
     if (roadmap_.empty()) return;
     RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_ROUND_LINEAR_CURVE);
     const auto points =

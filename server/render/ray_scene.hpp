@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
+#include "freespace/roadmap.hpp"
 #include "render/draw.hpp"
-#include "render/roadmap.hpp"
 
 struct RTCDeviceTy;
 struct RTCGeometryTy;
@@ -64,7 +64,7 @@ class RayScene {
     std::unique_ptr<RTCDeviceTy, Release> device_;
     std::unique_ptr<RTCSceneTy, Release> all_;  // every layer
     std::unique_ptr<RTCSceneTy, Release> map_;  // the map's triangles alone
-    std::vector<Edge> roadmap_;
+    std::vector<freespace::RoadmapEdge> roadmap_;
     struct Source {
         Hit::Kind kind;
         std::uint32_t layer;

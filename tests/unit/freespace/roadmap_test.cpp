@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <limits>
+
 #include "freespace/distance.hpp"
 #include "freespace/visibility.hpp"
 #include "support/freespace_meshes.hpp"
@@ -20,25 +23,25 @@ double gap(const Freespace& freespace, const Vec3f& point, std::uint32_t vertex)
     return (freespace.vertices()[vertex].position() - point).cast<double>().norm();
 }
 
-std::vector<std::uint32_t> gate(const Freespace& freespace, const Vec3f& point) {
+std::vector<std::uint32_t> entry_vertices(const Freespace& freespace, const Vec3f& point) {
     std::vector<std::uint32_t> vertices;
     const Distance slab = distance_everywhere(freespace, point);
     if (!slab.covered()) return vertices;
     const auto [a, b, c] = freespace.triangles()[slab.triangle];
     for (const std::uint32_t v : {a, b, c})
-        if (freespace.vertices()[v].free_distance > 0.0F) vertices.push_back(v);
+        if (on_roadmap(freespace.vertices()[v])) vertices.push_back(v);
     return vertices;
 }
 
 // The length that the shortest path must have; infinity when there is none.
 double twin_length(const Freespace& freespace, const Vec3f& from, const Vec3f& to) {
-    const auto starts = gate(freespace, from);
+    const auto starts = entry_vertices(freespace, from);
     std::vector<double> costs;
     for (const std::uint32_t v : starts)
         costs.push_back(gap(freespace, from, v));
     const std::vector<double> distances = test::roadmap_distances(freespace, starts, costs);
     double length = std::numeric_limits<double>::infinity();
-    for (const std::uint32_t v : gate(freespace, to))
+    for (const std::uint32_t v : entry_vertices(freespace, to))
         length = std::min(length, distances[v] + gap(freespace, to, v));
     return length;
 }
@@ -55,6 +58,36 @@ void expect_edges_in_freespace(const Freespace& freespace, const RoadmapPath& pa
         length += gap(freespace, position(path.vertices[i]), path.vertices[i + 1]);
     }
     EXPECT_NEAR(path.length, length, 1e-4 * length);
+}
+
+TEST(RoadmapEdges, AreThoseBetweenCornersInFreespaceOnce) {
+    Contents contents = square_contents();
+    const Freespace square = make_freespace(contents);
+    EXPECT_EQ(roadmap_edges(square).size(), 5U) << "four sides and a diagonal";
+    contents.vertices[0].free_distance = 0.0F;
+    const Freespace cut = make_freespace(contents);
+    const std::vector<RoadmapEdge> edges = roadmap_edges(cut);
+    EXPECT_EQ(edges.size(), 3U);
+    EXPECT_TRUE(std::ranges::is_sorted(edges));
+    for (const auto& [from, to] : edges) {
+        EXPECT_LT(from, to);
+        EXPECT_TRUE(on_roadmap(cut.vertices()[from]) && on_roadmap(cut.vertices()[to]));
+    }
+}
+
+TEST(RoadmapComponents, AreNumberedByTheirSmallestVertexAndJoinedByEdgesAlone) {
+    std::mt19937 random(4);
+    const Freespace freespace = make_freespace(random_contents(random, 12, 10, 60));
+    const std::vector<std::uint32_t> component = roadmap_components(freespace);
+    for (const auto& [from, to] : roadmap_edges(freespace))
+        EXPECT_EQ(component[from], component[to]);
+    for (std::uint32_t v = 0; v < component.size(); ++v) {
+        ASSERT_EQ(component[v] == none, !on_roadmap(freespace.vertices()[v]));
+        if (component[v] == none) continue;
+        EXPECT_LE(component[v], v);
+        const auto distances = test::roadmap_distances(freespace, {component[v]}, {0.0});
+        EXPECT_LT(distances[v], std::numeric_limits<double>::infinity());
+    }
 }
 
 TEST(Roadmap, CrossesASquareByItsCorners) {
