@@ -4,7 +4,7 @@
 #include <atomic>
 
 #include "bake/geometry/certificate.hpp"
-#include "bake/round_down.hpp"
+#include "base/round_down.hpp"
 
 namespace camdir::bake {
 namespace {

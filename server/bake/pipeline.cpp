@@ -10,11 +10,11 @@
 #include "bake/medial_axis.hpp"
 #include "bake/pack.hpp"
 #include "bake/reduce.hpp"
-#include "bake/round_down.hpp"
 #include "bake/sample.hpp"
 #include "bake/shell.hpp"
 #include "bake/thin.hpp"
 #include "bake/triangulate.hpp"
+#include "base/round_down.hpp"
 
 namespace camdir::bake {
 namespace {

@@ -1,7 +1,6 @@
 #include "freespace/distance.hpp"
 
-#include <cmath>
-
+#include "base/round_down.hpp"
 #include "freespace/search.hpp"
 
 namespace camdir::freespace {
@@ -12,9 +11,7 @@ Distance distance_at(const Freespace& freespace, const Vec3f& point, const SlabP
     const Ball ball = ball_at(freespace.mesh(), best);
     const double value = ball.radius - (point.cast<double>() - ball.centre).norm();
     if (!(value > 0.0)) return {};
-    // One step down: the float must not exceed the double.
-    return {std::nextafter(static_cast<float>(value), -std::numeric_limits<float>::infinity()),
-            best.triangle};
+    return {round_down(value), best.triangle};
 }
 
 }  // namespace

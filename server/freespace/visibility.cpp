@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/round_down.hpp"
 #include "freespace/search.hpp"
 
 namespace camdir::freespace {
@@ -49,10 +50,6 @@ struct RayBall {
         return along + std::sqrt(std::max(reach * reach - offset2, 0.0));
     }
 };
-
-float round_down(double positive) {
-    return std::max(std::nextafter(static_cast<float>(positive), 0.0F), 0.0F);
-}
 
 // Where on [begin, end] the walk should change from `from` to `to`: near the point where both know the same
 // clearance. `from` is the better one at `begin`, `to` at `end`. Any answer is safe.
@@ -123,7 +120,7 @@ Sight march(const Freespace& freespace, const Ray& ray, double beam, std::uint32
     }
     if (step) clearance = std::min(clearance, step->ball.clearance(reached));
     sight.free_length = sight.clear ? static_cast<float>(ray.length) : round_down(reached);
-    sight.clearance = round_down(step ? clearance : beam);
+    sight.clearance = round_down(step ? std::max(clearance, 0.0) : beam);
     return sight;
 }
 

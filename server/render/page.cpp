@@ -151,7 +151,7 @@ void draw_header(Pen& pen, const Layout& layout, const Legend& legend) {
 }
 
 // The longest of 1, 2, 5 times a power of ten that is at most `limit`.
-double round_down(double limit) {
+double round_number_below(double limit) {
     const double power = std::pow(10.0, std::floor(std::log10(limit)));
     for (const double factor : {5.0, 2.0}) {
         if (factor * power <= limit) return factor * power;
@@ -163,7 +163,7 @@ double round_down(double limit) {
 double draw_scale_bar(Pen& pen, const Layout& layout, const Legend& legend) {
     const double right = layout.width - layout.border;
     if (!(legend.units_per_pixel > 0.0)) return right;
-    const double length = round_down(legend.units_per_pixel * layout.width * 0.2);
+    const double length = round_number_below(legend.units_per_pixel * layout.width * 0.2);
     const double left = right - length / legend.units_per_pixel;
     const double y = layout.footer_middle() + layout.font * 0.55;
     const double tick = layout.font * 0.3;

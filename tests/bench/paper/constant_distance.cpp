@@ -4,7 +4,7 @@
 #include <cassert>
 #include <limits>
 
-#include "bake/round_down.hpp"
+#include "base/round_down.hpp"
 
 namespace camdir::paper {
 
@@ -40,7 +40,7 @@ std::vector<float> constant_distances(const bake::MedialMesh& mesh, const std::v
     std::vector<float> distances;
     distances.reserve(least.size());
     for (const double distance : least)
-        distances.push_back(distance == unset ? 0.0F : bake::round_down(distance));
+        distances.push_back(distance == unset ? 0.0F : round_down(distance));
     return distances;
 }
 

@@ -5,7 +5,7 @@
 #include <queue>
 #include <tuple>
 
-#include "bake/round_down.hpp"
+#include "base/round_down.hpp"
 #include "bench/paper/elimination.hpp"
 
 namespace camdir::paper {
@@ -89,7 +89,7 @@ class Reduction {
         for (const Corners& triangle : plan.triangles)
             mesh_.add(triangle);
         for (const auto& [lowered, value] : plan.lowered)
-            mesh_.set_free_distance(lowered, bake::round_down(value));
+            mesh_.set_free_distance(lowered, round_down(value));
         for (const std::uint32_t neighbour : around)
             evaluate(neighbour);
     }
