@@ -21,7 +21,8 @@ using RoadmapEdge = std::array<std::uint32_t, 2>;
 // Every edge of the roadmap once, ascending.
 [[nodiscard]] std::vector<RoadmapEdge> roadmap_edges(const Freespace& freespace);
 
-// Of each vertex of V(S) the smallest vertex that the roadmap joins it to; `none` off the roadmap. Linear time.
+// Of each vertex of V(S) the smallest vertex that the roadmap joins it to; `none` off the roadmap. Linear
+// time.
 [[nodiscard]] std::vector<std::uint32_t> roadmap_components(const Freespace& freespace);
 
 struct RoadmapPath {
@@ -33,9 +34,10 @@ struct RoadmapPath {
 // A* over the roadmap. Owns the scratch memory of the search, so that repeated searches do not allocate. One
 // thread at a time; keeps the freespace alive.
 //
-// Entry vertices: the slab with the largest free distance at a point is convex and holds the point and each of
-// its corners on the roadmap, so the segments to these corners lie in freespace. The path enters and leaves at
-// those that make it shortest. (The paper takes the one nearest to the other end, which may be a detour.)
+// Entry vertices: the slab with the largest free distance at a point is convex and holds the point and each
+// of its corners on the roadmap, so the segments to these corners lie in freespace. The path enters and
+// leaves at those that make it shortest. (The paper takes the one nearest to the other end, which may be a
+// detour.)
 class RoadmapSearch {
   public:
     explicit RoadmapSearch(const Freespace& freespace);

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "freespace/float4.hpp"
 #include "freespace/index.hpp"
-#include "freespace/lanes.hpp"
 
 namespace camdir::freespace {
 namespace {
@@ -18,23 +18,23 @@ using Stack = std::array<Candidate, 3 * index_depth_limit + 1>;
 
 // What the children can reach at most. A ball around the point inside one of their slabs has a radius of at
 // most max_radius - |point - box|, and it does not leave the reach.
-Lanes bounds_of_children(const IndexNode& node, const Vec3f& point) {
-    const auto gap = [](const float* low, const float* high, Lanes c) {
-        return larger(larger(load(low) - c, c - load(high)), Lanes{});
+Float4 bounds_of_children(const IndexNode& node, const Vec3f& point) {
+    const auto gap = [](const float* low, const float* high, Float4 c) {
+        return larger(larger(load(low) - c, c - load(high)), Float4{});
     };
-    const auto room = [](const float* low, const float* high, Lanes c) {
+    const auto room = [](const float* low, const float* high, Float4 c) {
         return smaller(c - load(low), load(high) - c);
     };
-    const Lanes px = broadcast(point.x());
-    const Lanes py = broadcast(point.y());
-    const Lanes pz = broadcast(point.z());
+    const Float4 px = broadcast(point.x());
+    const Float4 py = broadcast(point.y());
+    const Float4 pz = broadcast(point.z());
     const auto& [low, high] = node.box;
-    const Lanes x = gap(low[0], high[0], px);
-    const Lanes y = gap(low[1], high[1], py);
-    const Lanes z = gap(low[2], high[2], pz);
-    const Lanes by_radius = load(node.max_radius) - square_root(x * x + y * y + z * z);
+    const Float4 x = gap(low[0], high[0], px);
+    const Float4 y = gap(low[1], high[1], py);
+    const Float4 z = gap(low[2], high[2], pz);
+    const Float4 by_radius = load(node.max_radius) - square_root(x * x + y * y + z * z);
     const auto& [reach_low, reach_high] = node.reach;
-    const Lanes by_reach =
+    const Float4 by_reach =
         smaller(smaller(room(reach_low[0], reach_high[0], px), room(reach_low[1], reach_high[1], py)),
                 room(reach_low[2], reach_high[2], pz));
     return smaller(by_radius, by_reach);
@@ -43,7 +43,7 @@ Lanes bounds_of_children(const IndexNode& node, const Vec3f& point) {
 // Pushes the children that can beat `to_beat`, the most promising last; returns the new height.
 std::size_t push_children(const IndexNode& node, const Vec3f& point, float to_beat, Stack& stack,
                           std::size_t height) {
-    const Lanes bounds = bounds_of_children(node, point);
+    const Float4 bounds = bounds_of_children(node, point);
     const std::size_t base = height;
     for (std::uint32_t k = 0; k < IndexNode::width; ++k) {
         if (!(bounds[k] > to_beat)) continue;
