@@ -36,6 +36,17 @@ std::string flaw_of_triangles(std::span<const Triangle> triangles, std::size_t v
 
 }  // namespace
 
+std::string find_metadata_flaw(const Metadata& metadata, std::span<const SpawnPoint> spawn_points) {
+    const auto positive = [](float value) { return value > 0.0F && std::isfinite(value); };
+    if (!positive(metadata.metres_per_unit)) return "metres_per_unit is not a positive number";
+    if (!positive(metadata.d0)) return "d0 is not a positive number";
+    if (metadata.counts.size() >= count_limit) return "the report has too many counts";
+    for (std::size_t i = 0; i < spawn_points.size(); ++i)
+        if (!spawn_points[i].eye.allFinite() || !std::isfinite(spawn_points[i].yaw))
+            return at("spawn point", i, "is not finite");
+    return {};
+}
+
 std::string find_mesh_flaw(std::span<const Vertex> vertices, std::span<const Triangle> triangles) {
     std::string flaw = flaw_of_vertices(vertices);
     if (flaw.empty()) flaw = flaw_of_triangles(triangles, vertices.size());

@@ -1,4 +1,4 @@
-// Checks on a mesh read from outside: after them no query can leave the arrays, loop or overflow.
+// Checks on what is read from outside: after them no query can leave the arrays, loop or overflow.
 #pragma once
 
 #include <string>
@@ -7,11 +7,17 @@
 
 namespace camdir::freespace {
 
-// What is wrong with vertices and triangles, in words, or empty.
+// The checks return what is wrong, in words, or an empty string.
+
+// Files hold fewer counts than this.
+inline constexpr std::uint32_t count_limit = 10'000;
+
+[[nodiscard]] std::string find_metadata_flaw(const Metadata& metadata,
+                                             std::span<const SpawnPoint> spawn_points);
 [[nodiscard]] std::string find_mesh_flaw(std::span<const Vertex> vertices,
                                          std::span<const Triangle> triangles);
 
-// The same of the hints for a mesh of so many triangles.
+// Of the hints for a mesh of so many triangles.
 [[nodiscard]] std::string find_hints_flaw(const HintGrid& hints, std::size_t triangle_count);
 
 }  // namespace camdir::freespace

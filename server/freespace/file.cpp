@@ -1,8 +1,7 @@
-// MAP.vfs: encoding, opening, verification. The only file that knows FlatBuffers and xxHash.
+// MAP.vfs: writing and reading. The only file that knows FlatBuffers and xxHash.
 #include <xxhash.h>
 
 #include <cassert>
-#include <cmath>
 #include <cstring>
 
 #include "base/file.hpp"
@@ -22,7 +21,7 @@ namespace {
 
 constexpr std::uint32_t format_version = 2;
 constexpr flatbuffers::uoffset_t table_depth_limit = 4;
-constexpr flatbuffers::uoffset_t table_count_limit = 10'000;
+constexpr flatbuffers::uoffset_t table_limit = count_limit + 1;  // the root and the counts
 
 // ---- Writing ----
 
@@ -105,7 +104,7 @@ flatbuffers::DetachedBuffer build_file(const Metadata& metadata, std::span<const
 
 // ---- The header ----
 
-// Where the content's hash lies in a file whose header is at `header`.
+// Offset of the content hash in the file that `header` lies in.
 std::size_t hash_position(std::span<const std::byte> file, const wire::Header& header) {
     const auto* begin = reinterpret_cast<const std::byte*>(&header);
     return static_cast<std::size_t>(begin - file.data()) + 2 * sizeof(std::uint64_t);
@@ -122,7 +121,7 @@ std::uint64_t hash_without(std::span<const std::byte> file, std::size_t position
     return XXH3_64bits_digest(state.get());
 }
 
-// Size and hash can be known only when everything else is written.
+// Sets size and hash, which are known only when everything else is written.
 void seal(std::span<std::byte> file) {
     const wire::Header& blank = *wire::GetFreespace(file.data())->header();
     const std::size_t position = hash_position(file, blank);
@@ -132,14 +131,14 @@ void seal(std::span<std::byte> file) {
     std::memcpy(file.data() + position, &hash, sizeof hash);
 }
 
-// What is wrong with the file as a whole, or empty; the parts may be read when this finds nothing.
+// What is wrong with the file as a whole; if empty, its fields may be read.
 std::string find_file_flaw(std::span<const std::byte> file) {
     const auto* data = reinterpret_cast<const std::uint8_t*>(file.data());
     if (file.size() < 64 || !wire::FreespaceBufferHasIdentifier(data))
         return std::string("is not a baked map: expected a file with the identifier ") +
                wire::FreespaceIdentifier();
     if (file.size() >= FLATBUFFERS_MAX_BUFFER_SIZE) return "is larger than 2 GiB";
-    flatbuffers::Verifier prologue(data, file.size(), table_depth_limit, table_count_limit);
+    flatbuffers::Verifier prologue(data, file.size(), table_depth_limit, table_limit);
     if (!prologue.VerifyBuffer<wire::Prologue>(wire::FreespaceIdentifier()))
         return "is damaged: its header is unreadable";
     const wire::Header& header = *flatbuffers::GetRoot<wire::Prologue>(data)->header();
@@ -154,7 +153,7 @@ std::string find_file_flaw(std::span<const std::byte> file) {
                std::to_string(header.byte_size());
     if (header.content_hash() != hash_without(file, hash_position(file, header)))
         return "is damaged: its content does not have the hash that it was written with";
-    flatbuffers::Verifier whole(data, file.size(), table_depth_limit, table_count_limit);
+    flatbuffers::Verifier whole(data, file.size(), table_depth_limit, table_limit);
     if (!wire::VerifyFreespaceBuffer(whole)) return "is damaged: a part of it lies outside the file";
     return {};
 }
@@ -198,17 +197,6 @@ std::vector<SpawnPoint> read_spawn_points(const wire::Freespace& root) {
     return spawn_points;
 }
 
-std::string find_metadata_flaw(const Metadata& metadata, std::span<const SpawnPoint> spawn_points,
-                               const Box3f& bounds) {
-    const auto positive = [](float value) { return value > 0.0F && std::isfinite(value); };
-    if (!positive(metadata.metres_per_unit)) return "metres_per_unit is not a positive number";
-    if (!positive(metadata.d0)) return "d0 is not a positive number";
-    if (!bounds.min().allFinite() || !bounds.max().allFinite()) return "the bounds are not finite";
-    for (const SpawnPoint& spawn : spawn_points)
-        if (!spawn.eye.allFinite() || !std::isfinite(spawn.yaw)) return "a spawn point is not finite";
-    return {};
-}
-
 }  // namespace
 
 struct Freespace::Storage {
@@ -236,7 +224,9 @@ Result<Freespace> Freespace::read(std::shared_ptr<Storage> storage, const std::s
     const auto vertices = view<Vertex>(root.vertices());
     const auto triangles = view<Triangle>(root.triangles());
     const HintGrid hints = view_hints(root);
-    std::string flaw = find_metadata_flaw(storage->metadata, storage->spawn_points, storage->bounds);
+    std::string flaw = find_metadata_flaw(storage->metadata, storage->spawn_points);
+    if (flaw.empty() && !(storage->bounds.min().allFinite() && storage->bounds.max().allFinite()))
+        flaw = "the bounds are not finite";
     if (flaw.empty()) flaw = find_mesh_flaw(vertices, triangles);
     if (flaw.empty()) flaw = find_hints_flaw(hints, triangles.size());
     if (!flaw.empty()) return fail(name + ": is damaged: " + flaw);
@@ -247,7 +237,7 @@ Result<Freespace> Freespace::read(std::shared_ptr<Storage> storage, const std::s
     return Freespace(std::move(storage));
 }
 
-// Not mapped: whoever writes over the file in place must not change, or end, what is being served.
+// Not memory-mapped: a program that overwrites or truncates the file must not change or crash this one.
 Result<Freespace> Freespace::open(const std::filesystem::path& path) {
     auto bytes = read_file(path);
     if (!bytes) return tl::unexpected(bytes.error());
@@ -276,6 +266,7 @@ std::size_t Freespace::byte_size() const {
 
 std::vector<std::byte> encode(const Contents& contents) {
     assert(contents.triangles.size() < IndexChild::triangle_limit);
+    assert(find_metadata_flaw(contents.metadata, contents.spawn_points).empty());
     assert(find_mesh_flaw(contents.vertices, contents.triangles).empty());
     const std::vector<std::uint32_t> order = index_order(contents.vertices, contents.triangles);
     std::vector<std::uint32_t> new_number;

@@ -3,7 +3,13 @@
 // The mesh V(S) approximates the medial surface of the free space. Every vertex carries a free distance
 // d_f; the free distance of a point m of a triangle is interpolated linearly from its corners. The slab
 // S_f(v) of a triangle is the union of the balls around all of its points m with radius d_f(m); points
-// with d_f(m) <= 0 contribute nothing. Slabs never touch an obstacle.
+// with d_f(m) <= 0 contribute nothing. Slabs never touch an obstacle: the bake certifies it.
+//
+// The queries are distance.hpp (free distance of a point), visibility.hpp (free segments) and roadmap.hpp
+// (shortest paths). Coordinates are right-handed with z up; lengths are in map units.
+//
+// No threads, no logging, no global state; headers need Eigen alone. Compiles with GCC and Clang, whose
+// vector extensions the queries use.
 #pragma once
 
 #include <array>
@@ -20,7 +26,11 @@
 
 namespace camdir::freespace {
 
+// No vertex, no triangle.
 inline constexpr std::uint32_t none = 0xffffffffU;
+
+// Coordinates and free distances of a file are within +- this, so that no query overflows.
+inline constexpr float coordinate_limit = 1e8F;
 
 struct Vertex {
     float x, y, z;
@@ -29,14 +39,14 @@ struct Vertex {
     [[nodiscard]] Vec3f position() const { return {x, y, z}; }
 };
 
-// Indices of vertices.
+// Three different vertices, by index; their order has no meaning.
 struct Triangle {
     std::uint32_t a, b, c;
 };
 
 struct SpawnPoint {
     Vec3f eye;
-    float yaw;  // radians
+    float yaw;  // radians, counterclockwise from the x axis
 };
 
 // One number of the bake's report, in the order of the stages: "sample", "points", 52310.
@@ -48,16 +58,16 @@ struct Count {
 
 struct Metadata {
     std::string map_name;
-    std::string source_name;
+    std::string source_name;        // what the map was baked from, as it was given to the bake
     std::uint64_t source_hash = 0;  // xxh3-64 of the source map's bytes
-    float metres_per_unit = 1.0F;
-    float d0 = 0.0F;         // sampling distance that was used, map units
-    std::string parameters;  // the bake's parameters as a JSON object
-    std::vector<Count>
-        counts;  // the bake's report; seconds are not kept, so that equal input gives equal bytes
+    float metres_per_unit = 1.0F;   // > 0
+    float d0 = 0.0F;                // > 0: sampling distance that was used, map units
+    std::string parameters;         // the bake's parameters as a JSON object; not parsed here
+    // The bake's report, without its seconds: equal input gives equal bytes. Fewer than 10,000.
+    std::vector<Count> counts;
 };
 
-// What a bake makes and a file holds, in memory that the caller owns.
+// What a bake makes and `encode` writes, in memory that the caller owns.
 struct Contents {
     Metadata metadata;
     std::vector<Vertex> vertices;
@@ -67,9 +77,9 @@ struct Contents {
 
 struct IndexNode;
 
-// A coarse grid of what to try first at a point; queries check what it says.
+// A coarse grid of the triangle to try first at a point. A wrong hint makes a query slower, not wrong.
 struct HintGrid {
-    Vec3f origin = Vec3f::Zero();
+    Vec3f origin = Vec3f::Zero();  // the smallest corner
     float cell_size = 1.0F;
     std::array<std::uint32_t, 3> extent{};     // cells along x, y, z
     std::span<const std::uint32_t> triangles;  // x fastest: the best slab for the cell's centre, or none
@@ -87,37 +97,41 @@ struct HintGrid {
     }
 };
 
-// The mesh and what queries need beside it.
+// The mesh and what queries need beside it; does not own it.
 struct MeshView {
     std::span<const Vertex> vertices;
     std::span<const Triangle> triangles;
-    std::span<const std::uint32_t> incident_offsets;    // one a vertex and one more
+    std::span<const std::uint32_t> incident_offsets;  // where a vertex's triangles begin; one more at the end
     std::span<const std::uint32_t> incident_triangles;  // of each vertex, ascending
     std::span<const IndexNode> index;                   // [0] is the root; empty without triangles
     HintGrid hints;
 };
 
-// Immutable; all const members are thread-safe. Cheap to copy: copies share the storage, which lives as long
-// as one of them.
+// Immutable; all members are thread-safe, and so are the queries. Cheap to copy: copies share the storage,
+// which lives as long as one of them; spans and references point into it. One that was moved from may only be
+// assigned to or destroyed.
 class Freespace {
   public:
-    // Maps a MAP.vfs into memory and verifies it (magic, version, size, hash, bounds of every reference,
-    // finite numbers). Errors name the file and what is wrong: damaged, truncated, or written by a newer
-    // version.
+    // Reads a MAP.vfs into memory, verifies it (identifier, version, size, hash, range of every reference,
+    // finite numbers), and makes incidence and query index in linear time. Changes to the file afterwards
+    // have no effect. Fails when the file cannot be read, is no MAP.vfs, is damaged or truncated, or was
+    // written by another version of the format; the message names the file. After a success no query leaves
+    // the arrays, whatever the bytes were.
     [[nodiscard]] static Result<Freespace> open(const std::filesystem::path& path);
 
-    // The same from bytes in memory, which are kept. `name` stands for the path in errors.
+    // The same from bytes in memory, which are kept. `name` stands for the path in messages.
     [[nodiscard]] static Result<Freespace> parse(std::vector<std::byte> bytes, const std::string& name);
 
     [[nodiscard]] const Metadata& metadata() const;
-    [[nodiscard]] const Box3f& bounds() const;  // of the vertices
+    // As the file says: of all vertices; without any, the origin.
+    [[nodiscard]] const Box3f& bounds() const;
     [[nodiscard]] std::span<const SpawnPoint> spawn_points() const;
     // Bytes of the file that the representation was read from.
     [[nodiscard]] std::size_t byte_size() const;
 
     [[nodiscard]] std::span<const Vertex> vertices() const { return mesh_.vertices; }
     [[nodiscard]] std::span<const Triangle> triangles() const { return mesh_.triangles; }
-    // Triangles that have `vertex` as a corner, ascending.
+    // Triangles that have `vertex` (< vertices().size()) as a corner, ascending.
     [[nodiscard]] std::span<const std::uint32_t> incident(std::uint32_t vertex) const {
         const std::uint32_t first = mesh_.incident_offsets[vertex];
         return mesh_.incident_triangles.subspan(first, mesh_.incident_offsets[vertex + 1] - first);
@@ -133,13 +147,11 @@ class Freespace {
     MeshView mesh_;  // into storage_
 };
 
-// The bytes of a MAP.vfs: adds hints and hash, and puts triangles and vertices in the order of the query
-// index, so that what is near in space is near in memory. The same contents give the same bytes.
-// Preconditions (asserted): fewer than 2^28 triangles, indices in range, three different corners a triangle,
-// finite numbers within +-coordinate_limit.
+// The bytes of a MAP.vfs, which `parse` accepts: adds bounds, hints, size and hash, and puts triangles and
+// vertices in the order of the query index, so that what is near in space is near in memory. The same
+// contents give the same bytes. Thread-safe. Preconditions (asserted): a file below 2 GiB, indices in range,
+// three different corners a triangle, vertices within +-coordinate_limit, finite spawn points, metadata in
+// the ranges given there.
 [[nodiscard]] std::vector<std::byte> encode(const Contents& contents);
-
-// Coordinates and free distances of a file are within +- this, so that no query overflows.
-inline constexpr float coordinate_limit = 1e8F;
 
 }  // namespace camdir::freespace

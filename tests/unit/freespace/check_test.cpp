@@ -39,6 +39,25 @@ class CheckTest : public testing::Test {
     Mesh mesh;
 };
 
+TEST_F(CheckTest, Metadata) {
+    const Contents good = test::empty_contents();
+    EXPECT_EQ(find_metadata_flaw(good.metadata, good.spawn_points), "");
+    for (const float bad : {0.0F, -1.0F, NAN, INFINITY}) {
+        Metadata broken = good.metadata;
+        broken.metres_per_unit = bad;
+        EXPECT_EQ(find_metadata_flaw(broken, {}), "metres_per_unit is not a positive number");
+        broken = good.metadata;
+        broken.d0 = bad;
+        EXPECT_EQ(find_metadata_flaw(broken, {}), "d0 is not a positive number");
+    }
+    Metadata long_report = good.metadata;
+    long_report.counts.resize(count_limit);
+    EXPECT_EQ(find_metadata_flaw(long_report, {}), "the report has too many counts");
+    std::vector<SpawnPoint> spawn_points = good.spawn_points;
+    spawn_points[1].yaw = NAN;
+    EXPECT_EQ(find_metadata_flaw(good.metadata, spawn_points), "spawn point 1 is not finite");
+}
+
 TEST_F(CheckTest, NumbersThatAreNotFiniteOrTooLarge) {
     for (const float bad : {NAN, INFINITY, -INFINITY, 2.0F * coordinate_limit}) {
         Mesh broken = mesh;

@@ -26,7 +26,7 @@ std::string error_of(Bytes bytes) {
     return freespace ? "" : freespace.error().message;
 }
 
-// The corners' numbers x y z r of every triangle, in an order that does not depend on how they are numbered.
+// The corners' x y z r of every triangle, in an order that does not depend on their indices.
 using Corner = std::array<float, 4>;
 std::vector<std::array<Corner, 3>> shapes(std::span<const Vertex> vertices,
                                           std::span<const Triangle> triangles) {
@@ -40,7 +40,7 @@ std::vector<std::array<Corner, 3>> shapes(std::span<const Vertex> vertices,
     return shapes;
 }
 
-// Where the eight bytes of `value` lie in `bytes`.
+// The offset of the eight bytes of `value` in `bytes`.
 std::size_t position_of(const Bytes& bytes, std::uint64_t value) {
     std::array<std::byte, sizeof value> pattern;
     std::memcpy(pattern.data(), &value, sizeof value);
@@ -78,7 +78,13 @@ TEST(File, EqualContentsGiveEqualBytes) {
     EXPECT_EQ(encode(random_contents(one, 20, 15, 30)), encode(random_contents(other, 20, 15, 30)));
 }
 
-TEST(File, MeshOfNothingIsAFileToo) {
+TEST(File, TheLongestReportIsRead) {
+    Contents contents = square_contents();
+    contents.metadata.counts.resize(9'999, {"stage", "what", 1.0});
+    EXPECT_EQ(make_freespace(contents).metadata().counts.size(), 9'999U);
+}
+
+TEST(File, MayHoldNoMesh) {
     const Freespace freespace = make_freespace(empty_contents());
     EXPECT_TRUE(freespace.vertices().empty());
     EXPECT_TRUE(freespace.triangles().empty());
@@ -95,16 +101,19 @@ TEST(File, UnusedVerticesStay) {
     EXPECT_TRUE(freespace.incident(4).empty());
 }
 
-TEST(File, IsMappedFromDiskAndOutlivesItsName) {
+TEST(File, IsReadFromDiskAndDoesNotChangeWithTheFile) {
     const auto path =
         std::filesystem::temp_directory_path() / ("camdir-" + std::to_string(::getpid()) + ".vfs");
     const Bytes bytes = encode(square_contents());
     ASSERT_TRUE(write_file(path, bytes));
     const auto freespace = Freespace::open(path);
-    std::filesystem::remove(path);
     ASSERT_TRUE(freespace) << freespace.error().message;
+    std::filesystem::resize_file(path, 0);
     EXPECT_EQ(freespace->byte_size(), bytes.size());
-    EXPECT_EQ(freespace->triangles().size(), 2U);
+    ASSERT_EQ(freespace->triangles().size(), 2U);
+    EXPECT_EQ(freespace->vertices()[freespace->triangles()[0].a].free_distance, 40.0F);
+    EXPECT_THAT(Freespace::open(path).error().message, HasSubstr(path.string() + ": is not a baked map"));
+    std::filesystem::remove(path);
     EXPECT_THAT(Freespace::open(path).error().message, HasSubstr(path.string() + ": cannot open"));
 }
 
@@ -150,6 +159,9 @@ TEST(FileDeathTest, ContentsThatBreakTheirPromisesAreABug) {
     Contents out_of_range = square_contents();
     out_of_range.triangles.push_back({0, 1, 4});
     EXPECT_DEATH(static_cast<void>(encode(out_of_range)), "find_mesh_flaw");
+    Contents without_d0 = square_contents();
+    without_d0.metadata.d0 = 0.0F;
+    EXPECT_DEATH(static_cast<void>(encode(without_d0)), "find_metadata_flaw");
     Contents not_finite = square_contents();
     not_finite.vertices[0].free_distance = NAN;
     EXPECT_DEATH(static_cast<void>(encode(not_finite)), "find_mesh_flaw");

@@ -33,9 +33,9 @@ TEST(Sight, LeavesTheSquareWhereItsSlabsEnd) {
     const Sight blocked = sight(freespace, {50, 50, 0}, {50, 50, 100});
     EXPECT_FALSE(blocked.clear);
     EXPECT_NEAR(blocked.free_length, 40.0F, 1e-3F);
-    const Sight beam = sight(freespace, {50, 50, 0}, {50, 50, 100}, 15.0F);
-    EXPECT_FALSE(beam.clear);
-    EXPECT_NEAR(beam.free_length, 25.0F, 1e-3F);
+    const Sight sphere = sight(freespace, {50, 50, 0}, {50, 50, 100}, 15.0F);
+    EXPECT_FALSE(sphere.clear);
+    EXPECT_NEAR(sphere.free_length, 25.0F, 1e-3F);
 }
 
 TEST(Sight, OfAPointIsItsCoverage) {
