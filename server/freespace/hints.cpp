@@ -8,14 +8,14 @@
 namespace camdir::freespace {
 namespace {
 
-constexpr float fewest_cells = 1'024.0F;
-// A hint that is a tenth short of the best does its work as well.
+constexpr float min_cells = 1'024.0F;
+// A hint need not be the best slab: one that is a tenth worse serves as well.
 constexpr Effort hint_effort{.slack = 0.1F};
 
 float choose_cell_size(const MeshView& mesh, const Box3f& bounds) {
     const Vec3f size = bounds.sizes().cwiseMax(1.0F);
-    const float cells = std::max(fewest_cells, static_cast<float>(mesh.triangles.size()));
-    // Flat maps: no more cells along the longest axis than the cube has.
+    const float cells = std::max(min_cells, static_cast<float>(mesh.triangles.size()));
+    // At most 4,096 cells along the longest axis, however flat the map is.
     return std::max(std::cbrt(size.prod() / cells), size.maxCoeff() / 4096.0F);
 }
 

@@ -1,4 +1,4 @@
-// The grid of hints: what to try first at a point.
+// The grid of hints: the triangle to try first at a point.
 #pragma once
 
 #include <vector>
@@ -13,7 +13,7 @@ struct Hints {
     std::vector<std::uint32_t> triangles;
 };
 
-// A grid over `bounds` of about one cell a triangle, at least 1,024. Needs the mesh's index.
+// A grid over `bounds` of about one cell per triangle, and at least about 1,024. Needs the mesh's index.
 [[nodiscard]] Hints build_hints(const MeshView& mesh, const Box3f& bounds);
 
 }  // namespace camdir::freespace

@@ -35,15 +35,15 @@ Point4 coordinates(const Vertex& vertex) {
     return {vertex.x, vertex.y, vertex.z, vertex.free_distance};
 }
 
-// A run of the order.
+// A range of positions in the order.
 struct Range {
     std::uint32_t begin, end;
 
     [[nodiscard]] std::uint32_t size() const { return end - begin; }
 };
 
-// How many triangles a child holds that is full, as all children but the last are: so there are as few
-// nodes as the triangles allow.
+// Number of triangles in a full child. All children but the last are full, so that there are as few nodes as
+// possible.
 std::uint32_t full_child(const Range& range) {
     std::uint32_t size = IndexChild::leaf_capacity;
     while (size * IndexNode::width < range.size())
@@ -51,7 +51,7 @@ std::uint32_t full_child(const Range& range) {
     return size;
 }
 
-// The first half is of full children; the second may be empty.
+// The first half consists of full children; the second may be empty.
 std::array<Range, 2> halves_of(const Range& range, std::uint32_t full) {
     if (range.size() <= full) return {range, Range{range.end, range.end}};
     const std::uint32_t children = (range.size() + full - 1) / full;
@@ -108,8 +108,8 @@ class Order {
         return sum;
     }
 
-    // Puts into each half what belongs there. Ties go by number and leaves are sorted, so that the result
-    // does not depend on the library's selection algorithm.
+    // Partitions the range into its halves. Ties are broken by index and leaves are sorted, so that the
+    // result does not depend on the library's selection algorithm.
     void split(const Range& range, std::uint32_t full) {
         const std::uint32_t middle = halves_of(range, full)[0].end;
         if (middle == range.end) return;
@@ -142,7 +142,7 @@ void set_box(IndexNode::Boxes& boxes, std::uint32_t k, const Box3f& box) {
     }
 }
 
-// Of the triangles below a child: their corners and the balls around these. Empty boxes add nothing.
+// Bounds of the triangles below a child: of their corners (box) and of the balls around these (reach).
 struct Bounds {
     Box3f box;
     Box3f reach;
@@ -165,7 +165,7 @@ struct Bounds {
     }
 };
 
-// Without bounds.
+// The nodes and their children; bounds are not set.
 std::vector<IndexNode> make_nodes(std::uint32_t triangle_count) {
     std::vector<IndexNode> nodes;
     std::vector<Range> ranges;  // of the nodes

@@ -47,18 +47,18 @@ struct alignas(16) IndexNode {
     std::uint32_t child[width];
 };
 
-// The deepest tree that queries walk; 13 levels hold 4^14 triangles.
+// Levels of the deepest tree; 13 hold 4^14 triangles.
 inline constexpr std::uint32_t index_depth_limit = 13;
 static_assert(IndexChild::triangle_limit == 1U << 2U * (index_depth_limit + 1U));
 
-// The order in which an index is to find the triangles, split at the median along the widest of x, y, z and
-// free distance: position -> triangle.
+// The order of the triangles that makes a good index, by recursive median splits along the widest of x, y, z
+// and free distance: position -> triangle.
 [[nodiscard]] std::vector<std::uint32_t> index_order(std::span<const Vertex> vertices,
                                                      std::span<const Triangle> triangles);
 
-// The nodes over the triangles in the order they have: right in any, good in index_order's. The tree's shape
-// depends on their number alone, fewer than triangle_limit. [0] is the root; empty without triangles. Linear
-// time.
+// The nodes over the triangles in their present order: correct in any order, fast in index_order's. The
+// tree's shape depends only on their number, which must be below triangle_limit. [0] is the root; empty
+// without triangles. Linear time.
 [[nodiscard]] std::vector<IndexNode> build_index(std::span<const Vertex> vertices,
                                                  std::span<const Triangle> triangles);
 

@@ -10,14 +10,14 @@ namespace camdir::freespace {
 namespace {
 
 struct Candidate {
-    float bound = 0.0F;  // no slab below is better
+    float bound = 0.0F;  // no slab below has a larger value
     IndexChild child = IndexChild::leaf(0, 0);
 };
 // Each level leaves at most three siblings behind.
 using Stack = std::array<Candidate, 3 * index_depth_limit + 1>;
 
-// What the children can reach at most. A ball around the point inside one of their slabs has a radius of at
-// most max_radius - |point - box|, and it does not leave the reach.
+// Upper bounds of the values of the slabs below each child. A ball around the point inside one of these slabs
+// has a radius of at most max_radius - |point - box|, and it lies inside the reach.
 Float4 bounds_of_children(const IndexNode& node, const Vec3f& point) {
     const auto gap = [](const float* low, const float* high, Float4 c) {
         return larger(larger(load(low) - c, c - load(high)), Float4{});

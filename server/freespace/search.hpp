@@ -5,7 +5,7 @@
 
 namespace camdir::freespace {
 
-// Tries the hint for the point and `previous`, when it is a triangle of the mesh.
+// Tries the hint for the point, and `previous` if it is a triangle of the mesh.
 void improve_by_hints(const MeshView& mesh, const Vec3f& point, std::uint32_t previous, SlabPoint& best);
 
 // Tries the hints of the eight cells nearest to the point.

@@ -22,10 +22,10 @@ struct SlabPoint {
     float v = 0.0F;
 };
 
-// What a search begins with: slabs that do not hold the point are not worth finding.
+// The start of a search: only slabs that contain the point improve it.
 inline constexpr SlabPoint uncovered{.value = 0.0F};
 
-// Replaces `best` by the best point of the given triangles when that is better.
+// Replaces `best` by the best point of the given triangles if its value is larger.
 void improve(const MeshView& mesh, const Vec3f& point, std::span<const std::uint32_t> triangles,
              SlabPoint& best);
 
@@ -33,7 +33,7 @@ void improve(const MeshView& mesh, const Vec3f& point, std::span<const std::uint
 void improve_range(const MeshView& mesh, const Vec3f& point, std::uint32_t first, std::uint32_t count,
                    SlabPoint& best);
 
-// A ball of the representation, free of rounding that matters: every such ball lies in its slab.
+// The ball around a slab's point, in double precision: it lies in the slab.
 struct Ball {
     Vec3d centre;
     double radius;

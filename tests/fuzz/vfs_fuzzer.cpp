@@ -23,7 +23,7 @@ std::optional<Value> read_at(const std::vector<std::byte>& bytes, std::size_t po
     return value;
 }
 
-// Where the file's header lies by FlatBuffers' rules: the first field of the root table.
+// Offset of the file's header: the first field of FlatBuffers' root table.
 std::optional<std::size_t> header_position(const std::vector<std::byte>& bytes) {
     const auto root = read_at<std::uint32_t>(bytes, 0);
     if (!root) return std::nullopt;
@@ -36,8 +36,7 @@ std::optional<std::size_t> header_position(const std::vector<std::byte>& bytes) 
     return *root + *field;
 }
 
-// Gives damaged bytes the size and the hash that they promise, so that the checks behind the hash are
-// reached.
+// Repairs size and hash of damaged bytes, so that the checks behind the hash are reached.
 void reseal(std::vector<std::byte>& bytes) {
     const auto header = header_position(bytes);
     if (!header || !read_at<std::array<std::uint64_t, 3>>(bytes, *header)) return;
@@ -47,7 +46,7 @@ void reseal(std::vector<std::byte>& bytes) {
     std::memcpy(bytes.data() + *header + 16, &hash, sizeof hash);
 }
 
-// Every query must end, and answer within its own promises.
+// Every query must end, with an answer that keeps its contract.
 void query(const freespace::Freespace& freespace) {
     std::vector<Vec3f> points = {Vec3f::Zero(), freespace.bounds().center()};
     for (const freespace::Vertex& vertex :

@@ -1,4 +1,4 @@
-// Freespaces made up for tests.
+// Synthetic freespaces for tests.
 #pragma once
 
 #include <random>
@@ -19,10 +19,10 @@ namespace camdir::test {
 [[nodiscard]] freespace::Contents random_contents(std::mt19937& random, int columns, int rows, int loose,
                                                   const Vec3f& centre = Vec3f::Zero());
 
-// A point of the box that the slabs of `random_contents` fill, and somewhat around it.
+// A uniformly random point of the freespace's bounds, enlarged by 20 units.
 [[nodiscard]] Vec3f random_point(std::mt19937& random, const freespace::Freespace& freespace);
 
-// A point in some slab.
+// A random point that some slab covers.
 [[nodiscard]] Vec3f covered_point(std::mt19937& random, const freespace::Freespace& freespace);
 
 // encode and parse; a failure throws.

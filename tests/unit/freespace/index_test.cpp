@@ -1,4 +1,4 @@
-// What is made from the mesh when a file is opened: incidence and query index.
+// Incidence and query index, which are made when a file is opened.
 #include "freespace/index.hpp"
 
 #include <gmock/gmock.h>
