@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "bake/geometry/triangle.hpp"
+#include "bench/paper/link.hpp"
 
 namespace camdir::paper {
 namespace {
@@ -12,7 +13,7 @@ namespace {
 constexpr double margin = 1e-3;             // of an edge's length: no new edge through an old vertex
 constexpr double flattest_triangle = 1e-3;  // height over longest side
 
-// A vertex around the one that is to go.
+// A vertex around the one to be eliminated.
 struct Neighbour {
     std::uint32_t vertex;
     Vec3d position;
@@ -37,8 +38,8 @@ struct Crossing {
     double distance;
 };
 
-// Nearest points of the edge a-b that goes and of the edge c-d that comes. None where c-d passes b, or a on
-// its other side, or where an end of c-d would do: the four triangles would not cover the same ground.
+// Nearest points of the old edge a-b and the new edge c-d. None where c-d passes beyond b or a, or where an
+// end of c-d is nearest: the triangles after the swap would not cover the same area.
 std::optional<Crossing> crossing(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d) {
     const Vec3d u = b - a;
     const Vec3d v = d - c;
@@ -85,7 +86,7 @@ double volume(double area, double ra, double rb, double rc) {
 // Tries the elimination of one vertex.
 class Planner {
   public:
-    Planner(const ShrinkingMesh& mesh, std::uint32_t vertex)
+    Planner(const DynamicMesh& mesh, std::uint32_t vertex)
         : mesh_(mesh),
           vertex_(vertex),
           centre_(mesh.position(vertex)),
@@ -113,7 +114,7 @@ class Planner {
     [[nodiscard]] std::size_t place(std::uint32_t vertex) const {
         const auto found =
             std::lower_bound(neighbours_.begin(), neighbours_.end(), vertex,
-                             [](const Neighbour& n, std::uint32_t wanted) { return n.vertex < wanted; });
+                             [](const Neighbour& n, std::uint32_t key) { return n.vertex < key; });
         return static_cast<std::size_t>(found - neighbours_.begin());
     }
     [[nodiscard]] Neighbour& at(std::uint32_t vertex) { return neighbours_[place(vertex)]; }
@@ -124,7 +125,7 @@ class Planner {
     [[nodiscard]] bool join_sheets(const std::vector<Fan>& fans);
     [[nodiscard]] double lost_volume();
 
-    const ShrinkingMesh& mesh_;
+    const DynamicMesh& mesh_;
     std::uint32_t vertex_;
     Vec3d centre_;
     double free_distance_;
@@ -184,7 +185,7 @@ std::optional<Step> Planner::try_swap(std::uint32_t w, std::uint32_t x, std::uin
     return step;
 }
 
-// Takes one vertex out of the fan. The ends of an open fan stay.
+// Removes one vertex from the fan. The ends of an open fan stay.
 bool Planner::swap_cheapest(Fan& fan, bool closed) {
     const std::size_t count = fan.size();
     const std::size_t open = closed ? 0 : 1;
@@ -267,7 +268,7 @@ double Planner::lost_volume() {
 
 }  // namespace
 
-std::optional<Elimination> plan_elimination(const ShrinkingMesh& mesh, std::uint32_t vertex, bool seams) {
+std::optional<Elimination> plan_elimination(const DynamicMesh& mesh, std::uint32_t vertex, bool seams) {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> link;
     for (const std::uint32_t triangle : mesh.star(vertex)) {
         const Corners& c = mesh.corners(triangle);

@@ -1,49 +1,14 @@
 // How one vertex would be eliminated: the swaps of section 4.3, tried on a copy of its surroundings.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <utility>
 #include <vector>
 
-#include "base/geometry.hpp"
-#include "bench/paper/link.hpp"
+#include "bench/paper/dynamic_mesh.hpp"
 
 namespace camdir::paper {
-
-using Corners = std::array<std::uint32_t, 3>;
-
-// The mesh while it shrinks. Read-only for whoever plans.
-class ShrinkingMesh {
-  public:
-    ShrinkingMesh(const std::vector<Vec3f>& positions, std::vector<float>& free_distance,
-                  const std::vector<Corners>& triangles);
-
-    [[nodiscard]] std::size_t vertex_count() const { return stars_.size(); }
-    [[nodiscard]] const std::vector<std::uint32_t>& star(std::uint32_t vertex) const {
-        return stars_[vertex];
-    }
-    [[nodiscard]] const Corners& corners(std::uint32_t triangle) const { return triangles_[triangle]; }
-    [[nodiscard]] Vec3d position(std::uint32_t vertex) const { return positions_[vertex].cast<double>(); }
-    [[nodiscard]] double free_distance(std::uint32_t vertex) const { return free_distance_[vertex]; }
-    [[nodiscard]] bool is_edge(std::uint32_t a, std::uint32_t b) const;
-    [[nodiscard]] bool is_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
-    [[nodiscard]] double area(const Corners& corners) const;
-    // The triangles that are left, in the order in which they were made.
-    [[nodiscard]] std::vector<Corners> triangles() const;
-
-    void remove_star(std::uint32_t vertex);
-    void add(const Corners& corners);
-    void set_free_distance(std::uint32_t vertex, float value) { free_distance_[vertex] = value; }
-
-  private:
-    const std::vector<Vec3f>& positions_;
-    std::vector<float>& free_distance_;
-    std::vector<Corners> triangles_;
-    std::vector<char> gone_;
-    std::vector<std::vector<std::uint32_t>> stars_;
-};
 
 struct Elimination {
     double lost_volume = 0.0;
@@ -51,9 +16,9 @@ struct Elimination {
     std::vector<std::pair<std::uint32_t, double>> lowered;  // free distances around
 };
 
-// None when the vertex is of no kind that can go (on a seam only with `seams`), or no order of swaps, the
-// cheapest first, leads to an end.
-[[nodiscard]] std::optional<Elimination> plan_elimination(const ShrinkingMesh& mesh, std::uint32_t vertex,
+// None when this kind of vertex cannot be eliminated (those on a seam only with `seams`), or when swapping
+// the cheapest edge first gets stuck.
+[[nodiscard]] std::optional<Elimination> plan_elimination(const DynamicMesh& mesh, std::uint32_t vertex,
                                                           bool seams);
 
 }  // namespace camdir::paper

@@ -48,7 +48,7 @@ class Queue {
 
 class Reduction {
   public:
-    Reduction(ShrinkingMesh& mesh, double threshold, bool seams)
+    Reduction(DynamicMesh& mesh, double threshold, bool seams)
         : mesh_(mesh), threshold_(threshold), seams_(seams), queue_(mesh.vertex_count()) {}
 
     void run() {
@@ -58,7 +58,7 @@ class Reduction {
             const auto [vertex, expected] = queue_.pop();
             const auto plan = plan_elimination(mesh_, vertex, seams_);
             if (!plan || !(plan->lost_volume < threshold_)) continue;
-            // What changed farther away than at a neighbour may have made it dearer.
+            // Changes beyond the direct neighbours may have raised its cost.
             if (plan->lost_volume > expected)
                 queue_.push(vertex, plan->lost_volume);
             else
@@ -94,7 +94,7 @@ class Reduction {
             evaluate(neighbour);
     }
 
-    ShrinkingMesh& mesh_;
+    DynamicMesh& mesh_;
     double threshold_;
     bool seams_;
     Queue queue_;
@@ -106,11 +106,11 @@ void eliminate_vertices(bake::MedialMesh& mesh, std::vector<float>& free_distanc
     std::vector<Corners> triangles;
     for (const auto& [a, b, c] : mesh.triangles)
         triangles.push_back({a, b, c});
-    ShrinkingMesh shrinking(mesh.vertices, free_distance, triangles);
+    DynamicMesh dynamic(mesh.vertices, free_distance, triangles);
     for (const bool seams : {false, true})
-        Reduction(shrinking, threshold, seams).run();
+        Reduction(dynamic, threshold, seams).run();
     mesh.triangles.clear();
-    for (const auto& [a, b, c] : shrinking.triangles())
+    for (const auto& [a, b, c] : dynamic.triangles())
         mesh.triangles.push_back({a, b, c});
 }
 

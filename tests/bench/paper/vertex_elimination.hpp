@@ -17,7 +17,7 @@ namespace camdir::paper {
 // until the ball there fits into the old one. The volume of a triangle's freespace is taken as
 // twice the integral of its free distance: balls that neighbours share are left out on both sides.
 //
-// Vertices keep their numbers; those eliminated are in no triangle.
+// Vertices keep their indices; those eliminated are in no triangle.
 void eliminate_vertices(bake::MedialMesh& mesh, std::vector<float>& free_distance, double threshold);
 
 }  // namespace camdir::paper

@@ -1,6 +1,6 @@
-#include <algorithm>
+#include "bench/paper/dynamic_mesh.hpp"
 
-#include "bench/paper/elimination.hpp"
+#include <algorithm>
 
 namespace camdir::paper {
 namespace {
@@ -11,29 +11,29 @@ bool has(const Corners& corners, std::uint32_t vertex) {
 
 }  // namespace
 
-ShrinkingMesh::ShrinkingMesh(const std::vector<Vec3f>& positions, std::vector<float>& free_distance,
-                             const std::vector<Corners>& triangles)
+DynamicMesh::DynamicMesh(const std::vector<Vec3f>& positions, std::vector<float>& free_distance,
+                         const std::vector<Corners>& triangles)
     : positions_(positions), free_distance_(free_distance), stars_(positions.size()) {
     for (const Corners& corners : triangles)
         add(corners);
 }
 
-bool ShrinkingMesh::is_edge(std::uint32_t a, std::uint32_t b) const {
+bool DynamicMesh::is_edge(std::uint32_t a, std::uint32_t b) const {
     return std::any_of(stars_[a].begin(), stars_[a].end(),
                        [&](std::uint32_t t) { return has(triangles_[t], b); });
 }
 
-bool ShrinkingMesh::is_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
+bool DynamicMesh::is_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
     return std::any_of(stars_[a].begin(), stars_[a].end(),
                        [&](std::uint32_t t) { return has(triangles_[t], b) && has(triangles_[t], c); });
 }
 
-double ShrinkingMesh::area(const Corners& corners) const {
+double DynamicMesh::area(const Corners& corners) const {
     const Vec3d a = position(corners[0]);
     return 0.5 * (position(corners[1]) - a).cross(position(corners[2]) - a).norm();
 }
 
-std::vector<Corners> ShrinkingMesh::triangles() const {
+std::vector<Corners> DynamicMesh::triangles() const {
     std::vector<Corners> left;
     for (std::size_t i = 0; i < triangles_.size(); ++i) {
         if (gone_[i] == 0) left.push_back(triangles_[i]);
@@ -41,7 +41,7 @@ std::vector<Corners> ShrinkingMesh::triangles() const {
     return left;
 }
 
-void ShrinkingMesh::remove_star(std::uint32_t vertex) {
+void DynamicMesh::remove_star(std::uint32_t vertex) {
     const std::vector<std::uint32_t> star = std::move(stars_[vertex]);
     stars_[vertex].clear();
     for (const std::uint32_t triangle : star) {
@@ -52,7 +52,7 @@ void ShrinkingMesh::remove_star(std::uint32_t vertex) {
     }
 }
 
-void ShrinkingMesh::add(const Corners& corners) {
+void DynamicMesh::add(const Corners& corners) {
     for (const std::uint32_t corner : corners)
         stars_[corner].push_back(static_cast<std::uint32_t>(triangles_.size()));
     triangles_.push_back(corners);
