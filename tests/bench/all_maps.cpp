@@ -1,9 +1,9 @@
 // bench-all-maps: bakes and verifies many maps, and prints the table of their figures.
 //
 // Exit codes: 0 every hard limit holds; 1 one does not, or a map could not be baked; 2 bad usage. The limits:
-// no unsafe ball, no distance reported that is more than there is, 99.9 % coverage at clearance > d0, every
-// spawn point covered and all of them in one component of the roadmap, the same bytes for any number of
-// threads (with --check-threads).
+// no unsafe ball, no reported distance beyond the clearance, 99.9 % coverage at clearance > d0, every spawn
+// point covered and all of them in one component of the roadmap, the same bytes for any number of threads
+// (with --check-threads).
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <filesystem>
@@ -65,11 +65,9 @@ void add_options(CLI::App& app, Options& options) {
     app.add_option("--balls", options.parameters.balls, "Balls to draw on each map")->capture_default_str();
     app.add_option("--points", options.parameters.points, "Free points to draw on each map")
         ->capture_default_str();
-    app.add_option("--bake-options", options.bake_options,
-                   "More for the command line of the bake, such as \"--loss 3\"");
+    app.add_option("--bake-options", options.bake_options, "More options for the bake, such as \"--loss 3\"");
     app.add_flag("--check-threads", options.parameters.check_threads,
-                 "Bake also with 1 and with 2 threads, where that is not what a bake takes by itself, and "
-                 "compare the bytes");
+                 "Also bake with 1 and with 2 threads, unless that is the default, and compare the bytes");
     app.add_option("--work", options.parameters.work, "Folder where the baked maps stay")
         ->capture_default_str();
 }

@@ -1,5 +1,5 @@
-// The yardstick that bakes are compared with: CGAL's Delaunay triangulation of 200,000 points drawn uniformly
-// in a cube with a fixed seed, on one thread. Prints the seconds and the number of finite cells.
+// The yardstick for the time of bakes: CGAL's Delaunay triangulation of 200,000 points drawn uniformly in a
+// cube with a fixed seed, on one thread. Prints the seconds and the number of finite cells.
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 

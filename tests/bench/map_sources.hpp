@@ -12,8 +12,8 @@ struct MapSource {
     std::string source;  // as `bake` takes it
 };
 
-// A folder's maps, an archive's, or the one map that the path is; by name. Throws std::runtime_error when the
-// path cannot be read.
+// The maps in a folder or an archive, or the one map file, in the order of their names. Throws
+// std::runtime_error when the path cannot be read.
 [[nodiscard]] std::vector<MapSource> maps_of(const std::filesystem::path& path);
 
 }  // namespace camdir::bench

@@ -49,7 +49,7 @@ double number_at(const json& object, const std::string& pointer) {
     return value.is_number() ? value.get<double>() : not_measured;
 }
 
-// The last of the stages before `end` that counts `what`.
+// `what` as counted by the last stage before `end` that counts it.
 double count_of(const json& stages, const std::string& what, const std::string& end = "") {
     double found = not_measured;
     for (const json& stage : stages) {
@@ -173,7 +173,8 @@ void Measurement::judge(const VerifyFigures& figures) {
         measured_.failures.push_back(text.str());
     };
     if (figures.unsafe > 0) fail(figures.unsafe, "unsafe balls");
-    if (figures.overestimates > 0) fail(figures.overestimates, "points with more distance than there is");
+    if (figures.overestimates > 0)
+        fail(figures.overestimates, "points with more distance reported than there is");
     if (!(figures.coverage_above_d0 >= least_coverage))
         fail(figures.coverage_above_d0, "% coverage at clearance > d0");
     if (figures.uncovered_spawn_points > 0)

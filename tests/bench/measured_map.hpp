@@ -13,24 +13,24 @@ namespace camdir::bench {
 
 struct MeasureParameters {
     std::filesystem::path programs;         // folder with camera-director and bench-delaunay
-    std::filesystem::path work;             // MAP.vfs and the reports stay here
-    std::vector<std::string> bake_options;  // more of the bake's command line
+    std::filesystem::path work;             // where MAP.vfs is kept
+    std::vector<std::string> bake_options;  // further options of the bake
     std::uint64_t balls = 0;
     std::uint64_t points = 100'000;
     bool check_threads = false;
 };
 
-// Not a number or absent: not measured.
+// NaN or absent: not measured.
 struct BakeFigures {
     double seconds = 0.0;      // of the whole command
     double cpu_seconds = 0.0;  // of all its threads
-    double yardsticks = 0.0;   // seconds as multiple of those of bench-delaunay, run just before
+    double yardsticks = 0.0;   // seconds as a multiple of those of bench-delaunay, run just before
     double samples = 0.0;
     double unreduced_triangles = 0.0;
     double triangles = 0.0;
     double megabytes = 0.0;       // of the file
     double peak_megabytes = 0.0;  // of memory
-    double first_query_ms = 0.0;  // from nothing: opening and checking the file, one distance
+    double first_query_ms = 0.0;  // opening and checking the file, one distance query
 };
 
 struct VerifyFigures {
@@ -50,10 +50,10 @@ struct MeasuredMap {
     std::string name;
     std::optional<BakeFigures> bake;
     std::optional<VerifyFigures> verify;
-    std::vector<std::string> failures;  // a step that failed, a hard limit that does not hold
+    std::vector<std::string> failures;  // steps that failed, limits that do not hold
 };
 
-// Throws std::runtime_error when a program of the project cannot be run or writes what it must not.
+// Throws std::runtime_error when a program of the project cannot be run or its output cannot be read.
 [[nodiscard]] MeasuredMap measure(const MapSource& map, const MeasureParameters& parameters);
 
 }  // namespace camdir::bench

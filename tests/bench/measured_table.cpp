@@ -15,7 +15,7 @@ struct Column {
     std::string title;
     int decimals;
     Worst worst;
-    std::function<double(const MeasuredMap&)> value;  // not a number: not measured
+    std::function<double(const MeasuredMap&)> value;  // NaN: not measured
 };
 
 Column of_bake(std::string title, int decimals, double BakeFigures::*member) {

@@ -8,7 +8,8 @@
 
 namespace camdir::bench {
 
-// A table grows from its head by a row a map; its end has the median and worst rows and the list of failures.
+// A table: its head, a row for each map, and its end, with the median and worst rows and the list of
+// failures.
 [[nodiscard]] std::string head_of_table();
 [[nodiscard]] std::string row_of(const MeasuredMap& map);
 [[nodiscard]] std::string end_of_table(const std::vector<MeasuredMap>& maps);

@@ -10,7 +10,8 @@
 
 namespace camdir::paper {
 
-// The face of each triangle of a mesh that bake::triangulate made of `faces` and later stages thinned out.
+// The face of each triangle of a mesh that bake::triangulate made of `faces`; later stages may have removed
+// triangles.
 [[nodiscard]] std::vector<std::uint32_t> faces_of(const bake::MedialMesh& mesh,
                                                   const bake::VoronoiFaces& faces);
 

@@ -17,34 +17,25 @@ void lower_to(Cost& best, const Cost& cost) {
     best.cpu_seconds = std::min(best.cpu_seconds, cost.cpu_seconds);
 }
 
-template <class Voronoi>
-Result<EngineCost> best_of(int runs, const Voronoi& voronoi) {
-    EngineCost best{{unmeasured, unmeasured}, {unmeasured, unmeasured}};
+}  // namespace
+
+Result<EngineCost> measure_engine(Engine engine, const scene::Scene& scene, double d0, int runs) {
+    const double unit = scene::metres_of_nominal_unit / scene.metres_per_unit;
+    const double distance = 2.0 * d0 * unit;
+    const auto samples = sample(scene, d0 * unit);
+    if (!samples) return tl::unexpected(samples.error());
+    EngineCost best{samples->size(), {unmeasured, unmeasured}, {unmeasured, unmeasured}};
     for (int i = 0; i < runs; ++i) {
         Stopwatch stopwatch;
-        const Result<Faces> faces = voronoi();
+        const Result<Faces> faces = tbb::task_arena(1).execute([&] {
+            return engine == Engine::qhull ? voronoi_by_qhull(*samples, distance, scene.bounds)
+                                           : voronoi_by_cgal(*samples, distance, scene.bounds, 0.01 * unit);
+        });
         if (!faces) return tl::unexpected(faces.error());
         lower_to(best.faces, stopwatch.lap());
         lower_to(best.diagram, faces->diagram);
     }
     return best;
-}
-
-}  // namespace
-
-Result<Engines> compare_engines(const scene::Scene& scene, double d0, int runs) {
-    const double unit = 0.0254 / scene.metres_per_unit;
-    const double distance = 2.0 * d0 * unit;
-    const auto samples = sample(scene, d0 * unit);
-    if (!samples) return tl::unexpected(samples.error());
-    const auto qhull = best_of(runs, [&] { return voronoi_by_qhull(*samples, distance, scene.bounds); });
-    if (!qhull) return tl::unexpected(qhull.error());
-    const auto cgal = best_of(runs, [&] {
-        return tbb::task_arena(1).execute(
-            [&] { return voronoi_by_cgal(*samples, distance, scene.bounds, 0.01 * unit); });
-    });
-    if (!cgal) return tl::unexpected(cgal.error());
-    return Engines{samples->size(), *qhull, *cgal};
 }
 
 }  // namespace camdir::paper

@@ -1,26 +1,18 @@
-// The two Voronoi engines on the same samples.
+// What each Voronoi engine takes for the paper's samples of a scene.
 #pragma once
 
-#include <vector>
-
-#include "base/error.hpp"
-#include "bench/paper/stopwatch.hpp"
-#include "scene/scene.hpp"
+#include "bench/paper/method.hpp"
 
 namespace camdir::paper {
 
 struct EngineCost {
+    std::uint64_t points = 0;
     Cost diagram;  // best of the runs
     Cost faces;    // the diagram and its faces; best of the runs
 };
 
-struct Engines {
-    std::uint64_t points = 0;
-    EngineCost qhull;
-    EngineCost cgal;
-};
-
 // On the paper's samples of the scene at `d0` (nominal units), one thread.
-[[nodiscard]] Result<Engines> compare_engines(const scene::Scene& scene, double d0, int runs);
+[[nodiscard]] Result<EngineCost> measure_engine(Engine engine, const scene::Scene& scene, double d0,
+                                                int runs);
 
 }  // namespace camdir::paper

@@ -63,7 +63,7 @@ Result<Json> measure(const Method& method, const scene::Scene& scene, const Sett
     if (!freespace) return tl::unexpected(freespace.error());
     evaluation::VerificationParameters parameters;
     parameters.balls = balls;
-    const oracle::Oracle oracle(scene);
+    const oracle::Oracle oracle(scene, freespace->metadata().d0);
     const auto found = evaluation::verify(*freespace, scene, oracle, parameters,
                                           [](std::string_view, std::uint64_t, std::uint64_t) {}, {});
     if (!found) return tl::unexpected(found.error());
@@ -71,11 +71,8 @@ Result<Json> measure(const Method& method, const scene::Scene& scene, const Sett
     return json;
 }
 
-Json to_json(const Engines& engines) {
-    const auto engine = [](const EngineCost& cost) {
-        return Json{{"diagram", to_json(cost.diagram)}, {"faces", to_json(cost.faces)}};
-    };
-    return {{"points", engines.points}, {"qhull", engine(engines.qhull)}, {"cgal", engine(engines.cgal)}};
+Json to_json(const EngineCost& cost) {
+    return {{"points", cost.points}, {"diagram", to_json(cost.diagram)}, {"faces", to_json(cost.faces)}};
 }
 
 }  // namespace camdir::paper

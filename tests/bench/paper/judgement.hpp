@@ -1,4 +1,4 @@
-// One method's product as figures: its costs, its sizes, and what the exact judge of `verify` says.
+// One method's product as figures: its costs, its sizes, and what `verify` says.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -12,6 +12,6 @@ namespace camdir::paper {
 [[nodiscard]] Result<nlohmann::ordered_json> measure(const Method& method, const scene::Scene& scene,
                                                      const Settings& settings, std::uint64_t balls);
 
-[[nodiscard]] nlohmann::ordered_json to_json(const Engines& engines);
+[[nodiscard]] nlohmann::ordered_json to_json(const EngineCost& cost);
 
 }  // namespace camdir::paper

@@ -40,7 +40,7 @@ class Graph {
         }
         return result;
     }
-    // From `start` over `next` until a hub or `start` comes; that vertex is the last.
+    // From `start` over `next` to the first hub or back to `start`; that vertex is the last.
     [[nodiscard]] Fan walk(std::uint32_t start, std::uint32_t next) const {
         Fan fan{start, next};
         while (fan.back() != start) {
@@ -68,10 +68,10 @@ std::optional<Surroundings> surroundings(const std::vector<Edge>& link) {
     const std::vector<std::uint32_t> hubs = graph.hubs();
     Surroundings result;
     if (hubs.empty()) {
-        Fan ring = graph.walk(graph.smallest(), graph.neighbours(graph.smallest()).front());
-        if (ring.size() != link.size() + 1) return std::nullopt;  // another ring is left
-        ring.pop_back();
-        result.fans.push_back(std::move(ring));
+        Fan cycle = graph.walk(graph.smallest(), graph.neighbours(graph.smallest()).front());
+        if (cycle.size() != link.size() + 1) return std::nullopt;  // the link has another cycle
+        cycle.pop_back();
+        result.fans.push_back(std::move(cycle));
         result.closed = true;
         return result;
     }

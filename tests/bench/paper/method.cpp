@@ -16,7 +16,7 @@ const std::vector<Method>& methods() {
          [](const Scene& s, const Settings& o) {
              return run({edges, cgal, constant}, s, o);
          }},
-        {"covering", "+ covering-radius sampling, without what brushes conceal",
+        {"covering", "+ covering-radius sampling, without what brushes hide",
          [](const Scene& s, const Settings& o) {
              return run({covering_radius, cgal, constant}, s, o);
          }},

@@ -34,7 +34,7 @@ struct Part {
     Cost cost;
 };
 
-// Figure 6 of the paper. 0: the method does not tell.
+// Figure 6 of the paper. 0: not known of this method.
 struct Figures {
     std::vector<Part> parts;
     std::uint64_t samples = 0;
@@ -64,7 +64,7 @@ struct Method {
 // In the order of the table.
 [[nodiscard]] const std::vector<Method>& methods();
 
-// The parts by which all methods tell their costs, in order.
+// The parts in which all methods report their costs, in order.
 [[nodiscard]] const std::vector<std::string>& part_names();
 
 }  // namespace camdir::paper

@@ -36,7 +36,7 @@ class Run {
         : pipeline_(pipeline),
           scene_(scene),
           settings_(settings),
-          unit_(0.0254 / scene.metres_per_unit),
+          unit_(scene::metres_of_nominal_unit / scene.metres_per_unit),
           d0_(settings.d0 * unit_),
           obstacles_(scene),
           solids_(scene) {}
@@ -106,8 +106,9 @@ Result<void> Run::voronoi() {
     return done;
 }
 
-// What the paper keeps of the faces, by the baker's definition of inside. Crossings are what no free distance
-// makes safe; the paper, which counts on its sampling, does not look for them.
+// What the paper keeps of the faces, by the baker's definition of inside. Triangles that
+// cross obstacles, which no free distance makes safe, are removed only with certified distances: the paper
+// trusts its sampling.
 Result<void> Run::inner_mesh() {
     auto done = keep(bake::triangulate(faces_.faces, stage_), mesh_);
     if (done) done = keep(bake::clearances(mesh_, obstacles_, stage_), clearance_);

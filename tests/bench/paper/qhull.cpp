@@ -1,7 +1,10 @@
 #include <libqhull_r/qhull_ra.h>
 
 #include <algorithm>
+#include <array>
 #include <csetjmp>
+#include <cstdio>
+#include <cstring>
 #include <string>
 
 #include "bench/paper/voronoi.hpp"
@@ -9,7 +12,7 @@
 namespace camdir::paper {
 namespace {
 
-// What qhull's visit of the ridges collects. qhull hands its visitor one pointer of the user's, as a FILE.
+// What the visit of qhull's ridges collects. qhull passes one user pointer to the visitor, typed as FILE.
 struct Visit {
     const std::vector<Vec3d>& samples;
     Vec3d origin;
@@ -37,7 +40,7 @@ std::uint32_t vertex_of(qhT* qh, facetT* facet, Visit& visit) {
     return vertex;
 }
 
-// One Voronoi face: the samples of two cells, and its corners in order.
+// Called by qhull for one Voronoi face: the samples of its two cells, and its corners in order.
 void take_face(qhT* qh, FILE* user, vertexT* from, vertexT* to, setT* centres, boolT unbounded) {
     auto& visit = *reinterpret_cast<Visit*>(user);
     const auto [p, q] = std::minmax({static_cast<std::uint32_t>(qh_pointid(qh, from->point)),
@@ -80,22 +83,36 @@ std::uint64_t count_lower_facets(qhT* qh) {
     return count;
 }
 
-// Owns qhull's memory.
+// Owns qhull's memory and what it says.
 class Qhull {
   public:
-    Qhull() { qh_zero(&qh_, stderr); }
+    Qhull() : messages_(std::tmpfile()) { qh_zero(&qh_, messages()); }
     ~Qhull() {
         int left = 0;
         int bytes_left = 0;
         qh_freeqhull(&qh_, !qh_ALL);
         qh_memfreeshort(&qh_, &left, &bytes_left);
+        if (messages_ != nullptr) std::fclose(messages_);
     }
     Qhull(const Qhull&) = delete;
     Qhull& operator=(const Qhull&) = delete;
 
     [[nodiscard]] qhT* get() { return &qh_; }
+    [[nodiscard]] FILE* messages() { return messages_ != nullptr ? messages_ : stderr; }
+    // The first line that it wrote to messages().
+    [[nodiscard]] std::string first_message() {
+        std::array<char, 256> line{};
+        if (messages_ == nullptr) return "";
+        std::rewind(messages_);
+        while (std::fgets(line.data(), static_cast<int>(line.size()), messages_) != nullptr) {
+            const std::string text(line.data(), std::strcspn(line.data(), "\n"));
+            if (!text.empty()) return text;
+        }
+        return "";
+    }
 
   private:
+    FILE* messages_;
     qhT qh_{};
 };
 
@@ -113,12 +130,13 @@ Result<Faces> voronoi_by_qhull(const std::vector<Vec3d>& samples, double min_dis
     Qhull qhull;
     std::string command = "qhull v Qbb Qc";  // Voronoi; last coordinate scaled; coplanar points kept
     const int failed = qh_new_qhull(qhull.get(), 3, static_cast<int>(samples.size()), coordinates.data(),
-                                    False, command.data(), nullptr, stderr);
-    if (failed != 0) return fail("qhull failed with code " + std::to_string(failed));
+                                    False, command.data(), nullptr, qhull.messages());
+    if (failed != 0) return fail("qhull, code " + std::to_string(failed) + ": " + qhull.first_message());
     const Cost diagram = stopwatch.lap();
     visit.result.diagram = diagram;
     visit.result.voronoi_vertices = count_lower_facets(qhull.get());
-    if (!visit_faces(qhull.get(), &visit)) return fail("qhull failed while its Voronoi faces were read");
+    if (!visit_faces(qhull.get(), &visit))
+        return fail("qhull, while its Voronoi faces are read: " + qhull.first_message());
     return std::move(visit.result);
 }
 

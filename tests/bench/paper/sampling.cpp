@@ -80,6 +80,8 @@ bool split_long_edges(const Triangle3d& triangle, double d0, std::vector<Vec3d>&
 }
 
 Result<std::vector<Vec3d>> sample(const scene::Scene& scene, double d0) {
+    if (scene.triangles.empty())
+        return fail(scene.source + ": has no triangles, which the paper's rule samples");
     std::vector<Vec3d> samples;
     for (const auto& [a, b, c] : scene.triangles) {
         const Triangle3d triangle{scene.vertices[a], scene.vertices[b], scene.vertices[c]};

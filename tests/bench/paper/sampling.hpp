@@ -11,7 +11,7 @@ namespace camdir::paper {
 
 // Splits edges of length >= 2 * d0 at their midpoints, until there are none. Every sample once, ascending
 // (x, y, z). The rule bounds the edges alone: obstacle points may be farther than d0 from every sample.
-// Fails with more than bake::max_samples.
+// Fails with more than bake::max_samples, and without triangles.
 [[nodiscard]] Result<std::vector<Vec3d>> sample(const scene::Scene& scene, double d0);
 
 // The samples of one triangle beyond its corners, appended; midpoints of shared edges repeat. False when

@@ -21,7 +21,7 @@ struct Cost {
 class Stopwatch {
   public:
     Stopwatch();
-    // Since the last lap, or since it was made.
+    // Since the last lap, or since the construction.
     [[nodiscard]] Cost lap();
 
   private:
@@ -29,7 +29,7 @@ class Stopwatch {
     double cpu_seconds_;
 };
 
-// The most memory that this process has had, so far.
+// The peak of this process's memory so far.
 [[nodiscard]] std::uint64_t peak_memory_bytes();
 
 }  // namespace camdir::paper

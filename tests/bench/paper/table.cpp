@@ -1,5 +1,7 @@
 #include "bench/paper/table.hpp"
 
+#include <algorithm>
+#include <functional>
 #include <iomanip>
 #include <sstream>
 #include <vector>
@@ -61,18 +63,40 @@ std::string cell(const Json& method, const Row& row) {
     return fixed(row.factor * method.at(pointer).get<double>(), row.decimals);
 }
 
+// Of a message: in one cell, on one line.
+std::string escaped(std::string text) {
+    std::replace(text.begin(), text.end(), '|', '/');
+    return text;
+}
+
+std::string outcome_of(const Json& part) {
+    return part.contains("failed") ? "failed: " + escaped(part.at("failed").get<std::string>()) : "done";
+}
+
+void print_row(const std::string& label, const Json& columns,
+               const std::function<std::string(const Json&)>& cell_of, std::ostream& out) {
+    out << "| " << label << " |";
+    for (const Json& method : columns)
+        out << ' ' << cell_of(method) << " |";
+    out << '\n';
+}
+
+void print_engine(const char* name, const Json& engine, std::ostream& out) {
+    out << name << ' ';
+    if (engine.contains("failed")) {
+        out << outcome_of(engine);
+        return;
+    }
+    out << fixed(engine.at("diagram").at("cpu_seconds").get<double>(), 2) << " ("
+        << fixed(engine.at("faces").at("cpu_seconds").get<double>(), 2) << " with its faces, of "
+        << fixed(engine.at("points").get<double>(), 0) << " points)";
+}
+
 void print_engines(const Json& engines, std::ostream& out) {
-    const auto seconds = [&](const char* engine, const char* part) {
-        return engines.at(engine).at(part).at("cpu_seconds").get<double>();
-    };
-    const auto ratio = [&](const char* part) {
-        return fixed(seconds("qhull", part) / seconds("cgal", part), 1);
-    };
-    out << "\nVoronoi diagram of the same " << fixed(engines.at("points").get<double>(), 0)
-        << " points, CPU seconds, best of " << engines.at("runs") << ": qhull "
-        << fixed(seconds("qhull", "diagram"), 2) << ", CGAL " << fixed(seconds("cgal", "diagram"), 2) << " ("
-        << ratio("diagram") << " times faster); with its faces " << fixed(seconds("qhull", "faces"), 2)
-        << " and " << fixed(seconds("cgal", "faces"), 2) << " (" << ratio("faces") << " times faster).";
+    out << "\nVoronoi diagram of the same samples, CPU seconds, best of " << engines.at("runs") << ": ";
+    print_engine("qhull", engines.at("qhull"), out);
+    print_engine("; CGAL", engines.at("cgal"), out);
+    out << '.';
     if (engines.contains("yardstick_seconds"))
         out << " CGAL's Delaunay triangulation of 200,000 random points, wall time: "
             << fixed(engines.at("yardstick_seconds").get<double>(), 2) << '.';
@@ -85,18 +109,19 @@ std::string table_of(const Json& report) {
     std::ostringstream out;
     const Json& columns = report.at("methods");
     out << report.at("map").get<std::string>() << ", d0 = " << fixed(report.at("d0").get<double>(), 2)
-        << "\n\n| |";
-    for (const Json& method : columns)
-        out << ' ' << method.at("title").get<std::string>() << " |";
-    out << "\n|---|";
-    for (std::size_t i = 0; i < columns.size(); ++i)
-        out << "---|";
-    out << '\n';
-    for (const Row& row : rows()) {
-        out << "| " << row.label << " |";
+        << "\n\n";
+    if (!columns.empty()) {
+        out << "| |";
         for (const Json& method : columns)
-            out << ' ' << cell(method, row) << " |";
+            out << ' ' << method.at("title").get<std::string>() << " |";
+        out << "\n|---|";
+        for (std::size_t i = 0; i < columns.size(); ++i)
+            out << "---|";
         out << '\n';
+        print_row("outcome", columns, outcome_of, out);
+        for (const Row& row : rows())
+            print_row(
+                row.label, columns, [&](const Json& method) { return cell(method, row); }, out);
     }
     if (report.contains("engines")) print_engines(report.at("engines"), out);
     return out.str();

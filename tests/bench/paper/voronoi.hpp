@@ -1,5 +1,5 @@
-// The Voronoi faces of sections 4.2, steps 1 and 2, by either engine, with what the paper's free distance
-// wants to know of them.
+// The Voronoi faces of section 4.2, steps 1 and 2, by either engine, with what the paper's free distance
+// needs to know of them.
 #pragma once
 
 #include <cstdint>

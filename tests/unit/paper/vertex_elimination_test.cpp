@@ -122,7 +122,7 @@ TEST(VertexElimination, FlatGridIsReducedToItsBorder) {
         EXPECT_NEAR(flat.free_distance[vertex], 5.0F, 1e-4F);
 }
 
-TEST(VertexElimination, ThresholdKeepsWhatIsDear) {
+TEST(VertexElimination, ThresholdKeepsExpensiveVertices) {
     Sheets grid = sheets(12, 1);
     const std::uint32_t middle = grid.interior[grid.interior.size() / 2];
     grid.free_distance[middle] = 6.0F;
