@@ -11,7 +11,7 @@
 #include <string>
 
 #include "context.hpp"
-#include "match_view.hpp"
+#include "received_match.hpp"
 #include "wire_sample.hpp"
 
 namespace camdir::sdk {

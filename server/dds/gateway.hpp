@@ -9,7 +9,7 @@
 #include "dds/log_limit.hpp"
 #include "dds/match_table.hpp"
 #include "dds/participant.hpp"
-#include "dds/reception.hpp"
+#include "dds/subscriber.hpp"
 #include "director/receiver.hpp"
 #include "director/wire.hpp"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "shot_judge.hpp"
+#include "shot_checker.hpp"
 
 namespace camdir::soak {
 

@@ -16,7 +16,7 @@
 #include "oracle/oracle.hpp"
 #include "scene/load.hpp"
 #include "service/signals.hpp"
-#include "shot_judge.hpp"
+#include "shot_checker.hpp"
 
 namespace camdir::soak {
 namespace {

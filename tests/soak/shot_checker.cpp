@@ -1,4 +1,4 @@
-#include "shot_judge.hpp"
+#include "shot_checker.hpp"
 
 namespace camdir::soak {
 namespace {

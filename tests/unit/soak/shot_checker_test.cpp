@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "soak/latencies.hpp"
-#include "soak/shot_judge.hpp"
+#include "soak/shot_checker.hpp"
 
 namespace camdir::soak {
 namespace {

@@ -1,4 +1,4 @@
-#include "match_view.hpp"
+#include "received_match.hpp"
 
 #include <algorithm>
 #include <cstring>

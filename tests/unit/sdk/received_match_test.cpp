@@ -1,4 +1,4 @@
-#include "match_view.hpp"
+#include "received_match.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "dds/reception.hpp"
+#include "dds/subscriber.hpp"
 
 #include <spdlog/spdlog.h>
 
