@@ -10,7 +10,6 @@
 #include "game_match.hpp"
 #include "handle_table.hpp"
 #include "observer.hpp"
-#include "steady_clock.hpp"
 
 namespace camdir::sdk {
 
@@ -133,7 +132,7 @@ const char* cdir_status_name(cdir_status status) noexcept {
 }
 
 const char* cdir_last_error(void) noexcept {
-    return last_error();
+    return last_error_text;
 }
 
 cdir_status cdir_context_open(const cdir_context_options* options, cdir_context* context) noexcept {
@@ -309,8 +308,7 @@ cdir_status cdir_observer_camera_at(cdir_observer observer, int64_t frame_time, 
 cdir_status cdir_observer_display_time(cdir_observer observer, int64_t* frame_time) noexcept {
     return guarded([&] {
         require(frame_time != nullptr, "frame_time is null");
-        const auto time =
-            find(observer)->with_view([](MatchView& match) { return match.clock().at(steady_ns()); });
+        const auto time = find(observer)->display_time();
         if (!time) return CDIR_NO_DATA;
         *frame_time = *time;
         return CDIR_OK;

@@ -1,8 +1,75 @@
 #include "context.hpp"
 
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <map>
+#include <mutex>
+
+#include "entity.hpp"
 #include "network.hpp"
 
 namespace camdir::sdk {
+
+namespace {
+
+struct OpenDomain {
+    std::string configuration;
+    Entity entity;  // none when the application made the domain itself
+    int shares = 0;
+};
+
+struct OpenDomains {
+    std::mutex mutex;
+    std::map<std::uint32_t, OpenDomain> by_number;
+};
+
+// Never destroyed: contexts may be closed while the process exits.
+OpenDomains& open_domains() {
+    static auto* domains = new OpenDomains;
+    return *domains;
+}
+
+// Cyclone DDS waits with select(), which aborts the process on a descriptor from 1024 on.
+void check_file_descriptors() {
+    constexpr int limit = 1000;
+    const int lowest_free = open("/dev/null", O_RDONLY | O_CLOEXEC);
+    if (lowest_free >= 0) close(lowest_free);
+    if (lowest_free < 0 || lowest_free >= limit) {
+        throw Failure{CDIR_CONFLICT,
+                      "the process holds too many file descriptors: a context needs some below 1000"};
+    }
+}
+
+Entity join(std::uint32_t domain, const std::string& configuration) {
+    check_file_descriptors();
+    const dds_entity_t created = dds_create_domain(domain, configuration.c_str());
+    if (created == DDS_RETCODE_PRECONDITION_NOT_MET) return {};  // the application's own
+    return Entity("cannot join DDS domain " + std::to_string(domain) + " with the network settings", created);
+}
+
+}  // namespace
+
+DomainShare::DomainShare(std::uint32_t domain, const std::string& configuration) : domain_(domain) {
+    OpenDomains& domains = open_domains();
+    const std::lock_guard lock(domains.mutex);
+    auto found = domains.by_number.find(domain);
+    if (found == domains.by_number.end()) {
+        OpenDomain joined{configuration, join(domain, configuration), 0};
+        found = domains.by_number.emplace(domain, std::move(joined)).first;
+    } else if (found->second.configuration != configuration) {
+        throw Failure{CDIR_CONFLICT, "domain " + std::to_string(domain) +
+                                         " is already open in this process with other network settings"};
+    }
+    ++found->second.shares;
+}
+
+DomainShare::~DomainShare() {
+    OpenDomains& domains = open_domains();
+    const std::lock_guard lock(domains.mutex);
+    const auto found = domains.by_number.find(domain_);
+    if (--found->second.shares == 0) domains.by_number.erase(found);
+}
 
 Context::Context(const cdir_context_options& options)
     : domain_(options.domain, network_configuration(options)),

@@ -3,6 +3,7 @@
 
 #include <camera_director/camera_director.h>
 
+#include <cstdio>
 #include <exception>
 #include <new>
 #include <string>
@@ -16,8 +17,11 @@ struct Failure {
 };
 
 // The text of cdir_last_error() of this thread; longer texts are cut.
-void set_last_error(const char* text) noexcept;
-[[nodiscard]] const char* last_error() noexcept;
+inline thread_local char last_error_text[512] = "";
+
+inline void set_last_error(const char* text) noexcept {
+    std::snprintf(last_error_text, sizeof last_error_text, "%s", text);
+}
 
 template <class Call>
 [[nodiscard]] cdir_status guarded(Call&& call) noexcept {

@@ -2,14 +2,19 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 
 #include "checks.hpp"
-#include "steady_clock.hpp"
 #include "text.hpp"
 
 namespace camdir::sdk {
 
 namespace {
+
+std::int64_t steady_ns() {
+    const auto now = std::chrono::steady_clock::now().time_since_epoch();
+    return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
+}
 
 Entity condition_on(const Entity& reader) {
     return Entity("cannot create a read condition", dds_create_readcondition(reader.get(), DDS_ANY_STATE));
@@ -136,6 +141,11 @@ bool Observer::next_frame(cdir_camera_frame& frame, std::span<cdir_camera> camer
         cameras[i] = camera_at(*frame_sample_, i);
     }
     return true;
+}
+
+std::optional<std::int64_t> Observer::display_time() {
+    const std::lock_guard lock(mutex_);
+    return view_.clock().at(steady_ns());
 }
 
 // The director's answer first, so that the frames after it find their camera.

@@ -7,6 +7,7 @@
 #include <condition_variable>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -42,6 +43,8 @@ class Observer {
         const std::lock_guard lock(mutex_);
         return read(view_);
     }
+    // See DisplayClock::at.
+    [[nodiscard]] std::optional<std::int64_t> display_time();
     [[nodiscard]] std::uint32_t director_count() const;
 
   private:

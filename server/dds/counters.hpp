@@ -5,7 +5,7 @@
 #include <atomic>
 #include <cstdint>
 
-#include "dds/defect.hpp"
+#include "dds/decode.hpp"
 #include "dds/qos.hpp"
 
 namespace camdir::dds {

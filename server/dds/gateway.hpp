@@ -10,8 +10,7 @@
 #include "dds/match_table.hpp"
 #include "dds/participant.hpp"
 #include "dds/subscriber.hpp"
-#include "director/receiver.hpp"
-#include "director/wire.hpp"
+#include "director/ports.hpp"
 
 namespace camdir::dds {
 

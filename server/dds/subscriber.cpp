@@ -154,6 +154,15 @@ void Reception::repeat_statuses(Clock::time_point now) {
     }
 }
 
+void Reception::drop(Topic topic, Defect defect, const std::string& match_id) {
+    const auto reason = static_cast<std::size_t>(defect);
+    ++counters_.of(topic).dropped[reason];
+    if (const auto count = drop_logs_[static_cast<std::size_t>(topic)][reason].due()) {
+        spdlog::warn("{} of match '{}' dropped: {} ({} since the last such line)", topic_name(topic),
+                     match_id, defect_names[reason], *count);
+    }
+}
+
 void Reception::take_match_infos() {
     match_info_samples_.take(match_info_reader_, [this](const auto& sample, const auto& info) {
         if (info.instance_state != DDS_ALIVE_INSTANCE_STATE) {
@@ -167,10 +176,10 @@ void Reception::take_match_infos() {
 void Reception::match_found(const camera_director_MatchInfo& sample, const dds_sample_info_t& info) {
     director::MatchInfo message;
     if (const auto defect = decode(sample, message)) {
-        return drop_log_.drop(Topic::match_info, *defect, sample.match_id);
+        return drop(Topic::match_info, *defect, sample.match_id);
     }
     if (!written_in(info, match_partition(message.match_id))) {
-        return drop_log_.drop(Topic::match_info, Defect::wrong_partition, sample.match_id);
+        return drop(Topic::match_info, Defect::wrong_partition, sample.match_id);
     }
     ++counters_.of(Topic::match_info).accepted;
     if (!receiver_->receive(message)) return;  // the director counts and tells it
@@ -288,11 +297,11 @@ template <class Sample, class Message>
 bool Reception::accept(Match& match, Topic topic, const Sample& sample, Message& message) {
     const std::string& match_id = match.info.match_id;
     if (sample.match_id != match_id) {
-        drop_log_.drop(topic, Defect::wrong_partition, match_id);
+        drop(topic, Defect::wrong_partition, match_id);
         return false;
     }
     if (const auto defect = decode(sample, message)) {
-        drop_log_.drop(topic, *defect, match_id);
+        drop(topic, *defect, match_id);
         return false;
     }
     ++counters_.of(topic).accepted;

@@ -1,6 +1,7 @@
 // The receiving half of the gateway: one thread that waits for samples, checks them and hands them on.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <memory>
@@ -12,11 +13,11 @@
 
 #include "config/config.hpp"
 #include "dds/counters.hpp"
-#include "dds/drop_log.hpp"
+#include "dds/log_limit.hpp"
 #include "dds/match_table.hpp"
 #include "dds/participant.hpp"
 #include "dds/take_buffer.hpp"
-#include "director/receiver.hpp"
+#include "director/ports.hpp"
 
 namespace camdir::dds {
 
@@ -69,6 +70,8 @@ class Reception {
     void assert_liveliness();
     void repeat_statuses(Clock::time_point now);
 
+    // Counts the sample and logs each reason at most once a second.
+    void drop(Topic topic, Defect defect, const std::string& match_id);
     void take_match_infos();
     // Checks a sample of the match and decodes it. False: it is dropped, counted, or the match was refused.
     template <class Sample, class Message>
@@ -91,7 +94,7 @@ class Reception {
     const Terms terms_;
     MatchTable& table_;
     Counters& counters_;
-    DropLog drop_log_{counters_};
+    std::array<std::array<LogLimit, defect_names.size()>, topic_count> drop_logs_{};
     director::Receiver* receiver_ = nullptr;
 
     Entity subscriber_;  // of MatchInfo

@@ -8,9 +8,8 @@
 #include "config/config.hpp"
 #include "director/map_library.hpp"
 #include "director/messages.hpp"
-#include "director/receiver.hpp"
+#include "director/ports.hpp"
 #include "director/view.hpp"
-#include "director/wire.hpp"
 
 namespace camdir::director {
 

@@ -10,9 +10,9 @@
 #include "director/attention.hpp"
 #include "director/inbox.hpp"
 #include "director/map_library.hpp"
+#include "director/ports.hpp"
 #include "director/requests.hpp"
 #include "director/roster.hpp"
-#include "director/wire.hpp"
 #include "director/worker_pool.hpp"
 
 namespace camdir::director {

@@ -1,6 +1,7 @@
 #include "director/requests.hpp"
 
 #include <spdlog/spdlog.h>
+#include <xxhash.h>
 
 #include <algorithm>
 
@@ -53,6 +54,23 @@ std::string missing_player(const ShotKey& key, const Roster& roster) {
         return roster.presence(player) == Presence::playing;
     });
     return plays ? "" : "nobody of the group plays";
+}
+
+// The same in every director that is asked for this shot, so that a standby's cameras have the ids that
+// observers know. Never 0.
+std::uint32_t camera_id_of(const ShotKey& key) {
+    std::string bytes;
+    const auto append = [&](std::uint32_t number) {
+        for (int shift = 0; shift < 32; shift += 8)
+            bytes += static_cast<char>(number >> shift & 0xffU);
+    };
+    append(key.target);
+    append(static_cast<std::uint32_t>(key.group.size()));
+    for (const std::uint32_t player : key.group)
+        append(player);
+    bytes += key.profile + '\0' + key.overrides;
+    const auto id = static_cast<std::uint32_t>(XXH3_64bits(bytes.data(), bytes.size()));
+    return id == 0 ? 1 : id;
 }
 
 }  // namespace

@@ -1,17 +1,40 @@
 // The requests of a match's observers, what becomes of them, and the shots that they share.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
 
+#include "camera/tracker.hpp"
 #include "config/config.hpp"
+#include "director/attention.hpp"
 #include "director/counters.hpp"
+#include "director/ports.hpp"
 #include "director/roster.hpp"
-#include "director/shot.hpp"
-#include "director/wire.hpp"
 
 namespace camdir::director {
+
+// Requests with equal keys share one camera.
+struct ShotKey {
+    std::uint32_t target = no_player;  // no_player: automatic
+    std::vector<std::uint32_t> group;  // ascending, distinct
+    std::string profile;
+    std::string overrides;  // JSON as nlohmann writes it: keys sorted, no white space
+
+    bool operator==(const ShotKey&) const = default;
+};
+
+struct Shot {
+    ShotKey key;
+    std::uint32_t camera_id = 0;
+    camera::Profile profile;
+    camera::ShotState state;
+    AutomaticTarget automatic;
+    std::uint32_t target = no_player;  // who is followed now
+    std::uint64_t observers = 0;
+    std::uint32_t flags = 0;  // of the last camera
+};
 
 // What requests are judged by.
 struct Situation {
