@@ -13,10 +13,10 @@ namespace {
 
 constexpr float pi = 3.14159265F;
 // ns: 73 years. Differences of such times do not overflow.
-constexpr std::int64_t furthest_time = std::int64_t{1} << 61U;
+constexpr std::int64_t max_abs_time = std::int64_t{1} << 61U;
 
 bool is_time(std::int64_t ns) {
-    return -furthest_time <= ns && ns <= furthest_time;
+    return -max_abs_time <= ns && ns <= max_abs_time;
 }
 
 bool all_finite(const float* values, std::size_t count) {
@@ -45,8 +45,8 @@ void check_player(const cdir_player& player) {
     require(player.id != CDIR_NO_PLAYER, "a player's id is CDIR_NO_PLAYER");
     require(std::count(std::begin(player.reserved), std::end(player.reserved), 0) == 3,
             "a player's reserved bytes are not 0");
-    (void)checked_text("a player's name", player.name, 0, sizeof player.name - 1);
-    (void)checked_text("a player's class", player.player_class, 0, sizeof player.player_class - 1);
+    (void)checked_string("a player's name", player.name, 0, sizeof player.name - 1);
+    (void)checked_string("a player's class", player.player_class, 0, sizeof player.player_class - 1);
 }
 
 bool all_finite(const dds_sequence_float& sequence) {
@@ -65,7 +65,7 @@ void require(bool condition, const char* text) {
     if (!condition) throw Failure{CDIR_INVALID_ARGUMENT, text};
 }
 
-std::string checked_text(const char* field, const char* text, std::size_t least, std::size_t most) {
+std::string checked_string(const char* field, const char* text, std::size_t least, std::size_t most) {
     if (text == nullptr) throw Failure{CDIR_INVALID_ARGUMENT, std::string(field) + " is null"};
     const std::size_t length = strnlen(text, most + 1);
     if (length < least || length > most) {
@@ -77,14 +77,14 @@ std::string checked_text(const char* field, const char* text, std::size_t least,
 }
 
 std::string checked_match_id(const char* text) {
-    std::string id = checked_text("match_id", text, 1, 63);
+    std::string id = checked_string("match_id", text, 1, 63);
     require(id.find_first_of("/*?") == std::string::npos && !has_control_character(id),
             "match_id must not contain '/', '*', '?' or control characters");
     return id;
 }
 
 std::string checked_observer_id(const char* text) {
-    std::string id = checked_text("observer_id", text, 1, 63);
+    std::string id = checked_string("observer_id", text, 1, 63);
     require(!has_control_character(id), "observer_id must not contain control characters");
     return id;
 }
@@ -94,7 +94,7 @@ void check_frame_time(std::int64_t frame_time) {
 }
 
 void check(const cdir_match_info& info, std::span<const cdir_player> players) {
-    (void)checked_text("map_name", info.map_name, 1, sizeof info.map_name - 1);
+    (void)checked_string("map_name", info.map_name, 1, sizeof info.map_name - 1);
     require(std::isfinite(info.metres_per_unit) && info.metres_per_unit > 0.0F,
             "metres_per_unit must be greater than 0");
     require(std::isfinite(info.rate_hz) && info.rate_hz > 0.0F, "rate_hz must be greater than 0");

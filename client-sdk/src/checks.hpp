@@ -16,8 +16,8 @@ namespace camdir::sdk {
 // What a caller passes in. Each throws Failure CDIR_INVALID_ARGUMENT that says what was expected.
 void require(bool condition, const char* text);
 // Reads no further than most + 1 bytes.
-[[nodiscard]] std::string checked_text(const char* field, const char* text, std::size_t least,
-                                       std::size_t most);
+[[nodiscard]] std::string checked_string(const char* field, const char* text, std::size_t least,
+                                         std::size_t most);
 [[nodiscard]] std::string checked_match_id(const char* text);
 [[nodiscard]] std::string checked_observer_id(const char* text);
 void check_frame_time(std::int64_t frame_time);

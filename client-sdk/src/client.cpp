@@ -28,7 +28,7 @@ Handles& handles() {
 }
 
 template <class T>
-std::shared_ptr<T> must_be_open(std::shared_ptr<T> found, const char* what) {
+std::shared_ptr<T> require_open(std::shared_ptr<T> found, const char* what) {
     if (!found) {
         throw Failure{CDIR_INVALID_HANDLE, std::string(what) + " is closed or was never opened"};
     }
@@ -36,18 +36,18 @@ std::shared_ptr<T> must_be_open(std::shared_ptr<T> found, const char* what) {
 }
 
 std::shared_ptr<Context> find(cdir_context context) {
-    return must_be_open(handles().contexts.find(context.id), "the context");
+    return require_open(handles().contexts.find(context.id), "the context");
 }
 std::shared_ptr<GameMatch> find(cdir_match match) {
-    return must_be_open(handles().matches.find(match.id), "the match");
+    return require_open(handles().matches.find(match.id), "the match");
 }
 std::shared_ptr<Observer> find(cdir_observer observer) {
-    return must_be_open(handles().observers.find(observer.id), "the observer");
+    return require_open(handles().observers.find(observer.id), "the observer");
 }
 
 // For a new child: a context that was closed meanwhile has closed those that it knew of.
 template <class Remove>
-void must_still_be_open(cdir_context context, const Remove& remove) {
+void require_still_open(cdir_context context, const Remove& remove) {
     if (handles().contexts.find(context.id)) return;
     remove();
     (void)find(context);  // fails
@@ -151,7 +151,7 @@ cdir_status cdir_context_open(const cdir_context_options* options, cdir_context*
 
 cdir_status cdir_context_close(cdir_context context) noexcept {
     return guarded([&] {
-        const auto closed = must_be_open(handles().contexts.remove(context.id), "the context");
+        const auto closed = require_open(handles().contexts.remove(context.id), "the context");
         close_children(*closed);
         return CDIR_OK;
     });
@@ -164,7 +164,7 @@ cdir_status cdir_match_open(cdir_context context, const cdir_match_info* info, c
         require(match != nullptr, "match is null");
         const auto span = player_span(players, player_count);
         match->id = handles().matches.insert(std::make_shared<GameMatch>(find(context), *info, span));
-        must_still_be_open(context, [&] { (void)handles().matches.remove(match->id); });
+        require_still_open(context, [&] { (void)handles().matches.remove(match->id); });
         return CDIR_OK;
     });
 }
@@ -213,7 +213,7 @@ cdir_status cdir_match_director_count(cdir_match match, uint32_t* count) noexcep
 
 cdir_status cdir_match_close(cdir_match match) noexcept {
     return guarded([&] {
-        (void)must_be_open(handles().matches.remove(match.id), "the match");
+        (void)require_open(handles().matches.remove(match.id), "the match");
         return CDIR_OK;
     });
 }
@@ -230,7 +230,7 @@ cdir_status cdir_observer_open(cdir_context context, const char* match_id, const
         require(observer != nullptr, "observer is null");
         observer->id = handles().observers.insert(std::make_shared<Observer>(
             find(context), checked_match_id(match_id), checked_observer_id(observer_id), chosen));
-        must_still_be_open(context, [&] { (void)handles().observers.remove(observer->id); });
+        require_still_open(context, [&] { (void)handles().observers.remove(observer->id); });
         return CDIR_OK;
     });
 }
@@ -282,7 +282,7 @@ cdir_status cdir_observer_next_frame(cdir_observer observer, cdir_camera_frame* 
 cdir_status cdir_observer_shot_status(cdir_observer observer, cdir_shot_status* status) noexcept {
     return guarded([&] {
         check_struct("status", status);
-        *status = find(observer)->with_view([](const MatchView& view) { return view.shot_status(); });
+        *status = find(observer)->with_match([](const ReceivedMatch& match) { return match.shot_status(); });
         return CDIR_OK;
     });
 }
@@ -291,7 +291,8 @@ cdir_status cdir_observer_newest_camera(cdir_observer observer, cdir_view* view)
     return guarded([&] {
         check_struct("view", view);
         return answer(
-            find(observer)->with_view([](const MatchView& match) { return match.track().newest(); }), view);
+            find(observer)->with_match([](const ReceivedMatch& match) { return match.track().newest(); }),
+            view);
     });
 }
 
@@ -299,9 +300,9 @@ cdir_status cdir_observer_camera_at(cdir_observer observer, int64_t frame_time, 
     return guarded([&] {
         check_struct("view", view);
         check_frame_time(frame_time);
-        return answer(
-            find(observer)->with_view([=](const MatchView& match) { return match.track().at(frame_time); }),
-            view);
+        return answer(find(observer)->with_match(
+                          [=](const ReceivedMatch& match) { return match.track().at(frame_time); }),
+                      view);
     });
 }
 
@@ -320,7 +321,7 @@ cdir_status cdir_observer_match_info(cdir_observer observer, cdir_match_info* in
     return guarded([&] {
         check_struct("info", info);
         require(capacity == 0 || players != nullptr, "players is null");
-        return find(observer)->with_view([&](const MatchView& match) {
+        return find(observer)->with_match([&](const ReceivedMatch& match) {
             if (!match.info()) return CDIR_NO_DATA;
             const auto& known = match.info()->players;
             *info = match.info()->match;
@@ -336,7 +337,7 @@ cdir_status cdir_observer_get_counters(cdir_observer observer, cdir_observer_cou
         check_struct("counters", counters);
         const auto found = find(observer);
         cdir_observer_counters counted =
-            found->with_view([](const MatchView& match) { return match.counters(); });
+            found->with_match([](const ReceivedMatch& match) { return match.counters(); });
         counted.directors = found->director_count();
         *counters = counted;
         return CDIR_OK;
@@ -345,7 +346,7 @@ cdir_status cdir_observer_get_counters(cdir_observer observer, cdir_observer_cou
 
 cdir_status cdir_observer_close(cdir_observer observer) noexcept {
     return guarded([&] {
-        must_be_open(handles().observers.remove(observer.id), "the observer")->end_waits();
+        require_open(handles().observers.remove(observer.id), "the observer")->end_waits();
         return CDIR_OK;
     });
 }

@@ -38,8 +38,8 @@ struct PlayerColumns {
         for (std::size_t i = 0; i < players.size(); ++i) {
             ids.push_back(players[i].id);
             teams.push_back(players[i].team);
-            copy_text(names[i].text, players[i].name);
-            copy_text(classes[i].text, players[i].player_class);
+            copy_string(names[i].text, players[i].name);
+            copy_string(classes[i].text, players[i].player_class);
         }
     }
 
@@ -107,7 +107,7 @@ void GameMatch::restart(const cdir_match_info& info, std::span<const cdir_player
 void GameMatch::announce(cdir_match_info& info, std::span<const cdir_player> players) {
     const PlayerColumns columns(players);
     camera_director_MatchInfo sample{};
-    copy_text(sample.match_id, match_id_.c_str());
+    copy_string(sample.match_id, match_id_.c_str());
     sample.epoch = info.epoch;
     sample.map_name = info.map_name;
     sample.map_hash = info.map_hash;
@@ -129,7 +129,7 @@ void GameMatch::publish(const cdir_pose_frame& frame) {
             "frame_time went back within the epoch: restart the match");
     const std::size_t n = frame.player_count;
     camera_director_PoseFrame sample{};
-    copy_text(sample.match_id, match_id_.c_str());
+    copy_string(sample.match_id, match_id_.c_str());
     sample.epoch = info_.epoch;
     sample.frame_number = next_frame_number_;
     sample.frame_time = frame.frame_time;
@@ -148,7 +148,7 @@ void GameMatch::publish(const cdir_match_event& event) {
     check(event);
     const std::lock_guard lock(mutex_);
     camera_director_MatchEvent sample{};
-    copy_text(sample.match_id, match_id_.c_str());
+    copy_string(sample.match_id, match_id_.c_str());
     sample.epoch = info_.epoch;
     sample.frame_time = event.frame_time;
     sample.kind = event.kind;

@@ -21,14 +21,14 @@ Entity condition_on(const Entity& reader) {
 }
 
 template <std::size_t size>
-void set_text(char (&to)[size], const char* field, const char* text) {
-    copy_text(to, checked_text(field, text == nullptr ? "" : text, 0, size - 1).c_str());
+void set_string(char (&to)[size], const char* field, const char* text) {
+    copy_string(to, checked_string(field, text == nullptr ? "" : text, 0, size - 1).c_str());
 }
 
 camera_director_ObserverRequest key_of(const std::string& match_id, const std::string& observer_id) {
     camera_director_ObserverRequest sample{};
-    copy_text(sample.match_id, match_id.c_str());
-    copy_text(sample.observer_id, observer_id.c_str());
+    copy_string(sample.match_id, match_id.c_str());
+    copy_string(sample.observer_id, observer_id.c_str());
     return sample;
 }
 
@@ -39,7 +39,7 @@ Observer::Observer(std::shared_ptr<const Context> context, const std::string& ma
     : context_(std::move(context)),
       match_id_(match_id),
       observer_id_(observer_id),
-      view_(match_id, observer_id, options.interpolation_delay) {
+      match_(match_id, observer_id, options.interpolation_delay) {
     const dds_entity_t participant = context_->participant();
     const Topics& topics = context_->topics();
     publisher_ = make_publisher(participant, match_id);
@@ -66,19 +66,19 @@ void Observer::request(const cdir_shot_request& request) {
     sample.target = request.target;
     sample.group._buffer = const_cast<std::uint32_t*>(request.group);
     sample.group._length = sample.group._maximum = request.group_count;
-    set_text(sample.profile, "profile", request.profile);
-    set_text(sample.overrides, "overrides", request.overrides);
+    set_string(sample.profile, "profile", request.profile);
+    set_string(sample.overrides, "overrides", request.overrides);
     const std::lock_guard lock(mutex_);
     check_dds("cannot write the request", dds_write(request_writer_.get(), &sample));
-    view_.set_requested(true);
+    match_.set_requested(true);
 }
 
 void Observer::withdraw() {
     const std::lock_guard lock(mutex_);
-    if (!view_.requested()) throw Failure{CDIR_CONFLICT, "there is no request to withdraw"};
+    if (!match_.requested()) throw Failure{CDIR_CONFLICT, "there is no request to withdraw"};
     const camera_director_ObserverRequest sample = key_of(match_id_, observer_id_);
     check_dds("cannot withdraw the request", dds_unregister_instance(request_writer_.get(), &sample));
-    view_.set_requested(false);
+    match_.set_requested(false);
 }
 
 cdir_status Observer::wait(std::int64_t timeout) {
@@ -116,7 +116,7 @@ void Observer::end_waits() {
 
 std::uint32_t Observer::poll() {
     const std::lock_guard lock(mutex_);
-    take_news();
+    take_info_and_status();
     std::uint32_t count = 0;
     while (take_frame()) {
         ++count;
@@ -126,7 +126,7 @@ std::uint32_t Observer::poll() {
 
 bool Observer::next_frame(cdir_camera_frame& frame, std::span<cdir_camera> cameras) {
     const std::lock_guard lock(mutex_);
-    take_news();
+    take_info_and_status();
     if (!take_frame()) return false;
     frame.camera_count = frame_sample_->camera_id._length;
     frame.epoch = frame_sample_->epoch;
@@ -145,23 +145,23 @@ bool Observer::next_frame(cdir_camera_frame& frame, std::span<cdir_camera> camer
 
 std::optional<std::int64_t> Observer::display_time() {
     const std::lock_guard lock(mutex_);
-    return view_.clock().at(steady_ns());
+    return match_.clock().at(steady_ns());
 }
 
 // The director's answer first, so that the frames after it find their camera.
-void Observer::take_news() {
+void Observer::take_info_and_status() {
     for (Taken taken; (taken = info_sample_.take(info_reader_)) != Taken::nothing;) {
         if (taken == Taken::data) {
-            view_.accept(*info_sample_);
+            match_.accept(*info_sample_);
         } else {
-            view_.match_gone();
+            match_.match_ended();
         }
     }
     for (Taken taken; (taken = status_sample_.take(status_reader_)) != Taken::nothing;) {
         if (taken == Taken::data) {
-            view_.accept(*status_sample_);
+            match_.accept(*status_sample_);
         } else if (status_sample_->observer_id == observer_id_) {
-            view_.status_gone();
+            match_.status_withdrawn();
         }
     }
 }
@@ -169,7 +169,7 @@ void Observer::take_news() {
 // The next frame that is not dropped. False when none waits.
 bool Observer::take_frame() {
     for (Taken taken; (taken = frame_sample_.take(frame_reader_)) != Taken::nothing;) {
-        if (taken == Taken::data && view_.accept(*frame_sample_, steady_ns())) return true;
+        if (taken == Taken::data && match_.accept(*frame_sample_, steady_ns())) return true;
     }
     return false;
 }

@@ -37,18 +37,18 @@ class Observer {
     // `cameras` is filled as far as it goes. False when no frame waits.
     [[nodiscard]] bool next_frame(cdir_camera_frame& frame, std::span<cdir_camera> cameras);
 
-    // Calls read(MatchView&) while no sample comes in.
+    // Calls read(ReceivedMatch&) while no sample comes in.
     template <class Read>
-    auto with_view(Read&& read) {
+    auto with_match(Read&& read) {
         const std::lock_guard lock(mutex_);
-        return read(view_);
+        return read(match_);
     }
     // See DisplayClock::at.
     [[nodiscard]] std::optional<std::int64_t> display_time();
     [[nodiscard]] std::uint32_t director_count() const;
 
   private:
-    void take_news();
+    void take_info_and_status();
     [[nodiscard]] bool take_frame();
 
     std::shared_ptr<const Context> context_;
@@ -56,7 +56,7 @@ class Observer {
     std::string observer_id_;
 
     std::mutex mutex_;
-    MatchView view_;
+    ReceivedMatch match_;
     WireSample<camera_director_MatchInfo> info_sample_{camera_director_MatchInfo_desc};
     WireSample<camera_director_ObserverStatus> status_sample_{camera_director_ObserverStatus_desc};
     WireSample<camera_director_CameraFrame> frame_sample_{camera_director_CameraFrame_desc};

@@ -14,15 +14,15 @@ cdir_player player_at(const camera_director_MatchInfo& info, std::uint32_t index
     cdir_player player{};
     player.id = info.player_id._buffer[index];
     if (info.player_team._length > 0) player.team = info.player_team._buffer[index];
-    if (info.player_name._length > 0) copy_text(player.name, info.player_name._buffer[index]);
-    if (info.player_class._length > 0) copy_text(player.player_class, info.player_class._buffer[index]);
+    if (info.player_name._length > 0) copy_string(player.name, info.player_name._buffer[index]);
+    if (info.player_class._length > 0) copy_string(player.player_class, info.player_class._buffer[index]);
     return player;
 }
 
-MatchView::Info info_from(const camera_director_MatchInfo& sample) {
-    MatchView::Info info{cdir_match_info_default(), {}};
-    copy_text(info.match.match_id, sample.match_id);
-    copy_text(info.match.map_name, sample.map_name);
+ReceivedMatch::Info info_from(const camera_director_MatchInfo& sample) {
+    ReceivedMatch::Info info{cdir_match_info_default(), {}};
+    copy_string(info.match.match_id, sample.match_id);
+    copy_string(info.match.map_name, sample.map_name);
     info.match.epoch = sample.epoch;
     info.match.map_hash = sample.map_hash;
     info.match.metres_per_unit = sample.metres_per_unit;
@@ -48,10 +48,10 @@ cdir_camera camera_at(const camera_director_CameraFrame& frame, std::uint32_t in
     return camera;
 }
 
-MatchView::MatchView(std::string match_id, std::string observer_id, std::int64_t interpolation_delay)
+ReceivedMatch::ReceivedMatch(std::string match_id, std::string observer_id, std::int64_t interpolation_delay)
     : match_id_(std::move(match_id)), observer_id_(std::move(observer_id)), clock_(interpolation_delay) {}
 
-bool MatchView::enter_epoch(std::uint64_t epoch) {
+bool ReceivedMatch::enter_epoch(std::uint64_t epoch) {
     if (epoch < epoch_) {
         ++counters_.stale_epoch;
         return false;
@@ -67,7 +67,7 @@ bool MatchView::enter_epoch(std::uint64_t epoch) {
     return true;
 }
 
-void MatchView::accept(const camera_director_MatchInfo& info) {
+void ReceivedMatch::accept(const camera_director_MatchInfo& info) {
     if (!is_valid(info, match_id_)) {
         ++counters_.invalid;
     } else if (enter_epoch(info.epoch)) {
@@ -75,7 +75,7 @@ void MatchView::accept(const camera_director_MatchInfo& info) {
     }
 }
 
-void MatchView::accept(const camera_director_ObserverStatus& status) {
+void ReceivedMatch::accept(const camera_director_ObserverStatus& status) {
     if (status.match_id != match_id_ || status.observer_id != observer_id_) return;  // another observer's
     if (!is_valid(status)) {
         ++counters_.invalid;
@@ -87,10 +87,10 @@ void MatchView::accept(const camera_director_ObserverStatus& status) {
     status_->state = status.state;
     status_->epoch = status.epoch;
     status_->camera_id = status.camera_id;
-    copy_text(status_->reason, status.reason);
+    copy_string(status_->reason, status.reason);
 }
 
-bool MatchView::accept(const camera_director_CameraFrame& frame, std::int64_t now) {
+bool ReceivedMatch::accept(const camera_director_CameraFrame& frame, std::int64_t now) {
     if (!is_valid(frame, match_id_)) {
         ++counters_.invalid;
         return false;
@@ -98,7 +98,7 @@ bool MatchView::accept(const camera_director_CameraFrame& frame, std::int64_t no
     if (!enter_epoch(frame.epoch)) return false;
     ++counters_.frames;
     if (!follows_last(frame)) track_.interrupt();
-    last_frame_ = FrameOrigin{frame.director_id, frame.frame_number};
+    last_frame_ = FrameId{frame.director_id, frame.frame_number};
     clock_.observe(frame.frame_time, now);
     if (const std::optional<cdir_camera> camera = camera_of_shot(frame)) {
         track_.add(frame.frame_time, *camera, (camera->flags & CDIR_CAMERA_CUT) == 0);
@@ -109,7 +109,7 @@ bool MatchView::accept(const camera_director_CameraFrame& frame, std::int64_t no
 }
 
 // A cut may hide in frames that are missing, or that the old director did not come to write.
-bool MatchView::follows_last(const camera_director_CameraFrame& frame) {
+bool ReceivedMatch::follows_last(const camera_director_CameraFrame& frame) {
     if (!last_frame_) return false;
     if (last_frame_->director_id != frame.director_id) {
         ++counters_.hand_overs;
@@ -121,7 +121,7 @@ bool MatchView::follows_last(const camera_director_CameraFrame& frame) {
     return missing == 0;
 }
 
-std::optional<cdir_camera> MatchView::camera_of_shot(const camera_director_CameraFrame& frame) const {
+std::optional<cdir_camera> ReceivedMatch::camera_of_shot(const camera_director_CameraFrame& frame) const {
     const bool answered =
         status_ && (status_->state == CDIR_SHOT_ACCEPTED || status_->state == CDIR_SHOT_WAITING_FOR_PLAYER);
     if (!requested_ || !answered) return std::nullopt;
@@ -132,7 +132,7 @@ std::optional<cdir_camera> MatchView::camera_of_shot(const camera_director_Camer
     return camera_at(frame, index);
 }
 
-void MatchView::set_requested(bool requested) {
+void ReceivedMatch::set_requested(bool requested) {
     requested_ = requested;
     if (!requested) {
         status_.reset();
@@ -140,7 +140,7 @@ void MatchView::set_requested(bool requested) {
     }
 }
 
-cdir_shot_status MatchView::shot_status() const {
+cdir_shot_status ReceivedMatch::shot_status() const {
     if (requested_ && status_) return *status_;
     cdir_shot_status status = cdir_shot_status_default();
     status.state = requested_ ? CDIR_SHOT_UNANSWERED : CDIR_SHOT_NOT_REQUESTED;

@@ -16,14 +16,14 @@ namespace camdir::sdk {
 
 // Each accept() checks its sample and drops it, counted, when it breaks the contract or its epoch is over. A
 // newer epoch forgets the cameras and the director's answer of the older one.
-class MatchView {
+class ReceivedMatch {
   public:
-    MatchView(std::string match_id, std::string observer_id, std::int64_t interpolation_delay);
+    ReceivedMatch(std::string match_id, std::string observer_id, std::int64_t interpolation_delay);
 
     void accept(const camera_director_MatchInfo& info);
-    void match_gone() { info_.reset(); }
+    void match_ended() { info_.reset(); }
     void accept(const camera_director_ObserverStatus& status);
-    void status_gone() { status_.reset(); }
+    void status_withdrawn() { status_.reset(); }
     // `now`: see DisplayClock. True when the frame was taken, not dropped.
     bool accept(const camera_director_CameraFrame& frame, std::int64_t now);
 
@@ -46,7 +46,7 @@ class MatchView {
     [[nodiscard]] bool follows_last(const camera_director_CameraFrame& frame);
     [[nodiscard]] std::optional<cdir_camera> camera_of_shot(const camera_director_CameraFrame& frame) const;
 
-    struct FrameOrigin {
+    struct FrameId {
         std::uint64_t director_id;
         std::uint32_t frame_number;
     };
@@ -57,7 +57,7 @@ class MatchView {
     std::uint64_t epoch_ = 0;
     std::optional<Info> info_;
     std::optional<cdir_shot_status> status_;
-    std::optional<FrameOrigin> last_frame_;  // of this epoch
+    std::optional<FrameId> last_frame_;  // of this epoch
     CameraTrack track_;
     DisplayClock clock_;
     cdir_observer_counters counters_ = cdir_observer_counters_default();

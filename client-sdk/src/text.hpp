@@ -8,7 +8,7 @@ namespace camdir::sdk {
 
 // Ends with a zero byte; what does not fit is cut.
 template <std::size_t size>
-void copy_text(char (&to)[size], const char* from) {
+void copy_string(char (&to)[size], const char* from) {
     const std::size_t length = strnlen(from, size - 1);
     std::memcpy(to, from, length);
     std::memset(to + length, 0, size - length);

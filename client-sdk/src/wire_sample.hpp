@@ -9,7 +9,7 @@
 
 namespace camdir::sdk {
 
-enum class Taken { nothing, data, gone };  // gone: the instance has no writer any more; only its key is set
+enum class Taken { nothing, data, ended };  // gone: the instance has no writer any more; only its key is set
 
 // Its sequences keep their memory, so that taking stops allocating once they are as long as they get.
 template <class Wire>
@@ -21,7 +21,7 @@ class WireSample {
     ~WireSample() { dds_sample_free(&value_, &type_, DDS_FREE_CONTENTS); }
 
     [[nodiscard]] Taken take(const Entity& reader) {
-        if (std::exchange(gone_after_, false)) return Taken::gone;
+        if (std::exchange(end_pending_, false)) return Taken::ended;
         void* buffer = &value_;
         dds_sample_info_t info{};
         while (true) {
@@ -30,10 +30,10 @@ class WireSample {
             if (count == 0) return Taken::nothing;
             const bool alive = info.instance_state == DDS_IST_ALIVE;
             if (info.valid_data) {
-                gone_after_ = !alive;
+                end_pending_ = !alive;
                 return Taken::data;
             }
-            if (!alive) return Taken::gone;
+            if (!alive) return Taken::ended;
         }
     }
 
@@ -44,7 +44,7 @@ class WireSample {
     const dds_topic_descriptor_t& type_;
     Wire value_{};
     // Of an instance that ended after its last sample DDS gives that sample only, marked with the end.
-    bool gone_after_ = false;
+    bool end_pending_ = false;
 };
 
 }  // namespace camdir::sdk

@@ -1,4 +1,4 @@
-// What crossed the border between the wire and the director, counted since the start.
+// Counts, since the start, of the samples that came from DDS and went to it.
 #pragma once
 
 #include <array>
@@ -10,23 +10,23 @@
 
 namespace camdir::dds {
 
-using Counter = std::atomic<std::uint64_t>;
+using WireCounter = std::atomic<std::uint64_t>;
 
 // Written by the gateway's threads, read by anyone at any time.
-struct Counters {
+struct WireCounters {
     struct PerTopic {
-        Counter accepted{0};                                 // handed to the director
-        std::array<Counter, defect_names.size()> dropped{};  // by Defect
+        WireCounter accepted{0};                                           // valid
+        std::array<WireCounter, validation_error_names.size()> dropped{};  // by ValidationError
     };
     std::array<PerTopic, topic_count> received{};
 
-    Counter camera_frames_written{0};
-    Counter statuses_written{0};
-    Counter statuses_withdrawn{0};
-    Counter write_failures{0};              // DDS refused or timed out: the sample is lost
-    Counter endpoint_failures{0};           // a match whose endpoints could not be created
-    Counter liveliness_withheld{0};         // ticks at which the director hung and was left to fail over
-    std::atomic<std::uint32_t> matches{0};  // present now
+    WireCounter camera_frames_written{0};
+    WireCounter statuses_written{0};
+    WireCounter statuses_withdrawn{0};
+    WireCounter write_failures{0};          // samples lost because DDS refused them or timed out
+    WireCounter endpoint_failures{0};       // matches whose endpoints could not be created
+    WireCounter liveliness_withheld{0};     // assertions omitted: the director did not respond
+    std::atomic<std::uint32_t> matches{0};  // with endpoints now
 
     [[nodiscard]] PerTopic& of(Topic topic) { return received[static_cast<std::size_t>(topic)]; }
     [[nodiscard]] const PerTopic& of(Topic topic) const { return received[static_cast<std::size_t>(topic)]; }

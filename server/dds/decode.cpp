@@ -18,11 +18,11 @@ bool finite(std::span<const float> values) {
     return std::all_of(values.begin(), values.end(), [](float value) { return std::isfinite(value); });
 }
 
-// `quaternions` holds x y z w of each, finite.
+// `quaternions`: finite, x y z w of each.
 bool unit_length(std::span<const float> quaternions) {
     for (std::size_t i = 0; i < quaternions.size(); i += 4) {
         const Eigen::Map<const Eigen::Vector4f> quaternion(&quaternions[i]);
-        // Of huge components the norm overflows to infinity, which is off as well.
+        // A norm that overflows to infinity is rejected too.
         if (!(std::abs(quaternion.norm() - 1.0F) <= unit_tolerance)) return false;
     }
     return true;
@@ -36,35 +36,35 @@ Quatf quaternion(std::span<const float> values, std::size_t index) {
     return Quatf(&values[4 * index]);
 }
 
-std::optional<Defect> check(const camera_director_PoseFrame& sample) {
+std::optional<ValidationError> check(const camera_director_PoseFrame& sample) {
     const std::size_t count = sample.player_id._length;
-    if (count > director::max_players) return Defect::too_many;
+    if (count > director::max_players) return ValidationError::too_many;
     if (sample.eye._length != 3 * count || sample.orientation._length != 4 * count ||
         (sample.velocity._length != 3 * count && sample.velocity._length != 0) ||
         sample.flags._length != count) {
-        return Defect::array_length;
+        return ValidationError::array_length;
     }
     if (!finite(elements(sample.eye)) || !finite(elements(sample.orientation)) ||
         !finite(elements(sample.velocity))) {
-        return Defect::not_finite;
+        return ValidationError::not_finite;
     }
-    if (!unit_length(elements(sample.orientation))) return Defect::not_unit;
+    if (!unit_length(elements(sample.orientation))) return ValidationError::not_unit;
     return std::nullopt;
 }
 
-std::optional<Defect> check(const camera_director_MatchInfo& sample) {
-    if (!valid_match_id(sample.match_id)) return Defect::bad_match_id;
+std::optional<ValidationError> check(const camera_director_MatchInfo& sample) {
+    if (!valid_match_id(sample.match_id)) return ValidationError::bad_match_id;
     const std::size_t count = sample.player_id._length;
-    if (count > director::max_players) return Defect::too_many;
+    if (count > director::max_players) return ValidationError::too_many;
     const auto fits = [count](std::size_t length) { return length == count || length == 0; };
     if (!fits(sample.player_name._length) || !fits(sample.player_class._length) ||
         !fits(sample.player_team._length)) {
-        return Defect::array_length;
+        return ValidationError::array_length;
     }
     const float numbers[] = {sample.metres_per_unit, sample.rate_hz, sample.spectator_delay_s};
-    if (!finite(numbers)) return Defect::not_finite;
+    if (!finite(numbers)) return ValidationError::not_finite;
     if (std::any_of(std::begin(numbers), std::end(numbers), [](float number) { return number < 0.0F; })) {
-        return Defect::out_of_range;
+        return ValidationError::out_of_range;
     }
     return std::nullopt;
 }
@@ -78,8 +78,8 @@ bool valid_match_id(std::string_view match_id) {
     });
 }
 
-std::optional<Defect> decode(const camera_director_MatchInfo& sample, director::MatchInfo& message) {
-    if (const auto defect = check(sample)) return defect;
+std::optional<ValidationError> decode(const camera_director_MatchInfo& sample, director::MatchInfo& message) {
+    if (const auto error = check(sample)) return error;
     message.match_id = sample.match_id;
     message.epoch = sample.epoch;
     message.map_name = sample.map_name != nullptr ? sample.map_name : "";
@@ -98,8 +98,8 @@ std::optional<Defect> decode(const camera_director_MatchInfo& sample, director::
     return std::nullopt;
 }
 
-std::optional<Defect> decode(const camera_director_PoseFrame& sample, director::PoseFrame& message) {
-    if (const auto defect = check(sample)) return defect;
+std::optional<ValidationError> decode(const camera_director_PoseFrame& sample, director::PoseFrame& message) {
+    if (const auto error = check(sample)) return error;
     message.epoch = sample.epoch;
     message.frame_number = sample.frame_number;
     message.frame_time = sample.frame_time;
@@ -117,8 +117,9 @@ std::optional<Defect> decode(const camera_director_PoseFrame& sample, director::
     return std::nullopt;
 }
 
-std::optional<Defect> decode(const camera_director_MatchEvent& sample, director::MatchEvent& message) {
-    if (!std::isfinite(sample.value)) return Defect::not_finite;
+std::optional<ValidationError> decode(const camera_director_MatchEvent& sample,
+                                      director::MatchEvent& message) {
+    if (!std::isfinite(sample.value)) return ValidationError::not_finite;
     message = {.epoch = sample.epoch,
                .frame_time = sample.frame_time,
                .kind = sample.kind,
@@ -128,9 +129,9 @@ std::optional<Defect> decode(const camera_director_MatchEvent& sample, director:
     return std::nullopt;
 }
 
-std::optional<Defect> decode(const camera_director_ObserverRequest& sample,
-                             director::ObserverRequest& message) {
-    if (sample.group._length > director::max_players) return Defect::too_many;
+std::optional<ValidationError> decode(const camera_director_ObserverRequest& sample,
+                                      director::ObserverRequest& message) {
+    if (sample.group._length > director::max_players) return ValidationError::too_many;
     const auto group = elements(sample.group);
     message.match_id = sample.match_id;
     message.observer_id = sample.observer_id;

@@ -9,15 +9,15 @@
 namespace camdir::dds {
 namespace {
 
-// Bounded strings of the wire are arrays with a terminating zero.
+// Bounded strings of the wire types are zero-terminated arrays.
 template <std::size_t Size>
-void copy_text(char (&to)[Size], const std::string& from) {
+void copy_string(char (&to)[Size], const std::string& from) {
     const std::size_t length = utf8_prefix(from, Size - 1);
     std::memcpy(to, from.data(), length);
     std::memset(to + length, 0, Size - length);
 }
 
-// Lets `sequence` borrow `storage`; the wire's library neither grows nor frees it.
+// Lets `sequence` use `storage`, which DDS then neither grows nor frees.
 template <class Sequence, class Value, std::size_t Size>
 void borrow(Sequence& sequence, std::array<Value, Size>& storage) {
     sequence._buffer = storage.data();
@@ -72,21 +72,21 @@ camera_director_ObserverStatus encode(const director::ObserverStatus& status) {
     sample.epoch = status.epoch;
     sample.state = static_cast<std::uint32_t>(status.state);
     sample.camera_id = status.camera_id;
-    copy_text(sample.reason, status.reason);
+    copy_string(sample.reason, status.reason);
     return sample;
 }
 
 camera_director_CameraFrame camera_frame_key(const std::string& match_id) {
     camera_director_CameraFrame sample{};
-    copy_text(sample.match_id, match_id);
+    copy_string(sample.match_id, match_id);
     return sample;
 }
 
 camera_director_ObserverStatus observer_status_key(const std::string& match_id,
                                                    const std::string& observer_id) {
     camera_director_ObserverStatus sample{};
-    copy_text(sample.match_id, match_id);
-    copy_text(sample.observer_id, observer_id);
+    copy_string(sample.match_id, match_id);
+    copy_string(sample.observer_id, observer_id);
     return sample;
 }
 

@@ -1,4 +1,4 @@
-// The director's messages become wire samples, in memory that is allocated once.
+// From the director's messages to wire samples.
 #pragma once
 
 #include <camera_director.h>
@@ -11,7 +11,7 @@
 
 namespace camdir::dds {
 
-// The CameraFrame samples of one match. One thread at a time.
+// Makes the CameraFrame samples of one match in its own memory. One thread at a time.
 class CameraFrameEncoder {
   public:
     // `match_id` has at most 63 bytes.
@@ -19,8 +19,8 @@ class CameraFrameEncoder {
     CameraFrameEncoder(const CameraFrameEncoder&) = delete;
     CameraFrameEncoder& operator=(const CameraFrameEncoder&) = delete;
 
-    // The sample points into the encoder and is valid until the next call. `write_time` is CLOCK_REALTIME
-    // in nanoseconds. Precondition: at most 256 cameras. Does not allocate.
+    // The sample points into the encoder and is valid until the next call. `write_time` is CLOCK_REALTIME in
+    // ns. Precondition: at most 256 cameras. Does not allocate.
     [[nodiscard]] const camera_director_CameraFrame& encode(const director::CameraFrame& frame,
                                                             std::int64_t write_time);
 
@@ -35,10 +35,10 @@ class CameraFrameEncoder {
     camera_director_CameraFrame sample_{};
 };
 
-// Longer texts are cut to what the wire's bounds hold, at the end of a UTF-8 character.
+// Strings are cut to the bounds of the wire type, at the end of a UTF-8 character.
 [[nodiscard]] camera_director_ObserverStatus encode(const director::ObserverStatus& status);
 
-// Samples whose key is set and whose rest is empty: for unregistering and disposing.
+// Samples with only the key set, for unregistering and disposing.
 [[nodiscard]] camera_director_CameraFrame camera_frame_key(const std::string& match_id);
 [[nodiscard]] camera_director_ObserverStatus observer_status_key(const std::string& match_id,
                                                                  const std::string& observer_id);

@@ -1,4 +1,4 @@
-// Ownership of one DDS entity, and DDS's return codes as the project's errors.
+// Owns a DDS entity; DDS's return codes as the project's errors.
 #pragma once
 
 #include <dds/dds.h>
@@ -10,8 +10,7 @@
 
 namespace camdir::dds {
 
-// Deletes the entity, and with it its children, at the end of its life. Never destroy one inside a DDS
-// callback.
+// Deletes the entity and its children on destruction. Must not be destroyed inside a DDS callback.
 class Entity {
   public:
     Entity() = default;
@@ -37,7 +36,7 @@ class Entity {
     return fail(doing + ": DDS says: " + dds_strretcode(code));
 }
 
-// What a dds_create_... call returned: the entity, or the error of `doing`.
+// For the result of a dds_create_... call: the entity, or an error that says what `doing` was.
 [[nodiscard]] inline Result<Entity> created(dds_entity_t handle, const std::string& doing) {
     if (handle < 0) return dds_failure(doing, handle);
     return Entity(handle);

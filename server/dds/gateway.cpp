@@ -9,12 +9,12 @@
 namespace camdir::dds {
 namespace {
 
-std::uint64_t drawn_id() {
+std::uint64_t random_id() {
     std::random_device random;
     return (static_cast<std::uint64_t>(random()) << 32U | random()) | 1U;
 }
 
-Reception::Terms terms_of(const config::Dds& config, std::uint64_t director_id) {
+Subscriber::Options subscriber_options(const config::Dds& config, std::uint64_t director_id) {
     return {.leadership = {.strength = static_cast<std::int32_t>(config.strength),
                            .lease = std::chrono::milliseconds(config.lease_ms)},
             .director_id = director_id,
@@ -27,14 +27,14 @@ Result<std::unique_ptr<Gateway>> Gateway::open(const config::Dds& config) {
     auto participant = Participant::open(config);
     if (!participant) return tl::unexpected(participant.error());
     std::unique_ptr<Gateway> gateway(new Gateway(std::move(*participant), config));
-    if (auto opened = gateway->reception_.open(); !opened) return tl::unexpected(opened.error());
+    if (auto opened = gateway->subscriber_.open(); !opened) return tl::unexpected(opened.error());
     return gateway;
 }
 
 Gateway::Gateway(Participant participant, const config::Dds& config)
     : participant_(std::move(participant)),
-      director_id_(config.director_id != 0 ? static_cast<std::uint64_t>(config.director_id) : drawn_id()),
-      reception_(participant_, terms_of(config, director_id_), table_, counters_) {}
+      director_id_(config.director_id != 0 ? static_cast<std::uint64_t>(config.director_id) : random_id()),
+      subscriber_(participant_, subscriber_options(config, director_id_), table_, counters_) {}
 
 Gateway::~Gateway() {
     stop_receiving();
@@ -46,8 +46,8 @@ void Gateway::close() {
     if (matches.empty()) return;
     table_.clear();
     for (const auto& match : matches)
-        match->resign();
-    // The participant's end would overtake what the readers have not acknowledged.
+        match->release_ownership();
+    // Deleting the participant now could overtake samples that the readers have not acknowledged.
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
 }
 
@@ -69,7 +69,7 @@ void Gateway::withdraw(const std::string& match_id, const std::string& observer_
     count(match->withdraw(observer_id), counters_.statuses_withdrawn, Topic::observer_status, match_id);
 }
 
-void Gateway::count(dds_return_t written, Counter& counter, Topic topic, const std::string& match_id) {
+void Gateway::count(dds_return_t written, WireCounter& counter, Topic topic, const std::string& match_id) {
     if (written >= 0) {
         ++counter;
         return;

@@ -1,4 +1,4 @@
-// The director's connection to the wire.
+// The director's connection to DDS.
 #pragma once
 
 #include <memory>
@@ -14,7 +14,7 @@
 
 namespace camdir::dds {
 
-// Finds matches, hands what comes in to a Receiver and writes what comes out:
+// Finds matches, hands what is received to an Ingress and writes what is published:
 //
 //     auto gateway = Gateway::open(config.dds);           // check for an error
 //     Director director(config, maps, **gateway);
@@ -23,41 +23,41 @@ namespace camdir::dds {
 //     (*gateway)->stop_receiving();
 //     director.drain();
 //     (*gateway)->close();
-class Gateway final : public director::Wire {
+class Gateway final : public director::Publisher {
   public:
-    // Joins the domain; nothing is received before `start`. One a process, see Participant.
+    // Joins the domain; nothing is received before start(). One per process, see Participant.
     [[nodiscard]] static Result<std::unique_ptr<Gateway>> open(const config::Dds& config);
-    ~Gateway() override;  // stops receiving and closes
+    ~Gateway() override;  // stop_receiving() and close()
 
-    // Once. `receiver` must live until stop_receiving returns. What is received comes on a thread of the
-    // gateway.
-    void start(director::Receiver& receiver) { reception_.start(receiver); }
-    // Nothing more is handed to the receiver. What is published still leaves.
-    void stop_receiving() { reception_.stop(); }
-    // Gives every match up, so that a standby takes over at once, and waits until that is on the wire. After
-    // stop_receiving; what is published afterwards is lost.
+    // To be called once. `ingress` is called from a thread of the gateway and must live until
+    // stop_receiving() returns.
+    void start(director::Ingress& ingress) { subscriber_.start(ingress); }
+    // Nothing more is handed to the ingress. Publishing still works.
+    void stop_receiving() { subscriber_.stop(); }
+    // Releases the ownership of every match, so that a standby takes over at once, and waits 100 ms for that
+    // to reach the readers. To be called after stop_receiving(); what is published afterwards is lost.
     void close();
 
-    // The Wire: see there. A sample that DDS refuses is counted and logged.
+    // See director::Publisher. Samples that DDS refuses are counted and logged.
     void publish(const std::string& match_id, const director::CameraFrame& frame) override;
     void publish(const director::ObserverStatus& status) override;
     void withdraw(const std::string& match_id, const std::string& observer_id) override;
-    void forget(const std::string& match_id) override { reception_.forget(match_id); }
+    void forget(const std::string& match_id) override { subscriber_.forget(match_id); }
 
-    // Tells this director's cameras from another's.
+    // Distinguishes this director's cameras from those of others.
     [[nodiscard]] std::uint64_t director_id() const { return director_id_; }
-    [[nodiscard]] const Counters& counters() const { return counters_; }
+    [[nodiscard]] const WireCounters& counters() const { return counters_; }
 
   private:
     Gateway(Participant participant, const config::Dds& config);
-    void count(dds_return_t written, Counter& counter, Topic topic, const std::string& match_id);
+    void count(dds_return_t written, WireCounter& counter, Topic topic, const std::string& match_id);
 
     Participant participant_;
     const std::uint64_t director_id_;
-    Counters counters_;
+    WireCounters counters_;
     LogLimit failure_log_;
     MatchTable table_;
-    Reception reception_;
+    Subscriber subscriber_;
 };
 
 }  // namespace camdir::dds

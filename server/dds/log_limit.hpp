@@ -1,4 +1,4 @@
-// Keeps a log line that outsiders can provoke from flooding the log.
+// Limits the rate of log lines that other processes can provoke.
 #pragma once
 
 #include <atomic>
@@ -8,10 +8,11 @@
 
 namespace camdir::dds {
 
-// One kind of line, at most once a second. Thread-safe.
+// One kind of line, at most one per second. Thread-safe.
 class LogLimit {
   public:
-    // Counts an occurrence. When a line is due: how many occurred since the last line, this one included.
+    // Counts an occurrence. Returns, when a line is due, the occurrences since the last line including this
+    // one.
     [[nodiscard]] std::optional<std::uint64_t> due() {
         const std::uint64_t count = ++unlogged_;
         const std::int64_t now = std::chrono::steady_clock::now().time_since_epoch().count();

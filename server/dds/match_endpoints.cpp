@@ -37,7 +37,7 @@ Result<void> MatchEndpoints::open_readers(const Participant& participant) {
     for (const auto& [topic, reader] :
          {std::pair{Topic::pose_frame, &pose_reader_}, std::pair{Topic::match_event, &event_reader_},
           std::pair{Topic::observer_request, &request_reader_},
-          std::pair{Topic::observer_status, &rival_reader_}}) {
+          std::pair{Topic::observer_status, &peer_status_reader_}}) {
         *reader = dds_create_reader(subscriber_.handle(), participant.topic(topic), reader_qos(topic).get(),
                                     nullptr);
         if (*reader < 0) {
@@ -67,7 +67,7 @@ Result<void> MatchEndpoints::open_writers(const Participant& participant, const 
 }
 
 dds_return_t MatchEndpoints::write(const director::CameraFrame& frame) {
-    wrote_ = true;
+    wrote_frame_ = true;
     return dds_write(camera_writer_, &encoder_.encode(frame, now_realtime()));
 }
 
@@ -86,27 +86,27 @@ dds_return_t MatchEndpoints::withdraw(const std::string& observer_id) {
     return dds_unregister_instance(status_writer_, &key);
 }
 
-bool MatchEndpoints::lost_rival() {
+bool MatchEndpoints::peer_left() {
     dds_subscription_matched_status_t status{};
-    if (dds_get_subscription_matched_status(rival_reader_, &status) != DDS_RETCODE_OK) return false;
-    // One that came and one that went leave current_count as it was.
+    if (dds_get_subscription_matched_status(peer_status_reader_, &status) != DDS_RETCODE_OK) return false;
+    // total_count_change counts arrivals, current_count_change arrivals less departures.
     return status.current_count_change < static_cast<std::int32_t>(status.total_count_change);
 }
 
-void MatchEndpoints::repeat_statuses() {
+void MatchEndpoints::republish_statuses() {
     const std::lock_guard lock(statuses_mutex_);
     for (const auto& [observer_id, sample] : statuses_)
         dds_write(status_writer_, &sample);
 }
 
 void MatchEndpoints::assert_liveliness() {
-    if (!wrote_.exchange(false)) dds_assert_liveliness(camera_writer_);
+    if (!wrote_frame_.exchange(false)) dds_assert_liveliness(camera_writer_);
 }
 
-void MatchEndpoints::resign() {
+void MatchEndpoints::release_ownership() {
     const camera_director_CameraFrame key = camera_frame_key(match_id_);
     dds_unregister_instance(camera_writer_, &key);
-    // Its end is told to the readers, which unregisters every status.
+    // Deleting the writer unregisters every status at the readers.
     dds_delete(status_writer_);
 }
 

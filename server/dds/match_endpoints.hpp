@@ -1,4 +1,4 @@
-// What the director reads and writes in one match's partition.
+// The readers and writers in one match's partition.
 #pragma once
 
 #include <atomic>
@@ -25,25 +25,25 @@ class MatchEndpoints {
     [[nodiscard]] dds_entity_t pose_reader() const { return pose_reader_; }
     [[nodiscard]] dds_entity_t event_reader() const { return event_reader_; }
     [[nodiscard]] dds_entity_t request_reader() const { return request_reader_; }
-    // Reads other directors' statuses, so that their end is noticed.
-    [[nodiscard]] dds_entity_t rival_reader() const { return rival_reader_; }
+    // Reads the statuses of peer directors, only to notice when a peer leaves.
+    [[nodiscard]] dds_entity_t peer_status_reader() const { return peer_status_reader_; }
 
-    // Written by one thread at a time, which may be another than the readers'. They return DDS's error.
+    // One writing thread at a time, which may differ from the reading one. They return DDS's return code.
     [[nodiscard]] dds_return_t write(const director::CameraFrame& frame);
     [[nodiscard]] dds_return_t write(const director::ObserverStatus& status);
-    // The observer's status ends for everybody.
+    // Disposes the observer's status.
     [[nodiscard]] dds_return_t withdraw(const std::string& observer_id);
 
-    // Another director of the match has gone since the call before. One thread at a time.
-    [[nodiscard]] bool lost_rival();
-    // Writes the newest status of every observer again: readers have dropped what a standby wrote while its
-    // leader lived. Thread-safe.
-    void repeat_statuses();
+    // True when a peer director of the match has left since the last call. One thread at a time.
+    [[nodiscard]] bool peer_left();
+    // Writes the newest status of every observer again: readers drop what a standby writes while its leader
+    // is alive. Thread-safe.
+    void republish_statuses();
 
-    // "I am alive" when no camera was written since the call before. Thread-safe.
+    // Asserts the camera writer's liveliness unless a frame was written since the last call. Thread-safe.
     void assert_liveliness();
-    // Gives the match up: observers hear the next director, if there is one. Thread-safe.
-    void resign();
+    // Releases the ownership of the match: observers receive the next director, if there is one. Thread-safe.
+    void release_ownership();
 
   private:
     MatchEndpoints(std::string match_id, std::uint64_t director_id)
@@ -53,13 +53,13 @@ class MatchEndpoints {
 
     std::string match_id_;
     CameraFrameEncoder encoder_;
-    std::atomic<bool> wrote_{false};  // a camera frame, since the last assertion of liveliness
-    Entity subscriber_;               // owns the readers
-    Entity publisher_;                // owns the writers
+    std::atomic<bool> wrote_frame_{false};  // since the last assert_liveliness()
+    Entity subscriber_;                     // owns the readers
+    Entity publisher_;                      // owns the writers
     dds_entity_t pose_reader_ = 0;
     dds_entity_t event_reader_ = 0;
     dds_entity_t request_reader_ = 0;
-    dds_entity_t rival_reader_ = 0;
+    dds_entity_t peer_status_reader_ = 0;
     dds_entity_t camera_writer_ = 0;
     dds_entity_t status_writer_ = 0;
     std::mutex statuses_mutex_;

@@ -1,4 +1,4 @@
-// The matches that can be written to, by id.
+// The endpoints of all matches, by match id.
 #pragma once
 
 #include <memory>
@@ -12,7 +12,7 @@
 
 namespace camdir::dds {
 
-// Thread-safe. Endpoints that were removed live on until their last user lets go of them.
+// Thread-safe. Removed endpoints live until their last user releases them.
 class MatchTable {
   public:
     using Endpoints = std::shared_ptr<MatchEndpoints>;

@@ -48,7 +48,7 @@ std::string general(const config::Dds& config) {
                        "<NetworkInterface " + attribute + "=\"" + escaped(config.interface) + "\"/>");
     }
     xml += element("AllowMulticast", config.multicast ? "true" : "false");
-    // A match's frame leaves in one datagram.
+    // A camera frame fits into one datagram.
     xml += element("MaxMessageSize", "65500B");
     return element("General", xml);
 }
@@ -66,7 +66,8 @@ std::string discovery(const config::Dds& config) {
     return element("Discovery", xml);
 }
 
-// Hundreds of clients announce themselves at once; no sample of the contract comes near a megabyte.
+// A large receive buffer, because hundreds of clients can announce themselves at once; a limit on samples, of
+// which none comes near 1 MB.
 std::string internals() {
     return element("Internal", "<SocketReceiveBufferSize max=\"4MB\"/>" + element("MaxSampleSize", "1MB"));
 }

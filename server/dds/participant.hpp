@@ -1,4 +1,4 @@
-// This process's presence in a DDS domain: the network configuration and the topics.
+// This process's DDS participant: network configuration and topics.
 #pragma once
 
 #include <array>
@@ -11,14 +11,14 @@
 
 namespace camdir::dds {
 
-// The Cyclone DDS configuration for `config`: its `xml` where that is set, else made from the other keys.
+// The Cyclone DDS configuration: config.xml if set, otherwise made from the other keys.
 [[nodiscard]] std::string domain_xml(const config::Dds& config);
 
-// One a process: its end ends all of DDS in the process, because Cyclone's threads must not outlive main.
-// Open it before anything that uses many file descriptors: Cyclone cannot use those from 1024 on.
+// One per process: its destructor shuts down all of DDS in the process, because Cyclone's threads must not
+// outlive main. Open it before anything that uses many file descriptors: Cyclone cannot use 1024 and above.
 class Participant {
   public:
-    // Joins the domain. The environment's Cyclone configuration is not looked at.
+    // Joins the domain. CYCLONEDDS_URI is ignored.
     [[nodiscard]] static Result<Participant> open(const config::Dds& config);
     Participant(Participant&& other) noexcept;
     Participant& operator=(Participant&&) = delete;

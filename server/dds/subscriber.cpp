@@ -12,13 +12,13 @@
 namespace camdir::dds {
 namespace {
 
-constexpr std::size_t samples_a_take = 32;
+constexpr std::size_t samples_per_take = 32;
 
-// Every observer notices the end of a director by itself, by the lease of its participant (10 s).
-constexpr std::chrono::seconds repeat_interval{2};
-constexpr std::chrono::seconds repeat_span{30};
+// Observers notice on their own, by the lease of its participant (10 s), that a director has gone.
+constexpr std::chrono::seconds republish_interval{2};
+constexpr std::chrono::seconds republish_span{30};
 
-// Tags of the waitset that are no Source.
+// Tags in the waitset that are not a Source.
 const char guard_tag = 0;
 const char match_info_tag = 0;
 
@@ -28,22 +28,23 @@ dds_attach_t attachment(const void* tag) {
 
 }  // namespace
 
-Reception::Reception(const Participant& participant, Terms terms, MatchTable& table, Counters& counters)
+Subscriber::Subscriber(const Participant& participant, Options options, MatchTable& table,
+                       WireCounters& counters)
     : participant_(participant),
-      terms_(std::move(terms)),
+      options_(std::move(options)),
       table_(table),
       counters_(counters),
-      match_info_samples_(topic_type(Topic::match_info), samples_a_take),
-      pose_samples_(topic_type(Topic::pose_frame), samples_a_take),
-      event_samples_(topic_type(Topic::match_event), samples_a_take),
-      request_samples_(topic_type(Topic::observer_request), samples_a_take),
-      status_samples_(topic_type(Topic::observer_status), samples_a_take) {}
+      match_info_samples_(topic_type(Topic::match_info), samples_per_take),
+      pose_samples_(topic_type(Topic::pose_frame), samples_per_take),
+      event_samples_(topic_type(Topic::match_event), samples_per_take),
+      request_samples_(topic_type(Topic::observer_request), samples_per_take),
+      status_samples_(topic_type(Topic::observer_status), samples_per_take) {}
 
-Reception::~Reception() {
+Subscriber::~Subscriber() {
     stop();
 }
 
-Result<void> Reception::open() {
+Result<void> Subscriber::open() {
     auto waitset = created(dds_create_waitset(participant_.handle()), "creating the waitset");
     if (!waitset) return tl::unexpected(waitset.error());
     waitset_ = std::move(*waitset);
@@ -56,19 +57,20 @@ Result<void> Reception::open() {
     }
     triggered_.resize(2);
 
-    auto subscriber =
-        created(dds_create_subscriber(participant_.handle(), partition_qos(terms_.partitions).get(), nullptr),
-                "creating the subscriber of MatchInfo");
+    auto subscriber = created(
+        dds_create_subscriber(participant_.handle(), partition_qos(options_.partitions).get(), nullptr),
+        "creating the subscriber of MatchInfo");
     if (!subscriber) return tl::unexpected(subscriber.error());
-    subscriber_ = std::move(*subscriber);
-    match_info_reader_ = dds_create_reader(subscriber_.handle(), participant_.topic(Topic::match_info),
-                                           reader_qos(Topic::match_info).get(), nullptr);
+    match_info_subscriber_ = std::move(*subscriber);
+    match_info_reader_ =
+        dds_create_reader(match_info_subscriber_.handle(), participant_.topic(Topic::match_info),
+                          reader_qos(Topic::match_info).get(), nullptr);
     if (match_info_reader_ < 0) return dds_failure("creating the reader of MatchInfo", match_info_reader_);
     return watch(match_info_reader_, &match_info_tag);
 }
 
-// The condition lives and is detached with the reader.
-Result<void> Reception::watch(dds_entity_t reader, const void* tag) {
+// The condition is deleted and detached with its reader.
+Result<void> Subscriber::watch(dds_entity_t reader, const void* tag) {
     const dds_entity_t condition = dds_create_readcondition(reader, DDS_ANY_STATE);
     if (condition < 0) return dds_failure("creating a read condition", condition);
     const dds_return_t attached = dds_waitset_attach(waitset_.handle(), condition, attachment(tag));
@@ -76,13 +78,13 @@ Result<void> Reception::watch(dds_entity_t reader, const void* tag) {
     return {};
 }
 
-void Reception::start(director::Receiver& receiver) {
+void Subscriber::start(director::Ingress& ingress) {
     assert(!thread_.joinable());
-    receiver_ = &receiver;
+    ingress_ = &ingress;
     thread_ = std::thread([this] { run(); });
 }
 
-void Reception::stop() {
+void Subscriber::stop() {
     if (!thread_.joinable()) return;
     stopping_ = true;
     dds_set_guardcondition(guard_.handle(), true);
@@ -90,7 +92,7 @@ void Reception::stop() {
     matches_.clear();
 }
 
-void Reception::forget(const std::string& match_id) {
+void Subscriber::forget(const std::string& match_id) {
     {
         const std::lock_guard lock(forgotten_mutex_);
         forgotten_.push_back(match_id);
@@ -98,11 +100,11 @@ void Reception::forget(const std::string& match_id) {
     dds_set_guardcondition(guard_.handle(), true);
 }
 
-void Reception::run() noexcept {
-    // Three chances within a lease.
-    const std::chrono::nanoseconds interval = std::chrono::nanoseconds(terms_.leadership.lease) / 4;
+void Subscriber::run() noexcept {
+    // Four assertions per lease: some may come late.
+    const std::chrono::nanoseconds interval = std::chrono::nanoseconds(options_.leadership.lease) / 4;
     Clock::time_point next_assertion = Clock::now();
-    Clock::time_point next_repetition = Clock::now();
+    Clock::time_point next_republication = Clock::now();
     while (!stopping_) {
         const std::chrono::nanoseconds patience =
             std::max(std::chrono::nanoseconds(next_assertion - Clock::now()), std::chrono::nanoseconds(0));
@@ -114,14 +116,14 @@ void Reception::run() noexcept {
             assert_liveliness();
             next_assertion = Clock::now() + interval;
         }
-        if (Clock::now() >= next_repetition) {
-            repeat_statuses(Clock::now());
-            next_repetition = Clock::now() + repeat_interval;
+        if (Clock::now() >= next_republication) {
+            republish_statuses(Clock::now());
+            next_republication = Clock::now() + republish_interval;
         }
     }
 }
 
-void Reception::take_triggered(std::size_t count) {
+void Subscriber::take_triggered(std::size_t count) {
     bool match_infos = false;
     for (std::size_t i = 0; i < std::min(count, triggered_.size()); ++i) {
         const dds_attach_t tag = triggered_[i];
@@ -134,12 +136,12 @@ void Reception::take_triggered(std::size_t count) {
             (this->*source.take)(*source.match);
         }
     }
-    // Last, because it may end matches that are named above.
+    // Last, because it may remove matches whose sources are reported above.
     if (match_infos) take_match_infos();
 }
 
-void Reception::assert_liveliness() {
-    if (!receiver_->responsive(terms_.leadership.lease)) {
+void Subscriber::assert_liveliness() {
+    if (!ingress_->responsive(options_.leadership.lease)) {
         ++counters_.liveliness_withheld;
         return;
     }
@@ -147,42 +149,42 @@ void Reception::assert_liveliness() {
         match->endpoints->assert_liveliness();
 }
 
-void Reception::repeat_statuses(Clock::time_point now) {
+void Subscriber::republish_statuses(Clock::time_point now) {
     for (const auto& [id, match] : matches_) {
-        if (match->endpoints->lost_rival()) match->repeat_until = now + repeat_span;
-        if (now < match->repeat_until) match->endpoints->repeat_statuses();
+        if (match->endpoints->peer_left()) match->republish_until = now + republish_span;
+        if (now < match->republish_until) match->endpoints->republish_statuses();
     }
 }
 
-void Reception::drop(Topic topic, Defect defect, const std::string& match_id) {
-    const auto reason = static_cast<std::size_t>(defect);
+void Subscriber::drop(Topic topic, ValidationError error, const std::string& match_id) {
+    const auto reason = static_cast<std::size_t>(error);
     ++counters_.of(topic).dropped[reason];
     if (const auto count = drop_logs_[static_cast<std::size_t>(topic)][reason].due()) {
         spdlog::warn("{} of match '{}' dropped: {} ({} since the last such line)", topic_name(topic),
-                     match_id, defect_names[reason], *count);
+                     match_id, validation_error_names[reason], *count);
     }
 }
 
-void Reception::take_match_infos() {
+void Subscriber::take_match_infos() {
     match_info_samples_.take(match_info_reader_, [this](const auto& sample, const auto& info) {
         if (info.instance_state != DDS_ALIVE_INSTANCE_STATE) {
-            match_lost(sample.match_id, info);
+            match_info_lost(sample.match_id, info);
         } else if (info.valid_data) {
-            match_found(sample, info);
+            match_info_found(sample, info);
         }
     });
 }
 
-void Reception::match_found(const camera_director_MatchInfo& sample, const dds_sample_info_t& info) {
+void Subscriber::match_info_found(const camera_director_MatchInfo& sample, const dds_sample_info_t& info) {
     director::MatchInfo message;
-    if (const auto defect = decode(sample, message)) {
-        return drop(Topic::match_info, *defect, sample.match_id);
+    if (const auto error = decode(sample, message)) {
+        return drop(Topic::match_info, *error, sample.match_id);
     }
     if (!written_in(info, match_partition(message.match_id))) {
-        return drop(Topic::match_info, Defect::wrong_partition, sample.match_id);
+        return drop(Topic::match_info, ValidationError::wrong_partition, sample.match_id);
     }
     ++counters_.of(Topic::match_info).accepted;
-    if (!receiver_->receive(message)) return;  // the director counts and tells it
+    if (!ingress_->receive(message)) return;  // the director counts and logs it
 
     const auto known = matches_.find(message.match_id);
     if (known != matches_.end()) {
@@ -191,69 +193,71 @@ void Reception::match_found(const camera_director_MatchInfo& sample, const dds_s
         match.server = info.publication_handle;
         match.has_server = true;
         match.forgotten = false;
-        keep(match.info.match_id);
+        cancel_forget(match.info.match_id);
     } else if (const auto added = add_match(message); added) {
         matches_[message.match_id]->server = info.publication_handle;
     } else {
         ++counters_.endpoint_failures;
         spdlog::error("match '{}' cannot be served: {}", message.match_id, added.error().message);
         remove_match(message.match_id);
-        receiver_->match_over(message.match_id);
+        ingress_->match_ended(message.match_id);
     }
 }
 
-// The director knows it again: what it forgot before must not take it away.
-void Reception::keep(const std::string& match_id) {
+// The director knows the match again: an earlier forget() must not remove it.
+void Subscriber::cancel_forget(const std::string& match_id) {
     const std::lock_guard lock(forgotten_mutex_);
     std::erase(forgotten_, match_id);
 }
 
-Result<void> Reception::add_match(const director::MatchInfo& info) {
-    auto endpoints = MatchEndpoints::open(participant_, info.match_id, terms_.leadership, terms_.director_id);
+Result<void> Subscriber::add_match(const director::MatchInfo& info) {
+    auto endpoints =
+        MatchEndpoints::open(participant_, info.match_id, options_.leadership, options_.director_id);
     if (!endpoints) return tl::unexpected(endpoints.error());
     auto& match = matches_[info.match_id];
     match = std::make_unique<Match>();
     match->info = info;
     match->endpoints = std::move(*endpoints);
-    match->poses = {match.get(), &Reception::take_poses};
-    match->events = {match.get(), &Reception::take_events};
-    match->requests = {match.get(), &Reception::take_requests};
-    match->rivals = {match.get(), &Reception::discard_rivals_statuses};
+    match->poses = {match.get(), &Subscriber::take_poses};
+    match->events = {match.get(), &Subscriber::take_events};
+    match->requests = {match.get(), &Subscriber::take_requests};
+    match->peer_statuses = {match.get(), &Subscriber::discard_peer_statuses};
     table_.add(match->endpoints);
     counters_.matches = static_cast<std::uint32_t>(matches_.size());
-    // A match that is half watched is removed by the caller.
-    for (const auto& [reader, source] : {std::pair{match->endpoints->pose_reader(), &match->poses},
-                                         std::pair{match->endpoints->event_reader(), &match->events},
-                                         std::pair{match->endpoints->request_reader(), &match->requests},
-                                         std::pair{match->endpoints->rival_reader(), &match->rivals}}) {
+    // On failure the caller removes the match.
+    for (const auto& [reader, source] :
+         {std::pair{match->endpoints->pose_reader(), &match->poses},
+          std::pair{match->endpoints->event_reader(), &match->events},
+          std::pair{match->endpoints->request_reader(), &match->requests},
+          std::pair{match->endpoints->peer_status_reader(), &match->peer_statuses}}) {
         if (auto watched = watch(reader, source); !watched) return watched;
     }
     triggered_.resize(2 + 4 * matches_.size());
     return {};
 }
 
-void Reception::remove_match(const std::string& match_id) {
+void Subscriber::remove_match(const std::string& match_id) {
     table_.remove(match_id);
     matches_.erase(match_id);
     counters_.matches = static_cast<std::uint32_t>(matches_.size());
 }
 
-void Reception::match_lost(const std::string& match_id, const dds_sample_info_t& info) {
+void Subscriber::match_info_lost(const std::string& match_id, const dds_sample_info_t& info) {
     const auto known = matches_.find(match_id);
     if (known == matches_.end()) return;
     Match& match = *known->second;
     const bool over = info.instance_state == DDS_NOT_ALIVE_DISPOSED_INSTANCE_STATE;
-    if (over && info.publication_handle != match.server) return;  // a stranger's word
+    if (over && info.publication_handle != match.server) return;  // not its game server
     match.has_server = false;
     if (match.forgotten) return remove_match(match_id);
     if (over) {
-        receiver_->match_over(match_id);
+        ingress_->match_ended(match_id);
     } else {
-        receiver_->match_silent(match_id);
+        ingress_->server_lost(match_id);
     }
 }
 
-void Reception::remove_forgotten() {
+void Subscriber::remove_forgotten() {
     std::vector<std::string> forgotten;
     {
         const std::lock_guard lock(forgotten_mutex_);
@@ -271,17 +275,17 @@ void Reception::remove_forgotten() {
     }
 }
 
-// Introduces a match again that the director has forgotten. False: it was refused.
-bool Reception::known_again(Match& match) {
-    if (match.forgotten) match.forgotten = !receiver_->receive(match.info);
+// Announces a match again that the director has forgotten. Returns false when it was refused.
+bool Subscriber::reintroduce(Match& match) {
+    if (match.forgotten) match.forgotten = !ingress_->receive(match.info);
     return !match.forgotten;
 }
 
-bool Reception::written_in(const dds_sample_info_t& info, const std::string& partition) const {
+bool Subscriber::written_in(const dds_sample_info_t& info, const std::string& partition) const {
     using Endpoint = std::unique_ptr<dds_builtintopic_endpoint_t, decltype(&dds_builtintopic_free_endpoint)>;
     const Endpoint writer(dds_get_matched_publication_data(match_info_reader_, info.publication_handle),
                           dds_builtintopic_free_endpoint);
-    if (!writer) return false;  // it has left
+    if (!writer) return false;  // the writer has left
     std::uint32_t count = 0;
     char** names = nullptr;
     if (!dds_qget_partition(writer->qos, &count, &names)) return false;
@@ -294,48 +298,48 @@ bool Reception::written_in(const dds_sample_info_t& info, const std::string& par
 }
 
 template <class Sample, class Message>
-bool Reception::accept(Match& match, Topic topic, const Sample& sample, Message& message) {
+bool Subscriber::accept(Match& match, Topic topic, const Sample& sample, Message& message) {
     const std::string& match_id = match.info.match_id;
     if (sample.match_id != match_id) {
-        drop(topic, Defect::wrong_partition, match_id);
+        drop(topic, ValidationError::wrong_partition, match_id);
         return false;
     }
-    if (const auto defect = decode(sample, message)) {
-        drop(topic, *defect, match_id);
+    if (const auto error = decode(sample, message)) {
+        drop(topic, *error, match_id);
         return false;
     }
     ++counters_.of(topic).accepted;
-    return known_again(match);
+    return reintroduce(match);
 }
 
-void Reception::take_poses(Match& match) {
+void Subscriber::take_poses(Match& match) {
     pose_samples_.take(match.endpoints->pose_reader(), [&](const auto& sample, const auto& info) {
         if (info.valid_data && accept(match, Topic::pose_frame, sample, pose_frame_))
-            receiver_->receive(match.info.match_id, pose_frame_);
+            ingress_->receive(match.info.match_id, pose_frame_);
     });
 }
 
-void Reception::take_events(Match& match) {
+void Subscriber::take_events(Match& match) {
     event_samples_.take(match.endpoints->event_reader(), [&](const auto& sample, const auto& info) {
         if (info.valid_data && accept(match, Topic::match_event, sample, match_event_))
-            receiver_->receive(match.info.match_id, match_event_);
+            ingress_->receive(match.info.match_id, match_event_);
     });
 }
 
-void Reception::take_requests(Match& match) {
+void Subscriber::take_requests(Match& match) {
     request_samples_.take(match.endpoints->request_reader(), [&](const auto& sample, const auto& info) {
         const std::string& match_id = match.info.match_id;
         if (info.instance_state != DDS_ALIVE_INSTANCE_STATE) {
-            if (sample.match_id == match_id) receiver_->request_gone(match_id, sample.observer_id);
+            if (sample.match_id == match_id) ingress_->request_ended(match_id, sample.observer_id);
         } else if (info.valid_data && accept(match, Topic::observer_request, sample, observer_request_)) {
-            receiver_->receive(observer_request_);
-            keep(match_id);
+            ingress_->receive(observer_request_);
+            cancel_forget(match_id);
         }
     });
 }
 
-void Reception::discard_rivals_statuses(Match& match) {
-    status_samples_.take(match.endpoints->rival_reader(),
+void Subscriber::discard_peer_statuses(Match& match) {
+    status_samples_.take(match.endpoints->peer_status_reader(),
                          [](const auto& /*sample*/, const auto& /*info*/) {});
 }
 

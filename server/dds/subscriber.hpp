@@ -1,4 +1,4 @@
-// The receiving half of the gateway: one thread that waits for samples, checks them and hands them on.
+// The receiving half of the gateway: one thread that takes samples, validates them and hands them on.
 #pragma once
 
 #include <array>
@@ -21,27 +21,27 @@
 
 namespace camdir::dds {
 
-// A match is found by its MatchInfo in the configured partitions. From then on its partition is read, until
-// the director has forgotten it and its game server is gone. The thread also asserts the liveliness of the
-// camera writers while the receiver is responsive, and repeats a match's statuses when another director has
-// gone.
-class Reception {
+// Finds matches by their MatchInfo in the configured partitions. A match's partition is read until the
+// director has forgotten the match and its game server is gone. The thread also asserts the liveliness of the
+// camera writers while the ingress is responsive, and republishes a match's statuses after a peer director
+// has left.
+class Subscriber {
   public:
-    struct Terms {
+    struct Options {
         Leadership leadership;
         std::uint64_t director_id = 0;
         std::vector<std::string> partitions;
     };
 
-    // The references must outlive it.
-    Reception(const Participant& participant, Terms terms, MatchTable& table, Counters& counters);
-    ~Reception();  // stops
+    // The references must outlive the subscriber.
+    Subscriber(const Participant& participant, Options options, MatchTable& table, WireCounters& counters);
+    ~Subscriber();  // stops
 
-    // Once.
+    // To be called once.
     [[nodiscard]] Result<void> open();
-    // Once, after open. `receiver` must live until `stop` returns.
-    void start(director::Receiver& receiver);
-    // Nothing more is handed on, liveliness is asserted no more.
+    // To be called once, after open(). `ingress` must live until stop() returns.
+    void start(director::Ingress& ingress);
+    // Ends handing on samples and asserting liveliness.
     void stop();
     // The director has forgotten the match. Thread-safe, returns at once.
     void forget(const std::string& match_id);
@@ -49,55 +49,56 @@ class Reception {
   private:
     using Clock = std::chrono::steady_clock;
     struct Match;
-    // What the waitset names when a reader has samples.
+    // What the waitset reports when a reader has samples.
     struct Source {
         Match* match;
-        void (Reception::*take)(Match&);
+        void (Subscriber::*take)(Match&);
     };
     struct Match {
         director::MatchInfo info;
         MatchTable::Endpoints endpoints;
         dds_instance_handle_t server = 0;  // the writer of its MatchInfo
-        bool has_server = true;            // which is alive
-        bool forgotten = false;            // by the director; it is told again when something comes
-        Source poses, events, requests, rivals;
-        Clock::time_point repeat_until{};  // its statuses are repeated until then
+        bool has_server = true;            // that writer is alive
+        bool forgotten = false;            // by the director; reintroduced when a sample arrives
+        Source poses, events, requests, peer_statuses;
+        Clock::time_point republish_until{};
     };
 
     [[nodiscard]] Result<void> watch(dds_entity_t reader, const void* tag);
     void run() noexcept;
     void take_triggered(std::size_t count);
     void assert_liveliness();
-    void repeat_statuses(Clock::time_point now);
+    void republish_statuses(Clock::time_point now);
 
     // Counts the sample and logs each reason at most once a second.
-    void drop(Topic topic, Defect defect, const std::string& match_id);
+    void drop(Topic topic, ValidationError error, const std::string& match_id);
     void take_match_infos();
-    // Checks a sample of the match and decodes it. False: it is dropped, counted, or the match was refused.
+    // Validates and decodes a sample of the match. Returns false when the sample was dropped and counted, or
+    // the match was refused.
     template <class Sample, class Message>
     [[nodiscard]] bool accept(Match& match, Topic topic, const Sample& sample, Message& message);
     void take_poses(Match& match);
     void take_events(Match& match);
     void take_requests(Match& match);
-    void discard_rivals_statuses(Match& match);
+    void discard_peer_statuses(Match& match);
 
-    void match_found(const camera_director_MatchInfo& sample, const dds_sample_info_t& info);
-    void match_lost(const std::string& match_id, const dds_sample_info_t& info);
+    void match_info_found(const camera_director_MatchInfo& sample, const dds_sample_info_t& info);
+    void match_info_lost(const std::string& match_id, const dds_sample_info_t& info);
     [[nodiscard]] Result<void> add_match(const director::MatchInfo& info);
     void remove_match(const std::string& match_id);
     void remove_forgotten();
-    void keep(const std::string& match_id);
-    [[nodiscard]] bool known_again(Match& match);
+    void cancel_forget(const std::string& match_id);
+    [[nodiscard]] bool reintroduce(Match& match);
     [[nodiscard]] bool written_in(const dds_sample_info_t& info, const std::string& partition) const;
 
     const Participant& participant_;
-    const Terms terms_;
+    const Options options_;
     MatchTable& table_;
-    Counters& counters_;
-    std::array<std::array<LogLimit, defect_names.size()>, topic_count> drop_logs_{};
-    director::Receiver* receiver_ = nullptr;
+    WireCounters& counters_;
+    std::array<std::array<LogLimit, validation_error_names.size()>, topic_count> drop_logs_{};
+    director::Ingress* ingress_ = nullptr;
 
-    Entity subscriber_;  // of MatchInfo
+    Entity match_info_subscriber_;
     dds_entity_t match_info_reader_ = 0;
     Entity waitset_;
     Entity guard_;
@@ -106,7 +107,7 @@ class Reception {
     std::vector<std::string> forgotten_;
     std::thread thread_;
 
-    // From here on the thread's own.
+    // Used by the thread only.
     std::unordered_map<std::string, std::unique_ptr<Match>> matches_;
     std::vector<dds_attach_t> triggered_;
     TakeBuffer<camera_director_MatchInfo> match_info_samples_;

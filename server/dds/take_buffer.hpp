@@ -1,4 +1,4 @@
-// Takes samples out of a reader into memory that is reused.
+// Takes samples out of a reader into reused memory.
 #pragma once
 
 #include <dds/dds.h>
@@ -8,8 +8,8 @@
 
 namespace camdir::dds {
 
-// Sample is the C type that idlc made for the topic. The sequences inside the samples keep their memory from
-// take to take, so that taking does not allocate once they have grown. One thread at a time.
+// Sample is the C type that idlc generated for the topic. The sequences in the samples keep their memory, so
+// that taking does not allocate once they have grown. One thread at a time.
 template <class Sample>
 class TakeBuffer {
   public:
@@ -25,8 +25,9 @@ class TakeBuffer {
             dds_sample_free(&sample, &type_, DDS_FREE_CONTENTS);
     }
 
-    // Takes at most `capacity` samples and calls visit(const Sample&, const dds_sample_info_t&) for each in
-    // order. What is left keeps the reader's condition triggered. Returns the number taken or DDS's error.
+    // Takes at most `capacity` samples and calls visit(const Sample&, const dds_sample_info_t&) for each, in
+    // order. Samples left over keep the reader's condition triggered. Returns the number taken or DDS's
+    // error.
     template <class Visit>
     dds_return_t take(dds_entity_t reader, Visit visit) {
         const dds_return_t count = dds_take(reader, pointers_.data(), infos_.data(), samples_.size(),
@@ -38,7 +39,7 @@ class TakeBuffer {
 
   private:
     const dds_topic_descriptor_t& type_;
-    std::vector<Sample> samples_;  // value-initialised: all zero, as DDS expects
+    std::vector<Sample> samples_;  // all zero at first, as DDS requires
     std::vector<dds_sample_info_t> infos_;
     std::vector<void*> pointers_;
 };

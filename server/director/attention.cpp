@@ -8,10 +8,10 @@
 namespace camdir::director {
 namespace {
 
-constexpr double seconds_of_a_death = 1.5;
-constexpr double smallest_score = 1e-3;
+constexpr double death_hold_s = 1.5;
+constexpr double min_score = 1e-3;
 
-// What an event is worth to who did it and to whom it was done, in kills.
+// What an event is worth for its actor and its subject, in kills.
 struct Worth {
     double actor;
     double subject;
@@ -36,12 +36,12 @@ Worth worth(const MatchEvent& event) {
     }
 }
 
-// Never negative.
+// 0 when `to` is before `from`.
 double seconds_since(std::int64_t from, std::int64_t to) {
     return std::max(0.0, seconds_between(from, to));
 }
 
-bool lives(const PlayerPose& pose) {
+bool alive(const PlayerPose& pose) {
     return (pose.flags & pose_alive) != 0;
 }
 
@@ -51,7 +51,7 @@ bool in_group(std::uint32_t player, std::span<const std::uint32_t> group) {
 
 }  // namespace
 
-void Attention::take_in(const MatchEvent& event, double half_life_s) {
+void Attention::record(const MatchEvent& event, double half_life_s) {
     const auto [actor, subject] = worth(event);
     add(event.actor, actor, event.frame_time, half_life_s);
     add(event.subject, subject, event.frame_time, half_life_s);
@@ -68,7 +68,7 @@ void Attention::add(std::uint32_t player, double value, std::int64_t at, double 
     }
     if (scores_.size() >= max_players)
         std::erase_if(scores_,
-                      [&](const Score& old) { return score(old.player, at, half_life_s) < smallest_score; });
+                      [&](const Score& old) { return score(old.player, at, half_life_s) < min_score; });
     if (scores_.size() < max_players) scores_.push_back({player, value, at});
 }
 
@@ -89,30 +89,30 @@ void Attention::choose(AutomaticTarget& target, std::span<const std::uint32_t> g
         if (pose == nullptr || !in_group(pose->player_id, group)) continue;
         const double candidate_score = score(pose->player_id, now, rules.automatic_half_life_s);
         const bool better =
-            best == nullptr || (lives(*pose) != lives(*best)    ? lives(*pose)
+            best == nullptr || (alive(*pose) != alive(*best)    ? alive(*pose)
                                 : candidate_score != best_score ? candidate_score > best_score
                                                                 : pose->player_id < best->player_id);
         if (!better) continue;
         best = pose;
         best_score = candidate_score;
     }
-    if (best == nullptr) return;  // nobody is there: the camera waits for whom it followed
+    if (best == nullptr) return;  // no candidate is present: the camera waits for its target
 
-    // The game's clock may have gone back.
+    // Game clocks may go back.
     target.chosen_at = std::min(target.chosen_at, now);
     target.died_at = std::min(target.died_at, now);
     const PlayerPose* current = in_group(target.player, group) ? roster.pose(target.player) : nullptr;
-    if (current != nullptr && !lives(*current)) {
+    if (current != nullptr && !alive(*current)) {
         if (!target.dead) target.died_at = now;
         target.dead = true;
-        if (!lives(*best) || seconds_since(target.died_at, now) < seconds_of_a_death) return;
+        if (!alive(*best) || seconds_since(target.died_at, now) < death_hold_s) return;
     } else if (current != nullptr) {
         target.dead = false;
         const double lead = best_score - score(target.player, now, rules.automatic_half_life_s);
         if (seconds_since(target.chosen_at, now) < rules.automatic_hold_s) return;
         if (lead <= 0.0 || lead < rules.automatic_lead) return;
     }
-    target = {best->player_id, now, now, !lives(*best)};
+    target = {best->player_id, now, now, !alive(*best)};
 }
 
 }  // namespace camdir::director

@@ -1,4 +1,4 @@
-// Where something happens: the choice of an automatic target.
+// Chooses the target of automatic shots by what happens to the players.
 #pragma once
 
 #include <cstdint>
@@ -11,26 +11,26 @@
 
 namespace camdir::director {
 
-// What an automatic shot remembers of its choice. Times are the game's.
+// An automatic shot's current choice. Times are the game's, ns.
 struct AutomaticTarget {
     std::uint32_t player = no_player;
     std::int64_t chosen_at = 0;
-    std::int64_t died_at = 0;  // valid while dead
+    std::int64_t died_at = 0;  // valid while `dead`
     bool dead = false;
 };
 
-// Every player has a score: what happened to him lately, in kills, halved every
-// matches.automatic_half_life_s.
+// Every player has a score: the worth of the player's recent events in kills, halved every
+// matches.automatic_half_life_s. One thread at a time.
 class Attention {
   public:
     void clear() { scores_.clear(); }
 
-    void take_in(const MatchEvent& event, double half_life_s);
+    void record(const MatchEvent& event, double half_life_s);
 
-    // The target for the frame at `now`, out of `group` or, when it is empty, out of all who play: the
-    // candidate with the highest score, living before dead, then the lowest id. A living target is kept for
-    // automatic_hold_s and until another leads by automatic_lead; a dead one for a moment, so that his death
-    // is seen.
+    // Updates the target for the frame at game time `now`. Candidates are the players of `group` (ascending),
+    // or all who play when it is empty; the best is alive, has the highest score, then the lowest id. A
+    // living target is kept for automatic_hold_s and until another leads by automatic_lead; a dead one
+    // for 1.5 s, so that the death is seen.
     void choose(AutomaticTarget& target, std::span<const std::uint32_t> group,
                 std::span<const PlayerPose> poses, const Roster& roster, const config::Matches& rules,
                 std::int64_t now) const;

@@ -1,4 +1,4 @@
-// Times: nanoseconds of the steady clock, or of a game server's own.
+// Times in nanoseconds, of this host's steady clock or of a game server's clock.
 #pragma once
 
 #include <chrono>
@@ -10,7 +10,7 @@ namespace camdir::director {
     return std::chrono::steady_clock::now().time_since_epoch() / std::chrono::nanoseconds(1);
 }
 
-// No overflow whatever a game server sends.
+// In double: differences of arbitrary game times must not overflow.
 [[nodiscard]] inline double seconds_between(std::int64_t from, std::int64_t to) {
     return (static_cast<double>(to) - static_cast<double>(from)) * 1e-9;
 }

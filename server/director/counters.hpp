@@ -1,4 +1,4 @@
-// Counters that many threads add to and any thread reads.
+// A match's counters: any thread may add and read.
 #pragma once
 
 #include <atomic>
@@ -35,8 +35,8 @@ class DurationCounter {
     std::atomic<std::int64_t> sum_ns_{0};
 };
 
-// A match's share of the Statistics.
-class Counters {
+// What one match contributes to Statistics.
+class MatchCounters {
   public:
     void add(Counter counter, std::uint64_t count = 1) {
         counts_[static_cast<std::size_t>(counter)].fetch_add(count, std::memory_order_relaxed);

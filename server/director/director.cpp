@@ -21,8 +21,8 @@ std::size_t worker_count(const config::Limits& limits) {
     return std::max(1U, std::thread::hardware_concurrency());
 }
 
-// As many matches may wait for a game server as may have one.
-std::size_t most_matches(const config::Limits& limits) {
+// limits.matches with a game server, and as many where observers wait for one.
+std::size_t max_matches(const config::Limits& limits) {
     return 2 * static_cast<std::size_t>(limits.matches);
 }
 
@@ -35,35 +35,36 @@ std::string too_many_matches(const config::Limits& limits) {
 struct Director::Impl {
     struct Entry {
         std::unique_ptr<Match> match;
-        bool served = false;  // has a game server
+        bool has_server = false;
     };
 
-    Impl(const config::Config& configuration, const MapLibrary& library, Wire& results);
+    Impl(const config::Config& configuration, const MapLibrary& library, Publisher& results);
 
-    // With the lock held, shared or alone.
+    // With the mutex held, shared or exclusively.
     Match* find(const std::string& match_id) const;
-    void post(Match& match, Control control);
-    std::size_t count(bool served) const;
+    void post(Match& match, Message message);
+    std::size_t count(bool has_server) const;
 
-    // With the lock held alone.
+    // With the mutex held exclusively.
     Entry* find_or_add(const std::string& match_id);
     void end(Entry& entry);
 
-    // False: no such match.
-    bool post_to(const std::string& match_id, Control control);
-    void keep_house(const std::stop_token& stop);
-    std::vector<std::string> notice_silence();
-    void end_lost_and_remove_deserted(const std::vector<std::string>& match_ids);
-    bool remove_deserted(const std::string& match_id, Match& match);
+    // Returns false when there is no such match.
+    bool post_to(const std::string& match_id, Message message);
+    void run_housekeeping(const std::stop_token& stop);
+    std::vector<std::string> notify_silent();
+    void retire(const std::vector<std::string>& match_ids);
+    bool remove_abandoned(const std::string& match_id, Match& match);
 
     const MapLibrary& maps;
-    Wire& wire;
-    Counters unknown;  // what came for unknown matches
+    Publisher& publisher;
+    MatchCounters unmatched;  // of messages without a match
 
-    // Held alone while matches come and go and the configuration changes, else shared. Guards what follows.
+    // Held exclusively to add and remove matches and to change the configuration, otherwise shared. Guards
+    // the members below.
     mutable std::shared_mutex mutex;
     std::shared_ptr<const config::Config> config;
-    Statistics removed;  // of matches that are gone
+    Statistics removed;  // sum over removed matches
     bool accepting = true;
     WorkerPool pool;
     std::unordered_map<std::string, Entry> matches;
@@ -72,12 +73,12 @@ struct Director::Impl {
     std::jthread housekeeper;
 };
 
-Director::Impl::Impl(const config::Config& configuration, const MapLibrary& library, Wire& results)
+Director::Impl::Impl(const config::Config& configuration, const MapLibrary& library, Publisher& results)
     : maps(library),
-      wire(results),
+      publisher(results),
       config(std::make_shared<const config::Config>(configuration)),
-      pool(worker_count(config->limits), most_matches(config->limits)),
-      housekeeper([this](const std::stop_token& stop) { keep_house(stop); }) {}
+      pool(worker_count(config->limits), max_matches(config->limits)),
+      housekeeper([this](const std::stop_token& stop) { run_housekeeping(stop); }) {}
 
 Match* Director::Impl::find(const std::string& match_id) const {
     if (!accepting) return nullptr;
@@ -85,27 +86,28 @@ Match* Director::Impl::find(const std::string& match_id) const {
     return found == matches.end() ? nullptr : found->second.match.get();
 }
 
-void Director::Impl::post(Match& match, Control control) {
-    match.inbox().put(std::move(control));
+void Director::Impl::post(Match& match, Message message) {
+    match.inbox().put(std::move(message));
     pool.schedule(match);
 }
 
-bool Director::Impl::post_to(const std::string& match_id, Control control) {
+bool Director::Impl::post_to(const std::string& match_id, Message message) {
     const std::shared_lock lock(mutex);
     Match* match = find(match_id);
     if (match == nullptr) return false;
-    post(*match, std::move(control));
+    post(*match, std::move(message));
     return true;
 }
 
-std::size_t Director::Impl::count(bool served) const {
-    return static_cast<std::size_t>(std::count_if(
-        matches.begin(), matches.end(), [&](const auto& match) { return match.second.served == served; }));
+std::size_t Director::Impl::count(bool has_server) const {
+    return static_cast<std::size_t>(std::count_if(matches.begin(), matches.end(), [&](const auto& match) {
+        return match.second.has_server == has_server;
+    }));
 }
 
 Director::Impl::Entry* Director::Impl::find_or_add(const std::string& match_id) {
     if (const auto found = matches.find(match_id); found != matches.end()) return &found->second;
-    auto match = std::make_unique<Match>(match_id, config, maps, wire);
+    auto match = std::make_unique<Match>(match_id, config, maps, publisher);
     if (!pool.attach(*match)) return nullptr;
     Entry& entry = matches[match_id];
     entry.match = std::move(match);
@@ -113,57 +115,57 @@ Director::Impl::Entry* Director::Impl::find_or_add(const std::string& match_id) 
 }
 
 void Director::Impl::end(Entry& entry) {
-    entry.served = false;
+    entry.has_server = false;
     post(*entry.match, MatchEnded{});
 }
 
-void Director::Impl::keep_house(const std::stop_token& stop) {
+void Director::Impl::run_housekeeping(const std::stop_token& stop) {
     std::mutex own;
     std::unique_lock lock(own);
     while (!stop.stop_requested()) {
         wake.wait_for(lock, stop, housekeeping_period, [] { return false; });
-        const auto leaving = notice_silence();
-        if (!leaving.empty()) end_lost_and_remove_deserted(leaving);
+        const auto leaving = notify_silent();
+        if (!leaving.empty()) retire(leaving);
     }
 }
 
-// Returns the matches that have to go.
-std::vector<std::string> Director::Impl::notice_silence() {
+// Tells matches without poses that they are silent. Returns the matches that may have to be retired.
+std::vector<std::string> Director::Impl::notify_silent() {
     std::vector<std::string> leaving;
     const std::shared_lock lock(mutex);
     const auto forget_ns = static_cast<std::int64_t>(config->matches.forget_s * 1e9);
     const std::int64_t now = now_ns();
     for (auto& [match_id, entry] : matches) {
         if (entry.match->poses_missing(now)) post(*entry.match, PosesMissing{});
-        if (entry.match->deserted() || entry.match->server_gone_for(forget_ns, now))
+        if (entry.match->abandoned() || entry.match->server_lost_for(forget_ns, now))
             leaving.push_back(match_id);
     }
     return leaving;
 }
 
-void Director::Impl::end_lost_and_remove_deserted(const std::vector<std::string>& match_ids) {
+void Director::Impl::retire(const std::vector<std::string>& match_ids) {
     const std::unique_lock lock(mutex);
     const auto forget_ns = static_cast<std::int64_t>(config->matches.forget_s * 1e9);
     for (const std::string& match_id : match_ids) {
         const auto found = matches.find(match_id);
         if (found == matches.end()) continue;
         Entry& entry = found->second;
-        if (entry.served && entry.match->server_gone_for(forget_ns, now_ns())) end(entry);
-        if (!entry.served && remove_deserted(match_id, *entry.match)) matches.erase(found);
+        if (entry.has_server && entry.match->server_lost_for(forget_ns, now_ns())) end(entry);
+        if (!entry.has_server && remove_abandoned(match_id, *entry.match)) matches.erase(found);
     }
 }
 
-// False: it is wanted again, or has yet to say so.
-bool Director::Impl::remove_deserted(const std::string& match_id, Match& match) {
-    if (!WorkerPool::settled(match) || !match.deserted()) return false;
+// Returns false when the match is in use again or still has messages to process.
+bool Director::Impl::remove_abandoned(const std::string& match_id, Match& match) {
+    if (!WorkerPool::idle(match) || !match.abandoned()) return false;
     pool.detach(match);
     match.counters().add_to(removed);
-    wire.forget(match_id);
+    publisher.forget(match_id);
     return true;
 }
 
-Director::Director(const config::Config& config, const MapLibrary& maps, Wire& wire)
-    : impl_(std::make_unique<Impl>(config, maps, wire)) {}
+Director::Director(const config::Config& config, const MapLibrary& maps, Publisher& publisher)
+    : impl_(std::make_unique<Impl>(config, maps, publisher)) {}
 
 Director::~Director() {
     drain();
@@ -174,26 +176,26 @@ bool Director::receive(const MatchInfo& info) {
     if (!impl_->accepting) return false;
     const config::Limits& limits = impl_->config->limits;
     Match* known = impl_->find(info.match_id);
-    const bool served = known != nullptr && impl_->matches[info.match_id].served;
-    Impl::Entry* entry = served || impl_->count(true) < static_cast<std::size_t>(limits.matches)
+    const bool has_server = known != nullptr && impl_->matches[info.match_id].has_server;
+    Impl::Entry* entry = has_server || impl_->count(true) < static_cast<std::size_t>(limits.matches)
                              ? impl_->find_or_add(info.match_id)
                              : nullptr;
     if (entry == nullptr) {
-        impl_->unknown.add(Counter::refused_matches);
+        impl_->unmatched.add(Counter::refused_matches);
         spdlog::warn("match {}: refused: {}", info.match_id, too_many_matches(limits));
         if (known != nullptr) impl_->post(*known, MatchRefused{too_many_matches(limits)});
         return false;
     }
-    entry->served = true;
+    entry->has_server = true;
     impl_->post(*entry->match, info);
     return true;
 }
 
-void Director::match_silent(const std::string& match_id) {
+void Director::server_lost(const std::string& match_id) {
     impl_->post_to(match_id, ServerLost{});
 }
 
-void Director::match_over(const std::string& match_id) {
+void Director::match_ended(const std::string& match_id) {
     const std::unique_lock lock(impl_->mutex);
     if (impl_->find(match_id) != nullptr) impl_->end(impl_->matches[match_id]);
 }
@@ -202,13 +204,13 @@ void Director::receive(const std::string& match_id, const PoseFrame& frame) {
     const std::int64_t now = now_ns();
     const std::shared_lock lock(impl_->mutex);
     Match* match = impl_->find(match_id);
-    if (match == nullptr) return impl_->unknown.add(Counter::drop_unknown_match);
+    if (match == nullptr) return impl_->unmatched.add(Counter::drop_unknown_match);
     match->inbox().put(frame, now);
     impl_->pool.schedule(*match);
 }
 
 void Director::receive(const std::string& match_id, const MatchEvent& event) {
-    if (!impl_->post_to(match_id, event)) impl_->unknown.add(Counter::drop_unknown_match);
+    if (!impl_->post_to(match_id, event)) impl_->unmatched.add(Counter::drop_unknown_match);
 }
 
 void Director::receive(const ObserverRequest& request) {
@@ -220,13 +222,13 @@ void Director::receive(const ObserverRequest& request) {
                              ? impl_->find_or_add(request.match_id)
                              : nullptr;
     if (entry != nullptr) return impl_->post(*entry->match, request);
-    impl_->unknown.add(Counter::refused_requests);
-    impl_->wire.publish({request.match_id, request.observer_id, 0, RequestState::refused, 0,
-                         "no game server runs this match, and observers wait for too many others"});
+    impl_->unmatched.add(Counter::refused_requests);
+    impl_->publisher.publish({request.match_id, request.observer_id, 0, RequestState::refused, 0,
+                              "no game server runs this match, and observers wait for too many others"});
 }
 
-void Director::request_gone(const std::string& match_id, const std::string& observer_id) {
-    impl_->post_to(match_id, RequestGone{observer_id});
+void Director::request_ended(const std::string& match_id, const std::string& observer_id) {
+    impl_->post_to(match_id, RequestEnded{observer_id});
 }
 
 void Director::maps_changed() {
@@ -240,7 +242,7 @@ void Director::reconfigure(const config::Config& config) {
     auto next = std::make_shared<config::Config>(config);
     const std::unique_lock lock(impl_->mutex);
     if (!impl_->accepting) return;
-    next->limits = impl_->config->limits;  // what was built for them is there already
+    next->limits = impl_->config->limits;  // queues and workers were sized by them at the start
     impl_->config = std::move(next);
     for (auto& [match_id, entry] : impl_->matches)
         impl_->post(*entry.match, Reconfigured{impl_->config});
@@ -249,7 +251,7 @@ void Director::reconfigure(const config::Config& config) {
 Statistics Director::statistics() const {
     const std::shared_lock lock(impl_->mutex);
     Statistics sum = impl_->removed;
-    impl_->unknown.add_to(sum);
+    impl_->unmatched.add_to(sum);
     for (const auto& [match_id, entry] : impl_->matches) {
         entry.match->counters().add_to(sum);
         entry.match->add_gauges(sum);
@@ -257,7 +259,7 @@ Statistics Director::statistics() const {
     return sum;
 }
 
-View Director::view(std::chrono::milliseconds patience) const {
+View Director::view(std::chrono::milliseconds timeout) const {
     std::map<std::string, std::future<MatchView>> answers;
     {
         const std::shared_lock lock(impl_->mutex);
@@ -265,10 +267,10 @@ View Director::view(std::chrono::milliseconds patience) const {
         for (auto& [match_id, entry] : impl_->matches) {
             const auto answer = std::make_shared<std::promise<MatchView>>();
             answers.emplace(match_id, answer->get_future());
-            impl_->post(*entry.match, ViewWanted{answer});
+            impl_->post(*entry.match, ViewRequest{answer});
         }
     }
-    const auto deadline = std::chrono::steady_clock::now() + patience;
+    const auto deadline = std::chrono::steady_clock::now() + timeout;
     View view;
     for (auto& [match_id, answer] : answers) {
         MatchView& match = view.matches.emplace_back();
@@ -287,10 +289,10 @@ bool Director::responsive(std::chrono::milliseconds limit) const {
     return impl_->pool.responsive(limit);
 }
 
-void Director::settle() {
+void Director::flush() {
     const std::shared_lock lock(impl_->mutex);
     for (const auto& [match_id, entry] : impl_->matches)
-        WorkerPool::settle(*entry.match);
+        WorkerPool::wait_idle(*entry.match);
 }
 
 void Director::drain() {
@@ -301,7 +303,7 @@ void Director::drain() {
     }
     impl_->housekeeper.request_stop();
     impl_->housekeeper.join();
-    settle();
+    flush();
     impl_->pool.stop();
 }
 

@@ -1,4 +1,4 @@
-// The director: matches, their players and observers, and the shots between them.
+// The director: all matches, with their players, observers and shots.
 #pragma once
 
 #include <chrono>
@@ -13,36 +13,38 @@
 
 namespace camdir::director {
 
-// Receives from the wire, runs the trackers on a pool of workers (one strand a match, newest pose frame
-// wins), publishes to the wire. All members are thread-safe. The receiving calls never wait for a tracker.
-// `maps` and `wire` outlive the director.
-class Director final : public Receiver {
+// Takes messages in, runs the trackers on a pool of workers (one strand per match, the newest pose frame
+// wins) and passes results to the publisher. All members are thread-safe. The Ingress calls never wait for a
+// tracker. `maps` and `publisher` must outlive the director.
+class Director final : public Ingress {
   public:
-    Director(const config::Config& config, const MapLibrary& maps, Wire& wire);
+    Director(const config::Config& config, const MapLibrary& maps, Publisher& publisher);
     ~Director() override;  // drains
 
     bool receive(const MatchInfo& info) override;
-    void match_silent(const std::string& match_id) override;
-    void match_over(const std::string& match_id) override;
+    void server_lost(const std::string& match_id) override;
+    void match_ended(const std::string& match_id) override;
     void receive(const std::string& match_id, const PoseFrame& frame) override;
     void receive(const std::string& match_id, const MatchEvent& event) override;
     void receive(const ObserverRequest& request) override;
-    void request_gone(const std::string& match_id, const std::string& observer_id) override;
+    void request_ended(const std::string& match_id, const std::string& observer_id) override;
     [[nodiscard]] bool responsive(std::chrono::milliseconds limit) const override;
 
-    // The library's maps changed: shots on them begin or end.
+    // To be called after the map library changed: shots on its maps begin or end.
     void maps_changed();
-    // Profiles and `matches` of a reloaded configuration take effect; requests are judged again.
+    // Applies the profiles and `matches` of a reloaded configuration, and decides about all requests again.
+    // `limits` keep their values of the start.
     void reconfigure(const config::Config& config);
 
-    // Counters over all matches, also those that are gone. Cheap.
+    // Sums over all matches, including those that have been removed. Cheap.
     [[nodiscard]] Statistics statistics() const;
-    // All matches, each as of one instant. Waits for the workers, at most `patience`; matches that did not
-    // answer by then are marked.
-    [[nodiscard]] View view(std::chrono::milliseconds patience) const;
-    // Waits until all that was received before the call is handled.
-    void settle();
-    // Settles and stops the workers; what is received afterwards is ignored, and nothing is published.
+    // All matches, each as of one instant. Waits for the workers, at most `timeout`; matches that have not
+    // answered by then are marked.
+    [[nodiscard]] View view(std::chrono::milliseconds timeout) const;
+    // Waits until everything received before the call has been processed.
+    void flush();
+    // Processes what was received, then stops the workers. Later calls are ignored, and nothing more is
+    // published.
     void drain();
 
   private:

@@ -8,9 +8,9 @@
 namespace camdir::director {
 namespace {
 
-constexpr std::size_t most_events = 256;
+constexpr std::size_t max_events = 256;
 
-// Older by epoch, or by number within the epoch; numbers may wrap.
+// By epoch, then by frame number, which may wrap. Equal frames count as older.
 bool older(const PoseFrame& a, const PoseFrame& b) {
     if (a.epoch != b.epoch) return a.epoch < b.epoch;
     return static_cast<std::int32_t>(a.frame_number - b.frame_number) <= 0;
@@ -26,17 +26,18 @@ void carry_discontinuities(const PoseFrame& from, PoseFrame& to) {
 
 }  // namespace
 
-void Inbox::put(Control control) {
-    const bool event = std::holds_alternative<MatchEvent>(control);
-    const bool of_observer = std::holds_alternative<ObserverRequest>(control) ||
-                             std::holds_alternative<RequestGone>(control) ||
-                             std::holds_alternative<ViewWanted>(control);
+void Inbox::put(Message message) {
+    const bool event = std::holds_alternative<MatchEvent>(message);
+    const bool of_observer = std::holds_alternative<ObserverRequest>(message) ||
+                             std::holds_alternative<RequestEnded>(message) ||
+                             std::holds_alternative<ViewRequest>(message);
     const std::lock_guard lock(mutex_);
-    if (event && events_ >= most_events) return counters_.add(Counter::drop_events);
-    if (of_observer && of_observers_ >= most_of_observers_) return counters_.add(Counter::drop_control);
+    if (event && events_ >= max_events) return counters_.add(Counter::drop_events);
+    if (of_observer && observer_messages_ >= max_observer_messages_)
+        return counters_.add(Counter::drop_messages);
     events_ += event ? 1 : 0;
-    of_observers_ += of_observer ? 1 : 0;
-    waiting_.controls.push_back(std::move(control));
+    observer_messages_ += of_observer ? 1 : 0;
+    waiting_.messages.push_back(std::move(message));
 }
 
 void Inbox::put(const PoseFrame& frame, std::int64_t received_ns) {
@@ -57,12 +58,12 @@ void Inbox::put(const PoseFrame& frame, std::int64_t received_ns) {
 }
 
 void Inbox::take(Content& content) {
-    content.controls.clear();
+    content.messages.clear();
     content.has_frame = false;
     const std::lock_guard lock(mutex_);
     std::swap(content, waiting_);
     events_ = 0;
-    of_observers_ = 0;
+    observer_messages_ = 0;
 }
 
 }  // namespace camdir::director

@@ -1,4 +1,4 @@
-// What came in for a match and waits for a worker.
+// The messages of one match that wait for a worker.
 #pragma once
 
 #include <cstdint>
@@ -15,59 +15,60 @@
 
 namespace camdir::director {
 
-struct ServerLost {};    // the game server's liveliness
-struct PosesMissing {};  // for as long as makes a match silent
+struct ServerLost {};    // the game server's liveliness is lost
+struct PosesMissing {};  // no poses for matches.silence_frames
 struct MatchEnded {};
 struct MatchRefused {
     std::string reason;
 };
-struct RequestGone {
+struct RequestEnded {
     std::string observer_id;
 };
 struct MapsChanged {};
 struct Reconfigured {
     std::shared_ptr<const config::Config> config;
 };
-struct ViewWanted {
+struct ViewRequest {
     std::shared_ptr<std::promise<MatchView>> answer;
 };
 
-using Control = std::variant<MatchInfo, ServerLost, PosesMissing, MatchEnded, MatchRefused, MatchEvent,
-                             ObserverRequest, RequestGone, MapsChanged, Reconfigured, ViewWanted>;
+using Message = std::variant<MatchInfo, ServerLost, PosesMissing, MatchEnded, MatchRefused, MatchEvent,
+                             ObserverRequest, RequestEnded, MapsChanged, Reconfigured, ViewRequest>;
 
-// Messages in the order of their coming; of pose frames the newest only. Those that anybody may send in any
-// number are bounded, and what is dropped is counted: a match's life does not depend on them. Thread-safe; a
-// match has its own. Does not allocate once its buffers have grown.
+// Keeps messages in their order of arrival, and only the newest pose frame. Events and observers' messages
+// are bounded, and drops are counted; messages about the match itself are never dropped. Each match has its
+// own inbox. Thread-safe. Does not allocate once its buffers have grown.
 class Inbox {
   public:
-    // `most_of_observers`: of requests, their ends and questions. Of events at most 256 wait.
-    Inbox(std::size_t most_of_observers, Counters& counters)
-        : most_of_observers_(most_of_observers), counters_(counters) {}
+    // `max_observer_messages` bounds requests, their ends and view requests together. At most 256 events
+    // wait.
+    Inbox(std::size_t max_observer_messages, MatchCounters& counters)
+        : max_observer_messages_(max_observer_messages), counters_(counters) {}
 
-    void put(Control control);
+    void put(Message message);
 
-    // A frame that nobody took gives way; its discontinuities go over to the newer one, so that no respawn
-    // is lost with it.
+    // Replaces a frame that no worker has taken. Its discontinuity flags are carried over to the new frame of
+    // the same epoch, so that no respawn is lost.
     void put(const PoseFrame& frame, std::int64_t received_ns);
 
     struct Content {
-        std::vector<Control> controls;
+        std::vector<Message> messages;
         bool has_frame = false;
         PoseFrame frame;
         std::int64_t received_ns = 0;  // steady clock
     };
 
-    // Swaps what waits into `content`, whose memory is used again.
+    // Moves everything that waits into `content`, whose memory is reused.
     void take(Content& content);
 
   private:
     std::mutex mutex_;
     Content waiting_;
     PoseFrame superseded_;
-    std::size_t events_ = 0;        // in waiting_.controls
-    std::size_t of_observers_ = 0;  // in waiting_.controls
-    const std::size_t most_of_observers_;
-    Counters& counters_;
+    std::size_t events_ = 0;             // in waiting_.messages
+    std::size_t observer_messages_ = 0;  // in waiting_.messages
+    const std::size_t max_observer_messages_;
+    MatchCounters& counters_;
 };
 
 }  // namespace camdir::director

@@ -7,7 +7,7 @@ namespace camdir::director {
 void MapLibrary::add(const std::string& name, bool strict) {
     const std::lock_guard lock(mutex_);
     MapEntry& entry = entries_[name];
-    entry.state = MapState::loading;
+    entry.state = LoadState::loading;
     entry.reason.clear();
     entry.strict = strict;
 }
@@ -15,14 +15,14 @@ void MapLibrary::add(const std::string& name, bool strict) {
 void MapLibrary::set_loading(const std::string& name, const std::string& reason) {
     const std::lock_guard lock(mutex_);
     MapEntry& entry = entries_[name];
-    entry.state = MapState::loading;
+    entry.state = LoadState::loading;
     entry.reason = reason;
 }
 
 void MapLibrary::set_ready(const std::string& name, freespace::Freespace freespace, double bake_seconds) {
     const std::lock_guard lock(mutex_);
     MapEntry& entry = entries_[name];
-    entry.state = MapState::ready;
+    entry.state = LoadState::ready;
     entry.reason.clear();
     entry.freespace = std::move(freespace);
     entry.bake_seconds = bake_seconds;
@@ -32,7 +32,7 @@ void MapLibrary::set_ready(const std::string& name, freespace::Freespace freespa
 void MapLibrary::set_failed(const std::string& name, const std::string& reason) {
     const std::lock_guard lock(mutex_);
     MapEntry& entry = entries_[name];
-    entry.state = MapState::failed;
+    entry.state = LoadState::failed;
     entry.reason = reason;
 }
 

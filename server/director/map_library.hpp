@@ -1,4 +1,4 @@
-// The maps that the director knows, and how far each is from use.
+// The maps that the director knows, and whether they can be used.
 #pragma once
 
 #include <map>
@@ -11,10 +11,10 @@
 
 namespace camdir::director {
 
-enum class MapState { loading, ready, failed };
+enum class LoadState { loading, ready, failed };
 
 struct MapEntry {
-    MapState state = MapState::loading;
+    LoadState state = LoadState::loading;
     std::string reason;            // why it failed, or what it waits for
     bool strict = false;           // refuse game servers whose map file differs from the baked one
     double bake_seconds = 0.0;     // of the bake by this process; 0 = none
@@ -22,10 +22,10 @@ struct MapEntry {
     std::optional<freespace::Freespace> freespace;  // set when ready; stays set while a newer one is baked
 };
 
-// Thread-safe. Whoever changes it calls Director::maps_changed() afterwards.
+// Thread-safe. Call Director::maps_changed() after a change.
 class MapLibrary {
   public:
-    void add(const std::string& name, bool strict);  // loading, or loading again
+    void add(const std::string& name, bool strict);  // in state loading, again if it is known
     void set_loading(const std::string& name, const std::string& reason);
     void set_ready(const std::string& name, freespace::Freespace freespace, double bake_seconds = 0.0);
     void set_failed(const std::string& name, const std::string& reason);

@@ -13,9 +13,9 @@
 namespace camdir::director {
 namespace {
 
-constexpr double usual_rate_hz = 30.0;  // of a game server that tells none
-constexpr std::size_t most_questions = 64;
-constexpr std::int64_t most_ahead_ns = 10'000'000'000;  // an event of the newest frame
+constexpr double default_rate_hz = 30.0;  // of game servers that state none
+constexpr std::size_t max_view_requests = 64;
+constexpr std::int64_t max_event_lead_ns = 10'000'000'000;  // of an event's time over the last frame's
 
 constexpr const char* no_server = "no game server runs this match";
 
@@ -27,7 +27,7 @@ std::string joined(const std::vector<std::string>& names) {
 }
 
 std::int64_t silence_after_ns(const MatchInfo& info, const config::Matches& rules) {
-    const double rate = std::isfinite(info.rate_hz) && info.rate_hz > 0.0F ? info.rate_hz : usual_rate_hz;
+    const double rate = std::isfinite(info.rate_hz) && info.rate_hz > 0.0F ? info.rate_hz : default_rate_hz;
     return static_cast<std::int64_t>(std::min(static_cast<double>(rules.silence_frames) / rate, 86400.0) *
                                      1e9);
 }
@@ -35,22 +35,22 @@ std::int64_t silence_after_ns(const MatchInfo& info, const config::Matches& rule
 }  // namespace
 
 Match::Match(std::string match_id, std::shared_ptr<const config::Config> config, const MapLibrary& maps,
-             Wire& wire)
+             Publisher& publisher)
     : match_id_(std::move(match_id)),
       maps_(maps),
-      wire_(wire),
-      inbox_(2 * static_cast<std::size_t>(config->limits.observers) + most_questions, counters_),
+      publisher_(publisher),
+      inbox_(2 * static_cast<std::size_t>(config->limits.observers) + max_view_requests, counters_),
       config_(std::move(config)),
-      no_map_(no_server),
-      requests_(match_id_, wire, counters_) {}
+      missing_map_(no_server),
+      requests_(match_id_, publisher, counters_) {}
 
-// Nothing here throws but for want of memory.
+// Only running out of memory throws in here, and that ends the process.
 void Match::turn() noexcept {  // NOLINT(bugprone-exception-escape)
     inbox_.take(content_);
-    for (Control& control : content_.controls)
-        std::visit([this](auto& message) { handle(message); }, control);
-    if (judge_needed_) judge();
-    if (content_.has_frame) answer(content_.frame, content_.received_ns);
+    for (Message& message : content_.messages)
+        std::visit([this](auto& content) { handle(content); }, message);
+    if (reconcile_needed_) reconcile();
+    if (content_.has_frame) process(content_.frame, content_.received_ns);
 }
 
 void Match::handle(MatchInfo& info) {
@@ -58,11 +58,11 @@ void Match::handle(MatchInfo& info) {
     if (info_ && info.epoch < info_->epoch) return counters_.add(Counter::drop_old_epoch);
     const bool new_life = !info_ || info.epoch != info_->epoch || info.map_name != info_->map_name;
     info_ = std::move(info);
-    silence_ns_ = silence_after_ns(*info_, config_->matches);
+    silence_limit_ns_ = silence_after_ns(*info_, config_->matches);
     if (new_life) begin_epoch();
     if (liveness_ == Liveness::lost) liveness_ = Liveness::silent;
-    roster_.list(info_->players);
-    adopt_map();
+    roster_.set_listed(info_->players);
+    attach_map();
 }
 
 void Match::begin_epoch() {
@@ -72,8 +72,8 @@ void Match::begin_epoch() {
     roster_.clear();
     attention_.clear();
     requests_.restart_shots();
-    any_frame_ = false;
-    gap_ = false;
+    has_last_frame_ = false;
+    after_silence_ = false;
     next_camera_frame_ = 0;
     last_pose_ns_ = now_ns();
     liveness_ = Liveness::running;
@@ -94,23 +94,23 @@ void Match::fall_silent(Liveness liveness) {
         spdlog::warn("match {}: its game server is silent", match_id_);
     }
     liveness_ = liveness;
-    any_frame_ = false;
-    gap_ = true;
-    judge_needed_ = true;
+    has_last_frame_ = false;
+    after_silence_ = true;
+    reconcile_needed_ = true;
 }
 
 void Match::handle(const MatchEnded& /*ended*/) {
-    if (info_) spdlog::info("match {}: over", match_id_);
+    if (info_) spdlog::info("match {}: ended", match_id_);
     info_.reset();
     refusal_.clear();
     liveness_ = Liveness::none;
     roster_.clear();
-    leave_map(no_server);
+    detach_map(no_server);
 }
 
 void Match::handle(const MatchRefused& refused) {
     refusal_ = refused.reason;
-    judge_needed_ = true;
+    reconcile_needed_ = true;
 }
 
 void Match::handle(const MatchEvent& event) {
@@ -119,45 +119,45 @@ void Match::handle(const MatchEvent& event) {
         return counters_.add(event.epoch < info_->epoch ? Counter::drop_old_epoch
                                                         : Counter::drop_early_epoch);
     counters_.add(Counter::events);
-    // It comes before its frame; but one of a far future would never fade.
-    MatchEvent happened = event;
-    if (any_frame_) happened.frame_time = std::min(happened.frame_time, last_time_ + most_ahead_ns);
-    attention_.take_in(happened, config_->matches.automatic_half_life_s);
+    // Events arrive before their frame, but the score of one dated far ahead would never decay.
+    MatchEvent clamped = event;
+    if (has_last_frame_) clamped.frame_time = std::min(clamped.frame_time, last_time_ + max_event_lead_ns);
+    attention_.record(clamped, config_->matches.automatic_half_life_s);
 }
 
 void Match::handle(const ObserverRequest& request) {
     counters_.add(Counter::requests);
     requests_.put(request, *config_, last_epoch_);
-    judge_needed_ = true;
+    reconcile_needed_ = true;
 }
 
-void Match::handle(const RequestGone& gone) {
+void Match::handle(const RequestEnded& gone) {
     requests_.remove(gone.observer_id);
-    judge_needed_ = true;
+    reconcile_needed_ = true;
 }
 
 void Match::handle(const MapsChanged& /*changed*/) {
-    if (info_) adopt_map();
+    if (info_) attach_map();
 }
 
 void Match::handle(const Reconfigured& changed) {
     config_ = changed.config;
-    if (info_) silence_ns_ = silence_after_ns(*info_, config_->matches);
+    if (info_) silence_limit_ns_ = silence_after_ns(*info_, config_->matches);
     requests_.resolve_again(*config_);
-    judge_needed_ = true;
+    reconcile_needed_ = true;
 }
 
-void Match::adopt_map() {
-    judge_needed_ = true;
+void Match::attach_map() {
+    reconcile_needed_ = true;
     refusal_.clear();
     const std::string named = "map '" + info_->map_name + "'";
     const auto entry = maps_.find(info_->map_name);
-    if (!entry) return leave_map(named + " is not configured; known: " + joined(maps_.names()));
+    if (!entry) return detach_map(named + " is not configured; known: " + joined(maps_.names()));
     if (!entry->freespace)
-        return leave_map(named + (entry->state == MapState::failed ? " failed: " : " is loading: ") +
-                         entry->reason);
+        return detach_map(named + (entry->state == LoadState::failed ? " failed: " : " is loading: ") +
+                          entry->reason);
     check_map_hash(*entry);
-    no_map_.clear();
+    missing_map_.clear();
     if (freespace_ && entry->generation == map_generation_) return;
     freespace_ = entry->freespace;
     map_generation_ = entry->generation;
@@ -169,7 +169,7 @@ void Match::check_map_hash(const MapEntry& entry) {
     const std::uint64_t baked = entry.freespace->metadata().source_hash;
     if (info_->map_hash == 0 || baked == 0 || info_->map_hash == baked) return;
     const std::pair mismatch(info_->map_hash, baked);
-    if (std::exchange(told_mismatch_, mismatch) != mismatch) {
+    if (std::exchange(reported_mismatch_, mismatch) != mismatch) {
         counters_.add(Counter::map_hash_mismatches);
         spdlog::warn("match {}: its map file {} (xxh3 {:016x}) is not the one that was baked ({:016x})",
                      match_id_, info_->map_name, info_->map_hash, baked);
@@ -178,29 +178,29 @@ void Match::check_map_hash(const MapEntry& entry) {
         refusal_ = "the game server's map '" + info_->map_name + "' is not the one that was baked";
 }
 
-void Match::leave_map(std::string reason) {
-    no_map_ = std::move(reason);
+void Match::detach_map(std::string reason) {
+    missing_map_ = std::move(reason);
     freespace_.reset();
     scratch_.reset();
     requests_.restart_shots();
-    judge_needed_ = true;
+    reconcile_needed_ = true;
 }
 
-void Match::judge() {
-    judge_needed_ = false;
+void Match::reconcile() {
+    reconcile_needed_ = false;
     const bool holds = liveness_ == Liveness::silent || liveness_ == Liveness::lost;
-    requests_.judge({*config_, roster_, last_epoch_, refusal_, no_map_,
-                     holds ? "the game server is silent: the camera holds" : ""});
+    requests_.reconcile({*config_, roster_, last_epoch_, refusal_, missing_map_,
+                         holds ? "the game server is silent: the camera holds" : ""});
     observer_count_ = requests_.observers();
     shot_count_ = requests_.shots().size();
-    deserted_.store(!info_ && requests_.observers() == 0, std::memory_order_release);
+    abandoned_.store(!info_ && requests_.observers() == 0, std::memory_order_release);
 }
 
 bool Match::poses_missing(std::int64_t now_ns) const {
-    return liveness_ == Liveness::running && now_ns - last_pose_ns_ > silence_ns_;
+    return liveness_ == Liveness::running && now_ns - last_pose_ns_ > silence_limit_ns_;
 }
 
-bool Match::server_gone_for(std::int64_t ns, std::int64_t now_ns) const {
+bool Match::server_lost_for(std::int64_t ns, std::int64_t now_ns) const {
     return liveness_ == Liveness::lost && now_ns - last_pose_ns_ > ns;
 }
 
@@ -223,11 +223,11 @@ std::string Match::state() const {
         case Liveness::running:
             break;
     }
-    return no_map_.empty() ? "running" : "waiting for map";
+    return missing_map_.empty() ? "running" : "waiting for map";
 }
 
-void Match::handle(const ViewWanted& wanted) {
-    if (judge_needed_) judge();
+void Match::handle(const ViewRequest& wanted) {
+    if (reconcile_needed_) reconcile();
     MatchView view;
     view.match_id = match_id_;
     view.answered = true;

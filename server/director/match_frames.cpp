@@ -1,4 +1,4 @@
-// A match's pose frames become camera frames.
+// Match: from pose frames to camera frames.
 #include <spdlog/spdlog.h>
 
 #include <chrono>
@@ -27,18 +27,18 @@ std::span<const PlayerPose> tracked(const PoseFrame& frame, const config::Limits
 
 }  // namespace
 
-void Match::answer(const PoseFrame& frame, std::int64_t received_ns) {
+void Match::process(const PoseFrame& frame, std::int64_t received_ns) {
     if (!accept(frame)) return;
-    const double dt = any_frame_ ? seconds_between(last_time_, frame.frame_time) : 0.0;
-    take_in(frame);
-    if (judge_needed_) judge();
+    const double dt = has_last_frame_ ? seconds_between(last_time_, frame.frame_time) : 0.0;
+    record(frame);
+    if (reconcile_needed_) reconcile();
     if (!freespace_) return counters_.add(Counter::drop_waiting);
     if (!requests_.shots().empty()) {
         move_cameras(frame, dt);
-        wire_.publish(match_id_, cameras_);
+        publisher_.publish(match_id_, cameras_);
         counters_.latency.add(ns(Clock::now().time_since_epoch()) - received_ns);
     }
-    gap_ = false;
+    after_silence_ = false;
 }
 
 bool Match::accept(const PoseFrame& frame) {
@@ -49,27 +49,27 @@ bool Match::accept(const PoseFrame& frame) {
     if (!info_) return dropped(Counter::drop_unknown_match);
     if (frame.epoch < info_->epoch) return dropped(Counter::drop_old_epoch);
     if (frame.epoch > info_->epoch) return dropped(Counter::drop_early_epoch);
-    // As a signed difference, for numbers that wrap.
-    if (any_frame_ && static_cast<std::int32_t>(frame.frame_number - last_number_) <= 0)
+    // Signed difference: frame numbers may wrap.
+    if (has_last_frame_ && static_cast<std::int32_t>(frame.frame_number - last_number_) <= 0)
         return dropped(Counter::drop_old_frame);
     return true;
 }
 
-void Match::take_in(const PoseFrame& frame) {
+void Match::record(const PoseFrame& frame) {
     counters_.add(Counter::pose_frames);
     if (liveness_ != Liveness::running) {
-        spdlog::info("match {}: poses come again", match_id_);
+        spdlog::info("match {}: poses arrive again", match_id_);
         liveness_ = Liveness::running;
-        judge_needed_ = true;
+        reconcile_needed_ = true;
     }
-    any_frame_ = true;
+    has_last_frame_ = true;
     last_pose_ns_ = now_ns();
     last_number_ = frame.frame_number;
     last_time_ = frame.frame_time;
     const auto poses = tracked(frame, config_->limits);
-    const std::uint64_t left_out = roster_.see(poses, config_->matches.silence_frames);
-    counters_.add(Counter::drop_players, left_out + (frame.poses.size() - poses.size()));
-    if (roster_.take_changed()) judge_needed_ = true;
+    const std::uint64_t skipped = roster_.update(poses, config_->matches.silence_frames);
+    counters_.add(Counter::drop_players, skipped + (frame.poses.size() - poses.size()));
+    if (roster_.take_changed()) reconcile_needed_ = true;
 }
 
 void Match::move_cameras(const PoseFrame& frame, double dt) {
@@ -97,11 +97,11 @@ ShotCamera Match::move_camera(Shot& shot, const PoseFrame& frame, double dt) {
                           config_->matches, frame.frame_time);
         target = shot.automatic.player;
     }
-    if (target != shot.target) shot.state = {};  // begins with a cut
+    if (target != shot.target) shot.state = {};  // a fresh state starts with a cut
     shot.target = target;
 
     const PlayerPose* seen = roster_.pose(target);
-    const camera::Pose pose = seen != nullptr ? tracker_pose(*seen, gap_) : camera::Pose{};
+    const camera::Pose pose = seen != nullptr ? tracker_pose(*seen, after_silence_) : camera::Pose{};
     const camera::Camera camera =
         camera::step(*freespace_, shot.profile, seen != nullptr ? &pose : nullptr, dt, shot.state, *scratch_);
 

@@ -1,5 +1,6 @@
-// The director's own words for what goes in and out, whatever carries it. Checked at the border: arrays
-// agree in length, numbers are finite, quaternions have length 1.
+// The director's input and output messages, independent of the transport. Whoever creates them has checked
+// them: arrays agree in length, numbers are finite, quaternions have length 1. The fields are those of
+// idl/camera_director.idl, which says what they mean.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +26,7 @@ struct MatchInfo {
     std::string match_id;
     std::uint64_t epoch = 0;
     std::string map_name;
-    std::uint64_t map_hash = 0;  // 0 = unknown
+    std::uint64_t map_hash = 0;  // xxh3-64 of the map file; 0 = unknown
     float metres_per_unit = 1.0F;
     float rate_hz = 0.0F;
     float spectator_delay_s = 0.0F;

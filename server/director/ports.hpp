@@ -1,4 +1,5 @@
-// The director's two connections: what the wire brings, and where results go.
+// What connects the director with the outside: the ingress that takes messages in, the publisher that takes
+// results out. DDS implements the publisher and calls the ingress; tests use memory.
 #pragma once
 
 #include <chrono>
@@ -8,39 +9,41 @@
 
 namespace camdir::director {
 
-// The calls return at once. Thread-safe.
-class Receiver {
+// All calls return at once. Thread-safe.
+class Ingress {
   public:
-    virtual ~Receiver() = default;
-    // A match is new, changed or back. False: refused because limits.matches are running; nothing is
-    // kept, and the next MatchInfo is another try.
+    virtual ~Ingress() = default;
+    // A match is new, has changed or is back. Returns false when limits.matches are running already: nothing
+    // is kept, and the next MatchInfo of the match is another attempt.
     virtual bool receive(const MatchInfo& info) = 0;
-    // The game server's liveliness is lost: the cameras hold until poses come again.
-    virtual void match_silent(const std::string& match_id) = 0;
-    // The game server said that the match is over: its shots end and its observers wait.
-    virtual void match_over(const std::string& match_id) = 0;
-    // Frames of unknown matches and of other epochs are dropped and counted. Copies into the match's own
-    // memory, so that the caller can fill the same PoseFrame again.
+    // The game server's liveliness is lost: the cameras hold until poses arrive again.
+    virtual void server_lost(const std::string& match_id) = 0;
+    // The game server ended the match: its shots end, its observers wait for another game server.
+    virtual void match_ended(const std::string& match_id) = 0;
+    // Frames of unknown matches and of other epochs are dropped and counted. The frame is copied into the
+    // match's own memory, so the caller can refill the same PoseFrame.
     virtual void receive(const std::string& match_id, const PoseFrame& frame) = 0;
     virtual void receive(const std::string& match_id, const MatchEvent& event) = 0;
-    virtual void receive(const ObserverRequest& request) = 0;  // new or changed; may come before its match
-    virtual void request_gone(const std::string& match_id, const std::string& observer_id) = 0;
-    // No worker is busy with one turn for longer than this: a director that is not gives way to its standby.
+    virtual void receive(const ObserverRequest& request) = 0;  // new or changed; may precede its match
+    // The observer withdrew its request, or its liveliness is lost.
+    virtual void request_ended(const std::string& match_id, const std::string& observer_id) = 0;
+    // False when a worker has been busy with one turn for longer than `limit`: such a director must give way
+    // to its standby.
     [[nodiscard]] virtual bool responsive(std::chrono::milliseconds limit) const = 0;
 };
 
-// Called from the director's threads, for one match by one thread at a time; calls for different matches
-// may overlap. Must not throw and must not call back into the director.
-class Wire {
+// Called from the director's threads: by one thread at a time for one match, concurrently for different
+// matches. Must not throw and must not call back into the director.
+class Publisher {
   public:
-    virtual ~Wire() = default;
+    virtual ~Publisher() = default;
     virtual void publish(const std::string& match_id, const CameraFrame& frame) = 0;
     virtual void publish(const ObserverStatus& status) = 0;
-    // The observer is gone: its status is withdrawn.
+    // The observer's request has ended: its status is disposed.
     virtual void withdraw(const std::string& match_id, const std::string& observer_id) = 0;
-    // The match has neither game server nor observers: what was made for it can go. Nothing more is published
-    // for it until it is received again, and a Receiver::receive of its MatchInfo that returns after this
-    // call overrules it. Called while those wait, so it must not wait for them.
+    // The match has neither a game server nor observers: its endpoints can be closed. Nothing more is
+    // published for it until its MatchInfo is received again; an Ingress::receive of that MatchInfo which
+    // returns after this call takes precedence. Must not wait for such a call: it waits for this one.
     virtual void forget(const std::string& match_id) = 0;
 };
 

@@ -11,10 +11,10 @@
 namespace camdir::director {
 namespace {
 
-constexpr std::size_t longest_reason = 255;  // ObserverStatus.reason
+constexpr std::size_t max_reason_bytes = 255;  // ObserverStatus.reason
 
 std::string shortened(std::string text) {
-    text.resize(utf8_prefix(text, longest_reason));
+    text.resize(utf8_prefix(text, max_reason_bytes));
     return text;
 }
 
@@ -29,7 +29,7 @@ std::string known_profiles(const config::Config& config) {
     return list;
 }
 
-// Equal for equal JSON, however it is written.
+// Equal strings for equal JSON objects; empty for an object without keys.
 std::string canonical(const std::string& overrides) {
     const auto object = config::parse_json(overrides);
     return !object || object->empty() ? std::string() : object->dump();
@@ -41,7 +41,7 @@ std::vector<std::uint32_t> sorted(std::vector<std::uint32_t> group) {
     return group;
 }
 
-// Why the player of the key cannot be shown now; empty: he can.
+// Why no player of the key can be shown now; empty when one can.
 std::string missing_player(const ShotKey& key, const Roster& roster) {
     if (key.target != no_player) {
         const Presence presence = roster.presence(key.target);
@@ -49,7 +49,7 @@ std::string missing_player(const ShotKey& key, const Roster& roster) {
         return "player " + std::to_string(key.target) +
                (presence == Presence::spectator ? " is a spectator" : " is not in the match");
     }
-    if (key.group.empty()) return roster.anybody_playing() ? "" : "nobody plays";
+    if (key.group.empty()) return roster.anyone_playing() ? "" : "nobody plays";
     const bool plays = std::any_of(key.group.begin(), key.group.end(), [&](std::uint32_t player) {
         return roster.presence(player) == Presence::playing;
     });
@@ -81,17 +81,17 @@ void Requests::put(const ObserverRequest& request, const config::Config& config,
         counters_.add(Counter::refused_requests);
         const std::string reason =
             std::to_string(config.limits.observers) + " observers watch this match already";
-        return wire_.publish({match_id_, request.observer_id, epoch, RequestState::refused, 0, reason});
+        return publisher_.publish({match_id_, request.observer_id, epoch, RequestState::refused, 0, reason});
     }
     Observer& observer = found != observers_.end() ? found->second : observers_[request.observer_id];
     observer.request = request;
-    observer.told = false;  // whoever asks anew has forgotten what he was told
+    observer.published = false;  // the answer is sent again even if it is the same
     resolve(observer, config);
 }
 
 void Requests::remove(const std::string& observer_id) {
     observers_.erase(observer_id);
-    wire_.withdraw(match_id_, observer_id);
+    publisher_.withdraw(match_id_, observer_id);
 }
 
 void Requests::resolve_again(const config::Config& config) {
@@ -103,34 +103,34 @@ void Requests::resolve(Observer& observer, const config::Config& config) {
     const ObserverRequest& request = observer.request;
     const std::string& name = request.profile.empty() ? config.matches.default_profile : request.profile;
     observer.key = {request.target, sorted(request.group), name, canonical(request.overrides)};
-    observer.fault.clear();
+    observer.error.clear();
     const auto base = config.profiles.find(name);
     if (base == config.profiles.end()) {
-        observer.fault = "there is no profile " + quoted(name) + "; known: " + known_profiles(config);
+        observer.error = "there is no profile " + quoted(name) + "; known: " + known_profiles(config);
         return;
     }
     auto profile = config::override_profile(base->second, request.overrides);
     if (!profile)
-        observer.fault = "overrides: " + profile.error().message;
+        observer.error = "overrides: " + profile.error().message;
     else
         observer.profile = *profile;
 }
 
-Requests::Verdict Requests::verdict(const Observer& observer, const Situation& situation) {
-    if (!observer.fault.empty()) return {RequestState::refused, 0, observer.fault};
-    if (!situation.refusal.empty()) return {RequestState::refused, 0, situation.refusal};
-    if (!situation.no_map.empty()) return {RequestState::waiting_for_map, 0, situation.no_map};
-    const std::string missing = missing_player(observer.key, situation.roster);
+Requests::Decision Requests::decide(const Observer& observer, const RequestContext& context) {
+    if (!observer.error.empty()) return {RequestState::refused, 0, observer.error};
+    if (!context.refusal.empty()) return {RequestState::refused, 0, context.refusal};
+    if (!context.missing_map.empty()) return {RequestState::waiting_for_map, 0, context.missing_map};
+    const std::string missing = missing_player(observer.key, context.roster);
     if (!missing.empty()) return {RequestState::waiting_for_player, 0, missing};
-    return {RequestState::accepted, 0, situation.remark};
+    return {RequestState::accepted, 0, context.remark};
 }
 
-void Requests::judge(const Situation& situation) {
-    std::vector<Verdict> verdicts;
+void Requests::reconcile(const RequestContext& context) {
+    std::vector<Decision> decisions;
     for (Shot& shot : shots_)
         shot.observers = 0;
     for (const auto& [id, observer] : observers_) {
-        const Verdict& made = verdicts.emplace_back(verdict(observer, situation));
+        const Decision& made = decisions.emplace_back(decide(observer, context));
         Shot* shot = made.state == RequestState::accepted ? find_shot(observer.key) : nullptr;
         if (shot != nullptr) ++shot->observers;
     }
@@ -138,27 +138,27 @@ void Requests::judge(const Situation& situation) {
 
     for (Shot& shot : shots_)
         shot.observers = 0;
-    auto made = verdicts.begin();
+    auto made = decisions.begin();
     for (auto& [id, observer] : observers_) {
-        if (made->state == RequestState::accepted) seat(observer, situation.config.limits.shots, *made);
-        tell(observer, std::move(*made), situation.epoch);
+        if (made->state == RequestState::accepted) assign(observer, context.config.limits.shots, *made);
+        publish(observer, std::move(*made), context.epoch);
         ++made;
     }
 }
 
-void Requests::seat(const Observer& observer, std::int64_t most_shots, Verdict& verdict) {
+void Requests::assign(const Observer& observer, std::int64_t max_shots, Decision& decision) {
     Shot* shot = find_shot(observer.key);
     if (shot == nullptr) {
-        if (shots_.size() >= static_cast<std::size_t>(most_shots)) {
-            verdict = {RequestState::refused, 0,
-                       "this match has " + std::to_string(most_shots) + " cameras already"};
+        if (shots_.size() >= static_cast<std::size_t>(max_shots)) {
+            decision = {RequestState::refused, 0,
+                        "this match has " + std::to_string(max_shots) + " cameras already"};
             return;
         }
         shot = &add_shot(observer.key);
     }
     shot->profile = observer.profile;
     ++shot->observers;
-    verdict.camera_id = shot->camera_id;
+    decision.camera_id = shot->camera_id;
 }
 
 Shot* Requests::find_shot(const ShotKey& key) {
@@ -185,11 +185,11 @@ Shot& Requests::add_shot(const ShotKey& key) {
     return *shots_.insert(place, std::move(shot));
 }
 
-void Requests::tell(Observer& observer, Verdict verdict, std::uint64_t epoch) {
-    ObserverStatus status{match_id_,         observer.request.observer_id,        epoch, verdict.state,
-                          verdict.camera_id, shortened(std::move(verdict.reason))};
+void Requests::publish(Observer& observer, Decision decision, std::uint64_t epoch) {
+    ObserverStatus status{match_id_,          observer.request.observer_id,         epoch, decision.state,
+                          decision.camera_id, shortened(std::move(decision.reason))};
     ObserverStatus& said = observer.status;
-    if (observer.told && said.epoch == status.epoch && said.state == status.state &&
+    if (observer.published && said.epoch == status.epoch && said.state == status.state &&
         said.camera_id == status.camera_id && said.reason == status.reason)
         return;
     if (status.state == RequestState::refused) {
@@ -197,8 +197,8 @@ void Requests::tell(Observer& observer, Verdict verdict, std::uint64_t epoch) {
         spdlog::info("match {}: observer {} is refused: {}", match_id_, status.observer_id, status.reason);
     }
     said = std::move(status);
-    observer.told = true;
-    wire_.publish(said);
+    observer.published = true;
+    publisher_.publish(said);
 }
 
 void Requests::restart_shots() {

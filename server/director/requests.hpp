@@ -1,4 +1,4 @@
-// The requests of a match's observers, what becomes of them, and the shots that they share.
+// The requests of a match's observers, the decisions about them, and the shots that they share.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ struct ShotKey {
     std::uint32_t target = no_player;  // no_player: automatic
     std::vector<std::uint32_t> group;  // ascending, distinct
     std::string profile;
-    std::string overrides;  // JSON as nlohmann writes it: keys sorted, no white space
+    std::string overrides;  // canonical JSON: keys sorted, no white space
 
     bool operator==(const ShotKey&) const = default;
 };
@@ -31,39 +31,41 @@ struct Shot {
     camera::Profile profile;
     camera::ShotState state;
     AutomaticTarget automatic;
-    std::uint32_t target = no_player;  // who is followed now
+    std::uint32_t target = no_player;  // the player followed now
     std::uint64_t observers = 0;
     std::uint32_t flags = 0;  // of the last camera
 };
 
-// What requests are judged by.
-struct Situation {
+// What decides about requests.
+struct RequestContext {
     const config::Config& config;
     const Roster& roster;
     std::uint64_t epoch = 0;
-    std::string refusal;  // why every request is refused; empty: they are not
-    std::string no_map;   // why there is no map; empty: there is one
-    std::string remark;   // told to those who are accepted
+    std::string refusal;      // why all requests are refused; empty when they are not
+    std::string missing_map;  // why the match has no map; empty when it has one
+    std::string remark;       // reason in the status of accepted requests
 };
 
 // One thread at a time.
 class Requests {
   public:
-    Requests(std::string match_id, Wire& wire, Counters& counters)
-        : match_id_(std::move(match_id)), wire_(wire), counters_(counters) {}
+    Requests(std::string match_id, Publisher& publisher, MatchCounters& counters)
+        : match_id_(std::move(match_id)), publisher_(publisher), counters_(counters) {}
 
-    // Keeps the request, to be judged. When limits.observers are kept already it is refused at once.
+    // Keeps the request until the next reconcile(). Refuses it at once when limits.observers are kept
+    // already.
     void put(const ObserverRequest& request, const config::Config& config, std::uint64_t epoch);
     void remove(const std::string& observer_id);
 
-    // Profiles changed.
+    // Looks profiles up again after a configuration change.
     void resolve_again(const config::Config& config);
 
-    // Decides about every request, ends and begins shots accordingly, and publishes what changed. A shot that
-    // runs goes on while anybody wants it; when limits.shots are wanted by more, new ones are refused.
-    void judge(const Situation& situation);
+    // Decides about every request, ends and begins shots accordingly, and publishes the statuses that
+    // changed. A running shot continues while any request wants it; new shots beyond limits.shots are
+    // refused.
+    void reconcile(const RequestContext& context);
 
-    // All shots begin anew, with a cut.
+    // All shots start again, with a cut.
     void restart_shots();
 
     [[nodiscard]] std::vector<Shot>& shots() { return shots_; }  // by camera_id
@@ -76,26 +78,26 @@ class Requests {
         ObserverRequest request;
         ShotKey key;
         camera::Profile profile;
-        std::string fault;  // why the request can never be served
+        std::string error;  // why the request is invalid; empty when it is valid
         ObserverStatus status;
-        bool told = false;  // status is published
+        bool published = false;  // `status` is what the observer has been sent
     };
-    struct Verdict {
+    struct Decision {
         RequestState state = RequestState::accepted;
         std::uint32_t camera_id = 0;
         std::string reason;
     };
 
     static void resolve(Observer& observer, const config::Config& config);
-    [[nodiscard]] static Verdict verdict(const Observer& observer, const Situation& situation);
-    void seat(const Observer& observer, std::int64_t most_shots, Verdict& verdict);
+    [[nodiscard]] static Decision decide(const Observer& observer, const RequestContext& context);
+    void assign(const Observer& observer, std::int64_t max_shots, Decision& decision);
     Shot* find_shot(const ShotKey& key);
     Shot& add_shot(const ShotKey& key);
-    void tell(Observer& observer, Verdict verdict, std::uint64_t epoch);
+    void publish(Observer& observer, Decision decision, std::uint64_t epoch);
 
     const std::string match_id_;
-    Wire& wire_;
-    Counters& counters_;
+    Publisher& publisher_;
+    MatchCounters& counters_;
     std::map<std::string, Observer> observers_;
     std::vector<Shot> shots_;
 };

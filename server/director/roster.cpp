@@ -6,7 +6,7 @@
 namespace camdir::director {
 namespace {
 
-constexpr std::size_t most_known = 2 * max_players;
+constexpr std::size_t max_known = 2 * max_players;
 
 }  // namespace
 
@@ -28,30 +28,30 @@ Roster::Entry* Roster::find_or_add(std::uint32_t player) {
         std::lower_bound(entries_.begin(), entries_.end(), player,
                          [](const Entry& entry, std::uint32_t id) { return entry.player < id; });
     if (place != entries_.end() && place->player == player) return &*place;
-    if (entries_.size() >= most_known) return nullptr;
+    if (entries_.size() >= max_known) return nullptr;
     changed_ = true;
     return &*entries_.insert(place, Entry{player, false, false, 0, nullptr});
 }
 
-void Roster::list(std::span<const Player> players) {
+void Roster::set_listed(std::span<const Player> players) {
     for (Entry& entry : entries_)
         entry.listed = false;
     for (const Player& player : players)
         if (Entry* entry = find_or_add(player.id)) entry->listed = true;
     changed_ = true;
-    // Who was listed and is no more has left the match.
+    // A player who is no longer listed and has no pose has left the match.
     std::erase_if(entries_, [&](const Entry& entry) { return !entry.listed && entry.pose == nullptr; });
 }
 
-std::uint64_t Roster::see(std::span<const PlayerPose> poses, std::int64_t patience) {
+std::uint64_t Roster::update(std::span<const PlayerPose> poses, std::int64_t max_absent_frames) {
     ++frames_;
     for (Entry& entry : entries_)
         entry.pose = nullptr;
-    std::uint64_t left_out = 0;
+    std::uint64_t skipped = 0;
     for (const PlayerPose& pose : poses) {
         Entry* entry = find_or_add(pose.player_id);
         if (entry == nullptr || entry->last_seen == frames_) {
-            ++left_out;
+            ++skipped;
             continue;
         }
         const bool spectator = (pose.flags & pose_spectator) != 0;
@@ -60,13 +60,13 @@ std::uint64_t Roster::see(std::span<const PlayerPose> poses, std::int64_t patien
         entry->last_seen = frames_;
         entry->pose = &pose;
     }
-    forget_absent(patience);
-    return left_out;
+    forget_absent(max_absent_frames);
+    return skipped;
 }
 
-void Roster::forget_absent(std::int64_t patience) {
+void Roster::forget_absent(std::int64_t max_absent_frames) {
     const auto absent = [&](const Entry& entry) {
-        return !entry.listed && frames_ - entry.last_seen > patience;
+        return !entry.listed && frames_ - entry.last_seen > max_absent_frames;
     };
     if (std::erase_if(entries_, absent) > 0) changed_ = true;
 }
@@ -81,7 +81,7 @@ Presence Roster::presence(std::uint32_t player) const {
     return entry->spectator ? Presence::spectator : Presence::playing;
 }
 
-bool Roster::anybody_playing() const {
+bool Roster::anyone_playing() const {
     return std::any_of(entries_.begin(), entries_.end(), [](const Entry& entry) { return !entry.spectator; });
 }
 

@@ -1,4 +1,4 @@
-// The players of a match: listed in its MatchInfo, or seen in its poses.
+// The players of a match: those in its MatchInfo and those in its poses.
 #pragma once
 
 #include <cstdint>
@@ -15,24 +15,25 @@ inline constexpr std::uint32_t pose_spectator = 4;
 
 enum class Presence { unknown, spectator, playing };
 
+// One thread at a time.
 class Roster {
   public:
     void clear();
 
-    // Replaces the list of the MatchInfo.
-    void list(std::span<const Player> players);
+    // Replaces the players of the MatchInfo.
+    void set_listed(std::span<const Player> players);
 
-    // Takes in a frame, of which `poses` must stay while it is asked for. Returns the poses left out: players
-    // twice in it, and unlisted ones when too many are known. Players without a pose for `patience` frames
-    // are forgotten unless listed. Allocates only when a player is new.
-    std::uint64_t see(std::span<const PlayerPose> poses, std::int64_t patience);
+    // Replaces the poses by those of a new frame; `poses` must outlive the calls of pose(). Returns the
+    // number of poses skipped: duplicate players, and new players when 512 are known already. Players who are
+    // not listed and have had no pose for `max_absent_frames` are forgotten. Allocates only for new players.
+    std::uint64_t update(std::span<const PlayerPose> poses, std::int64_t max_absent_frames);
 
-    // Whether a presence may have changed since the last call.
+    // True when a presence may have changed since the last call.
     [[nodiscard]] bool take_changed();
 
     [[nodiscard]] Presence presence(std::uint32_t player) const;
-    [[nodiscard]] bool anybody_playing() const;
-    // In the last frame; null when he has none there or is a spectator.
+    [[nodiscard]] bool anyone_playing() const;
+    // The player's pose in the last frame; null when there is none or the player is a spectator.
     [[nodiscard]] const PlayerPose* pose(std::uint32_t player) const;
 
   private:
@@ -40,13 +41,13 @@ class Roster {
         std::uint32_t player;
         bool listed;
         bool spectator;
-        std::int64_t last_seen;  // frame of frames_; 0 = never
+        std::int64_t last_seen;  // value of frames_ then; 0 = never
         const PlayerPose* pose;
     };
 
     [[nodiscard]] const Entry* find(std::uint32_t player) const;
     Entry* find_or_add(std::uint32_t player);
-    void forget_absent(std::int64_t patience);
+    void forget_absent(std::int64_t max_absent_frames);
 
     std::vector<Entry> entries_;  // by player
     std::int64_t frames_ = 0;

@@ -1,4 +1,4 @@
-// The read-only view of the director: what http and logs show.
+// Read-only copies of the director's state, for metrics, status pages and logs.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace camdir::director {
 
-// What is counted, since the director's start.
+// What is counted since the director's start.
 enum class Counter : std::size_t {
     match_infos,
     pose_frames,
@@ -19,17 +19,17 @@ enum class Counter : std::size_t {
     camera_frames,
     cameras,
     cuts,
-    searches,            // times that a camera began to search
-    silences,            // times that a match fell silent
+    searches,            // a camera began to search
+    silences,            // a match's poses stopped, or its game server was lost
     drop_unknown_match,  // pose frames and events of matches without a MatchInfo
     drop_old_epoch,
-    drop_early_epoch,  // of an epoch whose MatchInfo has not come yet
-    drop_old_frame,    // frame number not above the one before
-    drop_superseded,   // a newer pose frame came before a worker was free
-    drop_waiting,      // no map, so no camera
-    drop_players,      // poses above limits.players
+    drop_early_epoch,  // of an epoch whose MatchInfo has not arrived yet
+    drop_old_frame,    // frame number not greater than the previous one
+    drop_superseded,   // a newer pose frame arrived before a worker was free
+    drop_waiting,      // pose frames of a match without a map
+    drop_players,      // poses beyond limits.players, duplicate players
     drop_events,       // the match's queue of events was full
-    drop_control,      // the match's queue of other messages was full
+    drop_messages,     // the match's queue of other messages was full
     refused_matches,
     refused_requests,
     map_hash_mismatches,
@@ -37,7 +37,7 @@ enum class Counter : std::size_t {
 };
 inline constexpr std::size_t counter_count = static_cast<std::size_t>(Counter::count);
 
-// Counts of durations by upper bound; the last bucket has none.
+// A histogram of durations. bounds_s are the buckets' inclusive upper bounds; the last bucket has none.
 struct Durations {
     static constexpr std::array<double, 14> bounds_s = {2e-6, 5e-6, 1e-5, 2e-5, 5e-5, 1e-4, 2e-4,
                                                         5e-4, 1e-3, 2e-3, 5e-3, 1e-2, 5e-2, 0.25};
@@ -47,8 +47,8 @@ struct Durations {
 
 struct Statistics {
     std::array<std::uint64_t, counter_count> counters{};
-    Durations step;     // one shot's tracker step
-    Durations latency;  // from the receiving of a pose frame to its cameras' leaving
+    Durations step;     // one tracker step of one shot
+    Durations latency;  // from the receipt of a pose frame until its cameras are published
     std::uint64_t matches = 0;
     std::uint64_t silent_matches = 0;
     std::uint64_t observers = 0;
@@ -61,7 +61,7 @@ struct Statistics {
 
 struct ShotView {
     std::uint32_t camera_id = 0;
-    std::uint32_t target = no_player;  // the player that is followed now
+    std::uint32_t target = no_player;  // the player followed now
     bool automatic = false;
     std::string profile;
     std::uint64_t observers = 0;
@@ -77,10 +77,10 @@ struct ObserverView {
 
 struct MatchView {
     std::string match_id;
-    bool answered = false;  // false: the match's worker was busy for too long, the rest is empty
+    bool answered = false;  // false: no answer within the time allowed, the rest is empty
     std::uint64_t epoch = 0;
     std::string map_name;
-    std::string state;  // "running", "silent", "waiting for map", "no game server"
+    std::string state;  // "running", "waiting for map", "silent", "game server lost", "no game server"
     float rate_hz = 0.0F;
     float spectator_delay_s = 0.0F;
     std::uint64_t players = 0;

@@ -52,16 +52,16 @@ bool WorkerPool::attach(Strand& strand) {
 }
 
 void WorkerPool::detach(Strand& strand) {
-    assert(settled(strand));
+    assert(idle(strand));
     slots_[strand.slot_] = nullptr;
 }
 
-bool WorkerPool::settled(const Strand& strand) {
+bool WorkerPool::idle(const Strand& strand) {
     return strand.pending_.load(std::memory_order_acquire) == 0;
 }
 
-void WorkerPool::settle(const Strand& strand) {
-    while (!settled(strand))
+void WorkerPool::wait_idle(const Strand& strand) {
+    while (!idle(strand))
         std::this_thread::sleep_for(std::chrono::microseconds(100));
 }
 
@@ -90,11 +90,11 @@ void WorkerPool::run(Worker& worker, Strand& strand) {
     const std::uint32_t seen = strand.pending_.load(std::memory_order_acquire);
     strand.turn();
     worker.turn_began_ns.store(0, std::memory_order_relaxed);
-    // Once nothing is pending the strand may be gone.
+    // As soon as nothing is pending the strand may be destroyed.
     if (strand.pending_.fetch_sub(seen, std::memory_order_acq_rel) != seen) mark_ready(slot);
 }
 
-// Takes the first ready strand at or after next_, in a circle; null when stopping.
+// Claims the first ready strand from next_ on, wrapping around; null when stopping.
 Strand* WorkerPool::claim() {
     for (;;) {
         const std::size_t from = next_.load(std::memory_order_relaxed);
@@ -114,7 +114,7 @@ Strand* WorkerPool::claim_in(std::size_t word, std::uint64_t mask) {
         const auto bit = static_cast<std::size_t>(std::countr_zero(ready & mask));
         const std::uint64_t claimed = std::uint64_t{1} << bit;
         ready = ready_[word].fetch_and(~claimed, std::memory_order_acq_rel);
-        if ((ready & claimed) == 0) continue;  // another worker was faster
+        if ((ready & claimed) == 0) continue;  // another worker claimed it
         const std::size_t slot = word * word_bits + bit;
         next_.store((slot + 1) % slots_.size(), std::memory_order_relaxed);
         return slots_[slot];

@@ -1,4 +1,4 @@
-// A pool of threads that runs strands.
+// A pool of threads that runs strands: pieces of work of which each is run by one thread at a time.
 #pragma once
 
 #include <semaphore.h>
@@ -12,7 +12,7 @@
 
 namespace camdir::director {
 
-// Something whose work is done by at most one worker at a time.
+// Work that at most one worker does at a time.
 class Strand {
   public:
     Strand() = default;
@@ -23,41 +23,41 @@ class Strand {
   private:
     friend class WorkerPool;
 
-    // Handles what has come in by now; may leave some of it when it schedules itself again. What throws is a
-    // bug and stops the process.
+    // Processes what is pending. It may leave some of it if it schedules the strand again. An exception is a
+    // bug and ends the process.
     virtual void turn() noexcept = 0;
 
-    std::atomic<std::uint32_t> pending_{0};  // schedule() calls that no finished turn has seen
+    std::atomic<std::uint32_t> pending_{0};  // schedule() calls not yet covered by a finished turn
     std::size_t slot_ = 0;
 };
 
-// Strands with work are kept as bits that the workers claim in a round: no strand waits for more than one
-// turn of each other one, and scheduling takes no lock and no memory.
+// Strands with work are bits that the workers claim round robin: a strand waits for at most one turn of every
+// other strand. Scheduling takes no lock and allocates nothing.
 class WorkerPool {
   public:
-    // `capacity`: strands at once.
+    // `capacity` is the largest number of attached strands. Both arguments must be greater than 0.
     WorkerPool(std::size_t workers, std::size_t capacity);
     WorkerPool(const WorkerPool&) = delete;
     WorkerPool& operator=(const WorkerPool&) = delete;
-    ~WorkerPool();  // stops; precondition: settled
+    ~WorkerPool();  // stops; precondition: all strands are idle
 
-    // False: as many as `capacity` are attached. Attach and detach: one thread at a time.
+    // Returns false when `capacity` strands are attached. attach() and detach(): one thread at a time.
     [[nodiscard]] bool attach(Strand& strand);
-    // Precondition: settled, and nobody schedules it any more.
+    // Precondition: the strand is idle and is not scheduled again.
     void detach(Strand& strand);
 
-    // The strand gets a turn that begins after this call. Thread-safe.
+    // Gives the strand a turn that begins after this call. Thread-safe.
     void schedule(Strand& strand);
 
-    // The strand has no turn to come.
-    [[nodiscard]] static bool settled(const Strand& strand);
-    // Waits until that is so.
-    static void settle(const Strand& strand);
+    // True when the strand is in no turn and none is due.
+    [[nodiscard]] static bool idle(const Strand& strand);
+    // Waits until the strand is idle.
+    static void wait_idle(const Strand& strand);
 
-    // No turn has lasted longer than this. Thread-safe.
+    // True when no current turn has lasted longer than `limit`. Thread-safe.
     [[nodiscard]] bool responsive(std::chrono::nanoseconds limit) const;
 
-    // Joins the workers; strands scheduled afterwards get no turn.
+    // Joins the workers. Strands scheduled afterwards get no turn.
     void stop();
 
   private:
@@ -73,9 +73,9 @@ class WorkerPool {
     void mark_ready(std::size_t slot);
 
     std::vector<Strand*> slots_;
-    std::vector<std::atomic<std::uint64_t>> ready_;  // a bit a slot
-    std::atomic<std::size_t> next_{0};               // slot at which the round goes on
-    sem_t turns_;                                    // one permit a ready bit
+    std::vector<std::atomic<std::uint64_t>> ready_;  // one bit per slot
+    std::atomic<std::size_t> next_{0};               // slot at which the round continues
+    sem_t turns_;                                    // one permit per ready bit
     std::atomic<bool> stopping_{false};
     std::vector<std::unique_ptr<Worker>> workers_;
 };

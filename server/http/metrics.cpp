@@ -57,7 +57,7 @@ MetricFamily drops(const Statistics& statistics) {
         {Counter::drop_waiting, "no_map"},
         {Counter::drop_players, "players"},
         {Counter::drop_events, "events"},
-        {Counter::drop_control, "control"}};
+        {Counter::drop_messages, "control"}};
     MetricFamily result = counter_family("dropped_total", "Input that was dropped, by reason.");
     for (const auto& [reason, label] : reasons)
         add_metric(result, static_cast<double>(statistics[reason]), {{"reason", label}});

@@ -93,7 +93,7 @@ std::vector<std::string> Service::missing() const {
     std::vector<std::string> missing;
     if (draining_) missing.emplace_back("draining");
     for (const auto& [name, map] : maps_.entries())
-        if (map.state == director::MapState::loading)
+        if (map.state == director::LoadState::loading)
             missing.push_back("map " + name + ": " + (map.reason.empty() ? "loading" : map.reason));
     return missing;
 }

@@ -9,7 +9,7 @@ constexpr dds::Topic received_topics[] = {dds::Topic::match_info, dds::Topic::po
                                           dds::Topic::match_event, dds::Topic::observer_request};
 
 prometheus::MetricFamily counter(const std::string& name, const std::string& help,
-                                 const dds::Counter& value) {
+                                 const dds::WireCounter& value) {
     prometheus::MetricFamily family = http::counter_family(name, help);
     http::add_metric(family, static_cast<double>(value.load()));
     return family;
@@ -17,7 +17,7 @@ prometheus::MetricFamily counter(const std::string& name, const std::string& hel
 
 }  // namespace
 
-std::vector<prometheus::MetricFamily> wire_metrics(const dds::Counters& counters) {
+std::vector<prometheus::MetricFamily> wire_metrics(const dds::WireCounters& counters) {
     auto accepted = http::counter_family("wire_received_total", "Samples passed to the director, by topic.");
     auto dropped = http::counter_family("wire_dropped_total",
                                         "Samples dropped on receipt, by topic and validation error.");
@@ -25,9 +25,9 @@ std::vector<prometheus::MetricFamily> wire_metrics(const dds::Counters& counters
         const char* name = dds::topic_name(topic);
         const auto& of_topic = counters.of(topic);
         http::add_metric(accepted, static_cast<double>(of_topic.accepted.load()), {{"topic", name}});
-        for (std::size_t defect = 0; defect < dds::defect_names.size(); ++defect)
-            http::add_metric(dropped, static_cast<double>(of_topic.dropped[defect].load()),
-                             {{"topic", name}, {"defect", dds::defect_names[defect]}});
+        for (std::size_t error = 0; error < dds::validation_error_names.size(); ++error)
+            http::add_metric(dropped, static_cast<double>(of_topic.dropped[error].load()),
+                             {{"topic", name}, {"defect", dds::validation_error_names[error]}});
     }
     return {
         accepted,

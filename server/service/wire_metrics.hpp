@@ -9,6 +9,6 @@
 
 namespace camdir::service {
 
-[[nodiscard]] std::vector<prometheus::MetricFamily> wire_metrics(const dds::Counters& counters);
+[[nodiscard]] std::vector<prometheus::MetricFamily> wire_metrics(const dds::WireCounters& counters);
 
 }  // namespace camdir::service

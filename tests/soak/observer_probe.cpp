@@ -53,7 +53,7 @@ class Probe {
           std::uint32_t match, std::uint32_t number)
         : observer_(context, options.match_prefix + "-" + std::to_string(match),
                     "probe-" + std::to_string(number)),
-          judge_(oracle, options.limits) {
+          checker_(oracle, options.limits) {
         observer_.request(
             {.target = options.automatic ? CDIR_CHOOSE_TARGET : number, .profile = options.profile});
         thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
@@ -66,15 +66,15 @@ class Probe {
     // Forgets what was found so far; the frame before stays known.
     void restart() {
         const std::lock_guard lock(mutex_);
-        judge_.findings() = {};
+        checker_.findings() = {};
     }
     [[nodiscard]] Findings findings() const {
         const std::lock_guard lock(mutex_);
-        return judge_.findings();
+        return checker_.findings();
     }
     [[nodiscard]] std::optional<camera_director::Camera> latest() const {
         const std::lock_guard lock(mutex_);
-        return judge_.latest();
+        return checker_.latest();
     }
     [[nodiscard]] camera_director::ShotStatus status() const { return observer_.shot_status(); }
 
@@ -87,8 +87,8 @@ class Probe {
                 const std::int64_t received = realtime_now();
                 const auto* own = own_camera(std::span(cameras).first(frame->camera_count));
                 const std::lock_guard lock(mutex_);
-                judge_.judge(*frame, own, received);
-                judge_.findings().invalid = observer_.counters().invalid;
+                checker_.check(*frame, own, received);
+                checker_.findings().invalid = observer_.counters().invalid;
             }
         }
     }
@@ -105,7 +105,7 @@ class Probe {
 
     camera_director::Observer observer_;
     mutable std::mutex mutex_;
-    ShotJudge judge_;
+    ShotChecker checker_;
     std::jthread thread_;
 };
 

@@ -19,23 +19,23 @@ void Findings::add(const Findings& other) {
     latency.add(other.latency);
 }
 
-void ShotJudge::judge(const camera_director::CameraFrame& frame, const camera_director::Camera* own,
-                      std::int64_t received) {
+void ShotChecker::check(const camera_director::CameraFrame& frame, const camera_director::Camera* own,
+                        std::int64_t received) {
     ++findings_.frames;
     findings_.latency.add(static_cast<double>(received - frame.source_time) * 1e-9);
     const bool consecutive = follows(frame);
     if (own != nullptr) {
-        judge_camera(*own);
+        check_camera(*own);
         const bool comparable = consecutive && previous_->own && previous_->own->camera_id == own->camera_id;
         if (comparable && (own->flags & CDIR_CAMERA_CUT) == 0) {
-            judge_step(position_of(*previous_->own), position_of(*own));
+            check_step(position_of(*previous_->own), position_of(*own));
         }
     }
     previous_ = {frame, own != nullptr ? std::optional(*own) : std::nullopt};
 }
 
 // Counts what lies between the frames; true when nothing does.
-bool ShotJudge::follows(const camera_director::CameraFrame& frame) {
+bool ShotChecker::follows(const camera_director::CameraFrame& frame) {
     if (!previous_) return false;
     const camera_director::CameraFrame& before = previous_->frame;
     if (frame.epoch != before.epoch) {
@@ -54,7 +54,7 @@ bool ShotJudge::follows(const camera_director::CameraFrame& frame) {
     return frame.frame_number == before.frame_number + 1;
 }
 
-void ShotJudge::judge_camera(const camera_director::Camera& camera) {
+void ShotChecker::check_camera(const camera_director::Camera& camera) {
     ++findings_.cameras;
     const auto has = [&](std::uint32_t flag) { return (camera.flags & flag) != 0 ? 1U : 0U; };
     findings_.cuts += has(CDIR_CAMERA_CUT);
@@ -67,7 +67,7 @@ void ShotJudge::judge_camera(const camera_director::Camera& camera) {
     }
 }
 
-void ShotJudge::judge_step(const Vec3d& from, const Vec3d& to) {
+void ShotChecker::check_step(const Vec3d& from, const Vec3d& to) {
     if ((to - from).norm() > limits_.step) ++findings_.jumps;
     if (oracle_ != nullptr && !oracle_->segment_clear(from, to)) ++findings_.through_geometry;
 }

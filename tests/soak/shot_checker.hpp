@@ -35,12 +35,12 @@ struct Limits {
 };
 
 // One thread at a time. `oracle`, which may be null, must outlive it.
-class ShotJudge {
+class ShotChecker {
   public:
-    ShotJudge(const oracle::Oracle* oracle, const Limits& limits) : oracle_(oracle), limits_(limits) {}
+    ShotChecker(const oracle::Oracle* oracle, const Limits& limits) : oracle_(oracle), limits_(limits) {}
 
     // `own` is the observer's camera in the frame, if it has one. `received` is CLOCK_REALTIME, ns.
-    void judge(const camera_director::CameraFrame& frame, const camera_director::Camera* own,
+    void check(const camera_director::CameraFrame& frame, const camera_director::Camera* own,
                std::int64_t received);
 
     [[nodiscard]] Findings& findings() { return findings_; }
@@ -57,8 +57,8 @@ class ShotJudge {
     };
 
     [[nodiscard]] bool follows(const camera_director::CameraFrame& frame);
-    void judge_camera(const camera_director::Camera& camera);
-    void judge_step(const Vec3d& from, const Vec3d& to);
+    void check_camera(const camera_director::Camera& camera);
+    void check_step(const Vec3d& from, const Vec3d& to);
 
     const oracle::Oracle* oracle_;
     Limits limits_;

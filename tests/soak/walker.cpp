@@ -20,7 +20,7 @@ void add_edge(std::vector<std::vector<std::uint32_t>>& neighbours, std::uint32_t
     add(b, a);
 }
 
-std::vector<std::uint32_t> largest_part(const std::vector<std::vector<std::uint32_t>>& neighbours) {
+std::vector<std::uint32_t> largest_component(const std::vector<std::vector<std::uint32_t>>& neighbours) {
     std::vector<std::uint32_t> largest;
     std::vector<bool> seen(neighbours.size(), false);
     for (std::uint32_t start = 0; start < neighbours.size(); ++start) {
@@ -56,7 +56,7 @@ Roads::Roads(const freespace::Freespace& freespace, float clearance)
             if (a != b && wide(a) && wide(b)) add_edge(neighbours_, a, b);
         }
     }
-    crossings_ = largest_part(neighbours_);
+    crossings_ = largest_component(neighbours_);
 }
 
 Walker::Walker(const Roads& roads, const WalkStyle& style, std::uint32_t seed)
@@ -100,8 +100,8 @@ void Walker::choose_next() {
     for (const std::uint32_t next : roads_.neighbours(to_)) {
         const Vec3f way = roads_.position(next) - here;
         if (way.squaredNorm() == 0.0F) continue;
-        const float wish = std::uniform_real_distribution(-0.3F, 0.3F)(random_);
-        const float score = way.normalized().dot(came) - std::abs(way.normalized().z()) + wish;
+        const float jitter = std::uniform_real_distribution(-0.3F, 0.3F)(random_);
+        const float score = way.normalized().dot(came) - std::abs(way.normalized().z()) + jitter;
         if (score > best_score) {
             best_score = score;
             best = next;

@@ -28,7 +28,7 @@ dds_qos_t* reliable() {
     return qos;
 }
 
-dds_qos_t* newest_for_late_comers() {
+dds_qos_t* newest_for_late_joiners() {
     dds_qos_t* qos = reliable();
     dds_qset_durability(qos, DDS_DURABILITY_TRANSIENT_LOCAL);
     dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, 1);
@@ -36,7 +36,7 @@ dds_qos_t* newest_for_late_comers() {
 }
 
 dds_qos_t* match_info_qos() {
-    dds_qos_t* qos = newest_for_late_comers();
+    dds_qos_t* qos = newest_for_late_joiners();
     dds_qset_liveliness(qos, DDS_LIVELINESS_AUTOMATIC, DDS_SECS(2));
     return qos;
 }
@@ -56,7 +56,7 @@ dds_qos_t* match_event_qos() {
 }
 
 dds_qos_t* observer_request_qos() {
-    dds_qos_t* qos = newest_for_late_comers();
+    dds_qos_t* qos = newest_for_late_joiners();
     dds_qset_liveliness(qos, DDS_LIVELINESS_AUTOMATIC, DDS_SECS(10));
     return qos;
 }
@@ -70,7 +70,7 @@ dds_qos_t* camera_frame_qos() {
 }
 
 dds_qos_t* observer_status_qos() {
-    dds_qos_t* qos = newest_for_late_comers();
+    dds_qos_t* qos = newest_for_late_joiners();
     dds_qset_ownership(qos, DDS_OWNERSHIP_EXCLUSIVE);
     return qos;
 }
@@ -160,20 +160,20 @@ void RawPeer::write(const camera_director_ObserverRequest& sample) {
     check(dds_write(observer_request_, &sample), "writing an ObserverRequest");
 }
 void RawPeer::dispose(const camera_director_MatchInfo& key) {
-    check(dds_dispose(match_info_, &key), "disposing of a MatchInfo");
+    check(dds_dispose(match_info_, &key), "disposing MatchInfo");
 }
 void RawPeer::dispose(const camera_director_ObserverRequest& key) {
-    check(dds_dispose(observer_request_, &key), "disposing of an ObserverRequest");
+    check(dds_dispose(observer_request_, &key), "disposing ObserverRequest");
 }
 
 void RawPeer::write(const camera_director_ObserverStatus& sample, std::int32_t strength) {
-    if (rival_status_ == 0) {
+    if (director_status_ == 0) {
         dds_qos_t* qos = observer_status_qos();
         dds_qset_ownership_strength(qos, strength);
         dds_qset_writer_data_lifecycle(qos, false);
-        rival_status_ = add_writer(camera_director_ObserverStatus_desc, "ObserverStatus", qos);
+        director_status_ = add_writer(camera_director_ObserverStatus_desc, "ObserverStatus", qos);
     }
-    check(dds_write(rival_status_, &sample), "writing an ObserverStatus");
+    check(dds_write(director_status_, &sample), "writing an ObserverStatus");
 }
 
 std::vector<RawPeer::CameraFrame> RawPeer::take_cameras() {

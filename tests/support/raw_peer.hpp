@@ -62,7 +62,7 @@ class RawPeer {
     std::string partition_;
     dds_entity_t match_info_ = 0, pose_frame_ = 0, match_event_ = 0, observer_request_ = 0;
     dds_entity_t camera_frame_ = 0, observer_status_ = 0;
-    dds_entity_t rival_status_ = 0;  // the writer of ObserverStatus, once there is one
+    dds_entity_t director_status_ = 0;  // the writer of ObserverStatus, once there is one
     std::map<std::string, camera_director_ObserverStatus> statuses_;
 };
 

@@ -139,7 +139,7 @@ TEST_F(Examples, GameServerThatIsKilledIsNoticed) {
     ASSERT_TRUE(eventually([&] { return director.take_info().has_value(); })) << server.errors();
     server.send_signal(SIGKILL);
     EXPECT_EQ(server.wait(), -SIGKILL);
-    EXPECT_TRUE(eventually([&] { return director.info_is_gone(); }));
+    EXPECT_TRUE(eventually([&] { return director.info_has_ended(); }));
 }
 
 TEST_F(Examples, ObserverGivesUpWithoutADirector) {

@@ -155,7 +155,7 @@ std::optional<ReceivedRequest> FakeDirector::take_request() {
     return take<camera_director_ObserverRequest>(request_reader_, camera_director_ObserverRequest_desc, use);
 }
 
-bool FakeDirector::is_gone(dds_entity_t reader) {
+bool FakeDirector::has_ended(dds_entity_t reader) {
     // A read condition sees instances by state without taking any sample.
     const dds_entity_t ended = created(dds_create_readcondition(
         reader, DDS_ANY_SAMPLE_STATE | DDS_ANY_VIEW_STATE | DDS_NOT_ALIVE_DISPOSED_INSTANCE_STATE |

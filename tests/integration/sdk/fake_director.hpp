@@ -74,8 +74,8 @@ class FakeDirector {
     [[nodiscard]] std::optional<camera_director_MatchEvent> take_event();
     [[nodiscard]] std::optional<ReceivedRequest> take_request();
     // Takes what waits, then: no live writer of the instance is left.
-    [[nodiscard]] bool info_is_gone() { return is_gone(info_reader_); }
-    [[nodiscard]] bool request_is_gone() { return is_gone(request_reader_); }
+    [[nodiscard]] bool info_has_ended() { return has_ended(info_reader_); }
+    [[nodiscard]] bool request_has_ended() { return has_ended(request_reader_); }
 
     void write(CameraFrameArrays& frame);
     void write_status(const std::string& observer_id, std::uint64_t epoch, std::uint32_t state,
@@ -89,7 +89,7 @@ class FakeDirector {
 
   private:
     [[nodiscard]] dds_entity_t topic(const dds_topic_descriptor_t& type, const char* name);
-    [[nodiscard]] bool is_gone(dds_entity_t reader);
+    [[nodiscard]] bool has_ended(dds_entity_t reader);
 
     std::string match_id_;
     dds_entity_t participant_;

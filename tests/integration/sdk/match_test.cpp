@@ -115,9 +115,9 @@ TEST_F(GameServer, LateDirectorLearnsOfTheMatchAndItsEnd) {
     EXPECT_THAT(received->player_name, ElementsAre("anna", "b\xc3\xa4rt"));
     EXPECT_THAT(received->player_class, ElementsAre("medic", ""));
     EXPECT_THAT(received->player_team, ElementsAre(1, 2));
-    EXPECT_FALSE(director.info_is_gone());
+    EXPECT_FALSE(director.info_has_ended());
     match.reset();
-    EXPECT_TRUE(eventually([&] { return director.info_is_gone(); }));
+    EXPECT_TRUE(eventually([&] { return director.info_has_ended(); }));
 }
 
 TEST_F(GameServer, UpdateKeepsTheEpochAndRestartBeginsAnother) {

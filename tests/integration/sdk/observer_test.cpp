@@ -85,9 +85,9 @@ TEST_F(Spectator, RequestArrivesWithAllItSays) {
     EXPECT_EQ(request->target, CDIR_CHOOSE_TARGET);
     EXPECT_THAT(request->group, testing::IsEmpty());
 
-    EXPECT_FALSE(director_.request_is_gone());
+    EXPECT_FALSE(director_.request_has_ended());
     observer_.withdraw();
-    EXPECT_TRUE(eventually([&] { return director_.request_is_gone(); }));
+    EXPECT_TRUE(eventually([&] { return director_.request_has_ended(); }));
     EXPECT_THROW(observer_.withdraw(), cd::Error);
 }
 
@@ -96,7 +96,7 @@ TEST_F(Spectator, RequestDiesWithItsObserver) {
     other->request({.target = 1});
     ASSERT_TRUE(eventually([&] { return director_.take_request().has_value(); }));
     other.reset();
-    EXPECT_TRUE(eventually([&] { return director_.request_is_gone(); }));
+    EXPECT_TRUE(eventually([&] { return director_.request_has_ended(); }));
 }
 
 TEST_F(Spectator, AnAnswerThatIsWithdrawnBeforeAnybodyLooksIsWithdrawn) {

@@ -68,7 +68,7 @@ RC_GTEST_PROP(DecodePoseFrame, RefusesOneBadNumberAnywhere, (std::uint32_t seed)
     const float bad[] = {infinity, -infinity, nan};
     values[random() % values.size()] = bad[random() % 3];
     director::PoseFrame message;
-    RC_ASSERT(decode(frame.sample(), message) == Defect::not_finite);
+    RC_ASSERT(decode(frame.sample(), message) == ValidationError::not_finite);
 }
 
 RC_GTEST_PROP(DecodePoseFrame, RefusesArraysThatDisagree, (std::uint32_t seed)) {
@@ -96,13 +96,13 @@ RC_GTEST_PROP(DecodePoseFrame, RefusesArraysThatDisagree, (std::uint32_t seed)) 
             break;
     }
     director::PoseFrame message;
-    RC_ASSERT(decode(frame.sample(), message) == Defect::array_length);
+    RC_ASSERT(decode(frame.sample(), message) == ValidationError::array_length);
 }
 
 TEST(DecodePoseFrame, RefusesMoreThan256Players) {
     RawPoseFrame frame("m", 1, 1, 257);
     director::PoseFrame message;
-    EXPECT_EQ(decode(frame.sample(), message), Defect::too_many);
+    EXPECT_EQ(decode(frame.sample(), message), ValidationError::too_many);
 }
 
 TEST(DecodePoseFrame, AcceptsQuaternionsUpToAThousandthOffUnitLength) {
@@ -114,10 +114,10 @@ TEST(DecodePoseFrame, AcceptsQuaternionsUpToAThousandthOffUnitLength) {
     };
     EXPECT_EQ(verdict(1.0009F), std::nullopt);
     EXPECT_EQ(verdict(0.9991F), std::nullopt);
-    EXPECT_EQ(verdict(1.0011F), Defect::not_unit);
-    EXPECT_EQ(verdict(0.9989F), Defect::not_unit);
-    EXPECT_EQ(verdict(0.0F), Defect::not_unit);
-    EXPECT_EQ(verdict(3e38F), Defect::not_unit) << "its length overflows";
+    EXPECT_EQ(verdict(1.0011F), ValidationError::not_unit);
+    EXPECT_EQ(verdict(0.9989F), ValidationError::not_unit);
+    EXPECT_EQ(verdict(0.0F), ValidationError::not_unit);
+    EXPECT_EQ(verdict(3e38F), ValidationError::not_unit) << "its length overflows";
 }
 
 TEST(DecodeMatchInfo, TakesPlayersWithAndWithoutTheirTexts) {
@@ -140,26 +140,26 @@ TEST(DecodeMatchInfo, TakesPlayersWithAndWithoutTheirTexts) {
     EXPECT_EQ(message.players[1].team, 2);
 
     sample.player_name._length = 1;
-    EXPECT_EQ(decode(sample, message), Defect::array_length);
+    EXPECT_EQ(decode(sample, message), ValidationError::array_length);
 }
 
 TEST(DecodeMatchInfo, RefusesNumbersThatMeanNothing) {
     director::MatchInfo message;
     camera_director_MatchInfo sample = test::raw_match_info("m", 1);
     sample.rate_hz = nan;
-    EXPECT_EQ(decode(sample, message), Defect::not_finite);
+    EXPECT_EQ(decode(sample, message), ValidationError::not_finite);
     sample = test::raw_match_info("m", 1);
     sample.spectator_delay_s = -1.0F;
-    EXPECT_EQ(decode(sample, message), Defect::out_of_range);
+    EXPECT_EQ(decode(sample, message), ValidationError::out_of_range);
     sample = test::raw_match_info("m", 1);
     sample.player_id._length = 257;  // refused before anything is read
-    EXPECT_EQ(decode(sample, message), Defect::too_many);
+    EXPECT_EQ(decode(sample, message), ValidationError::too_many);
 }
 
 TEST(DecodeMatchInfo, RefusesIdsThatAPartitionCannotCarry) {
     for (const char* id : {"", "*", "cup?", "a/b", "tab\t"}) {
         director::MatchInfo message;
-        EXPECT_EQ(decode(test::raw_match_info(id, 1), message), Defect::bad_match_id) << id;
+        EXPECT_EQ(decode(test::raw_match_info(id, 1), message), ValidationError::bad_match_id) << id;
     }
     EXPECT_TRUE(valid_match_id("Große Halle [2] 'x' & <y>"));
 }
@@ -175,7 +175,7 @@ TEST(DecodeMatchEvent, RefusesAValueThatIsNoNumber) {
     EXPECT_EQ(message.actor, 4U);
     EXPECT_EQ(message.value, 2.5F);
     sample.value = infinity;
-    EXPECT_EQ(decode(sample, message), Defect::not_finite);
+    EXPECT_EQ(decode(sample, message), ValidationError::not_finite);
 }
 
 TEST(DecodeObserverRequest, KeepsTheGroupAndTheTexts) {
@@ -194,7 +194,7 @@ TEST(DecodeObserverRequest, KeepsTheGroupAndTheTexts) {
     EXPECT_EQ(message.profile, "close");
     EXPECT_EQ(message.overrides, R"({"distance": 60})");
     sample.group._length = 257;
-    EXPECT_EQ(decode(sample, message), Defect::too_many);
+    EXPECT_EQ(decode(sample, message), ValidationError::too_many);
 }
 
 }  // namespace

@@ -21,14 +21,14 @@ using test::RawPeer;
 using test::RawPoseFrame;
 
 // Writes down, one word a call, what the gateway hands on.
-class Recorder final : public director::Receiver {
+class Recorder final : public director::Ingress {
   public:
     bool receive(const director::MatchInfo& info) override {
         note("info " + info.match_id + " " + std::to_string(info.epoch));
         return accepts;
     }
-    void match_silent(const std::string& match_id) override { note("silent " + match_id); }
-    void match_over(const std::string& match_id) override { note("over " + match_id); }
+    void server_lost(const std::string& match_id) override { note("silent " + match_id); }
+    void match_ended(const std::string& match_id) override { note("over " + match_id); }
     void receive(const std::string& match_id, const director::PoseFrame& frame) override {
         note("pose " + match_id + " " + std::to_string(frame.frame_number));
     }
@@ -38,7 +38,7 @@ class Recorder final : public director::Receiver {
     void receive(const director::ObserverRequest& request) override {
         note("request " + request.observer_id + " " + std::to_string(request.target));
     }
-    void request_gone(const std::string& /*match_id*/, const std::string& observer_id) override {
+    void request_ended(const std::string& /*match_id*/, const std::string& observer_id) override {
         note("gone " + observer_id);
     }
     bool responsive(std::chrono::milliseconds /*limit*/) const override { return answers; }
@@ -95,8 +95,8 @@ class GatewayTest : public testing::Test {
         }
         return raw;
     }
-    std::uint64_t dropped(Topic topic, Defect defect) {
-        return gateway_->counters().of(topic).dropped[static_cast<std::size_t>(defect)];
+    std::uint64_t dropped(Topic topic, ValidationError error) {
+        return gateway_->counters().of(topic).dropped[static_cast<std::size_t>(error)];
     }
     // Best effort: sends until it has arrived.
     bool arrives(RawPeer& raw, RawPoseFrame& frame, const std::string& line) {
@@ -133,8 +133,8 @@ director::ObserverStatus status_of(const std::string& observer_id, const std::st
 }
 
 // Another director of the match "cup", stronger than the gateway, that tells anna something.
-void tell_as_stronger_director(RawPeer& rival) {
-    rival.write(encode(status_of("anna", "the leader's")), 1000);
+void publish_as_stronger_director(RawPeer& leader) {
+    leader.write(encode(status_of("anna", "the leader's")), 1000);
 }
 
 TEST_F(GatewayTest, HandsOnWhatAMatchSays) {
@@ -194,21 +194,21 @@ TEST_F(GatewayTest, StatusesAreRepeatedWhenAStrongerDirectorHasGone) {
             return statuses.contains("anna") && statuses.at("anna").reason == reason;
         });
     };
-    auto rival = std::make_unique<RawPeer>(domain_.id(), "cup");
-    tell_as_stronger_director(*rival);
+    auto leader = std::make_unique<RawPeer>(domain_.id(), "cup");
+    publish_as_stronger_director(*leader);
     ASSERT_TRUE(anna_hears("the leader's"));
     gateway_->publish(status_of("anna", "ours"));
     gateway_->publish(status_of("bob", "ours"));
     ASSERT_TRUE(eventually([&] { return observer.statuses().contains("bob"); }));
     EXPECT_STREQ(observer.statuses().at("anna").reason, "the leader's");
-    rival.reset();
+    leader.reset();
     EXPECT_TRUE(anna_hears("ours"));
 
     // One that goes as soon as it has come.
-    rival = std::make_unique<RawPeer>(domain_.id(), "cup");
-    tell_as_stronger_director(*rival);
+    leader = std::make_unique<RawPeer>(domain_.id(), "cup");
+    publish_as_stronger_director(*leader);
     ASSERT_TRUE(anna_hears("the leader's"));
-    rival.reset();
+    leader.reset();
     EXPECT_TRUE(anna_hears("ours"));
 }
 
@@ -253,25 +253,25 @@ TEST_F(GatewayTest, RequestsOfBeforeTheMatchAreReceived) {
 
 TEST_F(GatewayTest, MalformedSamplesAreCountedByReasonAndNotHandedOn) {
     RawPeer& raw = game("cup");
-    const auto refused = [&](RawPoseFrame& frame, Defect defect) {
+    const auto refused = [&](RawPoseFrame& frame, ValidationError error) {
         return eventually([&] {
             raw.write(frame.sample());
-            return dropped(Topic::pose_frame, defect) > 0;
+            return dropped(Topic::pose_frame, error) > 0;
         });
     };
     RawPoseFrame lengths("cup", 1, 100, 4);
     lengths.eye.pop_back();
-    EXPECT_TRUE(refused(lengths, Defect::array_length));
+    EXPECT_TRUE(refused(lengths, ValidationError::array_length));
     RawPoseFrame crowd("cup", 1, 101, 300);
-    EXPECT_TRUE(refused(crowd, Defect::too_many));
+    EXPECT_TRUE(refused(crowd, ValidationError::too_many));
     RawPoseFrame infinite("cup", 1, 102, 4);
     infinite.velocity[3] = std::numeric_limits<float>::infinity();
-    EXPECT_TRUE(refused(infinite, Defect::not_finite));
+    EXPECT_TRUE(refused(infinite, ValidationError::not_finite));
     RawPoseFrame twisted("cup", 1, 103, 4);
     twisted.orientation[1] = 0.5F;
-    EXPECT_TRUE(refused(twisted, Defect::not_unit));
+    EXPECT_TRUE(refused(twisted, ValidationError::not_unit));
     RawPoseFrame foreign("another match", 1, 104, 4);
-    EXPECT_TRUE(refused(foreign, Defect::wrong_partition));
+    EXPECT_TRUE(refused(foreign, ValidationError::wrong_partition));
 
     RawPoseFrame good("cup", 1, 105, 4);
     EXPECT_TRUE(arrives(raw, good, "pose cup 105"));
@@ -283,10 +283,10 @@ TEST_F(GatewayTest, MalformedSamplesAreCountedByReasonAndNotHandedOn) {
 TEST_F(GatewayTest, AMatchInfoCountsOnlyInItsOwnPartition) {
     RawPeer& impostor = peer("evil");
     impostor.write(test::raw_match_info("cup", 99));
-    EXPECT_TRUE(eventually([&] { return dropped(Topic::match_info, Defect::wrong_partition) > 0; }));
+    EXPECT_TRUE(eventually([&] { return dropped(Topic::match_info, ValidationError::wrong_partition) > 0; }));
     RawPeer& pattern = peer("tab\t");
     pattern.write(test::raw_match_info("tab\t", 1));
-    EXPECT_TRUE(eventually([&] { return dropped(Topic::match_info, Defect::bad_match_id) > 0; }));
+    EXPECT_TRUE(eventually([&] { return dropped(Topic::match_info, ValidationError::bad_match_id) > 0; }));
     EXPECT_TRUE(recorder_.lines().empty());
 }
 
@@ -295,7 +295,7 @@ TEST_F(GatewayTest, AStrangerCannotEndAMatch) {
     RawPeer& stranger = peer("evil");
     stranger.dispose(test::raw_match_info("cup", 1));
     stranger.write(test::raw_match_info("dup", 1));  // comes after it
-    ASSERT_TRUE(eventually([&] { return dropped(Topic::match_info, Defect::wrong_partition) > 0; }));
+    ASSERT_TRUE(eventually([&] { return dropped(Topic::match_info, ValidationError::wrong_partition) > 0; }));
     EXPECT_FALSE(recorder_.has("over cup"));
 }
 

@@ -17,12 +17,12 @@ class AttentionTest : public testing::Test {
     }
 
     std::uint32_t choose(std::int64_t now, std::vector<std::uint32_t> group = {}) {
-        roster_.see(poses_, 10);
+        roster_.update(poses_, 10);
         attention_.choose(target_, group, poses_, roster_, rules_, now);
         return target_.player;
     }
     void kill(std::uint32_t actor, std::int64_t at) {
-        attention_.take_in({1, at, 1, actor, no_player, 0.0F}, rules_.automatic_half_life_s);
+        attention_.record({1, at, 1, actor, no_player, 0.0F}, rules_.automatic_half_life_s);
     }
 
     config::Matches rules_;

@@ -16,7 +16,7 @@ TEST(Director, AnAcceptedRequestHasACameraInEveryFrame) {
     Stage stage;
     ASSERT_TRUE(stage.start());
     stage.ask(Stage::request("o"));
-    const ObserverStatus status = stage.wire.status("o");
+    const ObserverStatus status = stage.publisher.status("o");
     EXPECT_EQ(status.state, RequestState::accepted);
     EXPECT_EQ(status.epoch, 1U);
     EXPECT_NE(status.camera_id, 0U);
@@ -24,7 +24,7 @@ TEST(Director, AnAcceptedRequestHasACameraInEveryFrame) {
 
     for (std::uint32_t number = 10; number < 20; ++number)
         stage.send(Stage::poses(number));
-    const auto frames = stage.wire.frames();
+    const auto frames = stage.publisher.frames();
     ASSERT_EQ(frames.size(), 10U);
     for (std::uint32_t i = 0; i < frames.size(); ++i) {
         const CameraFrame& frame = frames[i];
@@ -45,7 +45,7 @@ TEST(Director, AMatchWithoutShotsPublishesNothing) {
     Stage stage;
     stage.start();
     stage.send(Stage::poses(1));
-    EXPECT_TRUE(stage.wire.frames().empty());
+    EXPECT_TRUE(stage.publisher.frames().empty());
     EXPECT_EQ(stage.director.statistics()[Counter::pose_frames], 1U);
 }
 
@@ -63,11 +63,11 @@ TEST(Director, EqualRequestsShareACamera) {
     stage.ask(second);
     stage.ask(Stage::request("c"));
     stage.ask(Stage::request("d", 2));
-    EXPECT_EQ(stage.wire.status("a").camera_id, stage.wire.status("b").camera_id);
-    EXPECT_NE(stage.wire.status("a").camera_id, stage.wire.status("c").camera_id);
-    EXPECT_NE(stage.wire.status("c").camera_id, stage.wire.status("d").camera_id);
+    EXPECT_EQ(stage.publisher.status("a").camera_id, stage.publisher.status("b").camera_id);
+    EXPECT_NE(stage.publisher.status("a").camera_id, stage.publisher.status("c").camera_id);
+    EXPECT_NE(stage.publisher.status("c").camera_id, stage.publisher.status("d").camera_id);
     stage.send(Stage::poses(1));
-    EXPECT_EQ(stage.wire.frames().back().cameras.size(), 3U);
+    EXPECT_EQ(stage.publisher.frames().back().cameras.size(), 3U);
     EXPECT_EQ(stage.director.statistics().shots, 3U);
     EXPECT_EQ(stage.director.statistics().observers, 4U);
 }
@@ -77,15 +77,15 @@ TEST(Director, AShotLivesAsLongAsAnybodyWantsIt) {
     stage.start();
     stage.ask(Stage::request("a"));
     stage.ask(Stage::request("b"));
-    const std::uint32_t id = stage.wire.status("a").camera_id;
-    stage.director.request_gone("m", "a");
-    stage.director.settle();
-    EXPECT_FALSE(stage.wire.has_status("a"));
+    const std::uint32_t id = stage.publisher.status("a").camera_id;
+    stage.director.request_ended("m", "a");
+    stage.director.flush();
+    EXPECT_FALSE(stage.publisher.has_status("a"));
     stage.send(Stage::poses(1));
-    EXPECT_EQ(stage.wire.frames().back().cameras.at(0).camera_id, id);
-    stage.director.request_gone("m", "b");
+    EXPECT_EQ(stage.publisher.frames().back().cameras.at(0).camera_id, id);
+    stage.director.request_ended("m", "b");
     stage.send(Stage::poses(2));
-    EXPECT_EQ(stage.wire.frames().size(), 1U);
+    EXPECT_EQ(stage.publisher.frames().size(), 1U);
     EXPECT_EQ(stage.director.statistics().shots, 0U);
 }
 
@@ -98,8 +98,8 @@ TEST(Director, TwoDirectorsGiveAShotTheSameId) {
     leader.ask(Stage::request("b", 2));
     standby.ask(Stage::request("b", 2));
     standby.ask(Stage::request("a", 1));
-    EXPECT_EQ(leader.wire.status("a").camera_id, standby.wire.status("a").camera_id);
-    EXPECT_EQ(leader.wire.status("b").camera_id, standby.wire.status("b").camera_id);
+    EXPECT_EQ(leader.publisher.status("a").camera_id, standby.publisher.status("a").camera_id);
+    EXPECT_EQ(leader.publisher.status("b").camera_id, standby.publisher.status("b").camera_id);
 }
 
 TEST(Director, AChangedRequestChangesTheCamera) {
@@ -109,10 +109,10 @@ TEST(Director, AChangedRequestChangesTheCamera) {
     stage.send(Stage::poses(1));
     stage.ask(Stage::request("a", 2));
     stage.send(Stage::poses(2));
-    const auto frames = stage.wire.frames();
+    const auto frames = stage.publisher.frames();
     ASSERT_EQ(frames.size(), 2U);
     EXPECT_EQ(frames[1].cameras.at(0).target, 2U);
-    EXPECT_EQ(frames[1].cameras.at(0).camera_id, stage.wire.status("a").camera_id);
+    EXPECT_EQ(frames[1].cameras.at(0).camera_id, stage.publisher.status("a").camera_id);
     EXPECT_NE(frames[1].cameras.at(0).flags & camera::cut, 0U);
 }
 
@@ -122,40 +122,40 @@ TEST(Director, BadProfilesAndOverridesAreRefusedWithAReason) {
     ObserverRequest request = Stage::request("a");
     request.profile = "cinematic";
     stage.ask(request);
-    EXPECT_EQ(stage.wire.status("a").state, RequestState::refused);
-    EXPECT_THAT(stage.wire.status("a").reason, HasSubstr("no profile 'cinematic'; known: default"));
+    EXPECT_EQ(stage.publisher.status("a").state, RequestState::refused);
+    EXPECT_THAT(stage.publisher.status("a").reason, HasSubstr("no profile 'cinematic'; known: default"));
 
     request = Stage::request("b");
     request.overrides = R"({"distanze": 3})";
     stage.ask(request);
-    EXPECT_EQ(stage.wire.status("b").state, RequestState::refused);
-    EXPECT_THAT(stage.wire.status("b").reason, HasSubstr("did you mean \"distance\"?"));
+    EXPECT_EQ(stage.publisher.status("b").state, RequestState::refused);
+    EXPECT_THAT(stage.publisher.status("b").reason, HasSubstr("did you mean \"distance\"?"));
 
     request.overrides = "{\"" + std::string(900, 'x') + "\": 1}";
     stage.ask(request);
-    EXPECT_EQ(stage.wire.status("b").reason.size(), 255U);
+    EXPECT_EQ(stage.publisher.status("b").reason.size(), 255U);
     EXPECT_EQ(stage.director.statistics()[Counter::refused_requests], 3U);
 
     stage.ask(Stage::request("b"));
-    EXPECT_EQ(stage.wire.status("b").state, RequestState::accepted);
+    EXPECT_EQ(stage.publisher.status("b").state, RequestState::accepted);
 }
 
 TEST(Director, AnUnknownPlayerIsWaitedFor) {
     Stage stage;
     stage.start();
     stage.ask(Stage::request("a", 9));
-    EXPECT_EQ(stage.wire.status("a").state, RequestState::waiting_for_player);
-    EXPECT_EQ(stage.wire.status("a").reason, "player 9 is not in the match");
+    EXPECT_EQ(stage.publisher.status("a").state, RequestState::waiting_for_player);
+    EXPECT_EQ(stage.publisher.status("a").reason, "player 9 is not in the match");
     stage.send(Stage::poses(1));
-    EXPECT_TRUE(stage.wire.frames().empty());
+    EXPECT_TRUE(stage.publisher.frames().empty());
     stage.send(Stage::poses(2, 1, {1, 9}));
-    EXPECT_EQ(stage.wire.status("a").state, RequestState::accepted);
-    EXPECT_EQ(stage.wire.frames().size(), 1U);
+    EXPECT_EQ(stage.publisher.status("a").state, RequestState::accepted);
+    EXPECT_EQ(stage.publisher.frames().size(), 1U);
 
     stage.start(Stage::info("m", 1, {1, 2, 3}));
     for (std::uint32_t number = 3; number < 6; ++number)
         stage.send(Stage::poses(number));
-    EXPECT_EQ(stage.wire.status("a").state, RequestState::accepted) << "seen lately";
+    EXPECT_EQ(stage.publisher.status("a").state, RequestState::accepted) << "seen lately";
 }
 
 TEST(Director, APlayerWhoLeftIsWaitedFor) {
@@ -164,11 +164,11 @@ TEST(Director, APlayerWhoLeftIsWaitedFor) {
     stage.ask(Stage::request("a", 3));
     stage.send(Stage::poses(1));
     stage.send(Stage::poses(2, 1, {1, 2}));
-    EXPECT_EQ(stage.wire.status("a").state, RequestState::accepted) << "still listed";
-    EXPECT_NE(stage.wire.frames().back().cameras.at(0).flags & camera::target_absent, 0U);
+    EXPECT_EQ(stage.publisher.status("a").state, RequestState::accepted) << "still listed";
+    EXPECT_NE(stage.publisher.frames().back().cameras.at(0).flags & camera::target_absent, 0U);
     stage.start(Stage::info("m", 1, {1, 2}));
-    EXPECT_EQ(stage.wire.status("a").state, RequestState::waiting_for_player);
-    EXPECT_EQ(stage.wire.status("a").camera_id, 0U);
+    EXPECT_EQ(stage.publisher.status("a").state, RequestState::waiting_for_player);
+    EXPECT_EQ(stage.publisher.status("a").camera_id, 0U);
 }
 
 TEST(Director, SpectatorsAreNotTracked) {
@@ -178,28 +178,28 @@ TEST(Director, SpectatorsAreNotTracked) {
     frame.poses[0].flags |= pose_spectator;
     stage.send(frame);
     stage.ask(Stage::request("a", 1));
-    EXPECT_EQ(stage.wire.status("a").state, RequestState::waiting_for_player);
-    EXPECT_EQ(stage.wire.status("a").reason, "player 1 is a spectator");
+    EXPECT_EQ(stage.publisher.status("a").state, RequestState::waiting_for_player);
+    EXPECT_EQ(stage.publisher.status("a").reason, "player 1 is a spectator");
     stage.send(Stage::poses(2));
-    EXPECT_EQ(stage.wire.status("a").state, RequestState::accepted);
+    EXPECT_EQ(stage.publisher.status("a").state, RequestState::accepted);
 }
 
 TEST(Director, AnAutomaticTargetFollowsTheEvents) {
     Stage stage;
     stage.start();
     stage.ask(Stage::request("a", no_player));
-    EXPECT_EQ(stage.wire.status("a").state, RequestState::accepted);
+    EXPECT_EQ(stage.publisher.status("a").state, RequestState::accepted);
     stage.send(Stage::poses(1));
-    EXPECT_EQ(stage.wire.frames().back().cameras.at(0).target, 1U) << "nothing happened: the lowest id";
+    EXPECT_EQ(stage.publisher.frames().back().cameras.at(0).target, 1U) << "nothing happened: the lowest id";
 
     const PoseFrame later = Stage::poses(400);
     for (int i = 0; i < 3; ++i)
         stage.director.receive("m", MatchEvent{1, later.frame_time, 1, 3, 2, 0.0F});
     stage.send(later);
-    const ShotCamera camera = stage.wire.frames().back().cameras.at(0);
+    const ShotCamera camera = stage.publisher.frames().back().cameras.at(0);
     EXPECT_EQ(camera.target, 3U);
     EXPECT_NE(camera.flags & camera::cut, 0U);
-    EXPECT_EQ(camera.camera_id, stage.wire.status("a").camera_id);
+    EXPECT_EQ(camera.camera_id, stage.publisher.status("a").camera_id);
     EXPECT_EQ(stage.director.statistics()[Counter::events], 3U);
 }
 
@@ -217,20 +217,20 @@ TEST(Director, LimitsRefuseWhatIsTooMuch) {
     stage.ask(Stage::request("a", 1));
     stage.ask(Stage::request("b", 2));
     stage.ask(Stage::request("c", 3));
-    EXPECT_EQ(stage.wire.status("c").state, RequestState::refused);
-    EXPECT_EQ(stage.wire.status("c").reason, "this match has 2 cameras already");
+    EXPECT_EQ(stage.publisher.status("c").state, RequestState::refused);
+    EXPECT_EQ(stage.publisher.status("c").reason, "this match has 2 cameras already");
     stage.ask(Stage::request("d", 1));
-    EXPECT_EQ(stage.wire.status("d").state, RequestState::refused);
-    EXPECT_EQ(stage.wire.status("d").reason, "3 observers watch this match already");
+    EXPECT_EQ(stage.publisher.status("d").state, RequestState::refused);
+    EXPECT_EQ(stage.publisher.status("d").reason, "3 observers watch this match already");
 
     stage.send(Stage::poses(1));
     EXPECT_EQ(stage.director.statistics()[Counter::drop_players], 1U);
     EXPECT_EQ(stage.director.statistics()[Counter::refused_matches], 1U);
 
     // The place of one who leaves goes to who waits.
-    stage.director.request_gone("m", "a");
-    stage.director.settle();
-    EXPECT_EQ(stage.wire.status("c").state, RequestState::accepted);
+    stage.director.request_ended("m", "a");
+    stage.director.flush();
+    EXPECT_EQ(stage.publisher.status("c").state, RequestState::accepted);
 }
 
 TEST(Director, ObserversOfARefusedMatchAreTold) {
@@ -239,17 +239,17 @@ TEST(Director, ObserversOfARefusedMatchAreTold) {
     Stage stage(config);
     stage.start();
     stage.ask(Stage::request("a", 1, "second"));
-    EXPECT_EQ(stage.wire.status("a", "second").state, RequestState::waiting_for_map);
-    EXPECT_EQ(stage.wire.status("a", "second").reason, "no game server runs this match");
+    EXPECT_EQ(stage.publisher.status("a", "second").state, RequestState::waiting_for_map);
+    EXPECT_EQ(stage.publisher.status("a", "second").reason, "no game server runs this match");
     EXPECT_FALSE(stage.start(Stage::info("second")));
-    EXPECT_EQ(stage.wire.status("a", "second").state, RequestState::refused);
-    EXPECT_EQ(stage.wire.status("a", "second").reason, "1 matches run already");
+    EXPECT_EQ(stage.publisher.status("a", "second").state, RequestState::refused);
+    EXPECT_EQ(stage.publisher.status("a", "second").reason, "1 matches run already");
     stage.ask(Stage::request("a", 1, "third"));
-    EXPECT_EQ(stage.wire.status("a", "third").state, RequestState::refused);
+    EXPECT_EQ(stage.publisher.status("a", "third").state, RequestState::refused);
 
-    stage.director.match_over("m");
+    stage.director.match_ended("m");
     EXPECT_TRUE(stage.start(Stage::info("second")));
-    EXPECT_EQ(stage.wire.status("a", "second").state, RequestState::accepted);
+    EXPECT_EQ(stage.publisher.status("a", "second").state, RequestState::accepted);
 }
 
 TEST(Director, AReloadedConfigurationJudgesAgain) {
@@ -260,25 +260,25 @@ TEST(Director, AReloadedConfigurationJudgesAgain) {
     ObserverRequest request = Stage::request("a");
     request.profile = "close";
     stage.ask(request);
-    const std::uint32_t id = stage.wire.status("a").camera_id;
-    ASSERT_EQ(stage.wire.status("a").state, RequestState::accepted);
+    const std::uint32_t id = stage.publisher.status("a").camera_id;
+    ASSERT_EQ(stage.publisher.status("a").state, RequestState::accepted);
     stage.send(Stage::poses(1));
 
     config.profiles["close"].distance = 30.0F;
     config.limits.shots = 1;  // needs a restart: no effect
     stage.director.reconfigure(config);
     stage.ask(Stage::request("b"));
-    EXPECT_EQ(stage.wire.status("b").state, RequestState::accepted);
-    EXPECT_EQ(stage.wire.status("a").camera_id, id);
+    EXPECT_EQ(stage.publisher.status("b").state, RequestState::accepted);
+    EXPECT_EQ(stage.publisher.status("a").camera_id, id);
     stage.send(Stage::poses(2));
-    const CameraFrame shown = stage.wire.frames().back();
+    const CameraFrame shown = stage.publisher.frames().back();
     for (const ShotCamera& camera : shown.cameras)
         EXPECT_EQ((camera.flags & camera::cut) != 0, camera.camera_id != id);
 
     config.profiles.erase("close");
     stage.director.reconfigure(config);
-    stage.director.settle();
-    EXPECT_EQ(stage.wire.status("a").state, RequestState::refused);
+    stage.director.flush();
+    EXPECT_EQ(stage.publisher.status("a").state, RequestState::refused);
 }
 
 TEST(Director, AViewShowsWhatRuns) {

@@ -23,22 +23,22 @@ class InboxTest : public testing::Test {
         return sum[counter];
     }
 
-    Counters counters_;
+    MatchCounters counters_;
     Inbox inbox_{10, counters_};
     Inbox::Content content_;
 };
 
-TEST_F(InboxTest, ControlsKeepTheirOrder) {
-    inbox_.put(RequestGone{"a"});
+TEST_F(InboxTest, MessagesKeepTheirOrder) {
+    inbox_.put(RequestEnded{"a"});
     inbox_.put(MatchEvent{});
-    inbox_.put(RequestGone{"b"});
+    inbox_.put(RequestEnded{"b"});
     inbox_.take(content_);
-    ASSERT_EQ(content_.controls.size(), 3U);
-    EXPECT_EQ(std::get<RequestGone>(content_.controls[0]).observer_id, "a");
-    EXPECT_EQ(std::get<RequestGone>(content_.controls[2]).observer_id, "b");
+    ASSERT_EQ(content_.messages.size(), 3U);
+    EXPECT_EQ(std::get<RequestEnded>(content_.messages[0]).observer_id, "a");
+    EXPECT_EQ(std::get<RequestEnded>(content_.messages[2]).observer_id, "b");
     EXPECT_FALSE(content_.has_frame);
     inbox_.take(content_);
-    EXPECT_TRUE(content_.controls.empty());
+    EXPECT_TRUE(content_.messages.empty());
 }
 
 TEST_F(InboxTest, TheNewestFrameWins) {
@@ -83,16 +83,16 @@ TEST_F(InboxTest, BothQueuesAreBounded) {
     for (int i = 0; i < 300; ++i)
         inbox_.put(MatchEvent{});
     for (int i = 0; i < 13; ++i)
-        inbox_.put(RequestGone{"a"});
+        inbox_.put(RequestEnded{"a"});
     inbox_.put(MatchEnded{});
     inbox_.take(content_);
-    ASSERT_EQ(content_.controls.size(), 256U + 10U + 1U);
-    EXPECT_TRUE(std::holds_alternative<MatchEnded>(content_.controls.back())) << "however many came before";
+    ASSERT_EQ(content_.messages.size(), 256U + 10U + 1U);
+    EXPECT_TRUE(std::holds_alternative<MatchEnded>(content_.messages.back())) << "however many came before";
     EXPECT_EQ(counted(Counter::drop_events), 44U);
-    EXPECT_EQ(counted(Counter::drop_control), 3U);
+    EXPECT_EQ(counted(Counter::drop_messages), 3U);
     inbox_.put(MatchEvent{});
     inbox_.take(content_);
-    EXPECT_EQ(content_.controls.size(), 1U);
+    EXPECT_EQ(content_.messages.size(), 1U);
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ void fill(Stage& stage, int matches) {
         stage.director.receive(Stage::request("b", 2, name_of(match)));
         stage.director.receive(Stage::request("c", no_player, name_of(match)));
     }
-    stage.director.settle();
+    stage.director.flush();
 }
 
 void append(std::string& bytes, const CameraFrame& frame) {
@@ -63,11 +63,11 @@ std::string cameras_with(std::int64_t workers) {
                                    MatchEvent{1, frame.frame_time, 1, killer, no_player, 0.0F});
             stage.director.receive(name_of(match), frame);
         }
-        stage.director.settle();
+        stage.director.flush();
     }
     std::string cameras;
     for (int match = 0; match < matches; ++match) {
-        const auto frames = stage.wire.frames(name_of(match));
+        const auto frames = stage.publisher.frames(name_of(match));
         EXPECT_EQ(frames.size(), 60U);
         for (const CameraFrame& frame : frames)
             append(cameras, frame);
@@ -104,18 +104,18 @@ TEST(ManyMatches, EveryFrameIsAnsweredOrCounted) {
             (void)stage.director.statistics();
             if (round % 10 == 0) (void)stage.director.view(std::chrono::milliseconds(50));
             if (round % 10 == 5) stage.director.maps_changed();
-            stage.director.request_gone(match, "guest");
+            stage.director.request_ended(match, "guest");
         }
     });
     for (std::thread& thread : threads)
         thread.join();
-    stage.director.settle();
+    stage.director.flush();
 
     const Statistics statistics = stage.director.statistics();
     EXPECT_EQ(statistics[Counter::camera_frames] + statistics[Counter::drop_superseded], matches * frames);
     EXPECT_EQ(statistics.shots, 3U * matches);
     for (int match = 0; match < matches; ++match) {
-        const auto published = stage.wire.frames(name_of(match));
+        const auto published = stage.publisher.frames(name_of(match));
         ASSERT_FALSE(published.empty());
         EXPECT_EQ(published.back().pose_number, frames) << "the newest pose always wins";
         for (std::uint32_t i = 0; i < published.size(); ++i) {

@@ -27,28 +27,28 @@ TEST(MatchLife, AnUnknownMapIsWaitedFor) {
     Stage stage;
     stage.start(on_map("nowhere"));
     stage.ask(Stage::request("a"));
-    EXPECT_EQ(stage.wire.status("a").state, RequestState::waiting_for_map);
-    EXPECT_EQ(stage.wire.status("a").reason, "map 'nowhere' is not configured; known: square");
+    EXPECT_EQ(stage.publisher.status("a").state, RequestState::waiting_for_map);
+    EXPECT_EQ(stage.publisher.status("a").reason, "map 'nowhere' is not configured; known: square");
     stage.send(Stage::poses(1));
-    EXPECT_TRUE(stage.wire.frames().empty());
+    EXPECT_TRUE(stage.publisher.frames().empty());
     EXPECT_EQ(stage.director.statistics()[Counter::drop_waiting], 1U);
 
     stage.maps.set_loading("nowhere", "baking: sample 3 %");
     stage.director.maps_changed();
-    stage.director.settle();
-    EXPECT_EQ(stage.wire.status("a").reason, "map 'nowhere' is loading: baking: sample 3 %");
+    stage.director.flush();
+    EXPECT_EQ(stage.publisher.status("a").reason, "map 'nowhere' is loading: baking: sample 3 %");
 
     stage.maps.set_failed("nowhere", "no obstacles");
     stage.director.maps_changed();
-    stage.director.settle();
-    EXPECT_EQ(stage.wire.status("a").reason, "map 'nowhere' failed: no obstacles");
+    stage.director.flush();
+    EXPECT_EQ(stage.publisher.status("a").reason, "map 'nowhere' failed: no obstacles");
 
     stage.maps.set_ready("nowhere", Stage::square());
     stage.director.maps_changed();
-    stage.director.settle();
-    EXPECT_EQ(stage.wire.status("a").state, RequestState::accepted);
+    stage.director.flush();
+    EXPECT_EQ(stage.publisher.status("a").state, RequestState::accepted);
     stage.send(Stage::poses(2));
-    EXPECT_EQ(stage.wire.frames().size(), 1U);
+    EXPECT_EQ(stage.publisher.frames().size(), 1U);
 }
 
 TEST(MatchLife, ANewMapFileCutsAndAnOldOneDoesNot) {
@@ -58,20 +58,20 @@ TEST(MatchLife, ANewMapFileCutsAndAnOldOneDoesNot) {
     stage.send(Stage::poses(1));
     stage.director.maps_changed();
     stage.send(Stage::poses(2));
-    EXPECT_FALSE(cuts(stage.wire.frames().back()));
+    EXPECT_FALSE(cuts(stage.publisher.frames().back()));
     stage.maps.set_ready("square", Stage::square());
     stage.director.maps_changed();
     stage.send(Stage::poses(3));
-    EXPECT_TRUE(cuts(stage.wire.frames().back()));
+    EXPECT_TRUE(cuts(stage.publisher.frames().back()));
     stage.maps.set_failed("square", "damaged by the reload");
     stage.director.maps_changed();
     stage.send(Stage::poses(4));
-    EXPECT_EQ(stage.wire.frames().size(), 4U) << "the map that was loaded before stays in use";
+    EXPECT_EQ(stage.publisher.frames().size(), 4U) << "the map that was loaded before stays in use";
     stage.maps.remove("square");
     stage.director.maps_changed();
     stage.send(Stage::poses(5));
-    EXPECT_EQ(stage.wire.frames().size(), 4U);
-    EXPECT_EQ(stage.wire.status("a").state, RequestState::waiting_for_map);
+    EXPECT_EQ(stage.publisher.frames().size(), 4U);
+    EXPECT_EQ(stage.publisher.status("a").state, RequestState::waiting_for_map);
 }
 
 TEST(MatchLife, ANewEpochBeginsAnew) {
@@ -84,12 +84,12 @@ TEST(MatchLife, ANewEpochBeginsAnew) {
     EXPECT_EQ(stage.director.statistics()[Counter::drop_early_epoch], 1U);
 
     stage.start(Stage::info("m", 2));
-    EXPECT_EQ(stage.wire.status("a").epoch, 2U);
+    EXPECT_EQ(stage.publisher.status("a").epoch, 2U);
     stage.send(Stage::poses(9, 1));
     stage.start(Stage::info("m", 1));
     EXPECT_EQ(stage.director.statistics()[Counter::drop_old_epoch], 2U);
     stage.send(Stage::poses(2, 2));
-    const auto frames = stage.wire.frames();
+    const auto frames = stage.publisher.frames();
     ASSERT_EQ(frames.size(), 3U);
     EXPECT_EQ(frames[1].frame_number, 1U);
     EXPECT_EQ(frames[2].frame_number, 0U);
@@ -105,7 +105,7 @@ TEST(MatchLife, OldFramesAreDropped) {
     stage.ask(Stage::request("a"));
     for (const std::uint32_t number : {0xfffffffeU, 0xfffffffeU, 0xfffffff0U, 1U, 0xffffffffU, 2U})
         stage.send(Stage::poses(number));
-    const auto frames = stage.wire.frames();
+    const auto frames = stage.publisher.frames();
     ASSERT_EQ(frames.size(), 3U);
     EXPECT_EQ(frames[0].pose_number, 0xfffffffeU);
     EXPECT_EQ(frames[1].pose_number, 1U) << "numbers may wrap";
@@ -117,10 +117,10 @@ TEST(MatchLife, WhatIsUnknownIsDropped) {
     Stage stage;
     stage.send(Stage::poses(1));
     stage.director.receive("m", MatchEvent{});
-    stage.director.request_gone("m", "a");
-    stage.director.match_silent("m");
-    stage.director.match_over("m");
-    stage.director.settle();
+    stage.director.request_ended("m", "a");
+    stage.director.server_lost("m");
+    stage.director.match_ended("m");
+    stage.director.flush();
     EXPECT_EQ(stage.director.statistics()[Counter::drop_unknown_match], 2U);
     EXPECT_EQ(stage.director.statistics().matches, 0U);
 }
@@ -131,23 +131,23 @@ TEST(MatchLife, AServerThatIsLostComesBack) {
     stage.ask(Stage::request("a"));
     stage.send(Stage::poses(1));
     stage.send(Stage::poses(2));
-    stage.director.match_silent("m");
-    stage.director.settle();
-    EXPECT_EQ(stage.wire.status("a").state, RequestState::accepted);
-    EXPECT_THAT(stage.wire.status("a").reason, HasSubstr("silent"));
+    stage.director.server_lost("m");
+    stage.director.flush();
+    EXPECT_EQ(stage.publisher.status("a").state, RequestState::accepted);
+    EXPECT_THAT(stage.publisher.status("a").reason, HasSubstr("silent"));
     EXPECT_EQ(stage.director.statistics().silent_matches, 1U);
-    EXPECT_EQ(stage.wire.frames().size(), 2U);
+    EXPECT_EQ(stage.publisher.frames().size(), 2U);
 
     stage.send(Stage::poses(1));  // a restarted server may count from the beginning
-    EXPECT_EQ(stage.wire.status("a").reason, "");
+    EXPECT_EQ(stage.publisher.status("a").reason, "");
     EXPECT_EQ(stage.director.statistics().silent_matches, 0U);
     EXPECT_EQ(stage.director.statistics()[Counter::silences], 1U);
-    const auto frames = stage.wire.frames();
+    const auto frames = stage.publisher.frames();
     ASSERT_EQ(frames.size(), 3U);
     EXPECT_EQ(frames[2].frame_number, 2U);
     EXPECT_TRUE(cuts(frames[2])) << "players may be anywhere by now";
     stage.send(Stage::poses(2));
-    EXPECT_FALSE(cuts(stage.wire.frames().back()));
+    EXPECT_FALSE(cuts(stage.publisher.frames().back()));
 }
 
 TEST(MatchLife, MissingPosesAreNoticed) {
@@ -157,9 +157,9 @@ TEST(MatchLife, MissingPosesAreNoticed) {
     stage.start();
     stage.ask(Stage::request("a"));
     EXPECT_TRUE(eventually([&] { return stage.director.statistics()[Counter::silences] == 1; }));
-    EXPECT_TRUE(eventually([&] { return !stage.wire.status("a").reason.empty(); }));
+    EXPECT_TRUE(eventually([&] { return !stage.publisher.status("a").reason.empty(); }));
     stage.send(Stage::poses(1));
-    EXPECT_EQ(stage.wire.frames().size(), 1U);
+    EXPECT_EQ(stage.publisher.frames().size(), 1U);
     EXPECT_TRUE(eventually([&] { return stage.director.statistics()[Counter::silences] == 2; }));
     EXPECT_EQ(stage.director.statistics().matches, 1U) << "its server lives, so it is kept";
 }
@@ -169,21 +169,21 @@ TEST(MatchLife, AMatchThatIsOverIsForgottenOnceNobodyWatches) {
     stage.start();
     stage.ask(Stage::request("a"));
     stage.send(Stage::poses(1));
-    stage.director.match_over("m");
-    stage.director.settle();
-    EXPECT_EQ(stage.wire.status("a").state, RequestState::waiting_for_map);
-    EXPECT_EQ(stage.wire.status("a").reason, "no game server runs this match");
+    stage.director.match_ended("m");
+    stage.director.flush();
+    EXPECT_EQ(stage.publisher.status("a").state, RequestState::waiting_for_map);
+    EXPECT_EQ(stage.publisher.status("a").reason, "no game server runs this match");
     EXPECT_EQ(stage.director.statistics().matches, 0U);
     stage.send(Stage::poses(2));
-    EXPECT_EQ(stage.wire.frames().size(), 1U);
+    EXPECT_EQ(stage.publisher.frames().size(), 1U);
 
     stage.start();
-    EXPECT_EQ(stage.wire.status("a").state, RequestState::accepted);
-    stage.director.match_over("m");
-    stage.director.settle();
-    EXPECT_FALSE(stage.wire.forgotten("m"));
-    stage.director.request_gone("m", "a");
-    EXPECT_TRUE(eventually([&] { return stage.wire.forgotten("m"); }));
+    EXPECT_EQ(stage.publisher.status("a").state, RequestState::accepted);
+    stage.director.match_ended("m");
+    stage.director.flush();
+    EXPECT_FALSE(stage.publisher.forgotten("m"));
+    stage.director.request_ended("m", "a");
+    EXPECT_TRUE(eventually([&] { return stage.publisher.forgotten("m"); }));
     EXPECT_EQ(stage.director.statistics()[Counter::pose_frames], 1U) << "counted beyond the match's end";
     EXPECT_TRUE(stage.director.view(std::chrono::seconds(30)).matches.empty());
 }
@@ -194,8 +194,8 @@ TEST(MatchLife, ALostServerIsForgottenAfterAWhile) {
     Stage stage(config);
     stage.start();
     stage.send(Stage::poses(1));
-    stage.director.match_silent("m");
-    EXPECT_TRUE(eventually([&] { return stage.wire.forgotten("m"); }));
+    stage.director.server_lost("m");
+    EXPECT_TRUE(eventually([&] { return stage.publisher.forgotten("m"); }));
 }
 
 TEST(MatchLife, AnotherMapFileIsToldOrRefused) {
@@ -207,16 +207,16 @@ TEST(MatchLife, AnotherMapFileIsToldOrRefused) {
     info.map_hash = 8;
     stage.start(info);
     stage.ask(Stage::request("a"));
-    EXPECT_EQ(stage.wire.status("a").state, RequestState::accepted);
+    EXPECT_EQ(stage.publisher.status("a").state, RequestState::accepted);
     EXPECT_EQ(stage.director.statistics()[Counter::map_hash_mismatches], 1U);
 
     stage.maps.add("square", true);
     stage.start(info);
-    EXPECT_EQ(stage.wire.status("a").state, RequestState::refused);
-    EXPECT_THAT(stage.wire.status("a").reason, HasSubstr("is not the one that was baked"));
+    EXPECT_EQ(stage.publisher.status("a").state, RequestState::refused);
+    EXPECT_THAT(stage.publisher.status("a").reason, HasSubstr("is not the one that was baked"));
     info.map_hash = 7;
     stage.start(info);
-    EXPECT_EQ(stage.wire.status("a").state, RequestState::accepted);
+    EXPECT_EQ(stage.publisher.status("a").state, RequestState::accepted);
 }
 
 TEST(MatchLife, NothingIsPublishedAfterTheDrain) {
@@ -225,15 +225,15 @@ TEST(MatchLife, NothingIsPublishedAfterTheDrain) {
     stage.ask(Stage::request("a"));
     stage.director.receive("m", Stage::poses(1));
     stage.director.drain();
-    const std::size_t frames = stage.wire.frames().size();
+    const std::size_t frames = stage.publisher.frames().size();
     EXPECT_EQ(frames, 1U) << "what was queued is finished";
     EXPECT_FALSE(stage.director.receive(Stage::info("other")));
     stage.director.receive("m", Stage::poses(2));
     stage.director.receive(Stage::request("b"));
     stage.director.maps_changed();
     stage.director.drain();
-    EXPECT_EQ(stage.wire.frames().size(), frames);
-    EXPECT_FALSE(stage.wire.has_status("b"));
+    EXPECT_EQ(stage.publisher.frames().size(), frames);
+    EXPECT_FALSE(stage.publisher.has_status("b"));
     EXPECT_EQ(stage.director.statistics()[Counter::camera_frames], 1U);
 }
 

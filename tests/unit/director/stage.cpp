@@ -6,34 +6,34 @@
 
 namespace camdir::director {
 
-void MemoryWire::publish(const std::string& match_id, const CameraFrame& frame) {
+void MemoryPublisher::publish(const std::string& match_id, const CameraFrame& frame) {
     const std::lock_guard lock(mutex_);
     frames_[match_id].push_back(frame);
 }
 
-void MemoryWire::publish(const ObserverStatus& status) {
+void MemoryPublisher::publish(const ObserverStatus& status) {
     const std::lock_guard lock(mutex_);
     statuses_[{status.match_id, status.observer_id}] = status;
     ++statuses_published_;
 }
 
-void MemoryWire::withdraw(const std::string& match_id, const std::string& observer_id) {
+void MemoryPublisher::withdraw(const std::string& match_id, const std::string& observer_id) {
     const std::lock_guard lock(mutex_);
     statuses_.erase({match_id, observer_id});
 }
 
-void MemoryWire::forget(const std::string& match_id) {
+void MemoryPublisher::forget(const std::string& match_id) {
     const std::lock_guard lock(mutex_);
     forgotten_.insert(match_id);
 }
 
-std::vector<CameraFrame> MemoryWire::frames(const std::string& match_id) const {
+std::vector<CameraFrame> MemoryPublisher::frames(const std::string& match_id) const {
     const std::lock_guard lock(mutex_);
     const auto found = frames_.find(match_id);
     return found == frames_.end() ? std::vector<CameraFrame>{} : found->second;
 }
 
-ObserverStatus MemoryWire::status(const std::string& observer_id, const std::string& match_id) const {
+ObserverStatus MemoryPublisher::status(const std::string& observer_id, const std::string& match_id) const {
     const std::lock_guard lock(mutex_);
     const auto found = statuses_.find({match_id, observer_id});
     ObserverStatus none;
@@ -41,22 +41,22 @@ ObserverStatus MemoryWire::status(const std::string& observer_id, const std::str
     return found == statuses_.end() ? none : found->second;
 }
 
-std::size_t MemoryWire::statuses_published() const {
+std::size_t MemoryPublisher::statuses_published() const {
     const std::lock_guard lock(mutex_);
     return statuses_published_;
 }
 
-bool MemoryWire::has_status(const std::string& observer_id, const std::string& match_id) const {
+bool MemoryPublisher::has_status(const std::string& observer_id, const std::string& match_id) const {
     const std::lock_guard lock(mutex_);
     return statuses_.contains({match_id, observer_id});
 }
 
-bool MemoryWire::forgotten(const std::string& match_id) const {
+bool MemoryPublisher::forgotten(const std::string& match_id) const {
     const std::lock_guard lock(mutex_);
     return forgotten_.contains(match_id);
 }
 
-Stage::Stage(const config::Config& config) : director(config, maps, wire) {
+Stage::Stage(const config::Config& config) : director(config, maps, publisher) {
     maps.add("square", false);
     maps.set_ready("square", square());
 }
@@ -115,18 +115,18 @@ PoseFrame Stage::poses(std::uint32_t number, std::uint64_t epoch, const std::vec
 
 bool Stage::start(const MatchInfo& match) {
     const bool taken = director.receive(match);
-    director.settle();
+    director.flush();
     return taken;
 }
 
 void Stage::ask(const ObserverRequest& wanted) {
     director.receive(wanted);
-    director.settle();
+    director.flush();
 }
 
 void Stage::send(const PoseFrame& frame, const std::string& match_id) {
     director.receive(match_id, frame);
-    director.settle();
+    director.flush();
 }
 
 }  // namespace camdir::director

@@ -13,7 +13,7 @@
 namespace camdir::director {
 
 // Keeps all that is published. Thread-safe.
-class MemoryWire final : public Wire {
+class MemoryPublisher final : public Publisher {
   public:
     void publish(const std::string& match_id, const CameraFrame& frame) override;
     void publish(const ObserverStatus& status) override;
@@ -56,7 +56,7 @@ struct Stage {
     void ask(const ObserverRequest& wanted);
     void send(const PoseFrame& frame, const std::string& match_id = "m");
 
-    MemoryWire wire;
+    MemoryPublisher publisher;
     MapLibrary maps;
     Director director;
 };

@@ -29,7 +29,7 @@ TEST(WorkerPool, AScheduledStrandHasATurnThatBeginsLater) {
         posted = i;
         pool.schedule(strand);
         if (i % 100 != 0) continue;
-        WorkerPool::settle(strand);
+        WorkerPool::wait_idle(strand);
         ASSERT_EQ(seen, i);
     }
     pool.detach(strand);
@@ -63,7 +63,7 @@ TEST(WorkerPool, OneWorkerAtATimeInAStrand) {
     for (std::thread& thread : threads)
         thread.join();
     for (Counted& one : counted) {
-        WorkerPool::settle(*one.strand);
+        WorkerPool::wait_idle(*one.strand);
         EXPECT_FALSE(one.overlapped);
         EXPECT_GE(one.turns, 1);
         EXPECT_LE(one.turns, 1200);
@@ -100,8 +100,8 @@ TEST(WorkerPool, ABusyStrandDoesNotStarveTheOthers) {
         pool.schedule(*strand);
     release.set_value();
     for (const auto& strand : strands)
-        WorkerPool::settle(*strand);
-    WorkerPool::settle(*busy);
+        WorkerPool::wait_idle(*strand);
+    WorkerPool::wait_idle(*busy);
     EXPECT_EQ(turns, static_cast<int>(others));
     EXPECT_LE(busy_turns_at_the_end, 2) << "a turn a round";
 }
@@ -117,7 +117,7 @@ TEST(WorkerPool, KnowsWhenAWorkerHangs) {
         std::this_thread::yield();
     EXPECT_TRUE(pool.responsive(std::chrono::hours(1)));
     release.set_value();
-    WorkerPool::settle(strand);
+    WorkerPool::wait_idle(strand);
     while (!pool.responsive(std::chrono::milliseconds(1)))
         std::this_thread::yield();
     pool.detach(strand);
@@ -134,7 +134,7 @@ TEST(WorkerPool, HoldsNoMoreThanItsCapacity) {
     pool.detach(a);
     EXPECT_TRUE(pool.attach(c));
     pool.schedule(c);
-    WorkerPool::settle(c);
+    WorkerPool::wait_idle(c);
     pool.detach(b);
     pool.detach(c);
 }

@@ -21,7 +21,7 @@ TEST(Status, ShowsMapsMatchesShotsAndObservers) {
     director::MatchView busy;
     busy.match_id = "busy";
     director::MapEntry failed;
-    failed.state = director::MapState::failed;
+    failed.state = director::LoadState::failed;
     failed.reason = "damaged";
 
     const json page = json::parse(status_page({{match, busy}}, {{"dm1", failed}}));

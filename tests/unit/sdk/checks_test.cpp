@@ -36,7 +36,7 @@ TEST(Checks, ObserverIdMayHoldMoreThanAMatchId) {
 
 TEST(Checks, TextWithoutItsZeroByteIsNotReadBeyondItsEnd) {
     const std::vector<char> endless(8, 'x');  // the address sanitizer sees a ninth byte being read
-    EXPECT_THROW((void)checked_text("name", endless.data(), 0, 7), Failure);
+    EXPECT_THROW((void)checked_string("name", endless.data(), 0, 7), Failure);
 }
 
 cdir_match_info valid_info() {

@@ -37,9 +37,9 @@ camera_director_ObserverStatus status_of(std::uint64_t epoch, std::uint32_t came
     return status;
 }
 
-class MatchViewTest : public testing::Test {
+class ReceivedMatchTest : public testing::Test {
   protected:
-    bool accept(CameraFrameArrays frame) { return view_.accept(frame.sample(), frame.frame_time); }
+    bool accept(CameraFrameArrays frame) { return match_.accept(frame.sample(), frame.frame_time); }
 
     // A frame with the shot's camera at x.
     bool accept(std::uint64_t epoch, std::uint32_t number, float x, std::uint32_t flags = 0,
@@ -52,92 +52,92 @@ class MatchViewTest : public testing::Test {
     }
 
     void answer(std::uint64_t epoch, std::uint32_t camera_id) {
-        view_.set_requested(true);
-        view_.accept(status_of(epoch, camera_id));
+        match_.set_requested(true);
+        match_.accept(status_of(epoch, camera_id));
     }
 
-    [[nodiscard]] std::uint32_t segment() const { return view_.track().newest()->segment; }
+    [[nodiscard]] std::uint32_t segment() const { return match_.track().newest()->segment; }
 
-    MatchView view_{"cup", "anna", 50 * ms};
+    ReceivedMatch match_{"cup", "anna", 50 * ms};
 };
 
-TEST_F(MatchViewTest, CameraOfTheShotIsFoundByTheDirectorsAnswer) {
+TEST_F(ReceivedMatchTest, CameraOfTheShotIsFoundByTheDirectorsAnswer) {
     EXPECT_TRUE(accept(1, 0, 10.0F));
-    EXPECT_FALSE(view_.track().newest()) << "nothing was requested";
+    EXPECT_FALSE(match_.track().newest()) << "nothing was requested";
     answer(1, 5);
     EXPECT_TRUE(accept(1, 1, 11.0F));
-    EXPECT_EQ(view_.track().newest()->camera.position[0], 11.0F);
-    EXPECT_EQ(view_.track().newest()->camera.target, 105U);
+    EXPECT_EQ(match_.track().newest()->camera.position[0], 11.0F);
+    EXPECT_EQ(match_.track().newest()->camera.target, 105U);
 }
 
-TEST_F(MatchViewTest, AnswersToOtherObserversAreNotMine) {
-    view_.set_requested(true);
-    view_.accept(status_of(1, 5, "bert"));
-    EXPECT_EQ(view_.shot_status().state, static_cast<std::uint32_t>(CDIR_SHOT_UNANSWERED));
-    EXPECT_EQ(view_.counters().invalid, 0U);
+TEST_F(ReceivedMatchTest, AnswersToOtherObserversAreNotMine) {
+    match_.set_requested(true);
+    match_.accept(status_of(1, 5, "bert"));
+    EXPECT_EQ(match_.shot_status().state, static_cast<std::uint32_t>(CDIR_SHOT_UNANSWERED));
+    EXPECT_EQ(match_.counters().invalid, 0U);
 }
 
-TEST_F(MatchViewTest, StatusGoesFromNotRequestedToAnsweredAndBack) {
-    EXPECT_EQ(view_.shot_status().state, static_cast<std::uint32_t>(CDIR_SHOT_NOT_REQUESTED));
-    view_.set_requested(true);
-    EXPECT_EQ(view_.shot_status().state, static_cast<std::uint32_t>(CDIR_SHOT_UNANSWERED));
+TEST_F(ReceivedMatchTest, StatusGoesFromNotRequestedToAnsweredAndBack) {
+    EXPECT_EQ(match_.shot_status().state, static_cast<std::uint32_t>(CDIR_SHOT_NOT_REQUESTED));
+    match_.set_requested(true);
+    EXPECT_EQ(match_.shot_status().state, static_cast<std::uint32_t>(CDIR_SHOT_UNANSWERED));
     camera_director_ObserverStatus refused = status_of(1, 0);
     refused.state = CDIR_SHOT_REFUSED;
     std::string("no such profile").copy(refused.reason, 255);
-    view_.accept(refused);
-    EXPECT_EQ(view_.shot_status().state, static_cast<std::uint32_t>(CDIR_SHOT_REFUSED));
-    EXPECT_STREQ(view_.shot_status().reason, "no such profile");
-    view_.status_gone();
-    EXPECT_EQ(view_.shot_status().state, static_cast<std::uint32_t>(CDIR_SHOT_UNANSWERED));
-    view_.set_requested(false);
-    EXPECT_EQ(view_.shot_status().state, static_cast<std::uint32_t>(CDIR_SHOT_NOT_REQUESTED));
+    match_.accept(refused);
+    EXPECT_EQ(match_.shot_status().state, static_cast<std::uint32_t>(CDIR_SHOT_REFUSED));
+    EXPECT_STREQ(match_.shot_status().reason, "no such profile");
+    match_.status_withdrawn();
+    EXPECT_EQ(match_.shot_status().state, static_cast<std::uint32_t>(CDIR_SHOT_UNANSWERED));
+    match_.set_requested(false);
+    EXPECT_EQ(match_.shot_status().state, static_cast<std::uint32_t>(CDIR_SHOT_NOT_REQUESTED));
 }
 
-TEST_F(MatchViewTest, OlderEpochsAreDroppedAndCounted) {
+TEST_F(ReceivedMatchTest, OlderEpochsAreDroppedAndCounted) {
     answer(3, 5);
     EXPECT_TRUE(accept(3, 7, 1.0F));
     EXPECT_FALSE(accept(2, 8, 2.0F));
-    view_.accept(status_of(2, 4));
+    match_.accept(status_of(2, 4));
     camera_director_MatchInfo info{};
     std::string("cup").copy(info.match_id, 63);
     std::string map = "oa_dm1";
     info.map_name = map.data();
     info.metres_per_unit = 1.0F;
     info.epoch = 2;
-    view_.accept(info);
-    EXPECT_EQ(view_.counters().stale_epoch, 3U);
-    EXPECT_EQ(view_.counters().invalid, 0U);
-    EXPECT_EQ(view_.track().newest()->camera.position[0], 1.0F);
-    EXPECT_EQ(view_.shot_status().camera_id, 5U);
-    EXPECT_FALSE(view_.info());
+    match_.accept(info);
+    EXPECT_EQ(match_.counters().stale_epoch, 3U);
+    EXPECT_EQ(match_.counters().invalid, 0U);
+    EXPECT_EQ(match_.track().newest()->camera.position[0], 1.0F);
+    EXPECT_EQ(match_.shot_status().camera_id, 5U);
+    EXPECT_FALSE(match_.info());
 }
 
-TEST_F(MatchViewTest, NewEpochForgetsTheOldOne) {
+TEST_F(ReceivedMatchTest, NewEpochForgetsTheOldOne) {
     answer(1, 5);
     EXPECT_TRUE(accept(1, 1000, 1.0F));
     EXPECT_TRUE(accept(2, 0, 2.0F));
-    EXPECT_FALSE(view_.track().newest()) << "camera 5 of epoch 1 is another than camera 5 of epoch 2";
-    EXPECT_EQ(view_.shot_status().state, static_cast<std::uint32_t>(CDIR_SHOT_UNANSWERED));
-    EXPECT_EQ(view_.counters().gaps, 0U);
+    EXPECT_FALSE(match_.track().newest()) << "camera 5 of epoch 1 is another than camera 5 of epoch 2";
+    EXPECT_EQ(match_.shot_status().state, static_cast<std::uint32_t>(CDIR_SHOT_UNANSWERED));
+    EXPECT_EQ(match_.counters().gaps, 0U);
     answer(2, 5);
     EXPECT_TRUE(accept(2, 1, 3.0F));
-    EXPECT_EQ(view_.track().newest()->camera.position[0], 3.0F)
+    EXPECT_EQ(match_.track().newest()->camera.position[0], 3.0F)
         << "an earlier frame_time is new in a new epoch";
 }
 
-TEST_F(MatchViewTest, MissingFramesAreCountedAndNotInterpolatedAcross) {
+TEST_F(ReceivedMatchTest, MissingFramesAreCountedAndNotInterpolatedAcross) {
     answer(1, 5);
     accept(1, 10, 1.0F);
     accept(1, 11, 2.0F);
     const std::uint32_t before = segment();
     accept(1, 15, 3.0F);
-    EXPECT_EQ(view_.counters().gaps, 3U);
-    EXPECT_EQ(view_.counters().frames, 3U);
+    EXPECT_EQ(match_.counters().gaps, 3U);
+    EXPECT_EQ(match_.counters().frames, 3U);
     EXPECT_NE(segment(), before);
-    EXPECT_EQ(view_.track().at(13 * 16 * ms)->camera.position[0], 2.0F);
+    EXPECT_EQ(match_.track().at(13 * 16 * ms)->camera.position[0], 2.0F);
 }
 
-TEST_F(MatchViewTest, FrameNumbersWrapWithoutAGap) {
+TEST_F(ReceivedMatchTest, FrameNumbersWrapWithoutAGap) {
     answer(1, 5);
     CameraFrameArrays last = frame_of(1, std::numeric_limits<std::uint32_t>::max());
     last.frame_time = -1;
@@ -145,22 +145,22 @@ TEST_F(MatchViewTest, FrameNumbersWrapWithoutAGap) {
     accept(last);
     const std::uint32_t before = segment();
     accept(1, 0, 2.0F);
-    EXPECT_EQ(view_.counters().gaps, 0U);
+    EXPECT_EQ(match_.counters().gaps, 0U);
     accept(1, 1, 2.0F);
     EXPECT_EQ(segment(), before);
 }
 
-TEST_F(MatchViewTest, AnotherDirectorIsAHandOverAndNoGap) {
+TEST_F(ReceivedMatchTest, AnotherDirectorIsAHandOverAndNoGap) {
     answer(1, 5);
     accept(1, 100, 1.0F, 0, 1);
     const std::uint32_t before = segment();
     accept(1, 900, 2.0F, 0, 2);
-    EXPECT_EQ(view_.counters().hand_overs, 1U);
-    EXPECT_EQ(view_.counters().gaps, 0U);
+    EXPECT_EQ(match_.counters().hand_overs, 1U);
+    EXPECT_EQ(match_.counters().gaps, 0U);
     EXPECT_NE(segment(), before) << "the first director's last frames may have held a cut";
 }
 
-TEST_F(MatchViewTest, CutAbsenceAndAnotherCameraBeginASegment) {
+TEST_F(ReceivedMatchTest, CutAbsenceAndAnotherCameraBeginASegment) {
     answer(1, 5);
     accept(1, 0, 1.0F);
     const std::uint32_t first = segment();
@@ -169,13 +169,13 @@ TEST_F(MatchViewTest, CutAbsenceAndAnotherCameraBeginASegment) {
     accept(frame_of(1, 2));  // without the camera
     accept(1, 3, 3.0F);
     EXPECT_EQ(segment(), first + 2);
-    view_.accept(status_of(1, 4));
+    match_.accept(status_of(1, 4));
     accept(1, 4, 4.0F);
     EXPECT_EQ(segment(), first + 3);
-    EXPECT_EQ(view_.track().newest()->camera.camera_id, 4U);
+    EXPECT_EQ(match_.track().newest()->camera.camera_id, 4U);
 }
 
-TEST_F(MatchViewTest, FramesThatBreakTheContractAreDroppedAndCounted) {
+TEST_F(ReceivedMatchTest, FramesThatBreakTheContractAreDroppedAndCounted) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const float infinity = std::numeric_limits<float>::infinity();
     const std::vector<std::function<void(CameraFrameArrays&)>> defects = {
@@ -211,10 +211,10 @@ TEST_F(MatchViewTest, FramesThatBreakTheContractAreDroppedAndCounted) {
         frame.add_camera(5, 2.0F);
         defects[i](frame);
         EXPECT_FALSE(accept(frame)) << "defect " << i;
-        EXPECT_EQ(view_.counters().invalid, i + 1) << "defect " << i;
+        EXPECT_EQ(match_.counters().invalid, i + 1) << "defect " << i;
     }
-    EXPECT_EQ(view_.counters().frames, 1U);
-    EXPECT_EQ(view_.track().newest()->camera.position[0], 1.0F);
+    EXPECT_EQ(match_.counters().frames, 1U);
+    EXPECT_EQ(match_.track().newest()->camera.position[0], 1.0F);
     CameraFrameArrays full = frame_of(1, 1);
     for (std::uint32_t id = 0; id < CDIR_MAX_CAMERAS; ++id) {
         full.add_camera(id, 0.0F);
@@ -223,7 +223,7 @@ TEST_F(MatchViewTest, FramesThatBreakTheContractAreDroppedAndCounted) {
 }
 
 // Lengths that nearly fit, numbers of every kind: what is shown is always a camera.
-TEST_F(MatchViewTest, NoFrameLeavesABrokenCamera) {
+TEST_F(ReceivedMatchTest, NoFrameLeavesABrokenCamera) {
     const unsigned seed = 3;
     std::mt19937 random(seed);
     const auto below = [&](std::uint32_t bound) { return static_cast<std::uint32_t>(random() % bound); };
@@ -243,8 +243,8 @@ TEST_F(MatchViewTest, NoFrameLeavesABrokenCamera) {
         if (below(8) == 0) frame.vertical_fov.assign(frame.camera_id.size(), any_float());
         if (below(8) == 0) frame.flags.resize(below(6));
         accept(frame);
-        view_.accept(status_of(epoch, 3 + below(4)));
-        const auto view = view_.track().at(frame.frame_time - static_cast<std::int64_t>(below(100)) * ms);
+        match_.accept(status_of(epoch, 3 + below(4)));
+        const auto view = match_.track().at(frame.frame_time - static_cast<std::int64_t>(below(100)) * ms);
         if (!view) continue;
         const cdir_camera& camera = view->camera;
         const float* q = camera.orientation;
@@ -255,17 +255,17 @@ TEST_F(MatchViewTest, NoFrameLeavesABrokenCamera) {
             std::all_of(camera.position, camera.position + 3, [](float x) { return std::isfinite(x); }))
             << "step " << i;
     }
-    EXPECT_GT(view_.counters().invalid, 1000U) << "seed " << seed;
-    EXPECT_GT(view_.counters().frames, 1000U) << "seed " << seed;
+    EXPECT_GT(match_.counters().invalid, 1000U) << "seed " << seed;
+    EXPECT_GT(match_.counters().frames, 1000U) << "seed " << seed;
 }
 
-TEST_F(MatchViewTest, UnknownStateIsInvalid) {
-    view_.set_requested(true);
+TEST_F(ReceivedMatchTest, UnknownStateIsInvalid) {
+    match_.set_requested(true);
     camera_director_ObserverStatus status = status_of(1, 5);
     status.state = 4;
-    view_.accept(status);
-    EXPECT_EQ(view_.counters().invalid, 1U);
-    EXPECT_EQ(view_.shot_status().state, static_cast<std::uint32_t>(CDIR_SHOT_UNANSWERED));
+    match_.accept(status);
+    EXPECT_EQ(match_.counters().invalid, 1U);
+    EXPECT_EQ(match_.shot_status().state, static_cast<std::uint32_t>(CDIR_SHOT_UNANSWERED));
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ scene::Scene wall() {
     return scene;
 }
 
-class JudgeTest : public testing::Test {
+class ShotCheckerTest : public testing::Test {
   protected:
     // The next frame has the observer's camera at x.
     void camera_at(float x, std::uint32_t flags = 0) {
@@ -30,20 +30,20 @@ class JudgeTest : public testing::Test {
         camera.camera_id = 5;
         camera.position[0] = x;
         camera.flags = flags;
-        judge_.judge(frame_, &camera, frame_.source_time + 2'000'000);
+        checker_.check(frame_, &camera, frame_.source_time + 2'000'000);
     }
     void no_camera() {
         ++frame_.frame_number;
-        judge_.judge(frame_, nullptr, frame_.source_time + 2'000'000);
+        checker_.check(frame_, nullptr, frame_.source_time + 2'000'000);
     }
-    [[nodiscard]] const Findings& found() const { return judge_.findings(); }
+    [[nodiscard]] const Findings& found() const { return checker_.findings(); }
 
     oracle::Oracle oracle_{wall()};
-    ShotJudge judge_{&oracle_, {.step = 64.0, .clearance = 1.0}};
+    ShotChecker checker_{&oracle_, {.step = 64.0, .clearance = 1.0}};
     camera_director::CameraFrame frame_ = cdir_camera_frame_default();
 };
 
-TEST_F(JudgeTest, AQuietCameraIsNoViolation) {
+TEST_F(ShotCheckerTest, AQuietCameraIsNoViolation) {
     for (int i = 0; i < 20; ++i)
         camera_at(-200.0F + 5.0F * static_cast<float>(i), CDIR_CAMERA_TARGET_VISIBLE);
     EXPECT_EQ(found().frames, 20U);
@@ -53,7 +53,7 @@ TEST_F(JudgeTest, AQuietCameraIsNoViolation) {
     EXPECT_NEAR(found().latency.percentile(0.5), 2e-3, 2e-5);
 }
 
-TEST_F(JudgeTest, AStepThroughTheWallCountsUnlessItIsACut) {
+TEST_F(ShotCheckerTest, AStepThroughTheWallCountsUnlessItIsACut) {
     camera_at(-20.0F);
     camera_at(20.0F);
     EXPECT_EQ(found().through_geometry, 1U);
@@ -62,7 +62,7 @@ TEST_F(JudgeTest, AStepThroughTheWallCountsUnlessItIsACut) {
     EXPECT_EQ(found().cuts, 1U);
 }
 
-TEST_F(JudgeTest, ALongStepCountsUnlessItIsACutOrFramesAreMissing) {
+TEST_F(ShotCheckerTest, ALongStepCountsUnlessItIsACutOrFramesAreMissing) {
     camera_at(100.0F);
     camera_at(165.0F);
     EXPECT_EQ(found().jumps, 1U);
@@ -77,14 +77,14 @@ TEST_F(JudgeTest, ALongStepCountsUnlessItIsACutOrFramesAreMissing) {
     EXPECT_EQ(found().jumps, 1U) << "there was no camera in between";
 }
 
-TEST_F(JudgeTest, ACameraInTheWallCounts) {
+TEST_F(ShotCheckerTest, ACameraInTheWallCounts) {
     camera_at(-0.5F);
     EXPECT_EQ(found().in_obstacle, 1U);
     camera_at(-1.5F);
     EXPECT_EQ(found().in_obstacle, 1U);
 }
 
-TEST_F(JudgeTest, OldFramesAndOtherDirectorsAreTold) {
+TEST_F(ShotCheckerTest, OldFramesAndOtherDirectorsAreTold) {
     camera_at(100.0F);
     frame_.frame_number -= 1;
     camera_at(100.0F);
