@@ -17,12 +17,12 @@ cdir_view view_of(std::int64_t time, std::uint32_t segment, const cdir_camera& c
     return view;
 }
 
-// Clearance falls by no more than the way that is travelled, from either end. In double: a float's square
-// overflows.
+// Clearance decreases at most by the distance travelled from either end. In double, because a float's square
+// can overflow.
 float clearance_between(const cdir_camera& a, const cdir_camera& b, float share) {
     using Vector = Eigen::Map<const Eigen::Vector3f>;
-    const double way = (Vector(b.position).cast<double>() - Vector(a.position).cast<double>()).norm();
-    const double clearance = std::max(a.clearance - share * way, b.clearance - (1.0 - share) * way);
+    const double distance = (Vector(b.position).cast<double>() - Vector(a.position).cast<double>()).norm();
+    const double clearance = std::max(a.clearance - share * distance, b.clearance - (1.0 - share) * distance);
     return static_cast<float>(std::max<double>(clearance, std::numeric_limits<float>::lowest()));
 }
 
@@ -48,7 +48,7 @@ const CameraTrack::Frame& CameraTrack::frame(std::size_t age_rank) const {
 
 void CameraTrack::add(std::int64_t frame_time, const cdir_camera& camera, bool connected) {
     if (size_ > 0 && frame_time <= frame(size_ - 1).time) {
-        interrupted_ = true;  // the way to the next frame leads by this one
+        interrupted_ = true;  // the motion to the next frame passes the skipped one
         return;
     }
     if (!connected || interrupted_) ++segment_;

@@ -1,4 +1,4 @@
-// One shot's last cameras, and the camera between them. Pure: no clock, no DDS.
+// The last cameras of one shot, and interpolation between them. Pure: no clock, no DDS.
 #pragma once
 
 #include <camera_director/camera_director.h>
@@ -10,27 +10,27 @@
 
 namespace camdir::sdk {
 
-// Keeps the newest `capacity` frames; allocates nothing.
+// Keeps the newest `capacity` frames. Allocates nothing. One thread at a time.
 class CameraTrack {
   public:
     static constexpr std::size_t capacity = 64;
 
-    // `connected`: the camera moved here from the frame before, so that the way between may be interpolated;
-    // false after a cut and wherever one may have got lost. A frame that is not newer than the newest is left
-    // out.
+    // `connected`: the camera moved continuously from the previous frame, so that interpolation is allowed;
+    // false after a cut and where a cut may have been lost. A frame that is not newer than the newest is
+    // skipped.
     void add(std::int64_t frame_time, const cdir_camera& camera, bool connected);
 
-    // The next camera is not connected, however it is added.
+    // The next frame counts as not connected.
     void interrupt() { interrupted_ = true; }
 
     void clear();
 
     [[nodiscard]] std::optional<cdir_view> newest() const;
 
-    // The frame at `frame_time` itself, or between two connected frames the interpolation: position and field
-    // of view linear, orientation along the shorter arc, clearance such that it stays true; everything else
-    // is the earlier frame's. Between two that are not connected the earlier one; outside of the track its
-    // end. None when empty.
+    // The camera at `frame_time`. Between connected frames it is interpolated: position and field of view
+    // linearly, orientation along the shorter arc, clearance as a lower bound; all else is the earlier
+    // frame's. Between unconnected frames it is the earlier one, outside of the track the nearest. None when
+    // empty.
     [[nodiscard]] std::optional<cdir_view> at(std::int64_t frame_time) const;
 
   private:

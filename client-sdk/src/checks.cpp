@@ -12,7 +12,7 @@ namespace camdir::sdk {
 namespace {
 
 constexpr float pi = 3.14159265F;
-// ns: 73 years. Differences of such times do not overflow.
+// 2^61 ns = 73 years: differences of such times do not overflow.
 constexpr std::int64_t max_abs_time = std::int64_t{1} << 61U;
 
 bool is_time(std::int64_t ns) {
@@ -23,14 +23,14 @@ bool all_finite(const float* values, std::size_t count) {
     return std::all_of(values, values + count, [](float value) { return std::isfinite(value); });
 }
 
-// count quaternions.
+// `count` quaternions, each of length 1.
 bool all_unit(const float* quaternions, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
         double square = 0.0;
         for (std::size_t k = 0; k < 4; ++k) {
             square += double{quaternions[4 * i + k]} * double{quaternions[4 * i + k]};
         }
-        // Written so that a NaN fails.
+        // Negated so that NaN fails.
         if (!(std::abs(std::sqrt(square) - 1.0) <= 1e-3)) return false;
     }
     return true;
@@ -53,7 +53,7 @@ bool all_finite(const dds_sequence_float& sequence) {
     return all_finite(sequence._buffer, sequence._length);
 }
 
-// Players' names, classes and teams come for all players or for none.
+// Names, classes and teams are given for all players or for none.
 template <class Sequence>
 bool is_parallel(const Sequence& sequence, std::uint32_t count) {
     return sequence._length == 0 || sequence._length == count;
@@ -65,12 +65,13 @@ void require(bool condition, const char* text) {
     if (!condition) throw Failure{CDIR_INVALID_ARGUMENT, text};
 }
 
-std::string checked_string(const char* field, const char* text, std::size_t least, std::size_t most) {
+std::string checked_string(const char* field, const char* text, std::size_t min_bytes,
+                           std::size_t max_bytes) {
     if (text == nullptr) throw Failure{CDIR_INVALID_ARGUMENT, std::string(field) + " is null"};
-    const std::size_t length = strnlen(text, most + 1);
-    if (length < least || length > most) {
-        throw Failure{CDIR_INVALID_ARGUMENT, std::string(field) + " must have " + std::to_string(least) +
-                                                 " to " + std::to_string(most) +
+    const std::size_t length = strnlen(text, max_bytes + 1);
+    if (length < min_bytes || length > max_bytes) {
+        throw Failure{CDIR_INVALID_ARGUMENT, std::string(field) + " must have " + std::to_string(min_bytes) +
+                                                 " to " + std::to_string(max_bytes) +
                                                  " bytes before its zero byte"};
     }
     return {text, length};

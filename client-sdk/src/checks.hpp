@@ -1,4 +1,4 @@
-// Which values go out to the wire, and which are taken from it.
+// Validation of what callers pass in and of what arrives.
 #pragma once
 
 #include <camera_director.h>
@@ -13,11 +13,11 @@
 
 namespace camdir::sdk {
 
-// What a caller passes in. Each throws Failure CDIR_INVALID_ARGUMENT that says what was expected.
+// For parameters. Each throws a Failure with CDIR_INVALID_ARGUMENT that says what was expected.
 void require(bool condition, const char* text);
-// Reads no further than most + 1 bytes.
-[[nodiscard]] std::string checked_string(const char* field, const char* text, std::size_t least,
-                                         std::size_t most);
+// A string of `min_bytes` to `max_bytes` bytes. Reads at most max_bytes + 1 bytes.
+[[nodiscard]] std::string checked_string(const char* field, const char* text, std::size_t min_bytes,
+                                         std::size_t max_bytes);
 [[nodiscard]] std::string checked_match_id(const char* text);
 [[nodiscard]] std::string checked_observer_id(const char* text);
 void check_frame_time(std::int64_t frame_time);
@@ -33,7 +33,7 @@ void check_struct(const char* name, const Struct* parameter) {
             (std::string(name) + ".struct_size is wrong: begin with its _default() function").c_str());
 }
 
-// What arrives: true when the sample keeps the contract. `match_id` is the partition's.
+// For samples: true when the sample is valid. `match_id` is that of its partition.
 [[nodiscard]] bool is_valid(const camera_director_MatchInfo& info, const std::string& match_id);
 [[nodiscard]] bool is_valid(const camera_director_CameraFrame& frame, const std::string& match_id);
 [[nodiscard]] bool is_valid(const camera_director_ObserverStatus& status);

@@ -1,4 +1,4 @@
-// The C functions: arguments are checked, handles become objects, failures become a status.
+// The C functions: validate arguments, look handles up, and turn failures into a status.
 #include <camera_director/camera_director.h>
 
 #include <algorithm>
@@ -45,7 +45,7 @@ std::shared_ptr<Observer> find(cdir_observer observer) {
     return require_open(handles().observers.find(observer.id), "the observer");
 }
 
-// For a new child: a context that was closed meanwhile has closed those that it knew of.
+// For a new match or observer: its context may have been closed while it was opened.
 template <class Remove>
 void require_still_open(cdir_context context, const Remove& remove) {
     if (handles().contexts.find(context.id)) return;
@@ -62,7 +62,7 @@ void close_children(const Context& context) {
     }
 }
 
-// DDS threads that outlive main() would run into libraries that are already cleaned up.
+// DDS threads that outlive main() would use libraries that are already unloaded.
 void close_all() {
     (void)guarded([] {
         for (const auto& context : handles().contexts.remove_if([](const Context&) { return true; })) {
@@ -72,7 +72,7 @@ void close_all() {
     });
 }
 
-// After the first participant: then this runs before the clean-up of what DDS loaded.
+// Registered after the first participant was created, so that it runs before the clean-up of DDS's libraries.
 void close_all_at_exit() {
     static std::once_flag once;
     std::call_once(once, [] { std::atexit(close_all); });
@@ -84,7 +84,7 @@ std::span<const cdir_player> player_span(const cdir_player* players, std::uint32
     return {players, count};
 }
 
-cdir_status answer(std::optional<cdir_view> found, cdir_view* view) {
+cdir_status store(std::optional<cdir_view> found, cdir_view* view) {
     if (!found) return CDIR_NO_DATA;
     *view = *found;
     return CDIR_OK;
@@ -163,8 +163,10 @@ cdir_status cdir_match_open(cdir_context context, const cdir_match_info* info, c
         check_struct("info", info);
         require(match != nullptr, "match is null");
         const auto span = player_span(players, player_count);
-        match->id = handles().matches.insert(std::make_shared<GameMatch>(find(context), *info, span));
-        require_still_open(context, [&] { (void)handles().matches.remove(match->id); });
+        const std::uint64_t id =
+            handles().matches.insert(std::make_shared<GameMatch>(find(context), *info, span));
+        require_still_open(context, [&] { (void)handles().matches.remove(id); });
+        match->id = id;
         return CDIR_OK;
     });
 }
@@ -228,9 +230,10 @@ cdir_status cdir_observer_open(cdir_context context, const char* match_id, const
                 "interpolation_delay must be 0 to 10 s");
         require(chosen.reserved == 0, "options.reserved is not 0");
         require(observer != nullptr, "observer is null");
-        observer->id = handles().observers.insert(std::make_shared<Observer>(
+        const std::uint64_t id = handles().observers.insert(std::make_shared<Observer>(
             find(context), checked_match_id(match_id), checked_observer_id(observer_id), chosen));
-        require_still_open(context, [&] { (void)handles().observers.remove(observer->id); });
+        require_still_open(context, [&] { (void)handles().observers.remove(id); });
+        observer->id = id;
         return CDIR_OK;
     });
 }
@@ -290,7 +293,7 @@ cdir_status cdir_observer_shot_status(cdir_observer observer, cdir_shot_status* 
 cdir_status cdir_observer_newest_camera(cdir_observer observer, cdir_view* view) noexcept {
     return guarded([&] {
         check_struct("view", view);
-        return answer(
+        return store(
             find(observer)->with_match([](const ReceivedMatch& match) { return match.track().newest(); }),
             view);
     });
@@ -300,9 +303,9 @@ cdir_status cdir_observer_camera_at(cdir_observer observer, int64_t frame_time, 
     return guarded([&] {
         check_struct("view", view);
         check_frame_time(frame_time);
-        return answer(find(observer)->with_match(
-                          [=](const ReceivedMatch& match) { return match.track().at(frame_time); }),
-                      view);
+        return store(find(observer)->with_match(
+                         [=](const ReceivedMatch& match) { return match.track().at(frame_time); }),
+                     view);
     });
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 struct OpenDomain {
     std::string configuration;
-    Entity entity;  // none when the application made the domain itself
+    Entity entity;  // empty when the application has joined the domain itself
     int shares = 0;
 };
 
@@ -44,7 +44,7 @@ void check_file_descriptors() {
 Entity join(std::uint32_t domain, const std::string& configuration) {
     check_file_descriptors();
     const dds_entity_t created = dds_create_domain(domain, configuration.c_str());
-    if (created == DDS_RETCODE_PRECONDITION_NOT_MET) return {};  // the application's own
+    if (created == DDS_RETCODE_PRECONDITION_NOT_MET) return {};  // by the application
     return Entity("cannot join DDS domain " + std::to_string(domain) + " with the network settings", created);
 }
 

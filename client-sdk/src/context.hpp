@@ -1,4 +1,4 @@
-// One participant in a DDS domain, and the domains that this process has joined.
+// A context: one participant in a DDS domain that the contexts of this process share.
 #pragma once
 
 #include <camera_director/camera_director.h>
@@ -10,12 +10,11 @@
 
 namespace camdir::sdk {
 
-// One context's share of a domain. The first share of a domain configures it, the last one leaves it.
-// Thread-safe.
+// A share of a domain: the first one joins and configures the domain, the last one leaves it. Thread-safe.
 class DomainShare {
   public:
-    // Throws Failure: CDIR_CONFLICT when the domain is open with another configuration or the process holds
-    // too many file descriptors.
+    // Throws a Failure: CDIR_CONFLICT when the domain is open with another configuration or the process holds
+    // too many file descriptors, CDIR_NETWORK when DDS refuses the configuration.
     DomainShare(std::uint32_t domain, const std::string& configuration);
     ~DomainShare();
     DomainShare(const DomainShare&) = delete;

@@ -1,4 +1,4 @@
-// Which moment of the game to display now. Pure: every time is passed in.
+// Which game time to display now. Pure: all times are parameters, in ns.
 #pragma once
 
 #include <array>
@@ -8,25 +8,25 @@
 
 namespace camdir::sdk {
 
-// Follows the game's frame_time by the frames' arrival. The frame that was least delayed of the last 64 tells
-// how the two clocks lie; what that changes is spread over time, so that the display does not jerk.
+// Estimates the offset between the game's clock and this host's from the least delayed of the last 64 frames.
+// Changes of the estimate are spread over time, so that the display does not jerk. One thread at a time.
 class DisplayClock {
   public:
     explicit DisplayClock(std::int64_t delay) : delay_(delay) {}
 
-    // A frame arrived at `now`, a clock of this host that never goes back. Nanoseconds, as everywhere here.
+    // A frame arrived at `now`, a monotonic time of this host.
     void observe(std::int64_t frame_time, std::int64_t now);
 
-    // Another epoch: frame_time starts anew.
+    // For a new epoch: frame_time starts again.
     void clear();
 
-    // `delay` behind the game, never later than the newest frame, never earlier than a time returned before.
-    // None before the first frame.
+    // The game time to display: `delay` behind the game, not later than the newest frame, not earlier than a
+    // time returned before. None before the first frame.
     [[nodiscard]] std::optional<std::int64_t> at(std::int64_t now);
 
   private:
     static constexpr std::size_t window = 64;
-    static constexpr std::int64_t jump = 250'000'000;  // a clock this far off did not drift: the game paused
+    static constexpr std::int64_t jump = 250'000'000;  // an offset this far off is no drift: the game paused
     static constexpr std::int64_t slew = 10;           // at most a tenth faster or slower than real time
 
     [[nodiscard]] std::int64_t target() const;

@@ -1,4 +1,4 @@
-// Owners of what Cyclone DDS hands out as plain numbers and pointers.
+// Owners for Cyclone DDS's entities and QoS, and its return codes as Failures.
 #pragma once
 
 #include <dds/dds.h>
@@ -11,7 +11,7 @@
 
 namespace camdir::sdk {
 
-// what: "cannot create the reader of CameraFrame" and the like.
+// `what` is what failed, such as "cannot create the reader of CameraFrame".
 [[noreturn]] inline void fail_dds(const std::string& what, dds_return_t code) {
     throw Failure{CDIR_NETWORK, what + ": " + dds_strretcode(code)};
 }
@@ -20,11 +20,17 @@ inline void check_dds(const std::string& what, dds_return_t code) {
     if (code < 0) fail_dds(what, code);
 }
 
-// One DDS entity, deleted with its owner.
+// For the result of dds_write(): a full send queue is CDIR_BUSY.
+inline void check_written(const std::string& topic, dds_return_t code) {
+    if (code == DDS_RETCODE_TIMEOUT) throw Failure{CDIR_BUSY, topic + ": the send queue is full"};
+    check_dds(topic + ": cannot write", code);
+}
+
+// Owns a DDS entity and deletes it.
 class Entity {
   public:
     Entity() = default;
-    // Takes what a dds_create_ function returned; a negative number is a failure to do `what`.
+    // `created` is the result of a dds_create_ function. Throws a Failure when it is negative.
     Entity(const std::string& what, dds_entity_t created) : entity_(created) { check_dds(what, created); }
     Entity(Entity&& other) noexcept : entity_(std::exchange(other.entity_, 0)) {}
     Entity& operator=(Entity&& other) noexcept {

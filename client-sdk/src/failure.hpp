@@ -1,4 +1,4 @@
-// How calls fail inside the library, and the firewall that turns it into a status at the C boundary.
+// How the library reports failures inside, and their conversion to a status at the C boundary.
 #pragma once
 
 #include <camera_director/camera_director.h>
@@ -10,19 +10,20 @@
 
 namespace camdir::sdk {
 
-// Thrown by everything below the C functions; never leaves them.
+// The only exception thrown on purpose; never leaves the C functions.
 struct Failure {
     cdir_status status;
     std::string text;  // one line: what was wrong, and what was expected
 };
 
-// The text of cdir_last_error() of this thread; longer texts are cut.
+// cdir_last_error() of this thread; longer messages are cut.
 inline thread_local char last_error_text[512] = "";
 
 inline void set_last_error(const char* text) noexcept {
     std::snprintf(last_error_text, sizeof last_error_text, "%s", text);
 }
 
+// Runs the body of a C function: exceptions become a status and cdir_last_error().
 template <class Call>
 [[nodiscard]] cdir_status guarded(Call&& call) noexcept {
     try {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "checks.hpp"
-#include "text.hpp"
+#include "fixed_string.hpp"
 
 namespace camdir::sdk {
 
@@ -17,13 +17,13 @@ std::int64_t realtime_ns() {
     return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
 }
 
-// Greater than that of any earlier process that chose by its clock too. Microseconds, so that a double holds
-// it.
+// By the system clock, so that it is greater than those of earlier processes. In microseconds, so that a
+// double can hold it.
 std::uint64_t choose_epoch(std::uint64_t previous) {
     return std::max(static_cast<std::uint64_t>(realtime_ns() / 1000), previous + 1);
 }
 
-// A sequence that borrows the caller's array for one write.
+// Lets a sequence use the caller's array for one write.
 template <class Sequence, class Element>
 void borrow(Sequence& sequence, const Element* elements, std::size_t count) {
     sequence._buffer = const_cast<Element*>(elements);
@@ -54,11 +54,6 @@ struct PlayerColumns {
     std::vector<Name> names;
     std::vector<Class> classes;
 };
-
-void check_sent(const std::string& topic, dds_return_t code) {
-    if (code == DDS_RETCODE_TIMEOUT) throw Failure{CDIR_BUSY, topic + ": the send queue is full"};
-    check_dds(topic + ": cannot write", code);
-}
 
 }  // namespace
 
@@ -119,7 +114,7 @@ void GameMatch::announce(cdir_match_info& info, std::span<const cdir_player> pla
     // An array of structs of one char array is an array of those char arrays.
     borrow(sample.player_name, reinterpret_cast<const char(*)[64]>(columns.names.data()), players.size());
     borrow(sample.player_class, reinterpret_cast<const char(*)[32]>(columns.classes.data()), players.size());
-    check_sent("MatchInfo", dds_write(info_writer_.get(), &sample));
+    check_written("MatchInfo", dds_write(info_writer_.get(), &sample));
 }
 
 void GameMatch::publish(const cdir_pose_frame& frame) {
@@ -139,7 +134,7 @@ void GameMatch::publish(const cdir_pose_frame& frame) {
     borrow(sample.orientation, frame.orientation, 4 * n);
     borrow(sample.velocity, frame.velocity, frame.velocity == nullptr ? 0 : 3 * n);
     borrow(sample.flags, frame.flags, n);
-    check_sent("PoseFrame", dds_write(pose_writer_.get(), &sample));
+    check_written("PoseFrame", dds_write(pose_writer_.get(), &sample));
     ++next_frame_number_;
     last_frame_time_ = frame.frame_time;
 }
@@ -155,7 +150,7 @@ void GameMatch::publish(const cdir_match_event& event) {
     sample.actor = event.actor;
     sample.subject = event.subject;
     sample.value = event.value;
-    check_sent("MatchEvent", dds_write(event_writer_.get(), &sample));
+    check_written("MatchEvent", dds_write(event_writer_.get(), &sample));
 }
 
 std::uint32_t GameMatch::director_count() const {

@@ -1,4 +1,4 @@
-// A game server's side of a match.
+// A match, on the game server's side.
 #pragma once
 
 #include <camera_director/camera_director.h>
@@ -13,7 +13,7 @@
 
 namespace camdir::sdk {
 
-// Thread-safe: calls wait for each other. All throw Failure.
+// Thread-safe: calls are serialised. All may throw a Failure.
 class GameMatch {
   public:
     GameMatch(std::shared_ptr<const Context> context, const cdir_match_info& info,
@@ -33,7 +33,7 @@ class GameMatch {
     std::shared_ptr<const Context> context_;
     std::mutex mutex_;
     std::string match_id_;
-    cdir_match_info info_;  // as announced, with the epoch in force
+    cdir_match_info info_;  // as last announced, with its epoch
     std::uint32_t next_frame_number_ = 0;
     std::optional<std::int64_t> last_frame_time_;  // in this epoch
     Entity publisher_;

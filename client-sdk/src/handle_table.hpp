@@ -1,5 +1,4 @@
-// Handles that outlive what they name: a slot and the slot's generation, so that a closed handle is
-// recognised.
+// Maps handles to objects. A handle is a slot and the slot's generation, so that closed handles are detected.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +14,7 @@ namespace camdir::sdk {
 template <class T>
 class HandleTable {
   public:
-    // Never 0: the low half is the slot's number + 1, the high half its generation.
+    // Returns the handle, never 0: the low half is the slot's index + 1, the high half its generation.
     [[nodiscard]] std::uint64_t insert(std::shared_ptr<T> object) {
         const std::unique_lock lock(mutex_);
         std::size_t index = 0;
@@ -27,14 +26,14 @@ class HandleTable {
         return (std::uint64_t{slots_[index].generation} << 32U) | (index + 1);
     }
 
-    // Null when the handle is closed or was never given out.
+    // Null when the handle is closed or was never issued.
     [[nodiscard]] std::shared_ptr<T> find(std::uint64_t id) const {
         const std::shared_lock lock(mutex_);
         const std::size_t index = index_of(id);
         return index < slots_.size() ? slots_[index].object : nullptr;
     }
 
-    // As find(); the handle is closed afterwards.
+    // Like find(), and closes the handle.
     [[nodiscard]] std::shared_ptr<T> remove(std::uint64_t id) {
         const std::unique_lock lock(mutex_);
         const std::size_t index = index_of(id);
@@ -57,7 +56,7 @@ class HandleTable {
     };
 
     [[nodiscard]] std::size_t index_of(std::uint64_t id) const {
-        const std::uint64_t index = (id & 0xffffffffU) - 1;  // 0 becomes a number that no slot has
+        const std::uint64_t index = (id & 0xffffffffU) - 1;  // 0 wraps to an index that no slot has
         const bool current = index < slots_.size() && slots_[index].generation == id >> 32U;
         return current ? static_cast<std::size_t>(index) : slots_.size();
     }

@@ -57,7 +57,7 @@ std::string network_configuration(const cdir_context_options& options) {
     if (options.cyclone_xml != nullptr) return options.cyclone_xml;
     const std::string general = element("Interfaces", interface_element(options.network_interface)) +
                                 element("AllowMulticast", "false") + element("MaxMessageSize", "65500B");
-    // With index 0 as the highest, a peer without a port is the first participant of its host: a director.
+    // With 0 as the highest index, a peer without a port is participant 0 of its host: a director.
     const std::string discovery = element("ParticipantIndex", "none") +
                                   element("MaxAutoParticipantIndex", "0") + element("SPDPInterval", "1s") +
                                   element("Peers", peer_elements(options.directors));

@@ -1,4 +1,4 @@
-// The Cyclone DDS configuration that a context's options amount to.
+// The Cyclone DDS configuration for a context's options.
 #pragma once
 
 #include <camera_director/camera_director.h>
@@ -7,8 +7,9 @@
 
 namespace camdir::sdk {
 
-// XML. Hub and spoke: this process announces itself to the directors only, and they answer.
-// Throws Failure when an address or the interface's name holds what such a name cannot.
+// XML. This process announces itself to the directors only, and they answer.
+// Throws a Failure with CDIR_INVALID_ARGUMENT when an address or the interface's name has characters that are
+// not allowed there.
 [[nodiscard]] std::string network_configuration(const cdir_context_options& options);
 
 }  // namespace camdir::sdk

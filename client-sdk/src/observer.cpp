@@ -5,7 +5,7 @@
 #include <chrono>
 
 #include "checks.hpp"
-#include "text.hpp"
+#include "fixed_string.hpp"
 
 namespace camdir::sdk {
 
@@ -69,7 +69,7 @@ void Observer::request(const cdir_shot_request& request) {
     set_string(sample.profile, "profile", request.profile);
     set_string(sample.overrides, "overrides", request.overrides);
     const std::lock_guard lock(mutex_);
-    check_dds("cannot write the request", dds_write(request_writer_.get(), &sample));
+    check_written("ObserverRequest", dds_write(request_writer_.get(), &sample));
     match_.set_requested(true);
 }
 
@@ -148,7 +148,7 @@ std::optional<std::int64_t> Observer::display_time() {
     return match_.clock().at(steady_ns());
 }
 
-// The director's answer first, so that the frames after it find their camera.
+// Before the frames, so that these find their camera by the director's answer.
 void Observer::take_info_and_status() {
     for (Taken taken; (taken = info_sample_.take(info_reader_)) != Taken::nothing;) {
         if (taken == Taken::data) {
@@ -166,7 +166,7 @@ void Observer::take_info_and_status() {
     }
 }
 
-// The next frame that is not dropped. False when none waits.
+// Takes the next valid frame. Returns false when none waits.
 bool Observer::take_frame() {
     for (Taken taken; (taken = frame_sample_.take(frame_reader_)) != Taken::nothing;) {
         if (taken == Taken::data && match_.accept(*frame_sample_, steady_ns())) return true;

@@ -1,4 +1,4 @@
-// An observer's side of a match: the readers, the request and the waiting.
+// An observer of a match: readers, request and waiting.
 #pragma once
 
 #include <camera_director.h>
@@ -17,7 +17,7 @@
 
 namespace camdir::sdk {
 
-// Thread-safe: calls wait for each other, except that wait() holds up none. All throw Failure.
+// Thread-safe: calls are serialised, except that wait() does not delay others. All may throw a Failure.
 class Observer {
   public:
     Observer(std::shared_ptr<const Context> context, const std::string& match_id,
@@ -30,14 +30,14 @@ class Observer {
 
     [[nodiscard]] cdir_status wait(std::int64_t timeout);
     void interrupt();
-    // Ends all waits, now and later, and returns when none is in progress.
+    // Ends all waits, also later ones, and returns when none is in progress.
     void end_waits();
 
     [[nodiscard]] std::uint32_t poll();
-    // `cameras` is filled as far as it goes. False when no frame waits.
+    // Stores as many cameras as fit. Returns false when no frame waits.
     [[nodiscard]] bool next_frame(cdir_camera_frame& frame, std::span<cdir_camera> cameras);
 
-    // Calls read(ReceivedMatch&) while no sample comes in.
+    // Calls read(ReceivedMatch&) while no other thread takes samples.
     template <class Read>
     auto with_match(Read&& read) {
         const std::lock_guard lock(mutex_);

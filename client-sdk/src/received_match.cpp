@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "checks.hpp"
-#include "text.hpp"
+#include "fixed_string.hpp"
 
 namespace camdir::sdk {
 
@@ -108,7 +108,7 @@ bool ReceivedMatch::accept(const camera_director_CameraFrame& frame, std::int64_
     return true;
 }
 
-// A cut may hide in frames that are missing, or that the old director did not come to write.
+// Missing frames may have held a cut, and so may frames that the previous director did not publish.
 bool ReceivedMatch::follows_last(const camera_director_CameraFrame& frame) {
     if (!last_frame_) return false;
     if (last_frame_->director_id != frame.director_id) {
@@ -116,7 +116,7 @@ bool ReceivedMatch::follows_last(const camera_director_CameraFrame& frame) {
         return false;
     }
     const std::uint32_t missing = frame.frame_number - last_frame_->frame_number - 1;
-    // Frames of one director do not overtake each other: a number that goes back is a restarted director.
+    // Frames of one director arrive in order: a smaller number means that the director has restarted.
     if (frame.frame_number > last_frame_->frame_number) counters_.gaps += missing;
     return missing == 0;
 }

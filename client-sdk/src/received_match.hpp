@@ -1,4 +1,4 @@
-// What an observer knows of a match from the samples it took. No DDS calls, no clock.
+// What an observer knows of a match from the samples that it has taken. No DDS calls, no clock.
 #pragma once
 
 #include <camera_director.h>
@@ -14,8 +14,8 @@
 
 namespace camdir::sdk {
 
-// Each accept() checks its sample and drops it, counted, when it breaks the contract or its epoch is over. A
-// newer epoch forgets the cameras and the director's answer of the older one.
+// accept() drops and counts samples that are malformed or of an earlier epoch. A newer epoch discards the
+// cameras and the director's answer of the earlier one. One thread at a time.
 class ReceivedMatch {
   public:
     ReceivedMatch(std::string match_id, std::string observer_id, std::int64_t interpolation_delay);
@@ -24,7 +24,7 @@ class ReceivedMatch {
     void match_ended() { info_.reset(); }
     void accept(const camera_director_ObserverStatus& status);
     void status_withdrawn() { status_.reset(); }
-    // `now`: see DisplayClock. True when the frame was taken, not dropped.
+    // `now`: see DisplayClock. Returns false when the frame was dropped.
     bool accept(const camera_director_CameraFrame& frame, std::int64_t now);
 
     void set_requested(bool requested);
@@ -41,7 +41,7 @@ class ReceivedMatch {
     [[nodiscard]] const cdir_observer_counters& counters() const { return counters_; }
 
   private:
-    // False when the sample is to be dropped.
+    // Returns false when the sample must be dropped.
     [[nodiscard]] bool enter_epoch(std::uint64_t epoch);
     [[nodiscard]] bool follows_last(const camera_director_CameraFrame& frame);
     [[nodiscard]] std::optional<cdir_camera> camera_of_shot(const camera_director_CameraFrame& frame) const;

@@ -6,21 +6,21 @@ namespace camdir::sdk {
 
 namespace {
 
-// A writer with full queues gives up at once: a game's frame does not wait for the network.
+// A writer with a full queue fails at once: a game's frame must not wait for the network.
 constexpr dds_duration_t max_blocking_time = 0;
 
 void set_reliable(dds_qos_t* qos) {
     dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, max_blocking_time);
 }
 
-void set_newest_for_late_comers(dds_qos_t* qos) {
+void set_newest_for_late_joiners(dds_qos_t* qos) {
     set_reliable(qos);
     dds_qset_durability(qos, DDS_DURABILITY_TRANSIENT_LOCAL);
     dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, 1);
 }
 
 void set_match_info(dds_qos_t* qos) {
-    set_newest_for_late_comers(qos);
+    set_newest_for_late_joiners(qos);
     dds_qset_liveliness(qos, DDS_LIVELINESS_AUTOMATIC, DDS_SECS(2));
 }
 
@@ -35,7 +35,7 @@ void set_match_event(dds_qos_t* qos) {
     dds_qset_resource_limits(qos, 256, DDS_LENGTH_UNLIMITED, 256);
 }
 
-// Only read here. Any lease matches: its length is the director's configuration.
+// Only read here. Matches any lease, because the director's configuration sets it.
 void set_camera_frame(dds_qos_t* qos) {
     set_reliable(qos);
     dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, 32);
@@ -44,12 +44,12 @@ void set_camera_frame(dds_qos_t* qos) {
 }
 
 void set_observer_request(dds_qos_t* qos) {
-    set_newest_for_late_comers(qos);
+    set_newest_for_late_joiners(qos);
     dds_qset_liveliness(qos, DDS_LIVELINESS_AUTOMATIC, DDS_SECS(10));
 }
 
 void set_observer_status(dds_qos_t* qos) {
-    set_newest_for_late_comers(qos);
+    set_newest_for_late_joiners(qos);
     dds_qset_ownership(qos, DDS_OWNERSHIP_EXCLUSIVE);
 }
 

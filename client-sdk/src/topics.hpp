@@ -1,4 +1,4 @@
-// The six topics of the wire and their quality of service: idl/camera_director.idl says what each is for.
+// The six topics and their quality of service, as documented in idl/camera_director.idl.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// A sample of the wire that is read into again and again.
+// Takes samples out of a reader, one at a time, into reused memory.
 #pragma once
 
 #include <dds/dds.h>
@@ -9,9 +9,9 @@
 
 namespace camdir::sdk {
 
-enum class Taken { nothing, data, ended };  // gone: the instance has no writer any more; only its key is set
+enum class Taken { nothing, data, ended };  // ended: the instance has no writer; only its key is set
 
-// Its sequences keep their memory, so that taking stops allocating once they are as long as they get.
+// The sample's sequences keep their memory, so that taking does not allocate once they have grown.
 template <class Wire>
 class WireSample {
   public:
@@ -43,7 +43,7 @@ class WireSample {
   private:
     const dds_topic_descriptor_t& type_;
     Wire value_{};
-    // Of an instance that ended after its last sample DDS gives that sample only, marked with the end.
+    // When an instance has ended after its last sample, DDS reports both with that one sample.
     bool end_pending_ = false;
 };
 

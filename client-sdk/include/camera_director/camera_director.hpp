@@ -1,6 +1,6 @@
-// C++20 over camera_director.h, header-only: owners instead of handles, exceptions instead of a negative
-// status, std::optional and bool instead of "nothing there". What each call does, its units and its limits:
-// see the C header.
+// C++20 over camera_director.h, header-only: owning objects instead of handles, exceptions instead of
+// negative statuses, std::optional instead of CDIR_NO_DATA. The C header documents each call, its units and
+// limits.
 //
 //     camera_director::Context context;
 //     camera_director::Observer observer(context, "cup-7", "anna");
@@ -10,8 +10,8 @@
 //         if (auto view = observer.newest_camera()) show(view->camera);
 //     }
 //
-// An owner may be used by every thread, but moved and destroyed by one. Close matches and observers before or
-// after their context: both orders are allowed, but a call on them after it is an Error.
+// Any thread may use an object; moving and destroying it must not overlap with other uses. A context may be
+// destroyed before its matches and observers: their calls then throw an Error with CDIR_INVALID_HANDLE.
 #pragma once
 
 #include <camera_director/camera_director.h>
@@ -29,6 +29,7 @@
 
 namespace camera_director {
 
+// What every failed call throws. what() is the text of cdir_last_error().
 class Error : public std::runtime_error {
   public:
     Error(cdir_status status, const char* text) : std::runtime_error(text), status_(status) {}
@@ -55,7 +56,7 @@ void copy_text(char (&to)[size], std::string_view from, const char* field) {
     to[from.size()] = '\0';
 }
 
-// Owns what one handle names.
+// Owns a handle and closes it.
 template <class Handle, cdir_status (*close)(Handle) noexcept>
 class Owner {
   public:
@@ -93,6 +94,7 @@ struct ContextOptions {
     std::optional<std::string> cyclone_xml = {};
 };
 
+// A connection to the directors of one DDS domain.
 class Context {
   public:
     explicit Context(const ContextOptions& options = {}) {
@@ -128,7 +130,7 @@ struct MatchInfo {
     std::vector<Player> players = {};
 };
 
-// All spans as long as cdir_pose_frame says; velocity may be empty.
+// For n players: player_id and flags have n elements, eye 3n, orientation 4n, velocity 3n or none.
 struct PoseFrame {
     std::int64_t frame_time = 0;
     std::int64_t source_time = 0;
@@ -174,7 +176,7 @@ struct RawMatchInfo {
 
 }  // namespace detail
 
-// A game server's match.
+// A match, on the game server's side.
 class Match {
   public:
     Match(const Context& context, const MatchInfo& info) {
@@ -244,7 +246,7 @@ struct ObserverOptions {
 
 enum class Waited { arrived, timeout, interrupted };
 
-// An observer of one match.
+// An observer of one match, on the spectator's side.
 class Observer {
   public:
     Observer(const Context& context, const std::string& match_id, const std::string& observer_id,
@@ -276,14 +278,14 @@ class Observer {
 
     void interrupt() { detail::check(cdir_observer_interrupt(owner_.get())); }
 
-    // The camera frames that were taken.
+    // Returns the number of camera frames taken.
     std::uint32_t poll() {
         std::uint32_t count = 0;
         detail::check(cdir_observer_poll(owner_.get(), &count));
         return count;
     }
 
-    // Up to cameras.size() of the frame's cameras are stored. None when no frame waits.
+    // Stores up to cameras.size() of the frame's camera_count cameras. None when no frame waits.
     [[nodiscard]] std::optional<CameraFrame> next_frame(std::span<Camera> cameras) {
         CameraFrame frame = cdir_camera_frame_default();
         const cdir_status status = detail::check(cdir_observer_next_frame(

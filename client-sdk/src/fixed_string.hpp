@@ -1,4 +1,4 @@
-// Copies into the fixed arrays of the C structs and of the wire's bounded strings.
+// Copies strings into the fixed arrays of the C structs and the wire types.
 #pragma once
 
 #include <cstddef>
@@ -6,7 +6,7 @@
 
 namespace camdir::sdk {
 
-// Ends with a zero byte; what does not fit is cut.
+// Always zero-terminated; longer strings are cut.
 template <std::size_t size>
 void copy_string(char (&to)[size], const char* from) {
     const std::size_t length = strnlen(from, size - 1);
