@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Installs the client library to a new prefix, and builds and runs programs against it as its users would: the examples
-# with CMake's find_package, a C and a C++ program with pkg-config.
+# with CMake's find_package, a C and a C++ program with pkg-config. Compiles the code samples of its README.
 set -euo pipefail
-cmake=$1 build_tree=$2 cc=$3 cxx=$4 sanitize=$5
+cmake=$1 generator=$2 build_tree=$3 cc=$4 cxx=$5 sanitize=$6
 sources=$(cd "$(dirname "$0")/consumer" && pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -13,13 +13,14 @@ sanitize_flags=()
 "$cmake" --install "$build_tree" --component client-sdk --prefix "$work/first" >/dev/null
 mv "$work/first" "$prefix"   # an installed tree may be moved
 
-"$cmake" -S "$prefix/share/doc/camera-director/examples" -B "$work/examples" -DCMAKE_PREFIX_PATH="$prefix" \
-    -DCMAKE_C_COMPILER="$cc" -DCMAKE_C_FLAGS="${sanitize_flags[*]}" >/dev/null
+"$cmake" -G "$generator" -S "$prefix/share/doc/camera-director/examples" -B "$work/examples" \
+    -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_C_COMPILER="$cc" -DCMAKE_C_FLAGS="${sanitize_flags[*]}" >/dev/null
 "$cmake" --build "$work/examples" >/dev/null
 "$work/examples/example-game-server" --domain 83 --seconds 0.2
 "$work/examples/example-observer" --domain 83 --seconds 0.2
 
 export PKG_CONFIG_PATH=$prefix/lib/pkgconfig:$prefix/lib64/pkgconfig
+read -ra cflags <<<"$(pkg-config --cflags camera-director-client)"
 read -ra flags <<<"$(pkg-config --cflags --libs camera-director-client)"
 warnings=(-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror)
 "$cc" -std=c11 "${warnings[@]}" "${sanitize_flags[@]}" "$sources/consumer.c" -o "$work/consumer-c" "${flags[@]}" -pthread
@@ -28,3 +29,14 @@ library_dir=$(dirname "$(find "$prefix" -name libcamera-director-client.so)")
 for program in consumer-c consumer-cxx; do
     LD_LIBRARY_PATH=$library_dir "$work/$program"
 done
+
+# The README's fenced blocks of one language, as one file.
+samples() {
+    awk -v fence="\`\`\`$1" '$0 == fence { on = 1; next } /^```/ { on = 0 } on' \
+        "$prefix/share/doc/camera-director/client-sdk/README.md" >"$work/sample.$1"
+    [ -s "$work/sample.$1" ] || { echo "README.md has no code sample in $1" >&2; exit 1; }
+}
+samples c
+"$cc" -std=c11 "${warnings[@]}" -c "$work/sample.c" -o "$work/sample-c.o" "${cflags[@]}"
+samples cpp
+"$cxx" -std=c++20 "${warnings[@]}" -c "$work/sample.cpp" -o "$work/sample-cpp.o" "${cflags[@]}"
