@@ -41,7 +41,7 @@ FindingsTable::FindingsTable(std::ostream& out, std::string heading, bool live)
     : out_(out), heading_(std::move(heading)), live_(live) {}
 
 void FindingsTable::print(const std::vector<Row>& rows, double seconds) {
-    // Up over the table before, and clear from there.
+    // Moves the cursor up to the start of the previous table and clears from there.
     if (live_ && printed_lines_ > 0) out_ << "\x1b[" << printed_lines_ << "A\x1b[J";
     out_ << std::fixed << std::setprecision(1) << std::left << std::setw(12) << heading_
          << "state      visible %  clearance  p50 ms  p99 ms  frames/s  gaps  cuts  in obstacle  through  "

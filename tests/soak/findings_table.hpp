@@ -1,4 +1,4 @@
-// The probe's findings as a table, for people.
+// Prints the probe's findings as a table.
 #pragma once
 
 #include <iosfwd>
@@ -11,15 +11,15 @@ namespace camdir::soak {
 
 struct Row {
     std::string name;         // of the match, or of the player
-    std::uint32_t shots = 1;  // that the findings are the sum of
+    std::uint32_t shots = 1;  // number of shots summed up in the findings
     Findings findings;
-    std::optional<camera_director::Camera> latest;  // of a single shot
+    std::optional<camera_director::Camera> latest;  // for a single shot
 };
 
-// Prints rows under a heading. A live table on a terminal is overwritten by the next one.
+// On a live terminal each table overwrites the previous one.
 class FindingsTable {
   public:
-    // `heading` names the first column. With `live` the output is a terminal whose cursor may move.
+    // `heading` names the first column. `live`: `out` is a terminal.
     FindingsTable(std::ostream& out, std::string heading, bool live);
 
     void print(const std::vector<Row>& rows, double seconds);

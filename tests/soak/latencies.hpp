@@ -8,8 +8,8 @@
 
 namespace camdir::soak {
 
-// Buckets that grow by 1 %: percentiles are right to 1 %, from a microsecond to a quarter of an hour. What
-// lies outside counts in the first or the last bucket.
+// Buckets grow by 1 %, so percentiles are accurate to 1 % from 1 us to 900 s. Values outside count in the
+// first or last bucket.
 class Latencies {
   public:
     void add(double seconds) {

@@ -40,7 +40,7 @@ void publish(camera_director::Match& match, const PoseArrays& poses, std::int64_
                    .flags = poses.flags});
 }
 
-// Sleeps; false when a stop was requested.
+// Returns false when a stop was requested.
 bool sleep_until(Clock::time_point when, const std::stop_token& stop) {
     std::mutex mutex;
     std::condition_variable_any changed;

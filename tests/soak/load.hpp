@@ -1,4 +1,4 @@
-// What the load generators share: matches whose players' poses are published at a steady rate.
+// Shared by the load generators: publishes the poses of any number of matches at a constant rate.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -12,7 +12,7 @@
 
 namespace camdir::soak {
 
-// How a program reaches the directors; the same options in every program.
+// How a program reaches the directors: the same options in all programs.
 struct Network {
     std::uint32_t domain = 0;
     std::string interface = "lo";
@@ -21,7 +21,7 @@ struct Network {
     void add_options(CLI::App& app);
 };
 
-// The poses of one frame, as the SDK wants them.
+// The poses of one frame, in the layout of the SDK.
 struct PoseArrays {
     std::vector<std::uint32_t> player_id, flags;
     std::vector<float> eye, orientation, velocity;
@@ -31,7 +31,7 @@ struct PoseArrays {
              std::uint32_t pose_flags);
 };
 
-// One match's players. Called once a frame with ascending `frame`, counted from 0; fills `poses`, which is
+// The players of one match. Called once per frame with `frame` counting from 0; fills `poses`, which is
 // empty.
 using Players = std::function<void(std::uint64_t frame, PoseArrays& poses)>;
 
@@ -41,15 +41,16 @@ struct Load {
     std::string map_name;
     std::uint64_t map_hash = 0;
     float metres_per_unit = 0.0254F;
-    double rate_hz = 60.0;  // frames a second that are sent
-    double speed = 1.0;     // of the game's clock against the wall's: rate_hz / speed frames a game second
+    double rate_hz = 60.0;  // frames sent per second
+    double speed = 1.0;     // of the game's clock relative to real time
     double delay_s = 0.0;   // spectator delay
-    double seconds = 0.0;   // how long; 0 = until interrupted
+    double seconds = 0.0;   // duration; 0 = until interrupted
     std::vector<Players> matches;
 };
 
-// Publishes until the time is over or a stop is requested, then prints a summary to standard output.
-// Returns the exit code: 1 when the machine could not keep up with the rate (over 1 % of ticks a frame late).
+// Publishes for load.seconds or until a stop is requested, then prints a summary to standard output. Returns
+// the exit code: 1 when more than 1 % of the frames were over one frame late, that is, the machine is too
+// slow.
 [[nodiscard]] int run(const Load& load, std::uint32_t player_count, const std::stop_token& stop);
 
 }  // namespace camdir::soak

@@ -1,4 +1,4 @@
-// observer-probe: observers who check what they receive.
+// observer-probe: observers that check the cameras that they receive.
 #include <unistd.h>
 #include <CLI/CLI.hpp>
 
@@ -46,7 +46,7 @@ std::int64_t realtime_now() {
         .count();
 }
 
-// One observer of one match, on a thread of its own: latencies are taken when a frame arrives.
+// One observer of one match, with its own thread, so that latencies are measured when a frame arrives.
 class Probe {
   public:
     Probe(const camera_director::Context& context, const Options& options, const oracle::Oracle* oracle,
@@ -63,7 +63,7 @@ class Probe {
         observer_.interrupt();
     }
 
-    // Forgets what was found so far; the frame before stays known.
+    // Resets the findings; the previous frame is kept.
     void restart() {
         const std::lock_guard lock(mutex_);
         checker_.findings() = {};
@@ -111,7 +111,7 @@ class Probe {
 
 using Probes = std::vector<std::unique_ptr<Probe>>;
 
-// Of one match: the sum over its observers.
+// The sum over `count` probes.
 Findings sum(const Probes& probes, std::size_t first, std::size_t count) {
     Findings total;
     for (std::size_t i = first; i < first + count; ++i)
@@ -140,7 +140,7 @@ std::vector<Row> rows_of(const Probes& probes, const Options& options) {
     return rows;
 }
 
-// Observers that are not served, each with what the director said.
+// Observers without a camera, each with the director's answer.
 std::vector<std::string> unserved(const Probes& probes) {
     std::vector<std::string> list;
     for (std::size_t i = 0; i < probes.size(); ++i) {
@@ -192,7 +192,7 @@ std::vector<std::string> violations_of(const Findings& total, const Options& opt
     };
     above(total.gaps, options.max_gaps, "frames are missing");
     above(total.disorder, 0, "frames are out of order");
-    above(total.invalid, 0, "samples break the contract");
+    above(total.invalid, 0, "samples are malformed");
     above(total.in_obstacle, options.max_violations, "cameras are in an obstacle");
     above(total.through_geometry, options.max_violations, "undeclared steps go through geometry");
     above(total.jumps, options.max_violations, "undeclared steps are longer than the limit");
@@ -226,7 +226,8 @@ int probe(const Options& options, const std::stop_token& stop) {
             return 1;
         }
         if (!scene->points.empty()) {
-            std::cerr << "observer-probe: " << options.map << ": cameras are not judged in point clouds\n";
+            std::cerr << "observer-probe: " << options.map
+                      << ": cameras cannot be checked against point clouds\n";
             return 1;
         }
         oracle = std::make_unique<oracle::Oracle>(*scene);
@@ -240,7 +241,7 @@ int probe(const Options& options, const std::stop_token& stop) {
             probes.push_back(std::make_unique<Probe>(context, options, oracle.get(), match, number));
         }
     }
-    // What is measured begins when everybody is served: joining is not part of it.
+    // Measuring begins when all observers are served.
     wait_until_served(probes, options.grace, stop);
     if (unserved(probes).empty()) {
         for (const auto& one : probes)
@@ -280,30 +281,30 @@ void add_options(CLI::App& app, Options& options) {
     app.add_option("--match-prefix", options.match_prefix, "Observes PREFIX-0, PREFIX-1, ...")
         ->capture_default_str();
     app.add_option("--matches", options.matches)->check(CLI::Range(1, 4096))->capture_default_str();
-    app.add_option("--observers", options.observers, "A match; number i asks for player i")
+    app.add_option("--observers", options.observers, "Per match; number i requests player i")
         ->check(CLI::Range(1, 256))
         ->capture_default_str();
     app.add_flag("--automatic", options.automatic, "Let the director choose every target");
     app.add_flag("--by-player", options.by_player, "A row for each observer instead of each match");
     app.add_option("--profile", options.profile, "Camera profile; default: the director's");
-    app.add_option("--map", options.map, "The source map: judge cameras against its obstacles");
-    app.add_option("--seconds", options.seconds, "How long, once served; 0: until interrupted")
+    app.add_option("--map", options.map, "The source map: check cameras against its obstacles");
+    app.add_option("--seconds", options.seconds, "Duration once all are served; 0: until interrupted")
         ->check(CLI::NonNegativeNumber);
-    app.add_option("--grace", options.grace, "Seconds until everybody must be served")
+    app.add_option("--grace", options.grace, "Seconds within which all observers must be served")
         ->check(CLI::NonNegativeNumber)
         ->capture_default_str();
     app.add_option("--max-step", options.limits.step, "Longest undeclared step, map units")
         ->capture_default_str();
     app.add_option("--min-clearance", options.limits.clearance,
-                   "Cameras nearer to an obstacle count as in it, map units")
+                   "Cameras nearer than this to an obstacle count as in it, map units")
         ->capture_default_str();
-    app.add_option("--max-gaps", options.max_gaps, "Missing frames that are allowed")->capture_default_str();
+    app.add_option("--max-gaps", options.max_gaps, "Missing frames allowed")->capture_default_str();
     app.add_option("--max-violations", options.max_violations,
-                   "Cameras in obstacles, steps through geometry and jumps that are allowed, each")
+                   "Cameras in obstacles, steps through geometry and jumps allowed, each")
         ->capture_default_str();
     app.add_option("--max-p99-ms", options.max_p99_ms, "Latency's limit; 0: only reported")
         ->capture_default_str();
-    app.add_option("--min-rate", options.min_rate, "Fewest frames a second an observer must get")
+    app.add_option("--min-rate", options.min_rate, "Least frames per second that an observer must get")
         ->capture_default_str();
     app.add_option("--json", options.json, "Writes the summary to this file");
     options.network.add_options(app);
@@ -315,7 +316,8 @@ void add_options(CLI::App& app, Options& options) {
 int main(int argc, char** argv) {
     using namespace camdir;
     soak::Options options;
-    CLI::App app("Observers who check what they receive; exit code 1 on a violation.", "observer-probe");
+    CLI::App app("Observers that check the cameras that they receive; exit code 1 on a violation.",
+                 "observer-probe");
     soak::add_options(app, options);
     try {
         app.parse(argc, argv);

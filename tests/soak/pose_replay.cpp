@@ -18,13 +18,13 @@ struct Options {
     Load load;
 };
 
-// Frames a second of a recording.
+// Frames per second of a recording.
 double rate_of(const evaluation::Trace& trace) {
     const auto span = trace.frames.back().time - trace.frames.front().time;
     return 1e9 * static_cast<double>(trace.frames.size() - 1) / static_cast<double>(span);
 }
 
-// Plays the trace round and round, from its frame `first` on. Where it starts anew everybody jumps.
+// Plays the trace over and over, beginning at frame `first`. Where it wraps around, all players jump.
 Players replay(std::shared_ptr<const evaluation::Trace> trace, std::size_t first) {
     return [trace = std::move(trace), first](std::uint64_t frame, PoseArrays& poses) {
         const std::size_t at = (first + frame) % trace->frames.size();
@@ -48,7 +48,7 @@ int play(Options options, const std::stop_token& stop) {
     }
     const double recorded_hz = rate_of(*trace);
     options.load.rate_hz = options.rate_hz > 0.0 ? options.rate_hz : recorded_hz * options.load.speed;
-    // The trace at the frames that will be sent.
+    // At the times of the frames that will be sent.
     trace = evaluation::resample(*trace, options.load.rate_hz / options.load.speed);
     if (!trace) {
         std::cerr << "pose-replay: " << trace.error().message << '\n';
@@ -57,7 +57,7 @@ int play(Options options, const std::stop_token& stop) {
     const auto players = static_cast<std::uint32_t>(trace->players.back() + 1);
     const auto shared = std::make_shared<const evaluation::Trace>(std::move(*trace));
     for (std::uint32_t copy = 0; copy < options.copies; ++copy) {
-        // Copies start apart, so that they are not busy at the same moments.
+        // Copies start at different frames, so that their load peaks do not coincide.
         options.load.matches.push_back(replay(shared, shared->frames.size() * copy / options.copies));
     }
     return run(options.load, std::min(players, 256U), stop);
@@ -76,17 +76,17 @@ int main(int argc, char** argv) {
     app.add_option("--copies", options.copies, "Matches")->check(CLI::Range(1, 4096))->capture_default_str();
     app.add_option("--match-prefix", options.load.match_prefix, "Matches are PREFIX-0, PREFIX-1, ...")
         ->capture_default_str();
-    app.add_option("--rate", options.rate_hz, "Frames a second that are sent; 0: as recorded")
+    app.add_option("--rate", options.rate_hz, "Frames sent per second; 0: as recorded")
         ->check(CLI::Range(0.0, 1000.0))
         ->capture_default_str();
-    app.add_option("--speed", options.load.speed, "Of the game against the clock")
+    app.add_option("--speed", options.load.speed, "Of the game relative to real time")
         ->check(CLI::Range(0.01, 100.0))
         ->capture_default_str();
     app.add_option("--delay", options.load.delay_s, "Spectator delay, s")
         ->check(CLI::Range(0.0, 600.0))
         ->capture_default_str();
     app.add_option("--metres-per-unit", options.load.metres_per_unit)->capture_default_str();
-    app.add_option("--seconds", options.load.seconds, "How long; 0: until interrupted")
+    app.add_option("--seconds", options.load.seconds, "Duration; 0: until interrupted")
         ->check(CLI::NonNegativeNumber);
     options.load.network.add_options(app);
     try {

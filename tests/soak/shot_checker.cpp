@@ -34,7 +34,7 @@ void ShotChecker::check(const camera_director::CameraFrame& frame, const camera_
     previous_ = {frame, own != nullptr ? std::optional(*own) : std::nullopt};
 }
 
-// Counts what lies between the frames; true when nothing does.
+// Counts gaps and changes between the previous frame and this one; true when there are none.
 bool ShotChecker::follows(const camera_director::CameraFrame& frame) {
     if (!previous_) return false;
     const camera_director::CameraFrame& before = previous_->frame;

@@ -1,4 +1,4 @@
-// What a probe finds out about the cameras that one observer receives.
+// Checks the cameras that one observer receives.
 #pragma once
 
 #include <camera_director/camera_director.hpp>
@@ -12,26 +12,26 @@
 namespace camdir::soak {
 
 struct Findings {
-    std::uint64_t frames = 0;    // camera frames of the match that arrived
-    std::uint64_t cameras = 0;   // of them, those with the observer's own camera
-    std::uint64_t gaps = 0;      // frames missing between, by frame_number
-    std::uint64_t disorder = 0;  // frames that are not newer than the one before
+    std::uint64_t frames = 0;    // camera frames received
+    std::uint64_t cameras = 0;   // of these, frames with the observer's own camera
+    std::uint64_t gaps = 0;      // frames missing between them, by frame_number
+    std::uint64_t disorder = 0;  // frames not newer than the previous one
     std::uint64_t hand_overs = 0;
     std::uint64_t epochs = 0;
-    std::uint64_t invalid = 0;  // samples that the SDK refused
+    std::uint64_t invalid = 0;  // samples that the SDK dropped as malformed
     // Of the observer's camera:
     std::uint64_t cuts = 0, visible = 0, searching = 0, absent = 0, held = 0;
-    std::uint64_t in_obstacle = 0;       // inside a solid, or nearer to an obstacle than the near limit
-    std::uint64_t through_geometry = 0;  // an undeclared step that crosses an obstacle
-    std::uint64_t jumps = 0;             // an undeclared step longer than the limit
-    Latencies latency;                   // from the sampling of the poses to the arrival of their cameras
+    std::uint64_t in_obstacle = 0;       // inside a solid, or nearer to an obstacle than the limit
+    std::uint64_t through_geometry = 0;  // steps through an obstacle without a cut
+    std::uint64_t jumps = 0;             // steps longer than the limit without a cut
+    Latencies latency;                   // from the poses' source_time to the arrival of their cameras
 
     void add(const Findings& other);
 };
 
 struct Limits {
     double step = 64.0;      // map units between consecutive frames
-    double clearance = 0.0;  // map units; cameras nearer to an obstacle than this are in it
+    double clearance = 0.0;  // map units; cameras nearer to an obstacle count as in it
 };
 
 // One thread at a time. `oracle`, which may be null, must outlive it.

@@ -1,4 +1,4 @@
-// synthetic-players: any number of players who walk a baked map's roadmap.
+// synthetic-players: players that walk along a baked map's roadmap, in any number of matches.
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
@@ -63,34 +63,36 @@ int play(Options options, const std::stop_token& stop) {
 int main(int argc, char** argv) {
     using namespace camdir;
     soak::Options options;
-    CLI::App app("Players who walk a baked map's roadmap.", "synthetic-players");
+    CLI::App app("Players that walk along a baked map's roadmap.", "synthetic-players");
     app.add_option("map", options.map, "Baked map, MAP.vfs")->required();
     app.add_option("--map-name", options.load.map_name,
                    "The map's name in the director's configuration; default: the baked map's");
     app.add_option("--matches", options.matches)->check(CLI::Range(1, 4096))->capture_default_str();
-    app.add_option("--players", options.players, "A match")->check(CLI::Range(1, 256))->capture_default_str();
+    app.add_option("--players", options.players, "Per match")
+        ->check(CLI::Range(1, 256))
+        ->capture_default_str();
     app.add_option("--match-prefix", options.load.match_prefix, "Matches are PREFIX-0, PREFIX-1, ...")
         ->capture_default_str();
-    app.add_option("--rate", options.load.rate_hz, "Frames a second that are sent")
+    app.add_option("--rate", options.load.rate_hz, "Frames sent per second")
         ->check(CLI::Range(0.1, 1000.0))
         ->capture_default_str();
-    app.add_option("--speed", options.load.speed, "Of the game against the clock")
+    app.add_option("--speed", options.load.speed, "Of the game relative to real time")
         ->check(CLI::Range(0.01, 100.0))
         ->capture_default_str();
     app.add_option("--delay", options.load.delay_s, "Spectator delay, s")
         ->check(CLI::Range(0.0, 600.0))
         ->capture_default_str();
-    app.add_option("--stops", options.style.stops_per_s, "A player and second")
+    app.add_option("--stops", options.style.stops_per_s, "Per player and second")
         ->check(CLI::Range(0.0, 100.0))
         ->capture_default_str();
-    app.add_option("--teleports", options.style.teleports_per_s, "A player and second")
+    app.add_option("--teleports", options.style.teleports_per_s, "Per player and second")
         ->check(CLI::Range(0.0, 100.0))
         ->capture_default_str();
-    app.add_option("--clearance", options.clearance, "Free distance of the roads, 0.0254 m")
+    app.add_option("--clearance", options.clearance, "Least free distance of the roads, units of 0.0254 m")
         ->check(CLI::Range(0.1, 1000.0))
         ->capture_default_str();
-    app.add_option("--seed", options.seed, "The same seed plays the same way")->capture_default_str();
-    app.add_option("--seconds", options.load.seconds, "How long; 0: until interrupted")
+    app.add_option("--seed", options.seed, "The same seed gives the same poses")->capture_default_str();
+    app.add_option("--seconds", options.load.seconds, "Duration; 0: until interrupted")
         ->check(CLI::NonNegativeNumber);
     options.load.network.add_options(app);
     try {

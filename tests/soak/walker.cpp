@@ -9,7 +9,7 @@
 namespace camdir::soak {
 namespace {
 
-constexpr float largest_turn = 2.0F * std::numbers::pi_v<float>;  // a second
+constexpr float largest_turn = 2.0F * std::numbers::pi_v<float>;  // radians per second
 
 void add_edge(std::vector<std::vector<std::uint32_t>>& neighbours, std::uint32_t a, std::uint32_t b) {
     const auto add = [&](std::uint32_t from, std::uint32_t to) {
@@ -91,7 +91,7 @@ void Walker::appear() {
     standing_s_ = 0.0;
 }
 
-// Mostly the neighbour that lies ahead; the roads are a dense mesh, and random turns would go nowhere.
+// Prefers the neighbour ahead: roads form a dense mesh, where purely random turns would stay in one place.
 void Walker::choose_next() {
     const Vec3f here = roads_.position(to_);
     const Vec3f came = (here - roads_.position(from_)).normalized();
@@ -117,7 +117,7 @@ void Walker::move(double dt) {
     } else if (happens(style_.stops_per_s * dt)) {
         standing_s_ = std::uniform_real_distribution(1.0, 3.0)(random_);
     } else {
-        // Slower while the way turns off the view.
+        // Slower while the direction of motion differs from that of the view.
         const float pace = std::max(0.2F, std::cos(wrapped(heading() - yaw_)));
         walk(style_.speed * pace * static_cast<float>(dt));
     }
@@ -127,7 +127,7 @@ void Walker::move(double dt) {
 }
 
 void Walker::walk(float length) {
-    // Edges of no length are crossed for free, but not for ever.
+    // Bounded, because edges may have length 0.
     for (int edges = 0; edges < 1000; ++edges) {
         const float left = edge().norm() - along_;
         if (length < left) {

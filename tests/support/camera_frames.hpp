@@ -1,4 +1,4 @@
-// CameraFrame samples as a director writes them, and any way they can be broken.
+// CameraFrame samples, valid as a director writes them or malformed by tests.
 #pragma once
 
 #include <camera_director.h>
@@ -11,7 +11,7 @@ namespace camdir::test {
 
 inline constexpr std::int64_t ms = 1'000'000;  // in ns
 
-// Owns the arrays of a sample. A new one is a valid frame without cameras.
+// Owns the arrays of a sample. By default a valid frame without cameras.
 struct CameraFrameArrays {
     std::string match_id;
     std::uint64_t epoch = 1;
@@ -29,7 +29,7 @@ struct CameraFrameArrays {
     std::vector<float> clearance = {};
     std::vector<std::uint32_t> flags = {};
 
-    // Looks along the x axis.
+    // Adds a camera that looks along the x axis.
     void add_camera(std::uint32_t id, float x, std::uint32_t camera_flags = 0) {
         camera_id.push_back(id);
         target.push_back(100 + id);
@@ -40,7 +40,7 @@ struct CameraFrameArrays {
         flags.push_back(camera_flags);
     }
 
-    // Borrows the arrays: valid as long as this object is unchanged.
+    // Points to the arrays: valid until this object changes.
     [[nodiscard]] camera_director_CameraFrame sample() {
         camera_director_CameraFrame sample{};
         match_id.copy(sample.match_id, sizeof sample.match_id - 1);

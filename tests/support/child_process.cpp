@@ -19,7 +19,7 @@ namespace camdir::test {
 
 namespace {
 
-// Without a name: nothing stays behind.
+// Unlinked at once, so that nothing is left behind.
 int open_temporary() {
     std::string pattern = (std::filesystem::temp_directory_path() / "camdir-child-XXXXXX").string();
     const int file = mkstemp(pattern.data());

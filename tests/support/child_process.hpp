@@ -1,4 +1,4 @@
-// Programs that a test starts.
+// Child processes of tests.
 #pragma once
 
 #include <sys/types.h>
@@ -10,7 +10,7 @@
 
 namespace camdir::test {
 
-// Runs one program; its output goes to temporary files. Killed when the object ends before it does.
+// Runs one program with its output in temporary files. The destructor kills it if it still runs.
 class ChildProcess {
   public:
     explicit ChildProcess(const std::vector<std::string>& command);
@@ -19,9 +19,9 @@ class ChildProcess {
     ChildProcess& operator=(const ChildProcess&) = delete;
 
     void send_signal(int number) const;
-    // Waits for its end. The exit code, or minus the signal's number.
+    // Waits for the process to end. Returns the exit code, or minus the signal's number.
     int wait();
-    // Waits at most `limit`; nothing when it runs on.
+    // The same, for at most `limit`; nullopt when the process still runs.
     std::optional<int> wait_for(std::chrono::milliseconds limit);
 
     [[nodiscard]] std::string output() const;  // so far

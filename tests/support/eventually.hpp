@@ -1,4 +1,4 @@
-// Waiting for a condition instead of for a time.
+// Waits for a condition.
 #pragma once
 
 #include <chrono>
@@ -6,7 +6,7 @@
 
 namespace camdir::test {
 
-// Generous: it is only used up when the test fails.
+// Generous, because only failing tests use it up.
 inline constexpr std::chrono::seconds patience{60};
 
 // Polls until the condition holds; false after `limit`.

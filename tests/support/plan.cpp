@@ -14,7 +14,7 @@ constexpr float pitch = 8.0F;                          // of the grid of vertice
 constexpr float circumradius2 = pitch * pitch / 2.0F;  // of the grid's triangles, squared
 constexpr float eye_height = 54.0F;
 
-// The parameters at which the segment enters and leaves the box, by the slab method; empty when first >
+// The parameters at which the segment enters and leaves the box (slab method); no intersection when first >
 // second.
 std::pair<float, float> crossing(const Eigen::AlignedBox2f& box, const Eigen::Vector2f& from,
                                  const Eigen::Vector2f& way) {
@@ -68,7 +68,7 @@ freespace::Contents Plan::contents(float metres_per_unit) const {
             const float y = static_cast<float>(line) * pitch;
             const float clearance = std::min(plan_clearance(x, y), 0.5F * height_);
             if (clearance * clearance <= circumradius2) continue;
-            // Whatever point o is solid, |m - o|^2 on a triangle is at least its linear interpolation less
+            // For every solid point o, |m - o|^2 on a triangle is at least its linear interpolation less
             // the squared circumradius: with these radii no slab reaches o.
             const float radius = std::sqrt(clearance * clearance - circumradius2);
             vertices.emplace(std::pair(column, line), static_cast<std::uint32_t>(contents.vertices.size()));

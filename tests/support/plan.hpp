@@ -1,4 +1,4 @@
-// Small worlds drawn as text, with exact answers: a freespace to track in, and what is really solid.
+// Small worlds drawn as text: a freespace for tracking, and exact clearance and visibility.
 #pragma once
 
 #include <string>
@@ -15,8 +15,8 @@ class Plan {
   public:
     explicit Plan(std::vector<std::string> rows, float cell = 64.0F, float height = 128.0F);
 
-    // The representation on a horizontal grid of medial triangles at half the height; spawn points at the
-    // cells marked 's'. No slab touches what is solid.
+    // A horizontal grid of medial triangles at half the height, with spawn points at the cells marked 's'. No
+    // slab touches the solid.
     [[nodiscard]] freespace::Freespace freespace(float metres_per_unit = 0.0254F) const;
     [[nodiscard]] freespace::Contents contents(float metres_per_unit = 0.0254F) const;
 
@@ -25,9 +25,9 @@ class Plan {
     // The centre of the first cell with this letter, at eye height.
     [[nodiscard]] Vec3f eye(char letter) const;
 
-    // Exact distance to what is solid; <= 0 inside it.
+    // Exact distance to the solid; <= 0 inside it.
     [[nodiscard]] float clearance(const Vec3f& point) const;
-    // Exact: no solid cell, floor or ceiling is touched by the segment.
+    // Exact: the segment touches no solid cell, floor or ceiling.
     [[nodiscard]] bool segment_clear(const Vec3f& from, const Vec3f& to) const;
 
     [[nodiscard]] Eigen::AlignedBox3f bounds() const;
@@ -45,7 +45,7 @@ class Plan {
 [[nodiscard]] Plan box_room();
 [[nodiscard]] Plan l_corridor();
 [[nodiscard]] Plan figure_eight();
-// Two rooms, s and t, that no way joins.
+// Two rooms, s and t, that are not connected.
 [[nodiscard]] Plan two_rooms();
 
 }  // namespace camdir::test

@@ -1,5 +1,5 @@
-// A game server, observer or other director that speaks to the wire directly: it can say what the SDK refuses
-// to say.
+// A game server, observer or peer director on the DDS API itself: it can write samples that the SDK refuses
+// to write.
 #pragma once
 
 #include <camera_director.h>
@@ -12,12 +12,12 @@
 
 namespace camdir::test {
 
-// One participant with endpoints in one match's partition, with the contract's QoS written out once more: a
-// twin of the server's and of the SDK's. Throws when DDS refuses.
+// One participant with endpoints in one match's partition. Its QoS are written independently of the server's
+// and the SDK's, to check both. Throws when DDS refuses.
 class RawPeer {
   public:
-    // Joins the domain as the process already has it, or on loopback by unicast. `partition` is
-    // match/<match_id> unless given.
+    // Uses the process's domain if it has joined it, otherwise joins it on loopback. `partition` is
+    // match/<match_id> by default.
     RawPeer(std::uint32_t domain, const std::string& match_id, std::string partition = "");
     ~RawPeer();
     RawPeer(const RawPeer&) = delete;
@@ -30,7 +30,7 @@ class RawPeer {
     void dispose(const camera_director_MatchInfo& key);
     void dispose(const camera_director_ObserverRequest& key);
 
-    // Speaks as a director of this ownership strength; one strength a peer.
+    // Writes as a director of this ownership strength; the first call sets the peer's strength.
     void write(const camera_director_ObserverStatus& sample, std::int32_t strength);
 
     struct Camera {
@@ -51,7 +51,7 @@ class RawPeer {
     // The newest status of every observer that has one.
     [[nodiscard]] const std::map<std::string, camera_director_ObserverStatus>& statuses();
 
-    // Writers of the director that the camera reader is matched with.
+    // Directors whose camera writers are matched.
     [[nodiscard]] std::uint32_t directors();
 
   private:
@@ -62,23 +62,23 @@ class RawPeer {
     std::string partition_;
     dds_entity_t match_info_ = 0, pose_frame_ = 0, match_event_ = 0, observer_request_ = 0;
     dds_entity_t camera_frame_ = 0, observer_status_ = 0;
-    dds_entity_t director_status_ = 0;  // the writer of ObserverStatus, once there is one
+    dds_entity_t director_status_ = 0;  // writer of ObserverStatus; 0 until used
     std::map<std::string, camera_director_ObserverStatus> statuses_;
 };
 
-// Samples that the contract accepts, without players and group.
+// Valid samples without players or group.
 [[nodiscard]] camera_director_MatchInfo raw_match_info(const std::string& match_id, std::uint64_t epoch);
 [[nodiscard]] camera_director_ObserverRequest raw_request(const std::string& match_id,
                                                           const std::string& observer_id,
                                                           std::uint32_t target);
 
-// A pose frame of `count` living players at the origin, in memory of its own.
+// A valid pose frame of `count` living players at the origin, with its arrays.
 class RawPoseFrame {
   public:
     RawPoseFrame(const std::string& match_id, std::uint64_t epoch, std::uint32_t frame_number,
                  std::uint32_t count);
 
-    // The vectors may be changed at will: `sample` points at them as they are then.
+    // The vectors may be changed; sample() points to them until the next change.
     std::vector<std::uint32_t> player_id, flags;
     std::vector<float> eye, orientation, velocity;
     [[nodiscard]] const camera_director_PoseFrame& sample();

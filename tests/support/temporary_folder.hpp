@@ -1,4 +1,4 @@
-// A folder of the test's own.
+// A temporary folder for a test.
 #pragma once
 
 #include <cstdlib>
@@ -8,7 +8,7 @@
 
 namespace camdir::test {
 
-// Empty at first; gone with the object, and what is in it.
+// Created empty; removed with its contents by the destructor.
 class TemporaryFolder {
   public:
     TemporaryFolder() {

@@ -13,8 +13,6 @@
 namespace camdir::test {
 namespace {
 
-// Their ports (7400 + 250 a domain) lie below those that the system gives to clients; the SDK's tests use
-// those above (tests/integration/sdk/domains.hpp).
 constexpr std::uint32_t first_domain = 1;
 constexpr std::uint32_t last_domain = 80;
 

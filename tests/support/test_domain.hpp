@@ -1,11 +1,19 @@
-// A DDS domain that nobody else on this machine is using: tests run beside each other.
+// DDS domains for tests, which run concurrently. Domains up to 99 have ports (7400 + 250 per domain) below
+// the system's ephemeral ones: 1 to 80 are for TestDomain, 83 to 99 for the tests of the SDK.
 #pragma once
 
 #include <cstdint>
 
 namespace camdir::test {
 
-// Held until the object's end, or the process's. Waits for a free one.
+// Shared by the SDK's tests within one process, each with a match of its own.
+inline constexpr std::uint32_t shared_domain = 84;
+// For the SDK's tests that need a director's well-known port: they take the first free one.
+inline constexpr std::uint32_t first_director_domain = 85;
+inline constexpr std::uint32_t last_director_domain = 99;
+
+// A domain that no other TestDomain on this machine uses until the destructor, or the process's end. The
+// constructor waits for a free one.
 class TestDomain {
   public:
     TestDomain();

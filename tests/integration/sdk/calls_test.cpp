@@ -1,4 +1,4 @@
-// Wrong arguments and wrong orders of calls: each returns a status and says why, and none crashes.
+// Wrong arguments and calls in the wrong order return a status and a reason; none crashes.
 #include <camera_director/camera_director.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-#include "domains.hpp"
+#include "support/test_domain.hpp"
 
 namespace camdir::test {
 namespace {
@@ -32,7 +32,7 @@ cdir_match_info some_info() {
     return info;
 }
 
-// A context with a match and an observer of it.
+// A context with a match and an observer of that match.
 class Calls : public testing::Test {
   protected:
     void SetUp() override {
@@ -44,7 +44,7 @@ class Calls : public testing::Test {
     }
     void TearDown() override { (void)cdir_context_close(context_); }
 
-    // Every function that takes a handle, called as it should be.
+    // A correct call of every function that takes a handle.
     struct Call {
         const char* name;
         std::function<cdir_status()> make;
@@ -245,7 +245,7 @@ TEST_F(Calls, WithdrawingNothingIsAConflict) {
     EXPECT_EQ(cdir_observer_withdraw(observer_), CDIR_CONFLICT);
 }
 
-TEST_F(Calls, ErrorTextsBelongToTheirThread) {
+TEST_F(Calls, ErrorMessagesBelongToTheirThread) {
     EXPECT_EQ(cdir_match_publish_poses(match_, nullptr), CDIR_INVALID_ARGUMENT);
     const std::string mine = cdir_last_error();
     std::thread([&] {
@@ -271,7 +271,7 @@ TEST(Contexts, OneDomainHasOneNetworkConfiguration) {
     EXPECT_EQ(cdir_match_open(second, &info, nullptr, 0, &match), CDIR_OK) << "the second keeps the domain";
     EXPECT_EQ(cdir_context_close(second), CDIR_OK);
     options.directors = "127.0.0.2";
-    EXPECT_EQ(cdir_context_open(&options, &first), CDIR_OK) << "nobody has the domain open any more";
+    EXPECT_EQ(cdir_context_open(&options, &first), CDIR_OK) << "no context has the domain open";
     EXPECT_EQ(cdir_context_close(first), CDIR_OK);
 }
 

@@ -1,5 +1,5 @@
-// The example programs as processes of their own, and a director at its well-known port: the network settings
-// that the SDK uses by default.
+// The example programs as child processes, with a director at its well-known port: the SDK's default network
+// settings.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "domains.hpp"
 #include "fake_director.hpp"
 #include "support/child_process.hpp"
+#include "support/test_domain.hpp"
 
 namespace camdir::test {
 namespace {
@@ -21,7 +21,7 @@ using testing::StartsWith;
 const std::string game_server = std::string(CAMDIR_BIN_DIR) + "/example-game-server";
 const std::string observer = std::string(CAMDIR_BIN_DIR) + "/example-observer";
 
-// Joins a domain as its participant 0.
+// Joins a free domain as participant 0.
 class DirectorsDomain {
   public:
     DirectorsDomain() {
@@ -32,7 +32,7 @@ class DirectorsDomain {
             "</Discovery></Domain></CycloneDDS>";
         for (number_ = first_director_domain; number_ <= last_director_domain; ++number_) {
             domain_ = dds_create_domain(number_, xml);
-            // Another test's director has the port already: the next domain.
+            // Another test has the port: try the next domain.
             if (domain_ > 0) return;
         }
     }

@@ -47,11 +47,11 @@ auto copied(const Sequence& sequence) {
 }
 
 template <class Sequence>
-std::vector<std::string> copied_texts(const Sequence& sequence) {
+std::vector<std::string> copied_strings(const Sequence& sequence) {
     return {sequence._buffer, sequence._buffer + sequence._length};
 }
 
-// The next sample with data; use(sample) makes the result of it.
+// Returns use(sample) of the next sample with data.
 template <class Wire, class Use>
 auto take(dds_entity_t reader, const dds_topic_descriptor_t& type, const Use& use)
     -> std::optional<decltype(use(std::declval<const Wire&>()))> {
@@ -94,8 +94,7 @@ FakeDirector::FakeDirector(std::uint32_t domain, const std::string& match_id, st
 
     Qos cameras(DDS_RELIABILITY_RELIABLE, 32);
     cameras.exclusive(strength);
-    // As long a lease as a slow test needs: what ends a director's ownership is the director's tests'
-    // concern.
+    // A lease for slow machines: how ownership ends is tested with the director.
     dds_qset_liveliness(cameras.qos, DDS_LIVELINESS_MANUAL_BY_TOPIC, DDS_SECS(60));
     dds_qset_lifespan(cameras.qos, DDS_SECS(60));
     dds_qset_writer_data_lifecycle(cameras.qos, false);
@@ -135,8 +134,8 @@ std::optional<ReceivedInfo> FakeDirector::take_info() {
                             sample.rate_hz,
                             sample.spectator_delay_s,
                             copied(sample.player_id),
-                            copied_texts(sample.player_name),
-                            copied_texts(sample.player_class),
+                            copied_strings(sample.player_name),
+                            copied_strings(sample.player_class),
                             copied(sample.player_team)};
     };
     return take<camera_director_MatchInfo>(info_reader_, camera_director_MatchInfo_desc, use);
@@ -156,13 +155,13 @@ std::optional<ReceivedRequest> FakeDirector::take_request() {
 }
 
 bool FakeDirector::has_ended(dds_entity_t reader) {
-    // A read condition sees instances by state without taking any sample.
+    // A read condition finds instances by state without taking samples.
     const dds_entity_t ended = created(dds_create_readcondition(
         reader, DDS_ANY_SAMPLE_STATE | DDS_ANY_VIEW_STATE | DDS_NOT_ALIVE_DISPOSED_INSTANCE_STATE |
                     DDS_NOT_ALIVE_NO_WRITERS_INSTANCE_STATE));
-    const bool gone = dds_triggered(ended) > 0;
+    const bool triggered = dds_triggered(ended) > 0;
     dds_delete(ended);
-    return gone;
+    return triggered;
 }
 
 void FakeDirector::write(CameraFrameArrays& frame) {

@@ -1,31 +1,20 @@
-// A director as the wire sees it, written against the DDS library itself: reads what the SDK sends and writes
-// what a test wants the SDK to receive.
+// A director on the DDS API itself: reads what the SDK writes and writes what the SDK should receive.
 #pragma once
 
 #include <camera_director.h>
 #include <dds/dds.h>
 
-#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <map>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "support/camera_frames.hpp"
+#include "support/eventually.hpp"
 
 namespace camdir::test {
-
-// Waits until the condition holds; false after a generous time without.
-inline bool eventually(const std::function<bool()>& condition) {
-    for (int i = 0; i < 15'000; ++i) {
-        if (condition()) return true;
-        std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    }
-    return false;
-}
 
 struct ReceivedPoses {
     std::string match_id;
@@ -63,7 +52,7 @@ struct ReceivedRequest {
 
 class FakeDirector {
   public:
-    // In a domain that a context of this process has open; destroy it before the context.
+    // In a domain that a context of this process has open. Must be destroyed before the context.
     FakeDirector(std::uint32_t domain, const std::string& match_id, std::int32_t strength = 0);
     ~FakeDirector();
     FakeDirector(const FakeDirector&) = delete;
@@ -73,7 +62,7 @@ class FakeDirector {
     [[nodiscard]] std::optional<ReceivedInfo> take_info();
     [[nodiscard]] std::optional<camera_director_MatchEvent> take_event();
     [[nodiscard]] std::optional<ReceivedRequest> take_request();
-    // Takes what waits, then: no live writer of the instance is left.
+    // True when the instance has no live writer.
     [[nodiscard]] bool info_has_ended() { return has_ended(info_reader_); }
     [[nodiscard]] bool request_has_ended() { return has_ended(request_reader_); }
 
@@ -81,10 +70,10 @@ class FakeDirector {
     void write_status(const std::string& observer_id, std::uint64_t epoch, std::uint32_t state,
                       std::uint32_t camera_id, const std::string& reason = {});
     void withdraw_status(const std::string& observer_id);
-    // Observers that read the cameras.
+    // Observers whose camera readers are matched.
     [[nodiscard]] std::uint32_t observer_count() const;
 
-    // What the writer of a topic that is read here offers; the caller deletes nothing.
+    // Calls look() with the QoS that the matched writer of the topic offers.
     void with_offered_qos(const char* topic, const std::function<void(const dds_qos_t*)>& look) const;
 
   private:

@@ -1,10 +1,10 @@
-// A game server's side against raw DDS readers.
+// The game server's functions against a fake director.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <camera_director/camera_director.hpp>
 
-#include "domains.hpp"
 #include "fake_director.hpp"
+#include "support/test_domain.hpp"
 
 namespace camdir::test {
 namespace {
@@ -15,7 +15,7 @@ using testing::IsEmpty;
 
 class GameServer : public testing::Test {
   protected:
-    // Every case has a match of its own: cases run beside each other in one domain.
+    // Every test has its own match, because tests run concurrently in one domain.
     const std::string match_id_ = testing::UnitTest::GetInstance()->current_test_info()->name();
     cd::Context context_{{.domain = shared_domain}};
 
@@ -101,7 +101,7 @@ TEST_F(GameServer, RefusedFrameIsNotCounted) {
     EXPECT_EQ(poses->frame_number, 1U);
 }
 
-TEST_F(GameServer, LateDirectorLearnsOfTheMatchAndItsEnd) {
+TEST_F(GameServer, ALateDirectorReceivesTheMatchAndItsEnd) {
     std::optional<cd::Match> match(std::in_place, context_, info());
     FakeDirector director(shared_domain, match_id_);
     std::optional<ReceivedInfo> received;
@@ -146,7 +146,7 @@ TEST_F(GameServer, UpdateKeepsTheEpochAndRestartBeginsAnother) {
 
     while (director.take_poses()) {
     }
-    match.publish(one_player(10));  // the game's clock starts anew with the epoch
+    match.publish(one_player(10));  // the game's clock starts again with the epoch
     std::optional<ReceivedPoses> poses;
     ASSERT_TRUE(eventually([&] { return (poses = director.take_poses()).has_value(); }));
     EXPECT_EQ(poses->epoch, third->epoch);
@@ -172,7 +172,7 @@ TEST_F(GameServer, EventsAllArriveInOrder) {
     cd::Match match(context_, info());
     FakeDirector director(shared_domain, match_id_);
     ASSERT_TRUE(eventually([&] { return match.director_count() == 1; }));
-    // The writer of events is matched with the one of poses, but by itself.
+    // The event writer is matched independently of the pose writer.
     ASSERT_TRUE(eventually([&] {
         match.publish(cd::MatchEvent{.kind = CDIR_EVENT_AWARD});
         return director.take_event().has_value();

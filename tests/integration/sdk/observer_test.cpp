@@ -1,4 +1,4 @@
-// An observer's side against raw DDS writers.
+// The observer's functions against a fake director.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <camera_director/camera_director.hpp>
@@ -6,16 +6,14 @@
 #include <array>
 #include <future>
 
-#include "domains.hpp"
 #include "fake_director.hpp"
+#include "support/test_domain.hpp"
 
 namespace camdir::test {
 namespace {
 
 namespace cd = camera_director;
 using testing::ElementsAre;
-
-constexpr std::int64_t ms = 1'000'000;
 
 class Spectator : public testing::Test {
   protected:
@@ -24,7 +22,7 @@ class Spectator : public testing::Test {
             [&] { return director_.observer_count() == 1 && observer_.counters().directors == 1; }));
     }
 
-    // Camera 3 is another shot's; camera 4 is the observer's, at x.
+    // Camera 3 belongs to another shot; camera 4 is the observer's, at x.
     [[nodiscard]] CameraFrameArrays frame(std::uint64_t epoch, std::uint32_t number, float x,
                                           std::uint32_t flags = 0) const {
         CameraFrameArrays frame{.match_id = match_id_};
@@ -45,7 +43,7 @@ class Spectator : public testing::Test {
         director_.write(arrays);
     }
 
-    // Polls until the observer has seen so many frames in all.
+    // Polls until the observer has taken this number of frames in total.
     [[nodiscard]] bool sees(std::uint64_t frames) {
         return eventually([&] {
             observer_.poll();
@@ -69,7 +67,7 @@ class Spectator : public testing::Test {
     cd::Observer observer_{context_, match_id_, "anna"};
 };
 
-TEST_F(Spectator, RequestArrivesWithAllItSays) {
+TEST_F(Spectator, RequestArrivesWithAllItsFields) {
     observer_.request(
         {.target = 9, .group = {1, 9, 4}, .profile = "shoulder", .overrides = R"({"distance": 90})"});
     std::optional<ReceivedRequest> request;
@@ -91,7 +89,7 @@ TEST_F(Spectator, RequestArrivesWithAllItSays) {
     EXPECT_THROW(observer_.withdraw(), cd::Error);
 }
 
-TEST_F(Spectator, RequestDiesWithItsObserver) {
+TEST_F(Spectator, RequestEndsWithItsObserver) {
     std::optional<cd::Observer> other(std::in_place, context_, match_id_, "bert");
     other->request({.target = 1});
     ASSERT_TRUE(eventually([&] { return director_.take_request().has_value(); }));
@@ -99,9 +97,9 @@ TEST_F(Spectator, RequestDiesWithItsObserver) {
     EXPECT_TRUE(eventually([&] { return director_.request_has_ended(); }));
 }
 
-TEST_F(Spectator, AnAnswerThatIsWithdrawnBeforeAnybodyLooksIsWithdrawn) {
+TEST_F(Spectator, AnAnswerThatIsWithdrawnBeforeThePollIsWithdrawn) {
     have_shot_accepted(1);
-    // Within one process a sample has arrived when it is written.
+    // Within one process samples arrive when they are written.
     director_.write_status("anna", 1, CDIR_SHOT_WAITING_FOR_PLAYER, 4);
     director_.withdraw_status("anna");
     observer_.poll();
@@ -182,7 +180,7 @@ TEST_F(Spectator, BroadcasterTakesEveryFrameWithAllCameras) {
     EXPECT_EQ(cdir_observer_close(raw), CDIR_OK);
 }
 
-TEST_F(Spectator, FramesThatAreTooManyToKeepAreCountedAsGaps) {
+TEST_F(Spectator, FramesBeyondTheHistoryAreCountedAsGaps) {
     have_shot_accepted(1);
     write(1, 0, 0.0F);
     ASSERT_TRUE(sees(1));
@@ -217,7 +215,7 @@ TEST_F(Spectator, OlderEpochsAreDropped) {
     EXPECT_FALSE(observer_.newest_camera()) << "the answer of epoch 2 names no camera of epoch 3";
 }
 
-TEST_F(Spectator, BrokenFrameIsDroppedAndCounted) {
+TEST_F(Spectator, MalformedFrameIsDroppedAndCounted) {
     have_shot_accepted(1);
     CameraFrameArrays broken = frame(1, 0, 1.0F);
     broken.position.pop_back();
@@ -228,7 +226,7 @@ TEST_F(Spectator, BrokenFrameIsDroppedAndCounted) {
     EXPECT_EQ(observer_.newest_camera()->camera.position[0], 2.0F);
 }
 
-TEST_F(Spectator, OnlyTheStrongestDirectorIsHeard) {
+TEST_F(Spectator, OnlyTheStrongestDirectorIsReceived) {
     have_shot_accepted(1);
     FakeDirector leader(shared_domain, match_id_, 100);
     ASSERT_TRUE(
@@ -246,7 +244,7 @@ TEST_F(Spectator, OnlyTheStrongestDirectorIsHeard) {
     EXPECT_EQ(observer_.counters().hand_overs, 0U);
 }
 
-TEST_F(Spectator, StandbyIsHeardWhenTheLeaderIsGone) {
+TEST_F(Spectator, TheStandbyIsReceivedWhenTheLeaderIsGone) {
     have_shot_accepted(1);
     std::optional<FakeDirector> leader(std::in_place, shared_domain, match_id_, 100);
     ASSERT_TRUE(

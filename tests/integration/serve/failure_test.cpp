@@ -1,4 +1,4 @@
-// Processes that die, and what the others make of it.
+// Processes that are killed or stopped, and how the others react.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ using camera_director::Observer;
 
 class FailureTest : public testing::Test {
   protected:
-    // A game server in a process of its own: match "game-0", 4 players.
+    // A game server as a child process: match "game-0", 4 players.
     std::unique_ptr<ChildProcess> game_process() {
         return std::make_unique<ChildProcess>(std::vector<std::string>{
             CAMDIR_BIN_DIR "/synthetic-players", (folder_ / "hall.vfs").string(), "--domain",
@@ -76,7 +76,7 @@ TEST_F(FailureTest, TheShotOfAnObserverThatIsKilledEnds) {
         << server.log();
 }
 
-TEST_F(FailureTest, AServerThatIsKilledAndStartedAgainFindsEverybodyAgain) {
+TEST_F(FailureTest, AServerThatIsKilledAndStartedAgainFindsItsMatches) {
     const Context context(connection(domain_.id()));
     const Game game(context, "cup", "hall");
     Observer observer(context, "cup", "anna");
@@ -111,7 +111,7 @@ TEST_F(FailureTest, TheStandbyTakesOverWithTheSameCameraIds) {
     ASSERT_TRUE(comes_to(first, CDIR_SHOT_ACCEPTED));
     const std::uint32_t camera_id = first.shot_status().camera_id;
 
-    // The standby may have been heard before the leader was found.
+    // The standby may have been received before the leader was found.
     const std::uint64_t hand_overs = first.counters().hand_overs;
     leader.process().send_signal(SIGKILL);
     EXPECT_TRUE(sees(first, [&](const auto& frame, auto cameras) {
@@ -124,7 +124,7 @@ TEST_F(FailureTest, TheStandbyTakesOverWithTheSameCameraIds) {
         return true;
     })) << standby.log();
     EXPECT_EQ(first.counters().hand_overs, hand_overs + 1);
-    // The leader's answer to the request dies later than its cameras: the standby's must stand by then.
+    // The leader's status expires later than its cameras; by then the standby's must have been received.
     ASSERT_TRUE(eventually([&] {
         first.poll();
         return first.counters().directors == 1;
@@ -133,7 +133,7 @@ TEST_F(FailureTest, TheStandbyTakesOverWithTheSameCameraIds) {
     EXPECT_TRUE(sees_own_camera(first));
 }
 
-TEST_F(FailureTest, ALeaderThatLeavesInPeaceHandsOver) {
+TEST_F(FailureTest, ALeaderThatIsStoppedHandsOver) {
     Server leader(domain_.id(), {.participant_index = 0, .strength = 200, .director_id = 10});
     Server standby(domain_.id(), {.participant_index = 1, .strength = 100, .director_id = 20});
     ASSERT_TRUE(leader.ready() && standby.ready()) << leader.log() << standby.log();

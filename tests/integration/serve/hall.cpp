@@ -35,7 +35,7 @@ Server::Server(std::uint32_t domain, const Options& options) {
     write_hall(folder_ / "hall.vfs");
     write_hall(folder_ / "yard.vfs");
     const auto config = folder_ / "config.json";
-    // A lease that a busy machine keeps.
+    // A lease long enough for a busy machine.
     std::ofstream(config) << R"({"dds": {"domain": )" << domain << R"(, "participant_index": )"
                           << options.participant_index << R"(, "strength": )" << options.strength
                           << R"(, "director_id": )" << options.director_id << R"(, "lease_ms": 1000},
@@ -50,7 +50,8 @@ bool Server::ready() const {
 }
 
 camera_director::ContextOptions connection(std::uint32_t domain) {
-    // The ports of the participants 0 and 1 of a domain: the DDS standard's, from base 7400 on.
+    // The port of participant 1, by the DDSI standard with port base 7400. Participant 0 has the default
+    // port.
     const std::uint32_t standby_port = 7400 + 250 * domain + 10 + 2;
     return {.domain = domain, .directors = "127.0.0.1, 127.0.0.1:" + std::to_string(standby_port)};
 }

@@ -1,4 +1,4 @@
-// What the tests of serve work with: a hall without obstacles, a server that knows it, a game in it.
+// For the tests of serve: a hall without obstacles, a server with it as a map, a game in it.
 #pragma once
 
 #include <camera_director/camera_director.hpp>
@@ -14,7 +14,7 @@
 
 namespace camdir::test {
 
-// The hall: the plane z = 0 within +-1000 units, free 150 units up and down; made, not baked.
+// The hall: the plane z = 0 within +-1000 units, with a free distance of 150 units; made without baking.
 inline constexpr float hall_half_width = 1000.0F;
 inline constexpr float hall_half_height = 150.0F;
 void write_hall(const std::filesystem::path& file);
@@ -39,10 +39,10 @@ class Server {
     std::unique_ptr<ChildProcess> process_;
 };
 
-// The SDK's connection to the directors of this machine with participant indices 0 and 1.
+// The SDK's options for directors on this machine with participant indices 0 and 1.
 [[nodiscard]] camera_director::ContextOptions connection(std::uint32_t domain);
 
-// A game server in this process: players who walk in circles in the hall, 60 frames a second.
+// A game server in this process: players walk in circles in the hall, at 60 frames per second.
 class Game {
   public:
     Game(const camera_director::Context& context, const std::string& match_id, const std::string& map_name,
@@ -61,15 +61,15 @@ class Game {
     std::jthread thread_;
 };
 
-// Takes frames until one satisfies `wanted`, which gets the frame and its cameras; false when none did.
+// Takes frames until `wanted` returns true for a frame and its cameras; false when none did in time.
 using FrameTest =
     std::function<bool(const camera_director::CameraFrame&, std::span<const camera_director::Camera>)>;
 [[nodiscard]] bool sees(camera_director::Observer& observer, const FrameTest& wanted);
 
-// A frame with the observer's own camera.
+// A frame with the observer's own camera arrives.
 [[nodiscard]] bool sees_own_camera(camera_director::Observer& observer);
 
-// The observer's shot comes into this state (CDIR_SHOT_...).
+// The observer's shot reaches this state (CDIR_SHOT_...).
 [[nodiscard]] bool comes_to(camera_director::Observer& observer, std::uint32_t state);
 
 }  // namespace camdir::test

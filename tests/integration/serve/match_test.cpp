@@ -39,7 +39,7 @@ TEST_F(MatchTest, EveryObserverGetsItsOwnCameraInsideTheFreespace) {
     ASSERT_NE(first.shot_status().camera_id, second.shot_status().camera_id);
 
     int frames = 0;
-    std::uint64_t missing = 0;  // none, but on a machine that is busy for longer than 32 frames
+    std::uint64_t missing = 0;  // 0 unless this machine is busy for longer than 32 frames
     const std::uint64_t missed = first.counters().gaps;
     std::optional<camera_director::CameraFrame> before;
     EXPECT_TRUE(sees(first, [&](const auto& frame, auto cameras) {
@@ -95,7 +95,7 @@ TEST_F(MatchTest, AMapChangeBeginsANewEpochWithACut) {
     })) << server_.log();
 }
 
-TEST_F(MatchTest, AnUnknownMapIsToldByName) {
+TEST_F(MatchTest, AnUnknownMapIsReportedByName) {
     const Game game(context_, "cup", "atlantis");
     Observer observer(context_, "cup", "anna");
     observer.request({.target = 0});
@@ -103,7 +103,7 @@ TEST_F(MatchTest, AnUnknownMapIsToldByName) {
     EXPECT_THAT(observer.shot_status().reason, HasSubstr("atlantis"));
 }
 
-TEST_F(MatchTest, ARequestThatMakesNoSenseIsRefusedWithAReason) {
+TEST_F(MatchTest, AnInvalidRequestIsRefusedWithAReason) {
     const Game game(context_, "cup", "hall");
     Observer observer(context_, "cup", "anna");
     observer.request({.target = 0, .profile = "no-such-profile"});
@@ -118,7 +118,7 @@ TEST_F(MatchTest, ARequestThatMakesNoSenseIsRefusedWithAReason) {
     EXPECT_TRUE(sees_own_camera(observer));
 }
 
-TEST_F(MatchTest, AnObserverThatLeavesTakesItsShotWithIt) {
+TEST_F(MatchTest, TheShotOfAnObserverThatLeavesEnds) {
     const Game game(context_, "cup", "hall");
     Observer stays(context_, "cup", "stays");
     stays.request({.target = 0});
@@ -130,7 +130,7 @@ TEST_F(MatchTest, AnObserverThatLeavesTakesItsShotWithIt) {
     EXPECT_TRUE(sees(stays, [](const auto& /*frame*/, auto cameras) { return cameras.size() == 1; }));
 }
 
-TEST_F(MatchTest, AnObserverHearsThatItsMatchIsOver) {
+TEST_F(MatchTest, AnObserverIsInformedThatItsMatchHasEnded) {
     std::optional<Game> game(std::in_place, context_, "cup", "hall");
     Observer observer(context_, "cup", "anna");
     observer.request({.target = 0});
@@ -150,8 +150,8 @@ TEST_F(MatchTest, ARequestRightAfterAWithdrawalIsAnswered) {
     }
 }
 
-// Speaks to the wire directly: the SDK would refuse to send these.
-TEST_F(MatchTest, MalformedSamplesAreDroppedWithAReasonAndDoNotHurt) {
+// Written with the DDS API, because the SDK refuses to send them.
+TEST_F(MatchTest, MalformedSamplesAreDroppedWithAReason) {
     RawPeer raw(domain_.id(), "raw");
     raw.write(raw_match_info("raw", 1));
     Observer observer(context_, "cup", "anna");
@@ -179,11 +179,11 @@ TEST_F(MatchTest, MalformedSamplesAreDroppedWithAReasonAndDoNotHurt) {
     RawPoseFrame foreign("cup", 1, 5, 8);
     EXPECT_TRUE(dropped(foreign, "wrong_partition"));
 
-    EXPECT_TRUE(sees_own_camera(observer)) << "the other match goes on";
+    EXPECT_TRUE(sees_own_camera(observer)) << "the other match continues";
     EXPECT_FALSE(server_.process().wait_for(std::chrono::milliseconds(0))) << server_.log();
 }
 
-TEST_F(MatchTest, SigtermDrainsAndSaysGoodbye) {
+TEST_F(MatchTest, SigtermDrainsAndWithdrawsTheStatuses) {
     const Game game(context_, "cup", "hall");
     Observer observer(context_, "cup", "anna");
     observer.request({.target = 0});

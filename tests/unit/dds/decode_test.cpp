@@ -120,7 +120,7 @@ TEST(DecodePoseFrame, AcceptsQuaternionsUpToAThousandthOffUnitLength) {
     EXPECT_EQ(verdict(3e38F), ValidationError::not_unit) << "its length overflows";
 }
 
-TEST(DecodeMatchInfo, TakesPlayersWithAndWithoutTheirTexts) {
+TEST(DecodeMatchInfo, TakesPlayersWithAndWithoutNamesAndClasses) {
     camera_director_MatchInfo sample = test::raw_match_info("cup-7", 3);
     std::uint32_t ids[] = {5, 9};
     char names[2][64] = {"anna", "bob"};
@@ -143,7 +143,7 @@ TEST(DecodeMatchInfo, TakesPlayersWithAndWithoutTheirTexts) {
     EXPECT_EQ(decode(sample, message), ValidationError::array_length);
 }
 
-TEST(DecodeMatchInfo, RefusesNumbersThatMeanNothing) {
+TEST(DecodeMatchInfo, RefusesInvalidNumbers) {
     director::MatchInfo message;
     camera_director_MatchInfo sample = test::raw_match_info("m", 1);
     sample.rate_hz = nan;
@@ -152,11 +152,11 @@ TEST(DecodeMatchInfo, RefusesNumbersThatMeanNothing) {
     sample.spectator_delay_s = -1.0F;
     EXPECT_EQ(decode(sample, message), ValidationError::out_of_range);
     sample = test::raw_match_info("m", 1);
-    sample.player_id._length = 257;  // refused before anything is read
+    sample.player_id._length = 257;  // refused before an array is read
     EXPECT_EQ(decode(sample, message), ValidationError::too_many);
 }
 
-TEST(DecodeMatchInfo, RefusesIdsThatAPartitionCannotCarry) {
+TEST(DecodeMatchInfo, RefusesIdsThatCannotNameAPartition) {
     for (const char* id : {"", "*", "cup?", "a/b", "tab\t"}) {
         director::MatchInfo message;
         EXPECT_EQ(decode(test::raw_match_info(id, 1), message), ValidationError::bad_match_id) << id;
@@ -164,7 +164,7 @@ TEST(DecodeMatchInfo, RefusesIdsThatAPartitionCannotCarry) {
     EXPECT_TRUE(valid_match_id("Große Halle [2] 'x' & <y>"));
 }
 
-TEST(DecodeMatchEvent, RefusesAValueThatIsNoNumber) {
+TEST(DecodeMatchEvent, RefusesAValueThatIsNotFinite) {
     camera_director_MatchEvent sample{};
     sample.kind = 1;
     sample.actor = 4;
@@ -178,7 +178,7 @@ TEST(DecodeMatchEvent, RefusesAValueThatIsNoNumber) {
     EXPECT_EQ(decode(sample, message), ValidationError::not_finite);
 }
 
-TEST(DecodeObserverRequest, KeepsTheGroupAndTheTexts) {
+TEST(DecodeObserverRequest, KeepsTheGroupAndTheStrings) {
     camera_director_ObserverRequest sample = test::raw_request("m", "o", 7);
     std::vector<std::uint32_t> group(257, 1);
     sample.group = {257, 256, group.data(), false};

@@ -31,9 +31,9 @@ director::CameraFrame random_camera_frame(std::size_t count, std::uint32_t seed)
     return frame;
 }
 
-RC_GTEST_PROP(EncodeCameraFrame, EveryNumberIsWhereTheContractSays, (std::uint32_t seed)) {
+RC_GTEST_PROP(EncodeCameraFrame, EveryNumberIsInItsField, (std::uint32_t seed)) {
     CameraFrameEncoder encoder("cup-7", 42);
-    // The second frame must not show anything of the first.
+    // The second frame must not contain anything of the first.
     for (int round = 0; round < 2; ++round) {
         const auto count = *rc::gen::inRange<std::size_t>(0, 257);
         const director::CameraFrame frame =
@@ -73,7 +73,7 @@ TEST(EncodeCameraFrame, UsesTheSameMemoryForEveryFrame) {
     EXPECT_FALSE(after.position._release) << "DDS must not free it";
 }
 
-TEST(EncodeObserverStatus, CutsTextsBetweenCharacters) {
+TEST(EncodeObserverStatus, CutsStringsBetweenCharacters) {
     director::ObserverStatus status;
     status.match_id = "m";
     status.observer_id = "anna";

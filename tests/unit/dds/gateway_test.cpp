@@ -20,7 +20,7 @@ using test::eventually;
 using test::RawPeer;
 using test::RawPoseFrame;
 
-// Writes down, one word a call, what the gateway hands on.
+// Records the calls of the gateway as lines.
 class Recorder final : public director::Ingress {
   public:
     bool receive(const director::MatchInfo& info) override {
@@ -76,7 +76,7 @@ class GatewayTest : public testing::Test {
         gateway_->start(recorder_);
     }
     void TearDown() override {
-        // The gateway's end takes all of DDS in the process with it.
+        // Before the gateway, which shuts down all of DDS in the process.
         peers_.clear();
         gateway_.reset();
     }
@@ -84,12 +84,12 @@ class GatewayTest : public testing::Test {
     RawPeer& peer(const std::string& match_id, const std::string& partition = "") {
         return *peers_.emplace_back(std::make_unique<RawPeer>(domain_.id(), match_id, partition));
     }
-    // A peer whose match the gateway has found and publishes to, with all endpoints matched.
+    // A peer whose match the gateway has found, with all endpoints matched.
     RawPeer& game(const std::string& match_id, std::uint64_t epoch = 1) {
         const std::uint32_t before = gateway_->counters().matches;
         RawPeer& raw = peer(match_id);
         raw.write(test::raw_match_info(match_id, epoch));
-        // An endpoint is seen before the match is known.
+        // Endpoints are matched before the match is complete.
         if (!eventually([&] { return raw.directors() == 1 && gateway_->counters().matches > before; })) {
             throw std::runtime_error("the match was not found");
         }
@@ -98,7 +98,7 @@ class GatewayTest : public testing::Test {
     std::uint64_t dropped(Topic topic, ValidationError error) {
         return gateway_->counters().of(topic).dropped[static_cast<std::size_t>(error)];
     }
-    // Best effort: sends until it has arrived.
+    // Poses are best effort: writes until one has arrived.
     bool arrives(RawPeer& raw, RawPoseFrame& frame, const std::string& line) {
         return eventually([&] {
             raw.write(frame.sample());
@@ -132,12 +132,12 @@ director::ObserverStatus status_of(const std::string& observer_id, const std::st
     return status;
 }
 
-// Another director of the match "cup", stronger than the gateway, that tells anna something.
+// Publishes a status for anna as a director of the match "cup" that is stronger than the gateway.
 void publish_as_stronger_director(RawPeer& leader) {
     leader.write(encode(status_of("anna", "the leader's")), 1000);
 }
 
-TEST_F(GatewayTest, HandsOnWhatAMatchSays) {
+TEST_F(GatewayTest, HandsOnTheSamplesOfAMatch) {
     RawPeer& raw = game("cup");
     EXPECT_TRUE(recorder_.has("info cup 1"));
 
@@ -186,7 +186,7 @@ TEST_F(GatewayTest, WritesCamerasAndStatuses) {
     EXPECT_EQ(gateway_->counters().write_failures, 0U);
 }
 
-TEST_F(GatewayTest, StatusesAreRepeatedWhenAStrongerDirectorHasGone) {
+TEST_F(GatewayTest, StatusesAreRepublishedWhenAStrongerDirectorHasLeft) {
     RawPeer& observer = game("cup");
     const auto anna_hears = [&](const std::string& reason) {
         return eventually([&] {
@@ -204,7 +204,7 @@ TEST_F(GatewayTest, StatusesAreRepeatedWhenAStrongerDirectorHasGone) {
     leader.reset();
     EXPECT_TRUE(anna_hears("ours"));
 
-    // One that goes as soon as it has come.
+    // A director that leaves soon after it came.
     leader = std::make_unique<RawPeer>(domain_.id(), "cup");
     publish_as_stronger_director(*leader);
     ASSERT_TRUE(anna_hears("the leader's"));
@@ -212,7 +212,7 @@ TEST_F(GatewayTest, StatusesAreRepeatedWhenAStrongerDirectorHasGone) {
     EXPECT_TRUE(anna_hears("ours"));
 }
 
-TEST_F(GatewayTest, AReaderThatSleepsLosesNothingWithin32Frames) {
+TEST_F(GatewayTest, AnIdleReaderLosesNothingWithin32Frames) {
     RawPeer& raw = game("cup");
     for (std::uint32_t i = 0; i < 32; ++i)
         gateway_->publish("cup", one_camera(i));
@@ -237,7 +237,7 @@ TEST_F(GatewayTest, LateObserversSeeStatusesButNoOldCameras) {
     EXPECT_TRUE(late.take_cameras().empty());
 }
 
-TEST_F(GatewayTest, RequestsOfBeforeTheMatchAreReceived) {
+TEST_F(GatewayTest, RequestsFromBeforeTheMatchAreReceived) {
     RawPeer& observer = peer("cup");
     for (std::uint32_t i = 0; i < 256; ++i) {
         observer.write(test::raw_request("cup", "early " + std::to_string(i), i));
@@ -280,7 +280,7 @@ TEST_F(GatewayTest, MalformedSamplesAreCountedByReasonAndNotHandedOn) {
     }
 }
 
-TEST_F(GatewayTest, AMatchInfoCountsOnlyInItsOwnPartition) {
+TEST_F(GatewayTest, AMatchInfoIsAcceptedOnlyInItsOwnPartition) {
     RawPeer& impostor = peer("evil");
     impostor.write(test::raw_match_info("cup", 99));
     EXPECT_TRUE(eventually([&] { return dropped(Topic::match_info, ValidationError::wrong_partition) > 0; }));
@@ -290,11 +290,11 @@ TEST_F(GatewayTest, AMatchInfoCountsOnlyInItsOwnPartition) {
     EXPECT_TRUE(recorder_.lines().empty());
 }
 
-TEST_F(GatewayTest, AStrangerCannotEndAMatch) {
+TEST_F(GatewayTest, AnotherProcessCannotEndAMatch) {
     (void)game("cup");
     RawPeer& stranger = peer("evil");
     stranger.dispose(test::raw_match_info("cup", 1));
-    stranger.write(test::raw_match_info("dup", 1));  // comes after it
+    stranger.write(test::raw_match_info("dup", 1));  // arrives after the disposal
     ASSERT_TRUE(eventually([&] { return dropped(Topic::match_info, ValidationError::wrong_partition) > 0; }));
     EXPECT_FALSE(recorder_.has("over cup"));
 }
@@ -303,7 +303,7 @@ TEST_F(GatewayTest, DisposingEndsAMatchAndForgettingItRemovesItsEndpoints) {
     RawPeer& raw = game("cup");
     raw.dispose(test::raw_match_info("cup", 1));
     ASSERT_TRUE(eventually([&] { return recorder_.has("over cup"); }));
-    EXPECT_EQ(raw.directors(), 1U) << "observers still wait";
+    EXPECT_EQ(raw.directors(), 1U) << "for observers that wait";
     gateway_->forget("cup");
     EXPECT_TRUE(eventually([&] { return raw.directors() == 0 && gateway_->counters().matches == 0; }));
 
@@ -311,7 +311,7 @@ TEST_F(GatewayTest, DisposingEndsAMatchAndForgettingItRemovesItsEndpoints) {
     EXPECT_TRUE(eventually([&] { return recorder_.has("info cup 2") && raw.directors() == 1; }));
 }
 
-TEST_F(GatewayTest, AForgottenMatchWhoseServerIsOnlyPausedComesBackWithItsPoses) {
+TEST_F(GatewayTest, AForgottenMatchWithAPausedServerReturnsWithItsPoses) {
     RawPeer& raw = game("cup");
     gateway_->forget("cup");
     RawPoseFrame frame("cup", 1, 7, 1);
@@ -333,14 +333,14 @@ TEST_F(GatewayTest, ARefusedMatchGetsNoEndpointsUntilItIsAccepted) {
     EXPECT_TRUE(eventually([&] { return raw.directors() == 1; }));
 }
 
-TEST_F(GatewayTest, ADirectorThatHangsStopsSayingThatItLives) {
+TEST_F(GatewayTest, ADirectorThatHangsStopsAssertingItsLiveliness) {
     game("cup");
     EXPECT_EQ(gateway_->counters().liveliness_withheld, 0U);
     recorder_.answers = false;
     EXPECT_TRUE(eventually([&] { return gateway_->counters().liveliness_withheld > 2; }));
 }
 
-TEST_F(GatewayTest, ClosingGivesTheMatchesUpAndNothingIsReceivedAfterStopping) {
+TEST_F(GatewayTest, ClosingReleasesTheMatchesAndNothingIsReceivedAfterStopping) {
     RawPeer& raw = game("cup");
     gateway_->publish("cup", one_camera(0));
     gateway_->publish(status_of("anna", ""));

@@ -10,7 +10,7 @@ namespace {
 
 using testing::HasSubstr;
 
-TEST(DomainXml, SaysWhatTheConfigurationSays) {
+TEST(DomainXml, ContainsTheConfiguration) {
     config::Dds config;
     config.interface = "eth<1>&\"x\"";
     config.multicast = true;
@@ -27,7 +27,7 @@ TEST(DomainXml, SaysWhatTheConfigurationSays) {
     EXPECT_THAT(domain_xml(config), HasSubstr("<ParticipantIndex>none<"));
 }
 
-TEST(DomainXml, GivesWayToTheOperatorsOwn) {
+TEST(DomainXml, IsReplacedByTheOperatorsXml) {
     config::Dds config;
     config.xml = "<CycloneDDS/>";
     EXPECT_EQ(domain_xml(config), "<CycloneDDS/>");
@@ -46,7 +46,7 @@ TEST(Participant, CycloneAcceptsTheDefaultConfiguration) {
     }
 }
 
-TEST(Participant, TheInterfaceIsNamedByItsAddressAsWell) {
+TEST(Participant, TheInterfaceMayBeGivenByAddress) {
     const test::TestDomain domain;
     config::Dds config;
     config.domain = domain.id();
@@ -65,7 +65,7 @@ TEST(Participant, IgnoresTheEnvironmentsConfiguration) {
     ::unsetenv("CYCLONEDDS_URI");
 }
 
-TEST(Participant, NamesWhatItCouldNotJoin) {
+TEST(Participant, NamesTheDomainThatItCouldNotJoin) {
     const test::TestDomain domain;
     config::Dds config;
     config.domain = domain.id();

@@ -67,7 +67,7 @@ TEST_F(AttentionTest, ScoresDecay) {
     EXPECT_EQ(choose(30 * second), 3U) << "two kills three half-lives ago are worth a quarter of one";
 }
 
-TEST_F(AttentionTest, ShowsADeathThenTheLiving) {
+TEST_F(AttentionTest, StaysWithADeathThenChoosesTheLiving) {
     EXPECT_EQ(choose(0), 1U);
     poses_[0].flags = 0;
     EXPECT_EQ(choose(1 * second), 1U);
@@ -83,7 +83,7 @@ TEST_F(AttentionTest, StaysWithTheDeadWhenAllAre) {
     EXPECT_EQ(choose(9 * second), 1U);
 }
 
-TEST_F(AttentionTest, LeavesWhoIsGoneAtOnce) {
+TEST_F(AttentionTest, LeavesAnAbsentPlayerAtOnce) {
     EXPECT_EQ(choose(0), 1U);
     poses_.erase(poses_.begin());
     EXPECT_EQ(choose(1), 2U);
@@ -112,7 +112,7 @@ TEST_F(AttentionTest, SurvivesAnyClock) {
     EXPECT_EQ(choose(most), 2U);
 }
 
-TEST_F(AttentionTest, RemembersABoundedNumberOfPlayers) {
+TEST_F(AttentionTest, ScoresABoundedNumberOfPlayers) {
     for (std::uint32_t player = 100; player < 100'000; ++player)
         kill(player, player * second);
     kill(2, 99'999 * second);

@@ -1,4 +1,4 @@
-// Requests and what becomes of them.
+// Requests and the answers to them.
 #include "director/director.hpp"
 
 #include <gmock/gmock.h>
@@ -72,7 +72,7 @@ TEST(Director, EqualRequestsShareACamera) {
     EXPECT_EQ(stage.director.statistics().observers, 4U);
 }
 
-TEST(Director, AShotLivesAsLongAsAnybodyWantsIt) {
+TEST(Director, AShotLastsAsLongAsARequestWantsIt) {
     Stage stage;
     stage.start();
     stage.ask(Stage::request("a"));
@@ -140,7 +140,7 @@ TEST(Director, BadProfilesAndOverridesAreRefusedWithAReason) {
     EXPECT_EQ(stage.publisher.status("b").state, RequestState::accepted);
 }
 
-TEST(Director, AnUnknownPlayerIsWaitedFor) {
+TEST(Director, ARequestForAnUnknownPlayerWaits) {
     Stage stage;
     stage.start();
     stage.ask(Stage::request("a", 9));
@@ -155,10 +155,10 @@ TEST(Director, AnUnknownPlayerIsWaitedFor) {
     stage.start(Stage::info("m", 1, {1, 2, 3}));
     for (std::uint32_t number = 3; number < 6; ++number)
         stage.send(Stage::poses(number));
-    EXPECT_EQ(stage.publisher.status("a").state, RequestState::accepted) << "seen lately";
+    EXPECT_EQ(stage.publisher.status("a").state, RequestState::accepted) << "seen recently";
 }
 
-TEST(Director, APlayerWhoLeftIsWaitedFor) {
+TEST(Director, ARequestWaitsWhenItsPlayerHasLeft) {
     Stage stage;
     stage.start();
     stage.ask(Stage::request("a", 3));
@@ -190,7 +190,7 @@ TEST(Director, AnAutomaticTargetFollowsTheEvents) {
     stage.ask(Stage::request("a", no_player));
     EXPECT_EQ(stage.publisher.status("a").state, RequestState::accepted);
     stage.send(Stage::poses(1));
-    EXPECT_EQ(stage.publisher.frames().back().cameras.at(0).target, 1U) << "nothing happened: the lowest id";
+    EXPECT_EQ(stage.publisher.frames().back().cameras.at(0).target, 1U) << "no events: the lowest id";
 
     const PoseFrame later = Stage::poses(400);
     for (int i = 0; i < 3; ++i)
@@ -203,7 +203,7 @@ TEST(Director, AnAutomaticTargetFollowsTheEvents) {
     EXPECT_EQ(stage.director.statistics()[Counter::events], 3U);
 }
 
-TEST(Director, LimitsRefuseWhatIsTooMuch) {
+TEST(Director, LimitsAreEnforced) {
     config::Config config = Stage::default_config();
     config.limits.matches = 1;
     config.limits.observers = 3;
@@ -212,7 +212,7 @@ TEST(Director, LimitsRefuseWhatIsTooMuch) {
     Stage stage(config);
     ASSERT_TRUE(stage.start());
     EXPECT_FALSE(stage.start(Stage::info("second")));
-    EXPECT_TRUE(stage.start()) << "a known match is no new one";
+    EXPECT_TRUE(stage.start()) << "the match is known already";
 
     stage.ask(Stage::request("a", 1));
     stage.ask(Stage::request("b", 2));
@@ -227,13 +227,13 @@ TEST(Director, LimitsRefuseWhatIsTooMuch) {
     EXPECT_EQ(stage.director.statistics()[Counter::drop_players], 1U);
     EXPECT_EQ(stage.director.statistics()[Counter::refused_matches], 1U);
 
-    // The place of one who leaves goes to who waits.
+    // The camera of an observer that leaves goes to one that was refused.
     stage.director.request_ended("m", "a");
     stage.director.flush();
     EXPECT_EQ(stage.publisher.status("c").state, RequestState::accepted);
 }
 
-TEST(Director, ObserversOfARefusedMatchAreTold) {
+TEST(Director, ObserversOfARefusedMatchAreRefused) {
     config::Config config = Stage::default_config();
     config.limits.matches = 1;
     Stage stage(config);
@@ -252,7 +252,7 @@ TEST(Director, ObserversOfARefusedMatchAreTold) {
     EXPECT_EQ(stage.publisher.status("a", "second").state, RequestState::accepted);
 }
 
-TEST(Director, AReloadedConfigurationJudgesAgain) {
+TEST(Director, AReloadedConfigurationIsAppliedToRunningRequests) {
     config::Config config = Stage::default_config();
     config.profiles["close"].distance = 40.0F;
     Stage stage(config);
@@ -265,7 +265,7 @@ TEST(Director, AReloadedConfigurationJudgesAgain) {
     stage.send(Stage::poses(1));
 
     config.profiles["close"].distance = 30.0F;
-    config.limits.shots = 1;  // needs a restart: no effect
+    config.limits.shots = 1;  // limits change only with a restart
     stage.director.reconfigure(config);
     stage.ask(Stage::request("b"));
     EXPECT_EQ(stage.publisher.status("b").state, RequestState::accepted);
@@ -281,7 +281,7 @@ TEST(Director, AReloadedConfigurationJudgesAgain) {
     EXPECT_EQ(stage.publisher.status("a").state, RequestState::refused);
 }
 
-TEST(Director, AViewShowsWhatRuns) {
+TEST(Director, AViewShowsTheRunningMatches) {
     Stage stage;
     stage.start();
     stage.ask(Stage::request("a", 2));

@@ -1,4 +1,4 @@
-// Many matches at once: the same cameras whatever the number of workers, and no frame unaccounted for.
+// Many matches at once: the same cameras for any number of workers, and every frame is accounted for.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -43,7 +43,7 @@ void append(std::string& bytes, const CameraFrame& frame) {
     }
 }
 
-// The bytes of all cameras of a run that is the same but for the number of workers.
+// The bytes of all cameras of a run; runs differ only in the number of workers.
 std::string cameras_with(std::int64_t workers) {
     constexpr int matches = 12;
     config::Config config = Stage::default_config();
@@ -56,7 +56,7 @@ std::string cameras_with(std::int64_t workers) {
     for (std::uint32_t number = 1; number <= 60; ++number) {
         for (int match = 0; match < matches; ++match) {
             PoseFrame frame = Stage::poses(number);
-            // Now and then a player is somewhere else, so that cameras cut and search.
+            // Sometimes a player is elsewhere, so that cameras cut and search.
             if (random() % 20 == 0) frame.poses[random() % 3].eye = test::random_point(random, space);
             const auto killer = static_cast<std::uint32_t>(1 + random() % 3);
             stage.director.receive(name_of(match),
@@ -81,14 +81,14 @@ TEST(ManyMatches, TheNumberOfWorkersChangesNothing) {
         EXPECT_TRUE(cameras_with(workers) == one) << workers << " workers";
 }
 
-TEST(ManyMatches, EveryFrameIsAnsweredOrCounted) {
+TEST(ManyMatches, EveryFrameIsProcessedOrCounted) {
     constexpr int matches = 40;
     constexpr std::uint32_t frames = 50;
     config::Config config = Stage::default_config();
     config.limits.workers = 4;
     Stage stage(config);
     fill(stage, matches);
-    // Each match has a game server of its own; observers come and go meanwhile, and maps are loaded again.
+    // Four threads act as game servers, a fifth as observers that come and go; maps are reloaded meanwhile.
     std::vector<std::thread> threads;
     for (int first = 0; first < 4; ++first)
         threads.emplace_back([&stage, first] {

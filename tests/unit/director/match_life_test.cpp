@@ -23,7 +23,7 @@ bool cuts(const CameraFrame& frame) {
     return (frame.cameras.at(0).flags & camera::cut) != 0;
 }
 
-TEST(MatchLife, AnUnknownMapIsWaitedFor) {
+TEST(MatchLife, ARequestWaitsForAnUnknownMap) {
     Stage stage;
     stage.start(on_map("nowhere"));
     stage.ask(Stage::request("a"));
@@ -51,7 +51,7 @@ TEST(MatchLife, AnUnknownMapIsWaitedFor) {
     EXPECT_EQ(stage.publisher.frames().size(), 1U);
 }
 
-TEST(MatchLife, ANewMapFileCutsAndAnOldOneDoesNot) {
+TEST(MatchLife, ANewMapFileCutsAndAnUnchangedOneDoesNot) {
     Stage stage;
     stage.start();
     stage.ask(Stage::request("a"));
@@ -66,7 +66,7 @@ TEST(MatchLife, ANewMapFileCutsAndAnOldOneDoesNot) {
     stage.maps.set_failed("square", "damaged by the reload");
     stage.director.maps_changed();
     stage.send(Stage::poses(4));
-    EXPECT_EQ(stage.publisher.frames().size(), 4U) << "the map that was loaded before stays in use";
+    EXPECT_EQ(stage.publisher.frames().size(), 4U) << "the map loaded before stays in use";
     stage.maps.remove("square");
     stage.director.maps_changed();
     stage.send(Stage::poses(5));
@@ -74,13 +74,13 @@ TEST(MatchLife, ANewMapFileCutsAndAnOldOneDoesNot) {
     EXPECT_EQ(stage.publisher.status("a").state, RequestState::waiting_for_map);
 }
 
-TEST(MatchLife, ANewEpochBeginsAnew) {
+TEST(MatchLife, ANewEpochRestartsEveryShot) {
     Stage stage;
     stage.start();
     stage.ask(Stage::request("a"));
     stage.send(Stage::poses(7));
     stage.send(Stage::poses(8));
-    stage.send(Stage::poses(1, 2));  // its MatchInfo is still on the way
+    stage.send(Stage::poses(1, 2));  // its MatchInfo has not arrived
     EXPECT_EQ(stage.director.statistics()[Counter::drop_early_epoch], 1U);
 
     stage.start(Stage::info("m", 2));
@@ -113,7 +113,7 @@ TEST(MatchLife, OldFramesAreDropped) {
     EXPECT_EQ(stage.director.statistics()[Counter::drop_old_frame], 3U);
 }
 
-TEST(MatchLife, WhatIsUnknownIsDropped) {
+TEST(MatchLife, MessagesOfUnknownMatchesAreDropped) {
     Stage stage;
     stage.send(Stage::poses(1));
     stage.director.receive("m", MatchEvent{});
@@ -125,7 +125,7 @@ TEST(MatchLife, WhatIsUnknownIsDropped) {
     EXPECT_EQ(stage.director.statistics().matches, 0U);
 }
 
-TEST(MatchLife, AServerThatIsLostComesBack) {
+TEST(MatchLife, ALostServerCanReturn) {
     Stage stage;
     stage.start();
     stage.ask(Stage::request("a"));
@@ -138,14 +138,14 @@ TEST(MatchLife, AServerThatIsLostComesBack) {
     EXPECT_EQ(stage.director.statistics().silent_matches, 1U);
     EXPECT_EQ(stage.publisher.frames().size(), 2U);
 
-    stage.send(Stage::poses(1));  // a restarted server may count from the beginning
+    stage.send(Stage::poses(1));  // a restarted server counts from 0 or 1
     EXPECT_EQ(stage.publisher.status("a").reason, "");
     EXPECT_EQ(stage.director.statistics().silent_matches, 0U);
     EXPECT_EQ(stage.director.statistics()[Counter::silences], 1U);
     const auto frames = stage.publisher.frames();
     ASSERT_EQ(frames.size(), 3U);
     EXPECT_EQ(frames[2].frame_number, 2U);
-    EXPECT_TRUE(cuts(frames[2])) << "players may be anywhere by now";
+    EXPECT_TRUE(cuts(frames[2])) << "players may have moved anywhere";
     stage.send(Stage::poses(2));
     EXPECT_FALSE(cuts(stage.publisher.frames().back()));
 }
@@ -161,10 +161,10 @@ TEST(MatchLife, MissingPosesAreNoticed) {
     stage.send(Stage::poses(1));
     EXPECT_EQ(stage.publisher.frames().size(), 1U);
     EXPECT_TRUE(eventually([&] { return stage.director.statistics()[Counter::silences] == 2; }));
-    EXPECT_EQ(stage.director.statistics().matches, 1U) << "its server lives, so it is kept";
+    EXPECT_EQ(stage.director.statistics().matches, 1U) << "kept because its server is alive";
 }
 
-TEST(MatchLife, AMatchThatIsOverIsForgottenOnceNobodyWatches) {
+TEST(MatchLife, AnEndedMatchIsForgottenOnceItHasNoObservers) {
     Stage stage;
     stage.start();
     stage.ask(Stage::request("a"));
@@ -184,11 +184,11 @@ TEST(MatchLife, AMatchThatIsOverIsForgottenOnceNobodyWatches) {
     EXPECT_FALSE(stage.publisher.forgotten("m"));
     stage.director.request_ended("m", "a");
     EXPECT_TRUE(eventually([&] { return stage.publisher.forgotten("m"); }));
-    EXPECT_EQ(stage.director.statistics()[Counter::pose_frames], 1U) << "counted beyond the match's end";
+    EXPECT_EQ(stage.director.statistics()[Counter::pose_frames], 1U) << "counters outlast the match";
     EXPECT_TRUE(stage.director.view(std::chrono::seconds(30)).matches.empty());
 }
 
-TEST(MatchLife, ALostServerIsForgottenAfterAWhile) {
+TEST(MatchLife, ALostServersMatchIsForgottenAfterATime) {
     config::Config config = Stage::default_config();
     config.matches.forget_s = 0.05;
     Stage stage(config);
@@ -198,7 +198,7 @@ TEST(MatchLife, ALostServerIsForgottenAfterAWhile) {
     EXPECT_TRUE(eventually([&] { return stage.publisher.forgotten("m"); }));
 }
 
-TEST(MatchLife, AnotherMapFileIsToldOrRefused) {
+TEST(MatchLife, AnotherMapFileIsReportedOrRefused) {
     freespace::Contents contents = test::square_contents();
     contents.metadata.source_hash = 7;
     Stage stage;
@@ -226,7 +226,7 @@ TEST(MatchLife, NothingIsPublishedAfterTheDrain) {
     stage.director.receive("m", Stage::poses(1));
     stage.director.drain();
     const std::size_t frames = stage.publisher.frames().size();
-    EXPECT_EQ(frames, 1U) << "what was queued is finished";
+    EXPECT_EQ(frames, 1U) << "queued frames are processed";
     EXPECT_FALSE(stage.director.receive(Stage::info("other")));
     stage.director.receive("m", Stage::poses(2));
     stage.director.receive(Stage::request("b"));

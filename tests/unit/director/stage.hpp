@@ -1,4 +1,4 @@
-// A director on a stage: made-up maps and poses, a wire into memory.
+// A director with made-up maps and poses, which publishes into memory.
 #pragma once
 
 #include <map>
@@ -12,7 +12,7 @@
 
 namespace camdir::director {
 
-// Keeps all that is published. Thread-safe.
+// Keeps everything that is published. Thread-safe.
 class MemoryPublisher final : public Publisher {
   public:
     void publish(const std::string& match_id, const CameraFrame& frame) override;
@@ -21,7 +21,7 @@ class MemoryPublisher final : public Publisher {
     void forget(const std::string& match_id) override;
 
     [[nodiscard]] std::vector<CameraFrame> frames(const std::string& match_id = "m") const;
-    // The newest; a status that says "none" when there is none.
+    // The newest status; one with the reason "none" when there is none.
     [[nodiscard]] ObserverStatus status(const std::string& observer_id,
                                         const std::string& match_id = "m") const;
     [[nodiscard]] std::size_t statuses_published() const;
@@ -36,7 +36,7 @@ class MemoryPublisher final : public Publisher {
     std::set<std::string> forgotten_;
 };
 
-// Maps "square" (ready); players stand around its middle.
+// A director with the map "square", in state ready; players walk around its middle.
 struct Stage {
     explicit Stage(const config::Config& config = default_config());
 
@@ -47,11 +47,11 @@ struct Stage {
                                         const std::vector<std::uint32_t>& players = {1, 2, 3});
     [[nodiscard]] static ObserverRequest request(const std::string& observer_id, std::uint32_t target = 1,
                                                  const std::string& match_id = "m");
-    // Frame `number` at `number` times 50 ms: every player walks, all alive.
+    // The frame at `number` times 50 ms: all players are alive and walk.
     [[nodiscard]] static PoseFrame poses(std::uint32_t number, std::uint64_t epoch = 1,
                                          const std::vector<std::uint32_t>& players = {1, 2, 3});
 
-    // Receive and settle.
+    // Pass a message to the director and wait until it is processed.
     bool start(const MatchInfo& match = info());
     void ask(const ObserverRequest& wanted);
     void send(const PoseFrame& frame, const std::string& match_id = "m");

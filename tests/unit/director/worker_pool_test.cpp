@@ -19,7 +19,7 @@ class FunctionStrand final : public Strand {
     std::function<void()> work_;
 };
 
-TEST(WorkerPool, AScheduledStrandHasATurnThatBeginsLater) {
+TEST(WorkerPool, AScheduledStrandGetsATurnThatBeginsLater) {
     WorkerPool pool(2, 1);
     std::atomic<int> posted{0};
     std::atomic<int> seen{0};
@@ -35,13 +35,13 @@ TEST(WorkerPool, AScheduledStrandHasATurnThatBeginsLater) {
     pool.detach(strand);
 }
 
-TEST(WorkerPool, OneWorkerAtATimeInAStrand) {
+TEST(WorkerPool, OneWorkerAtATimeRunsAStrand) {
     constexpr std::size_t strands = 130;  // more than two words of bits
     WorkerPool pool(8, strands);
     struct Counted {
         std::atomic<int> inside{0};
         std::atomic<bool> overlapped{false};
-        int turns = 0;  // not atomic: the thread sanitizer watches
+        int turns = 0;  // not atomic, so that the thread sanitizer reports a race
         std::unique_ptr<FunctionStrand> strand;
     };
     std::vector<Counted> counted(strands);
@@ -76,7 +76,7 @@ TEST(WorkerPool, ABusyStrandDoesNotStarveTheOthers) {
     WorkerPool pool(1, others + 2);
     std::promise<void> release;
     FunctionStrand blocker([&] { release.get_future().wait(); });
-    int busy_turns = 0;  // of the one worker
+    int busy_turns = 0;  // written by the only worker
     int turns = 0;
     int busy_turns_at_the_end = 0;
     std::unique_ptr<FunctionStrand> busy;
@@ -103,10 +103,10 @@ TEST(WorkerPool, ABusyStrandDoesNotStarveTheOthers) {
         WorkerPool::wait_idle(*strand);
     WorkerPool::wait_idle(*busy);
     EXPECT_EQ(turns, static_cast<int>(others));
-    EXPECT_LE(busy_turns_at_the_end, 2) << "a turn a round";
+    EXPECT_LE(busy_turns_at_the_end, 2) << "one turn per round";
 }
 
-TEST(WorkerPool, KnowsWhenAWorkerHangs) {
+TEST(WorkerPool, DetectsAWorkerThatHangs) {
     WorkerPool pool(2, 1);
     std::promise<void> release;
     FunctionStrand strand([&] { release.get_future().wait(); });

@@ -74,7 +74,7 @@ float distance_between(const cdir_camera& a, const cdir_camera& b) {
     return (Vector(a.position) - Vector(b.position)).norm();
 }
 
-// The frames that a track still holds, by the obvious way.
+// The frames that a track holds, computed the simple way.
 std::vector<Frame> kept(const std::vector<Frame>& frames) {
     const auto drop =
         static_cast<std::ptrdiff_t>(frames.size()) - static_cast<std::ptrdiff_t>(CameraTrack::capacity);
@@ -124,8 +124,8 @@ RC_GTEST_PROP(CameraTrack, BetweenTwoFramesTheCameraLiesBetweenThem, ()) {
     }
 }
 
-// A ball around either end is free, so a ball around a point between them is.
-RC_GTEST_PROP(CameraTrack, ClearanceStaysTrue, ()) {
+// The balls around both ends are free; the ball around the camera between them must lie in one of them.
+RC_GTEST_PROP(CameraTrack, ClearanceStaysALowerBound, ()) {
     Frame a{0, any_camera(), false};
     Frame b{1000, any_camera(), true};
     const cdir_view view = *track_of({a, b}).at(*rc::gen::inRange<std::int64_t>(1, 1000));
@@ -136,14 +136,14 @@ RC_GTEST_PROP(CameraTrack, ClearanceStaysTrue, ()) {
     RC_ASSERT(inside_a || inside_b);
 }
 
-TEST(CameraTrack, OppositeSignsOfAQuaternionAreOneOrientation) {
+TEST(CameraTrack, OppositeQuaternionsAreTheSameOrientation) {
     cdir_camera flipped = camera_at_x(0.0F);
     flipped.orientation[3] = -1.0F;
     const CameraTrack track = track_of({{0, camera_at_x(0.0F), false}, {10, flipped, true}});
     EXPECT_LT(angle_between(track.at(5)->camera, camera_at_x(0.0F)), 1e-3F);
 }
 
-TEST(CameraTrack, OutsideOfTheTrackItsEndsHold) {
+TEST(CameraTrack, OutsideOfTheTrackItsEndsAreReturned) {
     const CameraTrack track = track_of({{100, camera_at_x(1.0F), false}, {200, camera_at_x(2.0F), true}});
     EXPECT_EQ(track.at(50)->camera.position[0], 1.0F);
     EXPECT_EQ(track.at(50)->frame_time, 100);
@@ -168,14 +168,14 @@ TEST(CameraTrack, SegmentsChangeAtCutsInterruptionsAndClears) {
     EXPECT_EQ(add(5, true), first + 3) << "an earlier time is new after a clear";
 }
 
-TEST(CameraTrack, FrameThatIsNotNewerIsLeftOut) {
+TEST(CameraTrack, FrameThatIsNotNewerIsSkipped) {
     const CameraTrack track = track_of(
         {{100, camera_at_x(1.0F), false}, {100, camera_at_x(8.0F), true}, {90, camera_at_x(9.0F), true}});
     EXPECT_EQ(track.newest()->camera.position[0], 1.0F);
     EXPECT_EQ(track.at(95)->camera.position[0], 1.0F);
 }
 
-TEST(CameraTrack, NothingIsBlendedAcrossAFrameThatWasLeftOut) {
+TEST(CameraTrack, NothingIsInterpolatedAcrossASkippedFrame) {
     const CameraTrack track = track_of(
         {{100, camera_at_x(1.0F), false}, {100, camera_at_x(50.0F), false}, {110, camera_at_x(51.0F), true}});
     EXPECT_EQ(track.at(105)->camera.position[0], 1.0F);

@@ -16,7 +16,7 @@ namespace {
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-TEST(Checks, MatchIdIsOneToSixtyThreeBytesOfAPartitionsName) {
+TEST(Checks, MatchIdHasOneToSixtyThreeBytesAndNoWildcards) {
     EXPECT_EQ(checked_match_id("a"), "a");
     EXPECT_EQ(checked_match_id(std::string(63, 'x').c_str()), std::string(63, 'x'));
     EXPECT_EQ(checked_match_id("Pokal \xc3\xbc 7"), "Pokal \xc3\xbc 7");
@@ -28,14 +28,14 @@ TEST(Checks, MatchIdIsOneToSixtyThreeBytesOfAPartitionsName) {
     EXPECT_THROW((void)checked_match_id(nullptr), Failure);
 }
 
-TEST(Checks, ObserverIdMayHoldMoreThanAMatchId) {
+TEST(Checks, ObserverIdMayContainSlashAndWildcards) {
     EXPECT_EQ(checked_observer_id("anna/2?"), "anna/2?");
     EXPECT_THROW((void)checked_observer_id("a\tb"), Failure);
     EXPECT_THROW((void)checked_observer_id(""), Failure);
 }
 
-TEST(Checks, TextWithoutItsZeroByteIsNotReadBeyondItsEnd) {
-    const std::vector<char> endless(8, 'x');  // the address sanitizer sees a ninth byte being read
+TEST(Checks, StringWithoutZeroByteIsNotReadBeyondItsEnd) {
+    const std::vector<char> endless(8, 'x');  // the address sanitizer reports reading a ninth byte
     EXPECT_THROW((void)checked_string("name", endless.data(), 0, 7), Failure);
 }
 

@@ -16,7 +16,7 @@ using test::ms;
 
 constexpr std::int64_t delay = 50 * ms;
 constexpr std::int64_t period = 16 * ms;
-constexpr std::int64_t start = 123'456'789 * ms;  // of the host's clock, when frame_time is 0
+constexpr std::int64_t start = 123'456'789 * ms;  // the host's clock when frame_time is 0
 
 TEST(DisplayClock, NothingToDisplayBeforeTheFirstFrame) {
     DisplayClock clock(delay);
@@ -35,7 +35,8 @@ TEST(DisplayClock, RunsTheDelayBehindRegularFrames) {
     }
 }
 
-// Frames arrive up to 30 ms late: the display runs at almost real time and finds a frame on either side.
+// Frames arrive up to 30 ms late: the display time advances almost at real time and stays before the newest
+// frame.
 TEST(DisplayClock, JitterOfTheNetworkDoesNotReachTheDisplay) {
     const unsigned seed = 7;
     std::mt19937 random(seed);
@@ -50,14 +51,14 @@ TEST(DisplayClock, JitterOfTheNetworkDoesNotReachTheDisplay) {
         if (time > 2000 * ms) {
             EXPECT_GE(displayed - last, period - period / 10 - 1) << "seed " << seed;
             EXPECT_LE(displayed - last, period + period / 10 + 1) << "seed " << seed;
-            EXPECT_LT(displayed, time) << "a frame lies on either side; seed " << seed;
+            EXPECT_LT(displayed, time) << "there must be a later frame; seed " << seed;
             EXPECT_NEAR(static_cast<double>(displayed), static_cast<double>(now - start - delay), 2.0 * ms);
         }
         last = displayed;
     }
 }
 
-TEST(DisplayClock, NeverRunsPastTheNewestFrameNorBack) {
+TEST(DisplayClock, NeverPassesTheNewestFrameAndNeverGoesBack) {
     const unsigned seed = 11;
     std::mt19937 random(seed);
     std::uniform_int_distribution<std::int64_t> step(0, 400 * ms);
@@ -76,8 +77,8 @@ TEST(DisplayClock, NeverRunsPastTheNewestFrameNorBack) {
     }
 }
 
-// The game stands still for ten seconds: the display waits with it, and goes on when it does.
-TEST(DisplayClock, GoesOnAfterAPauseOfTheGame) {
+// The game pauses for ten seconds, and the display with it.
+TEST(DisplayClock, ContinuesAfterAPauseOfTheGame) {
     DisplayClock clock(delay);
     const std::int64_t before = 1600 * ms;
     for (std::int64_t time = 0; time <= before; time += period) {

@@ -37,7 +37,7 @@ TEST(NetworkConfiguration, EachDirectorIsAPeer) {
                 HasSubstr("<Peer Address=\"10.0.0.5:7412\"/><Peer Address=\"director-1.example\"/>"));
 }
 
-TEST(NetworkConfiguration, WhatIsNoAddressIsRefused) {
+TEST(NetworkConfiguration, InvalidAddressesAreRefused) {
     for (const char* wrong : {"", ",", "a,,b", "a\"/><x", "a<b", "a&b", "a\nb"}) {
         EXPECT_THROW((void)configuration("lo", wrong), Failure) << wrong;
     }

@@ -41,7 +41,7 @@ class ReceivedMatchTest : public testing::Test {
   protected:
     bool accept(CameraFrameArrays frame) { return match_.accept(frame.sample(), frame.frame_time); }
 
-    // A frame with the shot's camera at x.
+    // A frame in which the shot's camera is at x.
     bool accept(std::uint64_t epoch, std::uint32_t number, float x, std::uint32_t flags = 0,
                 std::uint64_t director_id = 1) {
         CameraFrameArrays frame = frame_of(epoch, number);
@@ -70,7 +70,7 @@ TEST_F(ReceivedMatchTest, CameraOfTheShotIsFoundByTheDirectorsAnswer) {
     EXPECT_EQ(match_.track().newest()->camera.target, 105U);
 }
 
-TEST_F(ReceivedMatchTest, AnswersToOtherObserversAreNotMine) {
+TEST_F(ReceivedMatchTest, AnswersToOtherObserversAreIgnored) {
     match_.set_requested(true);
     match_.accept(status_of(1, 5, "bert"));
     EXPECT_EQ(match_.shot_status().state, static_cast<std::uint32_t>(CDIR_SHOT_UNANSWERED));
@@ -112,11 +112,11 @@ TEST_F(ReceivedMatchTest, OlderEpochsAreDroppedAndCounted) {
     EXPECT_FALSE(match_.info());
 }
 
-TEST_F(ReceivedMatchTest, NewEpochForgetsTheOldOne) {
+TEST_F(ReceivedMatchTest, NewEpochDiscardsTheOldOne) {
     answer(1, 5);
     EXPECT_TRUE(accept(1, 1000, 1.0F));
     EXPECT_TRUE(accept(2, 0, 2.0F));
-    EXPECT_FALSE(match_.track().newest()) << "camera 5 of epoch 1 is another than camera 5 of epoch 2";
+    EXPECT_FALSE(match_.track().newest()) << "camera 5 of epoch 1 is not camera 5 of epoch 2";
     EXPECT_EQ(match_.shot_status().state, static_cast<std::uint32_t>(CDIR_SHOT_UNANSWERED));
     EXPECT_EQ(match_.counters().gaps, 0U);
     answer(2, 5);
@@ -175,7 +175,7 @@ TEST_F(ReceivedMatchTest, CutAbsenceAndAnotherCameraBeginASegment) {
     EXPECT_EQ(match_.track().newest()->camera.camera_id, 4U);
 }
 
-TEST_F(ReceivedMatchTest, FramesThatBreakTheContractAreDroppedAndCounted) {
+TEST_F(ReceivedMatchTest, MalformedFramesAreDroppedAndCounted) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const float infinity = std::numeric_limits<float>::infinity();
     const std::vector<std::function<void(CameraFrameArrays&)>> defects = {
@@ -222,8 +222,8 @@ TEST_F(ReceivedMatchTest, FramesThatBreakTheContractAreDroppedAndCounted) {
     EXPECT_TRUE(accept(full)) << "as many cameras as are allowed";
 }
 
-// Lengths that nearly fit, numbers of every kind: what is shown is always a camera.
-TEST_F(ReceivedMatchTest, NoFrameLeavesABrokenCamera) {
+// Random frames with wrong lengths and numbers: the camera returned is always a valid one.
+TEST_F(ReceivedMatchTest, NoFrameLeavesAnInvalidCamera) {
     const unsigned seed = 3;
     std::mt19937 random(seed);
     const auto below = [&](std::uint32_t bound) { return static_cast<std::uint32_t>(random() % bound); };

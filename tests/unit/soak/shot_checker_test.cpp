@@ -1,4 +1,4 @@
-// What the observer probe counts as a violation.
+// The findings of the observer probe, and its latencies.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ scene::Scene wall() {
 
 class ShotCheckerTest : public testing::Test {
   protected:
-    // The next frame has the observer's camera at x.
+    // The next frame, with the observer's camera at x.
     void camera_at(float x, std::uint32_t flags = 0) {
         ++frame_.frame_number;
         camera_director::Camera camera{};
@@ -43,7 +43,7 @@ class ShotCheckerTest : public testing::Test {
     camera_director::CameraFrame frame_ = cdir_camera_frame_default();
 };
 
-TEST_F(ShotCheckerTest, AQuietCameraIsNoViolation) {
+TEST_F(ShotCheckerTest, ASmoothCameraIsNoViolation) {
     for (int i = 0; i < 20; ++i)
         camera_at(-200.0F + 5.0F * static_cast<float>(i), CDIR_CAMERA_TARGET_VISIBLE);
     EXPECT_EQ(found().frames, 20U);
@@ -84,7 +84,7 @@ TEST_F(ShotCheckerTest, ACameraInTheWallCounts) {
     EXPECT_EQ(found().in_obstacle, 1U);
 }
 
-TEST_F(ShotCheckerTest, OldFramesAndOtherDirectorsAreTold) {
+TEST_F(ShotCheckerTest, OldFramesAndOtherDirectorsAreCounted) {
     camera_at(100.0F);
     frame_.frame_number -= 1;
     camera_at(100.0F);
@@ -118,10 +118,10 @@ TEST(Latencies, PercentilesAreRightToOnePercent) {
     }
 }
 
-TEST(Latencies, WhatIsOutOfRangeStillCounts) {
+TEST(Latencies, ValuesOutOfRangeStillCount) {
     Latencies latencies;
     EXPECT_EQ(latencies.percentile(0.99), 0.0);
-    latencies.add(-1.0);  // clocks that were set
+    latencies.add(-1.0);  // a clock was set back
     latencies.add(1e9);
     EXPECT_EQ(latencies.count(), 2U);
     EXPECT_GT(latencies.percentile(1.0), 800.0);

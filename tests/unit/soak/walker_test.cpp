@@ -25,7 +25,7 @@ PoseArrays walked(Walker& walker, int steps) {
     return poses;
 }
 
-TEST(Walker, StaysInFreespaceAndWalksAtItsSpeedUnlessItSaysThatItJumped) {
+TEST(Walker, StaysInFreespaceAndKeepsItsSpeedBetweenDeclaredJumps) {
     const freespace::Freespace freespace = map();
     const Roads roads(freespace, clearance);
     ASSERT_FALSE(roads.empty());
@@ -48,9 +48,9 @@ TEST(Walker, StaysInFreespaceAndWalksAtItsSpeedUnlessItSaysThatItJumped) {
             way += step;
         }
     }
-    EXPECT_EQ(poses.flags[0], 3U) << "the first pose is an appearance";
+    EXPECT_EQ(poses.flags[0], 3U) << "the first pose is a discontinuity";
     EXPECT_GT(jumps, 1);
-    EXPECT_GT(way, 3000.0F) << "it gets somewhere";
+    EXPECT_GT(way, 3000.0F) << "it does not stand still";
 }
 
 TEST(Walker, TurnsSmoothly) {
@@ -61,7 +61,7 @@ TEST(Walker, TurnsSmoothly) {
     for (std::size_t i = 1; i < 3000; ++i) {
         const Quatf before(&poses.orientation[4 * i - 4]);
         const Quatf now(&poses.orientation[4 * i]);
-        // 6 degrees of yaw and as many of pitch.
+        // At most 6 degrees of yaw and 6 of pitch per frame.
         ASSERT_LE(before.angularDistance(now), 2.0F * 0.1048F) << i;
     }
 }
@@ -75,7 +75,7 @@ TEST(Walker, TheSameSeedWalksTheSameWay) {
     EXPECT_NE(poses.eye, walked(other, 600).eye);
 }
 
-TEST(Roads, NoneWhereNothingIsWideEnough) {
+TEST(Roads, EmptyWhereNothingIsWideEnough) {
     EXPECT_TRUE(Roads(map(), 1e6F).empty());
     EXPECT_TRUE(Roads(test::make_freespace(test::empty_contents()), 1.0F).empty());
 }
