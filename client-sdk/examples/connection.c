@@ -22,11 +22,11 @@ void catch_signals(void) {
     sigaction(SIGTERM, &action, NULL);
 }
 
-double number_option(const char* name, const char* value, double least, double most) {
+double number_option(const char* name, const char* value, double min, double max) {
     char* end = NULL;
     const double number = strtod(value, &end);
-    if (end == value || *end != '\0' || !(number >= least && number <= most)) {
-        fprintf(stderr, "--%s: expected a number from %g to %g, not '%s'\n", name, least, most, value);
+    if (end == value || *end != '\0' || !(number >= min && number <= max)) {
+        fprintf(stderr, "--%s: expected a number from %g to %g, not '%s'\n", name, min, max, value);
         exit(EXIT_USAGE);
     }
     return number;

@@ -1,5 +1,4 @@
-/* What both examples share: the options that say how to reach the directors, numbers in options, the clock,
- * Ctrl-C. */
+/* Shared by the examples: options for reaching the directors, numbers in options, clock, Ctrl-C. */
 #ifndef CONNECTION_H
 #define CONNECTION_H
 
@@ -21,17 +20,17 @@ enum { EXIT_USAGE = 2 };
 extern volatile sig_atomic_t stop_requested;
 void catch_signals(void);
 
-/* Stores --domain, --interface or --directors; false when `name` is none of them. */
+/* Stores the value of --domain, --interface or --directors; returns false when `name` is none of them. */
 bool connection_option(cdir_context_options* options, const char* name, const char* value);
 
-/* The number in an option's value; ends the program with EXIT_USAGE when it is not a number within the
- * limits. */
-double number_option(const char* name, const char* value, double least, double most);
+/* The number in an option's value. Ends the program with EXIT_USAGE when it is not a number from min to max.
+ */
+double number_option(const char* name, const char* value, double min, double max);
 
-/* Ends the program with exit code 1 and the library's text when a call failed. */
+/* When a call has failed, prints the library's error and ends the program with exit code 1. */
 void check(const char* what, cdir_status status);
 
-/* CLOCK_MONOTONIC in nanoseconds, and sleeping until then; a signal ends the sleep early. */
+/* CLOCK_MONOTONIC in nanoseconds, and sleeping until such a time; a signal ends the sleep early. */
 int64_t monotonic_ns(void);
 void sleep_until(int64_t time);
 

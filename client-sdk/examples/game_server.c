@@ -1,6 +1,6 @@
 /*
- * A game server's side: one player walks in a circle, and every server frame goes to the directors.
- * Look at play() for what a game has to do; the rest is a command line.
+ * A game server: one player walks in a circle, and its pose is published once per server frame. play() is
+ * what a game has to do; the rest is command line.
  */
 #define _GNU_SOURCE
 
@@ -17,10 +17,10 @@ static const double two_pi = 6.283185307179586;
 struct walk {
     double centre[3];
     double radius; /* map units */
-    double speed;  /* map units a second */
+    double speed;  /* map units per second */
 };
 
-/* The walker's eye at `seconds`: position, view along the path, velocity. */
+/* The eye's position, view quaternion (along the path) and velocity at `seconds`. */
 static void walk_at(const struct walk* walk, double seconds, float eye[3], float orientation[4],
                     float velocity[3]) {
     const double angle = fmod(walk->speed * seconds / walk->radius, two_pi);
@@ -28,7 +28,7 @@ static void walk_at(const struct walk* walk, double seconds, float eye[3], float
     eye[0] = (float)(walk->centre[0] + walk->radius * cos(angle));
     eye[1] = (float)(walk->centre[1] + walk->radius * sin(angle));
     eye[2] = (float)walk->centre[2];
-    orientation[0] = 0.0f; /* x y z w: a turn about the z axis */
+    orientation[0] = 0.0f; /* x y z w: a rotation about the z axis */
     orientation[1] = 0.0f;
     orientation[2] = (float)sin(heading / 2);
     orientation[3] = (float)cos(heading / 2);
@@ -37,7 +37,7 @@ static void walk_at(const struct walk* walk, double seconds, float eye[3], float
     velocity[2] = 0.0f;
 }
 
-/* Publishes frames until the time is over (0 = never) or the user stops. */
+/* Publishes frames for `seconds` (0 = without limit) or until the user stops the program. */
 static void play(cdir_match match, const struct walk* walk, double rate, double seconds) {
     const int64_t start = monotonic_ns();
     const int64_t period = (int64_t)(1e9 / rate);
@@ -51,7 +51,7 @@ static void play(cdir_match match, const struct walk* walk, double rate, double 
         float orientation[4];
         float velocity[3];
         walk_at(walk, (double)frame_time / 1e9, eye, orientation, velocity);
-        /* The first frame has no frame before it to come from. */
+        /* The player appears with the first frame. */
         const uint32_t flags = number == 0 ? CDIR_POSE_ALIVE | CDIR_POSE_DISCONTINUITY : CDIR_POSE_ALIVE;
 
         cdir_pose_frame frame = cdir_pose_frame_default();
@@ -80,8 +80,8 @@ static void print_usage(FILE* to) {
             "  --map NAME            the map's name in the director's configuration (default oa_dm1)\n"
             "  --centre X,Y,Z        of the circle, at eye height (default 0,0,64)\n"
             "  --radius R            of the circle, map units (default 128)\n"
-            "  --rate HZ             frames a second (default 60)\n"
-            "  --seconds S           how long to play (default 0: until Ctrl-C)\n" CONNECTION_USAGE);
+            "  --rate HZ             frames per second (default 60)\n"
+            "  --seconds S           duration (default 0: until Ctrl-C)\n" CONNECTION_USAGE);
 }
 
 static void parse_centre(const char* text, double centre[3]) {
@@ -92,8 +92,8 @@ static void parse_centre(const char* text, double centre[3]) {
     }
 }
 
-/* Too long a text is cut to what makes the library refuse it. */
-static void copy_text(char* to, size_t size, const char* from) {
+/* A string that is too long keeps no zero byte, so that the library refuses it. */
+static void copy_string(char* to, size_t size, const char* from) {
     const size_t length = strlen(from);
     memcpy(to, from, length < size ? length : size);
 }
@@ -125,7 +125,7 @@ int main(int argc, char** argv) {
             print_usage(stdout);
             return EXIT_SUCCESS;
         }
-        if (code == '?') return EXIT_USAGE; /* getopt has said what */
+        if (code == '?') return EXIT_USAGE; /* getopt has printed the reason */
         const char* name = known[index].name;
         if (connection_option(&options, name, optarg)) continue;
         if (strcmp(name, "match") == 0) match_id = optarg;
@@ -141,8 +141,8 @@ int main(int argc, char** argv) {
     }
 
     catch_signals();
-    copy_text(info.match_id, sizeof info.match_id, match_id);
-    copy_text(info.map_name, sizeof info.map_name, map_name);
+    copy_string(info.match_id, sizeof info.match_id, match_id);
+    copy_string(info.map_name, sizeof info.map_name, map_name);
     info.rate_hz = (float)rate;
     cdir_player walker = {1, 0, {0}, "walker", ""};
     cdir_context context;

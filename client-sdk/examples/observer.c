@@ -1,6 +1,6 @@
 /*
- * An observer's side: requests a shot and prints its camera once a display frame, as CSV.
- * Look at watch() for what a spectator's program has to do; the rest is a command line.
+ * An observer: requests a shot and prints its camera once per display frame, as CSV. watch() is what a
+ * spectator client has to do; the rest is command line.
  */
 #define _GNU_SOURCE
 
@@ -27,7 +27,7 @@ static const char* state_name(uint32_t state) {
     }
 }
 
-/* Tells the user whenever the director's answer changes. */
+/* Prints the director's answer when it has changed. */
 static void report_status(cdir_observer observer, uint32_t* last_state) {
     cdir_shot_status status = cdir_shot_status_default();
     check("reading the status", cdir_observer_shot_status(observer, &status));
@@ -47,8 +47,8 @@ static void print_camera(const cdir_view* view) {
            (double)camera->clearance, camera->flags, view->segment);
 }
 
-/* Prints the camera once a display frame, until the time is over (0 = never) or the user stops. Gives up when
- * there is none after `patience` seconds. */
+/* Prints the camera once per display frame, for `seconds` (0 = without limit) or until the user stops the
+ * program. Ends with an error when there is none after `patience` seconds. */
 static void watch(cdir_observer observer, double rate, double seconds, double patience) {
     const int64_t start = monotonic_ns();
     const int64_t period = (int64_t)(1e9 / rate);
@@ -62,7 +62,7 @@ static void watch(cdir_observer observer, double rate, double seconds, double pa
         check("receiving", cdir_observer_poll(observer, NULL));
         report_status(observer, &last_state);
 
-        /* A spectator's program would draw the scene from this camera now. */
+        /* A spectator client would draw the scene with this camera now. */
         int64_t display_time;
         cdir_view view = cdir_view_default();
         if (cdir_observer_display_time(observer, &display_time) == CDIR_OK &&
@@ -96,15 +96,15 @@ static void report_counters(cdir_observer observer) {
 static void print_usage(FILE* to) {
     fprintf(to,
             "Usage: example-observer [options]\n"
-            "Requests a shot and prints its camera once a display frame, as CSV.\n\n"
+            "Requests a shot and prints its camera once per display frame, as CSV.\n\n"
             "  --match ID            match id (default example)\n"
             "  --id ID               observer id, unique within the match (default example-observer)\n"
             "  --target N            player id, or auto (default auto)\n"
             "  --profile NAME        camera profile (default: the director's)\n"
             "  --overrides JSON      changes to the profile, such as {\"distance\": 90}\n"
-            "  --rate HZ             display frames a second (default 60)\n"
-            "  --seconds S           how long to watch (default 0: until Ctrl-C)\n"
-            "  --patience S          how long to wait for the first camera (default 30)\n" CONNECTION_USAGE);
+            "  --rate HZ             display frames per second (default 60)\n"
+            "  --seconds S           duration (default 0: until Ctrl-C)\n"
+            "  --patience S          time limit for the first camera (default 30)\n" CONNECTION_USAGE);
 }
 
 int main(int argc, char** argv) {
@@ -136,7 +136,7 @@ int main(int argc, char** argv) {
             print_usage(stdout);
             return EXIT_SUCCESS;
         }
-        if (code == '?') return EXIT_USAGE; /* getopt has said what */
+        if (code == '?') return EXIT_USAGE; /* getopt has printed the reason */
         const char* name = known[index].name;
         if (connection_option(&options, name, optarg)) continue;
         if (strcmp(name, "match") == 0) match_id = optarg;

@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# Runs a director under load, checks every camera that comes out, and whether its memory stays level.
+# Runs a director under load, checks every camera that it publishes, and that its memory does not grow.
 #
 #     soak.sh [--seconds N | --hours N] [--matches 4] [--players 8] [--observers 8] [--rate 60] [--trace FILE]
 #             [--map MAP] [--map-name NAME] [--bin FOLDER] [--work FOLDER] [--json FILE] [--max-growth-mib 4]
 #
-# Players walk the map's roadmap, or replay --trace. MAP is a file or archive.pk3:member; without it oa_dm1 of
-# Debian's openarena-081-maps is taken. The baked map stays in the work folder for the next run.
-# Memory is level when the median of its last quarter is at most --max-growth-mib above that of its second.
-# Exit codes: 0 all checks held, 1 one did not, 2 bad usage, 77 no map.
+# Players walk along the map's roadmap, or replay --trace. MAP is a file or archive.pk3:member; without it oa_dm1 of
+# Debian's openarena-081-maps is used. The baked map stays in the work folder for the next run.
+# Memory counts as level when its median over the last quarter of the run is at most --max-growth-mib above that
+# over the second quarter. Exit codes: 0 all checks passed, 1 a check failed, 2 bad usage, 77 no map.
 set -euo pipefail
 
 here=$(cd "$(dirname "$0")" && pwd)
@@ -41,7 +41,7 @@ done
 [ -e "${map%%:*}" ] || { echo "soak.sh: skipped: no map ${map%%:*} (package openarena-081-maps)" >&2; exit 77; }
 mkdir -p "$work"
 
-# A domain that no test and no other soak run holds; the lock lives as long as this script.
+# A domain that no test and no other soak run uses; the lock is held until this script ends.
 locks=${TMPDIR:-/tmp}/camera-director-test-domains
 mkdir -p "$locks"
 for domain in $(shuf -i 1-80); do
@@ -86,7 +86,7 @@ started+=("$game")
 probe=$!
 started+=("$probe")
 
-# Resident kilobytes and processor ticks of the server, once a second or 1000 times in all.
+# Samples the server's resident kilobytes and processor ticks, once per second or 1000 times in total.
 pause=$(awk -v s="$seconds" 'BEGIN { print (s > 1000 ? s / 1000 : 1) }')
 sample() {
     awk '/^VmRSS/ { rss = $2 } END { printf "%s ", rss }' "/proc/$server/status"

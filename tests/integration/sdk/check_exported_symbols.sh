@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The shared library exports exactly what exported_symbols.txt lists: a symbol that disappears breaks programs that are
-# linked already, and one that appears becomes a promise.
+# Checks that the shared library exports exactly the symbols of exported_symbols.txt: a missing one breaks existing
+# programs, and an additional one would have to be kept.
 set -euo pipefail
 nm=$1 library=$2
 listed=$(dirname "$0")/exported_symbols.txt

@@ -1,5 +1,5 @@
-/* A C program that uses the installed library, and returns from main with everything still open: a thread
- * waits, and the library has to clean up by itself. */
+/* A C program that uses the installed library. It returns from main with everything still open and a thread
+ * in a wait, so that the library has to clean up. */
 #include <camera_director/camera_director.h>
 #include <pthread.h>
 #include <stdio.h>
@@ -12,7 +12,7 @@ static void check(const char* what, cdir_status status) {
     exit(EXIT_FAILURE);
 }
 
-static void* wait_for_ever(void* argument) {
+static void* wait_forever(void* argument) {
     const cdir_observer observer = *(const cdir_observer*)argument;
     (void)cdir_observer_wait(observer, -1);
     return NULL;
@@ -39,6 +39,6 @@ int main(void) {
     check("wait", cdir_observer_wait(observer, 5000000000)); /* the match's own info */
     check("poll", cdir_observer_poll(observer, NULL));
     if (cdir_observer_match_info(observer, &info, NULL, 0, NULL) != CDIR_OK) return EXIT_FAILURE;
-    if (pthread_create(&thread, NULL, wait_for_ever, &observer) != 0) return EXIT_FAILURE;
+    if (pthread_create(&thread, NULL, wait_forever, &observer) != 0) return EXIT_FAILURE;
     return pthread_detach(thread);
 }
