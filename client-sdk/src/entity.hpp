@@ -1,9 +1,8 @@
-// Owners for Cyclone DDS's entities and QoS, and its return codes as Failures.
+// Owns Cyclone DDS's entities; its return codes as Failures.
 #pragma once
 
 #include <dds/dds.h>
 
-#include <memory>
 #include <string>
 #include <utility>
 
@@ -48,10 +47,5 @@ class Entity {
   private:
     dds_entity_t entity_ = 0;
 };
-
-struct QosDeleter {
-    void operator()(dds_qos_t* qos) const { dds_delete_qos(qos); }
-};
-using Qos = std::unique_ptr<dds_qos_t, QosDeleter>;
 
 }  // namespace camdir::sdk

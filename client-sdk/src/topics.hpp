@@ -1,17 +1,16 @@
-// The six topics and their quality of service, as documented in idl/camera_director.idl.
+// The topics of one participant, and the endpoints on them.
 #pragma once
 
 #include <array>
 #include <string>
 
 #include "entity.hpp"
+#include "idl/topics.hpp"
 
 namespace camdir::sdk {
 
-enum class Topic { match_info, pose_frame, match_event, camera_frame, observer_request, observer_status };
-inline constexpr std::size_t topic_count = 6;
+using wire::Topic;
 
-// The topics of one participant, and the endpoints on them.
 class Topics {
   public:
     Topics() = default;
@@ -22,7 +21,7 @@ class Topics {
     [[nodiscard]] Entity make_reader(dds_entity_t group, Topic topic) const;
 
   private:
-    std::array<Entity, topic_count> topics_;
+    std::array<Entity, wire::topic_count> topics_;
 };
 
 // A publisher or subscriber in the match's partition.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <variant>
 
@@ -32,6 +33,12 @@ std::int64_t silence_after_ns(const MatchInfo& info, const config::Matches& rule
                                      1e9);
 }
 
+// Saturates: game times are arbitrary.
+std::int64_t latest_event_time(std::int64_t frame_time) {
+    constexpr std::int64_t max = std::numeric_limits<std::int64_t>::max();
+    return frame_time > max - max_event_lead_ns ? max : frame_time + max_event_lead_ns;
+}
+
 }  // namespace
 
 Match::Match(std::string match_id, std::shared_ptr<const config::Config> config, const MapLibrary& maps,
@@ -56,10 +63,10 @@ void Match::turn() noexcept {  // NOLINT(bugprone-exception-escape)
 void Match::handle(MatchInfo& info) {
     counters_.add(Counter::match_infos);
     if (info_ && info.epoch < info_->epoch) return counters_.add(Counter::drop_old_epoch);
-    const bool new_life = !info_ || info.epoch != info_->epoch || info.map_name != info_->map_name;
+    const bool new_epoch = !info_ || info.epoch != info_->epoch || info.map_name != info_->map_name;
     info_ = std::move(info);
     silence_limit_ns_ = silence_after_ns(*info_, config_->matches);
-    if (new_life) begin_epoch();
+    if (new_epoch) begin_epoch();
     if (liveness_ == Liveness::lost) liveness_ = Liveness::silent;
     roster_.set_listed(info_->players);
     attach_map();
@@ -121,7 +128,7 @@ void Match::handle(const MatchEvent& event) {
     counters_.add(Counter::events);
     // Events arrive before their frame, but the score of one dated far ahead would never decay.
     MatchEvent clamped = event;
-    if (has_last_frame_) clamped.frame_time = std::min(clamped.frame_time, last_time_ + max_event_lead_ns);
+    if (has_last_frame_) clamped.frame_time = std::min(clamped.frame_time, latest_event_time(last_time_));
     attention_.record(clamped, config_->matches.automatic_half_life_s);
 }
 
@@ -131,8 +138,8 @@ void Match::handle(const ObserverRequest& request) {
     reconcile_needed_ = true;
 }
 
-void Match::handle(const RequestEnded& gone) {
-    requests_.remove(gone.observer_id);
+void Match::handle(const RequestEnded& ended) {
+    requests_.remove(ended.observer_id);
     reconcile_needed_ = true;
 }
 

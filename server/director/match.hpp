@@ -50,7 +50,7 @@ class Match final : public Strand {
     void handle(const MatchRefused& refused);
     void handle(const MatchEvent& event);
     void handle(const ObserverRequest& request);
-    void handle(const RequestEnded& gone);
+    void handle(const RequestEnded& ended);
     void handle(const MapsChanged& changed);
     void handle(const Reconfigured& changed);
     void handle(const ViewRequest& wanted);

@@ -126,23 +126,25 @@ Requests::Decision Requests::decide(const Observer& observer, const RequestConte
 }
 
 void Requests::reconcile(const RequestContext& context) {
+    // Shots without observers end first, so that new ones can take their places.
     std::vector<Decision> decisions;
     for (Shot& shot : shots_)
         shot.observers = 0;
     for (const auto& [id, observer] : observers_) {
-        const Decision& made = decisions.emplace_back(decide(observer, context));
-        Shot* shot = made.state == RequestState::accepted ? find_shot(observer.key) : nullptr;
+        const Decision& decision = decisions.emplace_back(decide(observer, context));
+        Shot* shot = decision.state == RequestState::accepted ? find_shot(observer.key) : nullptr;
         if (shot != nullptr) ++shot->observers;
     }
     std::erase_if(shots_, [](const Shot& shot) { return shot.observers == 0; });
 
     for (Shot& shot : shots_)
         shot.observers = 0;
-    auto made = decisions.begin();
+    auto decision = decisions.begin();
     for (auto& [id, observer] : observers_) {
-        if (made->state == RequestState::accepted) assign(observer, context.config.limits.shots, *made);
-        publish(observer, std::move(*made), context.epoch);
-        ++made;
+        if (decision->state == RequestState::accepted)
+            assign(observer, context.config.limits.shots, *decision);
+        publish(observer, std::move(*decision), context.epoch);
+        ++decision;
     }
 }
 
@@ -169,15 +171,15 @@ Shot* Requests::find_shot(const ShotKey& key) {
 
 Shot& Requests::add_shot(const ShotKey& key) {
     std::uint32_t id = camera_id_of(key);
-    const auto place_of = [&] {
-        return std::lower_bound(shots_.begin(), shots_.end(), id, [](const Shot& shot, std::uint32_t wanted) {
-            return shot.camera_id < wanted;
+    const auto find_place = [&] {
+        return std::lower_bound(shots_.begin(), shots_.end(), id, [](const Shot& shot, std::uint32_t new_id) {
+            return shot.camera_id < new_id;
         });
     };
-    auto place = place_of();
+    auto place = find_place();
     while (id == 0 || (place != shots_.end() && place->camera_id == id)) {
         ++id;
-        place = place_of();
+        place = find_place();
     }
     Shot shot;
     shot.key = key;
@@ -188,17 +190,17 @@ Shot& Requests::add_shot(const ShotKey& key) {
 void Requests::publish(Observer& observer, Decision decision, std::uint64_t epoch) {
     ObserverStatus status{match_id_,          observer.request.observer_id,         epoch, decision.state,
                           decision.camera_id, shortened(std::move(decision.reason))};
-    ObserverStatus& said = observer.status;
-    if (observer.published && said.epoch == status.epoch && said.state == status.state &&
-        said.camera_id == status.camera_id && said.reason == status.reason)
+    ObserverStatus& current = observer.status;
+    if (observer.published && current.epoch == status.epoch && current.state == status.state &&
+        current.camera_id == status.camera_id && current.reason == status.reason)
         return;
     if (status.state == RequestState::refused) {
         counters_.add(Counter::refused_requests);
         spdlog::info("match {}: observer {} is refused: {}", match_id_, status.observer_id, status.reason);
     }
-    said = std::move(status);
+    current = std::move(status);
     observer.published = true;
-    publisher_.publish(said);
+    publisher_.publish(current);
 }
 
 void Requests::restart_shots() {

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "camera/camera.hpp"
 #include "stage.hpp"
 
@@ -200,6 +202,24 @@ TEST(Director, AnAutomaticTargetFollowsTheEvents) {
     EXPECT_EQ(camera.target, 3U);
     EXPECT_NE(camera.flags & camera::cut, 0U);
     EXPECT_EQ(camera.camera_id, stage.publisher.status("a").camera_id);
+    EXPECT_EQ(stage.director.statistics()[Counter::events], 3U);
+}
+
+// The undefined-behaviour sanitizer watches.
+TEST(Director, AnyGameTimeIsProcessed) {
+    Stage stage;
+    stage.start();
+    stage.ask(Stage::request("a", no_player));
+    std::uint32_t number = 0;
+    for (const std::int64_t time : {std::numeric_limits<std::int64_t>::min(),
+                                    std::numeric_limits<std::int64_t>::max(), std::int64_t{0}}) {
+        PoseFrame frame = Stage::poses(++number);
+        frame.frame_time = time;
+        stage.send(frame);
+        stage.director.receive("m", MatchEvent{1, std::numeric_limits<std::int64_t>::max(), 1, 3, 2, 0.0F});
+        stage.director.flush();
+        EXPECT_EQ(stage.publisher.frames().size(), number);
+    }
     EXPECT_EQ(stage.director.statistics()[Counter::events], 3U);
 }
 
