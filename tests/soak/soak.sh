@@ -38,7 +38,7 @@ while [ $# -gt 0 ]; do
     esac
     shift 2
 done
-[ -e "${map%%:*}" ] || { echo "soak.sh: skipped: no map ${map%%:*} (package openarena-081-maps)" >&2; exit 77; }
+[ -e "${map%%:*}" ] || { printf "soak.sh: no file %s\nneeds the package openarena-081-maps\n" "${map%%:*}" >&2; exit 77; }
 mkdir -p "$work"
 
 # A domain that no test and no other soak run uses; the lock is held until this script ends.

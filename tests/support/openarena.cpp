@@ -11,6 +11,11 @@ std::optional<std::string> openarena_map(const std::string& name) {
     return archive.string() + ":maps/" + name + ".bsp";
 }
 
+std::string needs_openarena_map(const std::string& name) {
+    return name == "aggressor" ? "needs the package openarena-088-data"
+                               : "needs the package openarena-081-maps";
+}
+
 const std::vector<std::string>& traced_maps() {
     static const std::vector<std::string> maps = {"oa_dm1", "oa_dm3", "oa_rpg3dm2", "aggressor"};
     return maps;

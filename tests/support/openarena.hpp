@@ -8,8 +8,11 @@
 namespace camdir::test {
 
 // A source for scene::load of the version that the recorded traces were played on; none when the package
-// is missing.
+// is missing: skip with needs_openarena_map() then.
 [[nodiscard]] std::optional<std::string> openarena_map(const std::string& name);
+
+// The message of a test that is skipped for want of it.
+[[nodiscard]] std::string needs_openarena_map(const std::string& name);
 
 // Maps with recorded traces.
 [[nodiscard]] const std::vector<std::string>& traced_maps();

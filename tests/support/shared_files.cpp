@@ -13,6 +13,10 @@ std::optional<std::filesystem::path> shared_file(const std::string& name) {
     return std::filesystem::exists(file) ? std::optional(file) : std::nullopt;
 }
 
+std::string needs_shared_file(const std::string& name) {
+    return "needs $CAMERA_DIRECTOR_SHARED/" + name;
+}
+
 std::vector<Vec3d> way_points(const std::filesystem::path& file) {
     std::ifstream lines(file);
     std::vector<Vec3d> points;

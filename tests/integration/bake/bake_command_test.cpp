@@ -86,7 +86,7 @@ TEST_F(BakeCommand, RefusesAFolderThatIsNotThereBeforeItWorks) {
 
 TEST_F(BakeCommand, WritesAFileAndAReportAndTheSameBytesForAnyThreads) {
     const auto map = test::openarena_map("oa_dm1");
-    if (!map) GTEST_SKIP() << "oa_dm1 of package openarena-081-maps is missing";
+    if (!map) GTEST_SKIP() << test::needs_openarena_map("oa_dm1");
     const std::string report = (folder_ / "report.json").string();
     ChildProcess one(command({*map, "-o", output_, "--d0", "48", "--threads", "1", "--report", report}));
     ASSERT_EQ(one.wait(), 0) << one.errors();
@@ -114,7 +114,7 @@ TEST_F(BakeCommand, WritesAFileAndAReportAndTheSameBytesForAnyThreads) {
 
 TEST_F(BakeCommand, InterruptedExitsWith130AndKeepsWhatWasThere) {
     const auto map = test::openarena_map("oa_dm3");
-    if (!map) GTEST_SKIP() << "oa_dm3 of package openarena-081-maps is missing";
+    if (!map) GTEST_SKIP() << test::needs_openarena_map("oa_dm3");
     ASSERT_TRUE(write_file(output_, std::string("older")));
     for (const int signal : {SIGINT, SIGTERM}) {
         ChildProcess process(command({*map, "-o", output_, "--d0", "6"}));

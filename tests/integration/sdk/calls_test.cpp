@@ -299,7 +299,7 @@ TEST(Contexts, OptionsThatDdsRefusesAreANetworkError) {
 TEST(Contexts, TooManyFileDescriptorsAreRefused) {
     rlimit limit{};
     ASSERT_EQ(getrlimit(RLIMIT_NOFILE, &limit), 0);
-    if (limit.rlim_max < 1100) GTEST_SKIP() << "the system allows too few file descriptors";
+    if (limit.rlim_max < 1100) GTEST_SKIP() << "needs 1100 file descriptors (ulimit -H -n)";
     const rlimit raised{std::max<rlim_t>(limit.rlim_cur, 1100), limit.rlim_max};
     ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &raised), 0);
     std::vector<int> descriptors;

@@ -76,7 +76,7 @@ TEST(Bake, UsesFilesOfBakeConfig) {
 
 TEST(Bake, IsNotReadyWhileBakingAndStopsAtOnce) {
     const auto map = openarena_map("oa_dm1");
-    if (!map) GTEST_SKIP() << "openarena-081-maps is not installed";
+    if (!map) GTEST_SKIP() << needs_openarena_map("oa_dm1");
     const Folder folder;
     folder.write_square("square.vfs");
     json config = quiet_config();

@@ -233,7 +233,7 @@ TEST(Bake, TheCoarsestSamplingDistanceIsLimited) {
 
 TEST(Bake, AdaptiveSamplingOfARealMapFindsWhatUniformFinds) {
     const auto map = test::openarena_map("oa_dm1");
-    if (!map) GTEST_SKIP() << "oa_dm1 of package openarena-081-maps is missing";
+    if (!map) GTEST_SKIP() << test::needs_openarena_map("oa_dm1");
     const scene::Scene scene = scene::load(*map).value();
     const Baked adaptive = baked(scene, 32.0, Sampling::adaptive);
     const Baked uniform = baked(scene, 32.0, Sampling::uniform);

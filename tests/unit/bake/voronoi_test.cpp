@@ -80,7 +80,7 @@ TEST_F(VoronoiOfRandomSamples, NoVertexIsWeldedToOneFurtherAway) {
 // What sampling_distance.hpp promises, for adaptive samples of the surfaces of a real map.
 TEST(Voronoi, NoFaceOfSamplesTwiceTheirDistanceApartTouchesAnObstacle) {
     const auto map = test::openarena_map("oa_dm1");
-    if (!map) GTEST_SKIP() << "oa_dm1 of package openarena-081-maps is missing";
+    if (!map) GTEST_SKIP() << test::needs_openarena_map("oa_dm1");
     scene::Scene scene = scene::load(*map).value();
     scene.brushes.clear();  // what they conceal has no samples, and is touched
     constexpr double d0 = 32.0;

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -12,6 +11,8 @@
 
 #include "evaluation/metrics.hpp"
 #include "scene/load.hpp"
+#include "support/openarena.hpp"
+#include "support/shared_files.hpp"
 #include "tiny_trace.hpp"
 
 namespace camdir::evaluation {
@@ -70,7 +71,6 @@ Row find_row(const fs::path& tables, const std::string& section, const std::stri
 
 struct Match {
     const char* map;
-    const char* archive;
     int rate;
 };
 
@@ -81,26 +81,28 @@ void PrintTo(const Match& match, std::ostream* out) {
 class PeersOnMatch : public testing::TestWithParam<Match> {
   protected:
     void SetUp() override {
-        const auto& [map, archive, rate] = GetParam();
-        const char* shared = std::getenv("CAMERA_DIRECTOR_SHARED");
-        if (shared == nullptr) GTEST_SKIP() << "CAMERA_DIRECTOR_SHARED is not set";
-        tables_ = fs::path(shared) / "design" / "peers.md";
-        trace_ = fs::path(shared) / "traces" / (std::string(map) + "-" + std::to_string(rate) + "hz.csv.gz");
-        archive_ = fs::path("/usr/share/games/openarena/baseoa") / archive;
-        for (const fs::path& path : {tables_, trace_, archive_})
-            if (!fs::exists(path)) GTEST_SKIP() << path << " is missing";
+        const auto& [map, rate] = GetParam();
+        const std::string tables = "design/peers.md";
+        const std::string trace = std::string("traces/") + map + "-" + std::to_string(rate) + "hz.csv.gz";
+        for (const std::string& name : {tables, trace})
+            if (!test::shared_file(name)) GTEST_SKIP() << test::needs_shared_file(name);
+        const auto source = test::openarena_map(map);
+        if (!source) GTEST_SKIP() << test::needs_openarena_map(map);
+        tables_ = *test::shared_file(tables);
+        trace_ = *test::shared_file(trace);
+        source_ = *source;
     }
 
     fs::path tables_;
     fs::path trace_;
-    fs::path archive_;
+    std::string source_;
 };
 
 TEST_P(PeersOnMatch, MeasureAsElsewhere) {
     const Match& match = GetParam();
     const auto trace = read_trace(trace_);
     ASSERT_TRUE(trace) << trace.error().message;
-    const auto scene = scene::load(archive_.string() + ":maps/" + match.map + ".bsp");
+    const auto scene = scene::load(source_);
     ASSERT_TRUE(scene) << scene.error().message;
     const oracle::Oracle oracle(*scene);
     for (const std::string camera : {"eye", "rigid"}) {
@@ -151,13 +153,12 @@ std::string named(const testing::TestParamInfo<Match>& info) {
     return std::string(info.param.map) + "_" + std::to_string(info.param.rate);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Recorded, PeersOnMatch,
-    testing::Values(Match{"oa_dm1", "pak1-maps.pk3", 60}, Match{"oa_dm1", "pak1-maps.pk3", 20},
-                    Match{"oa_dm3", "pak1-maps.pk3", 60}, Match{"oa_dm3", "pak1-maps.pk3", 20},
-                    Match{"oa_rpg3dm2", "pak1-maps.pk3", 60}, Match{"oa_rpg3dm2", "pak1-maps.pk3", 20},
-                    Match{"aggressor", "pak6-patch088.pk3", 60}, Match{"aggressor", "pak6-patch088.pk3", 20}),
-    named);
+INSTANTIATE_TEST_SUITE_P(Recorded, PeersOnMatch,
+                         testing::Values(Match{"oa_dm1", 60}, Match{"oa_dm1", 20}, Match{"oa_dm3", 60},
+                                         Match{"oa_dm3", 20}, Match{"oa_rpg3dm2", 60},
+                                         Match{"oa_rpg3dm2", 20}, Match{"aggressor", 60},
+                                         Match{"aggressor", 20}),
+                         named);
 
 }  // namespace
 }  // namespace camdir::evaluation

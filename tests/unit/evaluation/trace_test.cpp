@@ -4,12 +4,11 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
-#include <cstdlib>
-#include <filesystem>
 #include <numbers>
 #include <random>
 
 #include "evaluation/lines.hpp"
+#include "support/shared_files.hpp"
 
 namespace camdir::evaluation {
 namespace {
@@ -210,11 +209,10 @@ TEST(Trace, RandomDamageNeverBreaksInvariants) {
 }
 
 TEST(Trace, ReadsRecordedMatches) {
-    const char* shared = std::getenv("CAMERA_DIRECTOR_SHARED");
-    if (shared == nullptr) GTEST_SKIP() << "CAMERA_DIRECTOR_SHARED is not set";
-    const auto path = std::filesystem::path(shared) / "traces" / "oa_dm1-60hz.csv.gz";
-    if (!std::filesystem::exists(path)) GTEST_SKIP() << "traces/oa_dm1-60hz.csv.gz is missing";
-    const auto trace = read_trace(path);
+    const std::string name = "traces/oa_dm1-60hz.csv.gz";
+    const auto path = test::shared_file(name);
+    if (!path) GTEST_SKIP() << test::needs_shared_file(name);
+    const auto trace = read_trace(*path);
     ASSERT_TRUE(trace) << trace.error().message;
     EXPECT_THAT(trace->players, ElementsAre(0, 1, 2, 3, 4, 5, 6, 7));
     EXPECT_EQ(trace->poses.size(), trace->frames.size() * 8);

@@ -34,7 +34,7 @@ class RealMap : public testing::Test {
         oracle_.reset();
     }
     void SetUp() override {
-        if (!freespace_) GTEST_SKIP() << "needs OpenArena's maps: " << archive << " is missing";
+        if (!freespace_) GTEST_SKIP() << "needs the package openarena-081-maps";
     }
 
     // Another covered point at most `reach` away.

@@ -150,7 +150,7 @@ TEST(Oracle, EmptySceneIsFree) {
 
 TEST(Oracle, AgreesWithTheTwinOnARealMap) {
     const auto source = test::openarena_map("oa_dm3");
-    if (!source) GTEST_SKIP() << "OpenArena's maps are not installed";
+    if (!source) GTEST_SKIP() << test::needs_openarena_map("oa_dm3");
     const scene::Scene scene = scene::load(*source).value();
     const Oracle oracle(scene);
     std::mt19937 random(6);

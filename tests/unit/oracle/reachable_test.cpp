@@ -147,7 +147,7 @@ class RealMap : public testing::TestWithParam<std::string> {};
 
 TEST_P(RealMap, SpawnPointsAreReachableAndTheVoidIsNot) {
     const auto source = test::openarena_map(GetParam());
-    if (!source) GTEST_SKIP() << "the OpenArena package with " << GetParam() << " is not installed";
+    if (!source) GTEST_SKIP() << test::needs_openarena_map(GetParam());
     const scene::Scene scene = scene::load(*source).value();
     const Oracle oracle(scene);
     for (const scene::SpawnPoint& spawn : scene.spawn_points) {

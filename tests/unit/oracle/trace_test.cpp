@@ -1,13 +1,14 @@
 // Players are never in walls: every alive eye of every recorded match is free on its map.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <filesystem>
+#include <string>
+#include <tuple>
 
 #include "evaluation/trace.hpp"
 #include "oracle/oracle.hpp"
 #include "scene/load.hpp"
 #include "support/openarena.hpp"
+#include "support/shared_files.hpp"
 
 namespace camdir::oracle {
 namespace {
@@ -16,15 +17,14 @@ class RecordedMatch : public testing::TestWithParam<std::tuple<std::string, std:
 
 TEST_P(RecordedMatch, EveryAliveEyeIsFreeAndReachable) {
     const auto& [map, rate] = GetParam();
-    const char* shared = std::getenv("CAMERA_DIRECTOR_SHARED");
-    if (shared == nullptr) GTEST_SKIP() << "CAMERA_DIRECTOR_SHARED is not set";
-    const auto path = std::filesystem::path(shared) / "traces" / (map + "-" + rate + ".csv.gz");
-    if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is missing";
+    const std::string name = "traces/" + map + "-" + rate + ".csv.gz";
+    const auto path = test::shared_file(name);
+    if (!path) GTEST_SKIP() << test::needs_shared_file(name);
     const auto source = test::openarena_map(map);
-    if (!source) GTEST_SKIP() << "the OpenArena package with " << map << " is not installed";
+    if (!source) GTEST_SKIP() << test::needs_openarena_map(map);
 
     const Oracle oracle(scene::load(*source).value());
-    const evaluation::Trace trace = evaluation::read_trace(path).value();
+    const evaluation::Trace trace = evaluation::read_trace(*path).value();
     std::size_t eyes = 0;
     for (const evaluation::TracePose& pose : trace.poses) {
         if (!pose.alive) continue;

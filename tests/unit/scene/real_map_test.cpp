@@ -15,7 +15,7 @@ class RealMap : public testing::TestWithParam<std::string> {
   protected:
     void SetUp() override {
         const auto source = test::openarena_map(GetParam());
-        if (!source) GTEST_SKIP() << "the OpenArena package with " << GetParam() << " is not installed";
+        if (!source) GTEST_SKIP() << test::needs_openarena_map(GetParam());
         scene_ = load(*source).value();
     }
     Scene scene_;
@@ -56,8 +56,9 @@ TEST_P(RealMap, ReadsTheSameTwice) {
 class TreeMap : public testing::TestWithParam<std::string> {
   protected:
     void SetUp() override {
-        const auto file = test::shared_file("maps/" + GetParam() + ".bsp");
-        if (!file) GTEST_SKIP() << "CAMERA_DIRECTOR_SHARED has no maps/" << GetParam() << ".bsp";
+        const std::string name = "maps/" + GetParam() + ".bsp";
+        const auto file = test::shared_file(name);
+        if (!file) GTEST_SKIP() << test::needs_shared_file(name);
         scene_ = load(file->string()).value();
     }
     Scene scene_;
@@ -76,8 +77,9 @@ TEST_P(TreeMap, KeepsThePromisesOfAScene) {
 }
 
 TEST_P(TreeMap, BotsWalkInFreeSpace) {
-    const auto file = test::shared_file("maps/" + GetParam() + ".way");
-    if (!file) GTEST_SKIP() << "CAMERA_DIRECTOR_SHARED has no maps/" << GetParam() << ".way";
+    const std::string name = "maps/" + GetParam() + ".way";
+    const auto file = test::shared_file(name);
+    if (!file) GTEST_SKIP() << test::needs_shared_file(name);
     const std::vector<Vec3d> points = test::way_points(*file);
     ASSERT_GT(points.size(), 10U);
     for (const Vec3d& point : points) {

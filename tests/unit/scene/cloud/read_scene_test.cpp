@@ -4,12 +4,12 @@
 #include <liblzf/lzf.h>
 
 #include <algorithm>
-#include <cstdlib>
-#include <filesystem>
+#include <string>
 
 #include "scene/cloud/read_scene.hpp"
 #include "scene/load.hpp"
 #include "support/clouds.hpp"
+#include "support/shared_files.hpp"
 
 namespace camdir::scene {
 namespace {
@@ -211,11 +211,10 @@ TEST(Cloud, RefusesCompressedDataThatPromisesTooMuch) {
 class Scan : public testing::TestWithParam<std::pair<const char*, std::size_t>> {};
 
 TEST_P(Scan, IsReadWhole) {
-    const char* shared = std::getenv("CAMERA_DIRECTOR_SHARED");
-    if (shared == nullptr) GTEST_SKIP() << "CAMERA_DIRECTOR_SHARED is not set";
-    const auto file = std::filesystem::path(shared) / "maps" / GetParam().first;
-    if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is missing";
-    const Scene scene = load(file.string()).value();
+    const std::string name = std::string("maps/") + GetParam().first;
+    const auto file = test::shared_file(name);
+    if (!file) GTEST_SKIP() << test::needs_shared_file(name);
+    const Scene scene = load(file->string()).value();
     std::size_t count = scene.points.size();
     for (const Skipped& skipped : scene.skipped)
         count += skipped.count;
