@@ -1,28 +1,42 @@
 #!/usr/bin/env bash
-# The main job on a real map: bakes oa_dm1 (kept for the next run), starts the director, replays 30 s of a real
-# match of 8 players over DDS, again and again, and shows what 8 observers receive.
+# The whole system on a real map: bakes oa_dm1 (and keeps the result for the next run), starts the director, replays
+# 30 s of a recorded match of 8 players over DDS in a loop, and shows what 8 observers receive.
 #
 #     demo.sh [--seconds N] [--json FILE]
 #
-# Runs until Ctrl-C, or for N seconds. Ends with a summary; exit code 1 when a camera was in an obstacle, moved
-# through one, jumped undeclared, or a camera frame was missing.
+# Runs until Ctrl-C, or for N seconds, and ends with a summary (--json also writes it to FILE). Exit code 1 when a
+# camera was in an obstacle, moved through one or jumped without declaring a cut, or when a camera frame was missing.
 set -euo pipefail
 caller=$PWD
 cd "$(dirname "$0")/.."
 
+usage() {
+    echo "demo.sh: $1; usage: demo.sh [--seconds N] [--json FILE]" >&2
+    exit 2
+}
 seconds=0 json=
 while [ $# -gt 0 ]; do
-    [ $# -ge 2 ] || { echo "demo.sh: usage: demo.sh [--seconds N] [--json FILE]" >&2; exit 2; }
+    [ $# -ge 2 ] || usage "'$1' is no option or lacks its value"
     case "$1" in
-        --seconds) seconds=$2 ;;
-        --json) json=$2; [[ $json = /* ]] || json=$caller/$json ;;
-        *) echo "demo.sh: unknown option '$1'; usage: demo.sh [--seconds N] [--json FILE]" >&2; exit 2 ;;
+        --seconds)
+            seconds=$2
+            [[ $seconds =~ ^[0-9]+(\.[0-9]+)?$ ]] || usage "--seconds '$seconds': expected a number" ;;
+        --json)
+            json=$2
+            [[ $json = /* ]] || json=$caller/$json
+            [ -d "$(dirname "$json")" ] || usage "--json '$2': no folder $(dirname "$json")" ;;
+        *) usage "unknown option '$1'" ;;
     esac
     shift 2
 done
 
+step() { printf '\n== %s\n' "$1" >&2; }
+
+step "Packages"
 deploy/install-packages.sh build map
-[ -e build/release/build.ninja ] || cmake --preset release
+
+step "Build (the first one takes some minutes)"
+cmake --preset release
 cmake --build --preset release --target camera-director pose-replay observer-probe
 
 bin=build/release/bin
@@ -30,11 +44,12 @@ work=build/demo
 map=/usr/share/games/openarena/baseoa/pak1-maps.pk3:maps/oa_dm1.bsp
 mkdir -p "$work"
 
-# A DDS domain of its own, held as long as this script runs.
+# A DDS domain that no other demo, test or soak run uses: the lock lasts as long as this script.
 locks=${TMPDIR:-/tmp}/camera-director-test-domains
 mkdir -p "$locks"
 for domain in $(shuf -i 1-80) ""; do
-    [ -n "$domain" ] || { echo "demo.sh: every DDS domain from 1 to 80 is taken, see $locks" >&2; exit 1; }
+    [ -n "$domain" ] || { echo "demo.sh: all DDS domains from 1 to 80 are in use (see the locks in $locks):" \
+                               "end another demo or test run first" >&2; exit 1; }
     exec 9>"$locks/$domain"
     flock -n 9 && break
 done
@@ -46,6 +61,7 @@ cat >"$work/demo.json" <<CONFIG
   "maps": [{"name": "oa_dm1", "file": "oa_dm1.vfs", "source": "$map"}]
 }
 CONFIG
+step "Bake oa_dm1 (only when $work/oa_dm1.vfs is missing or out of date)"
 "$bin/camera-director" bake --config "$work/demo.json"
 
 started=()
@@ -54,7 +70,7 @@ stop() {
     for pid in "${started[@]}"; do wait "$pid" 2>/dev/null || true; done
 }
 trap stop EXIT
-# Ctrl-C reaches the observers, who end with their summary; the rest is ended after them.
+# Ctrl-C reaches only the observers, which then print their summary; stop() ends the other programs.
 trap : INT
 trap 'exit 143' TERM
 
@@ -64,7 +80,14 @@ setsid "$bin/pose-replay" deploy/demo/match.csv.gz --domain "$domain" --match-pr
     >"$work/replay.log" 2>&1 9>&- &
 started+=($!)
 
-echo "The director's log: $work/director.log. One observer a player:" >&2
+step "Live: one row for each player, and the camera that follows them"
+cat >&2 <<LEGEND
+   visible %    frames in which the camera sees the player     p50, p99 ms  delay from a pose to its camera
+   clearance    camera to nearest wall, in units of 2.54 cm    gaps         camera frames that did not arrive
+   in obstacle, through, jumps: cameras inside a wall, moved through one, or moved too far without a declared cut
+Logs: $work/director.log, $work/replay.log. Ctrl-C ends the demo.
+
+LEGEND
 "$bin/observer-probe" --domain "$domain" --match-prefix demo --observers 8 --by-player --map "$map" \
     --seconds "$seconds" ${json:+--json "$json"} 9>&- &
 probe=$!
@@ -75,8 +98,10 @@ while kill -0 "$probe" 2>/dev/null; do  # the wait was interrupted
     status=0
     wait "$probe" || status=$?
 done
-if [ "$status" -ne 0 ]; then
-    echo "demo.sh: the observers found something wrong; the director's last words:" >&2
-    tail -n 5 "$work/director.log" >&2
+if [ "$status" -eq 0 ]; then
+    echo "All checks held: every camera frame arrived, no camera was in a wall or moved through one, every jump was declared."
+elif [ "$status" -ne 130 ]; then  # 130: Ctrl-C twice
+    echo "demo.sh: a check failed, see above. The last lines of the two logs:" >&2
+    tail -n 5 "$work/director.log" "$work/replay.log" >&2
 fi
 exit "$status"

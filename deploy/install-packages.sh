@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs the Debian 12 packages of the groups that are named: build (default), map, test, lint, or all.
-# As root or with sudo; on any other system it prints what would be needed and fails.
+# Installs what is missing of the Debian 12 packages in the named groups: build (default), map, test, lint, or all.
+# Needs root or sudo when something is missing. On any other system it prints what is missing and fails.
 set -euo pipefail
 cd "$(dirname "$0")"
 source ./packages.sh
@@ -25,14 +25,15 @@ done
 [ ${#missing[@]} -gt 0 ] || exit 0
 
 give_up() {
-    echo "install-packages.sh: $1; these Debian 12 packages are needed:" >&2
+    echo "install-packages.sh: $1. Install these Debian 12 packages, then run this again:" >&2
     echo "    ${missing[*]}" >&2
     exit 1
 }
-command -v apt-get >/dev/null || give_up "this is not Debian"
+system=$(. /etc/os-release 2>/dev/null && echo "${ID:-} ${VERSION_ID:-}") || true
+[ "$system" = "debian 12" ] || give_up "this system is not Debian 12"
 as_root=()
 if [ "$(id -u)" -ne 0 ]; then
-    command -v sudo >/dev/null || give_up "neither root nor sudo"
+    command -v sudo >/dev/null || give_up "this needs root, and there is no sudo"
     as_root=(sudo)
 fi
 

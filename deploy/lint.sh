@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# clang-tidy over the sources, a folder's files together as the release build compiles them; as arguments: only
-# these files. CGAL's headers keep the analyser busy for ever, so what includes them is left out.
+# clang-tidy over all sources, several files of a folder at a time as the release build compiles them, or over the
+# files that are named. Leaves out what includes CGAL's headers, on which clang-tidy does not end.
+#     lint.sh [FILE ...]
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -19,7 +20,7 @@ without_cgal=()
 for file in "${files[@]}"; do
     grep -q 'CGAL/' "$file" || without_cgal+=("$file")
 done
-# Files that are compiled together are included as .cpp.
+# The unity build includes .cpp files.
 printf '%s\0' "${without_cgal[@]}" |
     xargs -0 -n 1 -P "$(nproc)" clang-tidy-14 --quiet -p "build/$preset" --checks=-bugprone-suspicious-include \
         --extra-arg=-Wno-unknown-warning-option

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Remakes the README's pictures of oa_dm1 from Debian's openarena-081-maps, into this folder.
-#     make.sh [--trace FILE.csv.gz]    the players of the last picture; without: deploy/demo's match
+# Draws the pictures of oa_dm1 (package openarena-081-maps) again, into this folder. Needs a release build.
+#     make.sh [--trace FILE.csv.gz]    the match that paths.png shows; default: deploy/demo/match.csv.gz
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 director=$here/../../build/release/bin/camera-director
@@ -8,9 +8,13 @@ map=/usr/share/games/openarena/baseoa/pak1-maps.pk3:maps/oa_dm1.bsp
 trace=$here/../demo/match.csv.gz
 case "${1:-}" in
     "") ;;
-    --trace) trace=$2 ;;
+    --trace) trace=${2:?make.sh: --trace needs a file} ;;
     *) echo "usage: make.sh [--trace FILE]" >&2; exit 2 ;;
 esac
+[ -x "$director" ] || {
+    echo "make.sh: $director is missing; build it: cmake --preset release && cmake --build --preset release" >&2
+    exit 1
+}
 work=$(mktemp -d)
 trap 'rm -r "$work"' EXIT
 
