@@ -46,11 +46,12 @@ mkdir -p "$work"
 
 # A DDS domain that no other demo, test or soak run uses: the lock lasts as long as this script.
 locks=${TMPDIR:-/tmp}/camera-director-test-domains
-mkdir -p "$locks"
+mkdir -p -m 777 "$locks"  # for every user of the machine
 for domain in $(shuf -i 1-80) ""; do
     [ -n "$domain" ] || { echo "demo.sh: all DDS domains from 1 to 80 are in use (see the locks in $locks):" \
                                "end another demo or test run first" >&2; exit 1; }
-    exec 9>"$locks/$domain"
+    [ -e "$locks/$domain" ] || : >"$locks/$domain"
+    exec 9<"$locks/$domain"
     flock -n 9 && break
 done
 

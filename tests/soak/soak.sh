@@ -9,6 +9,7 @@
 # Memory counts as level when its median over the last quarter of the run is at most --max-growth-mib above that
 # over the second quarter. Exit codes: 0 all checks passed, 1 a check failed, 2 bad usage, 77 no map.
 set -euo pipefail
+export LC_ALL=C  # awk and sleep agree on the decimal point
 
 here=$(cd "$(dirname "$0")" && pwd)
 bin=$here/../../build/release/bin
@@ -43,9 +44,10 @@ mkdir -p "$work"
 
 # A domain that no test and no other soak run uses; the lock is held until this script ends.
 locks=${TMPDIR:-/tmp}/camera-director-test-domains
-mkdir -p "$locks"
+mkdir -p -m 777 "$locks"  # for every user of the machine
 for domain in $(shuf -i 1-80); do
-    exec 9>"$locks/$domain"
+    [ -e "$locks/$domain" ] || : >"$locks/$domain"
+    exec 9<"$locks/$domain"
     flock -n 9 && break
     domain=''
 done

@@ -20,12 +20,13 @@ constexpr std::uint32_t last_domain = 80;
 
 TestDomain::TestDomain() {
     const auto folder = std::filesystem::temp_directory_path() / "camera-director-test-domains";
-    std::filesystem::create_directories(folder);
+    if (std::filesystem::create_directories(folder))  // for every user of the machine
+        std::filesystem::permissions(folder, std::filesystem::perms::all);
     const auto pid = static_cast<std::uint32_t>(::getpid());
     constexpr std::uint32_t count = last_domain - first_domain + 1;
     for (std::uint32_t i = 0; i < 100 * count; ++i) {
         id_ = first_domain + (pid + i) % count;
-        lock_ = ::open((folder / std::to_string(id_)).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+        lock_ = ::open((folder / std::to_string(id_)).c_str(), O_RDONLY | O_CREAT | O_CLOEXEC, 0644);
         if (lock_ < 0) throw std::runtime_error("cannot open a lock file in " + folder.string());
         if (::flock(lock_, LOCK_EX | LOCK_NB) == 0) return;
         ::close(lock_);
