@@ -1,16 +1,22 @@
 #!/usr/bin/env bash
-# Draws the pictures of oa_dm1 (package openarena-081-maps) again, into this folder. Needs a release build.
-#     make.sh [--trace FILE.csv.gz]    the match that paths.png shows; default: deploy/demo/match.csv.gz
+# Draws the pictures of this folder again. Needs a release build and the package openarena-081-maps.
+#     make.sh [--trace FILE.csv.gz] [--clouds FOLDER]
+# --trace: the match on oa_dm1 that paths.png shows, by default the demo's. --clouds: where room_scan1.pcd and
+# scan_430.ply are; without it their pictures stay as they are.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 director=$here/../../build/release/bin/camera-director
 map=/usr/share/games/openarena/baseoa/pak1-maps.pk3:maps/oa_dm1.bsp
 trace=$here/../demo/match.csv.gz
-case "${1:-}" in
-    "") ;;
-    --trace) trace=${2:?make.sh: --trace needs a file} ;;
-    *) echo "usage: make.sh [--trace FILE]" >&2; exit 2 ;;
-esac
+clouds=
+while [ $# -gt 0 ]; do
+    case "$1 ${2:+value}" in
+        "--trace value") trace=$2 ;;
+        "--clouds value") clouds=$2 ;;
+        *) echo "usage: make.sh [--trace FILE.csv.gz] [--clouds FOLDER]" >&2; exit 2 ;;
+    esac
+    shift 2
+done
 [ -x "$director" ] || {
     echo "make.sh: $director is missing; build it: cmake --preset release && cmake --build --preset release" >&2
     exit 1
@@ -18,12 +24,24 @@ esac
 work=$(mktemp -d)
 trap 'rm -r "$work"' EXIT
 
-"$director" bake "$map" -o "$work/whole.vfs" --loss 0 --quiet
-"$director" bake "$map" -o "$work/reduced.vfs" --quiet
-"$director" evaluate "$work/reduced.vfs" --map "$map" --trace "$trace" --cameras "$work/cameras.csv" >/dev/null
+# bake NAME MAP [OPTION ...]
+bake() { "$director" bake "$2" -o "$work/$1.vfs" --quiet "${@:3}"; }
+# draw BAKED MAP PICTURE [OPTION ...]
+draw() { "$director" render "$work/$1.vfs" --map "$2" -o "$here/$3.png" --size "${size:-640x480}" "${@:4}"; }
 
-draw() { "$director" render "$work/$1.vfs" --map "$map" -o "$here/$2.png" "${@:3}"; }
-for picture in "whole map --no-mesh" "whole samples --no-mesh --samples" "whole whole" "reduced reduced"; do
-    draw $picture --size 640x480 --view auto
-done
-draw reduced paths --size 1000x750 --view plan --no-mesh --trace "$trace" --cameras "$work/cameras.csv" --between 5,20 --players 0,3,5
+bake unreduced "$map" --loss 0
+bake reduced "$map"
+draw unreduced "$map" map --no-mesh
+draw unreduced "$map" samples --no-mesh --samples
+draw unreduced "$map" unreduced
+draw reduced "$map" reduced
+"$director" evaluate "$work/reduced.vfs" --map "$map" --trace "$trace" --cameras "$work/cameras.csv"
+size=1000x750 draw reduced "$map" paths --view plan --no-mesh --trace "$trace" --cameras "$work/cameras.csv" \
+    --between 5,20 --players 0,3,5
+
+if [ -n "$clouds" ]; then
+    bake room_scan1 "$clouds/room_scan1.pcd" --seed 1,1,0
+    draw room_scan1 "$clouds/room_scan1.pcd" room_scan1 --view plan --cut 0
+    bake scan_430 "$clouds/scan_430.ply" --seed 4.6,-2.2,3
+    draw scan_430 "$clouds/scan_430.ply" scan_430 --view plan --cut 3
+fi
