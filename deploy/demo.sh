@@ -16,7 +16,11 @@ usage() {
 }
 seconds=0 json=
 while [ $# -gt 0 ]; do
-    [ $# -ge 2 ] || usage "'$1' is no option or lacks its value"
+    case "$1" in
+        -h|--help) sed -n '2,/^set /s/^# \{0,1\}//p' deploy/demo.sh; exit 0 ;;
+        --seconds|--json) [ $# -ge 2 ] || usage "$1 needs a value" ;;
+        *) usage "unknown option '$1'" ;;
+    esac
     case "$1" in
         --seconds)
             seconds=$2
@@ -25,7 +29,6 @@ while [ $# -gt 0 ]; do
             json=$2
             [[ $json = /* ]] || json=$caller/$json
             [ -d "$(dirname "$json")" ] || usage "--json '$2': no folder $(dirname "$json")" ;;
-        *) usage "unknown option '$1'" ;;
     esac
     shift 2
 done
@@ -83,6 +86,7 @@ started+=($!)
 
 step "Live: one row for each player, and the camera that follows them"
 cat >&2 <<LEGEND
+   state        tracking; searching: following the roadmap to a player out of sight; held: the player is dead; cut
    visible %    frames in which the camera sees the player     p50, p99 ms  delay from a pose to its camera
    clearance    camera to nearest wall, in units of 2.54 cm    gaps         camera frames that did not arrive
    in obstacle, through, jumps: cameras inside a wall, moved through one, or moved too far without a declared cut
