@@ -18,8 +18,9 @@ namespace {
 using Run = Result<void> (Pipeline::*)(Stage&);
 using NamedStage = std::pair<const char*, Run>;
 
-constexpr std::array<NamedStage, 12> of_surfaces{{
+constexpr std::array<NamedStage, 14> of_surfaces{{
     {"medial axis", &Pipeline::medial_axis},
+    {"forecast", &Pipeline::forecast},
     {"sample", &Pipeline::sample},
     {"weld", &Pipeline::weld},
     {"delaunay", &Pipeline::delaunay},
@@ -31,11 +32,13 @@ constexpr std::array<NamedStage, 12> of_surfaces{{
     {"certify", &Pipeline::certify},
     {"reduce", &Pipeline::reduce},
     {"pack", &Pipeline::pack},
+    {"recertify", &Pipeline::recertify},
 }};
 
 // Points sample themselves, and nothing crosses a point. What is connected depends on the margin.
-constexpr std::array<NamedStage, 9> of_points{{
+constexpr std::array<NamedStage, 11> of_points{{
     {"thin", &Pipeline::weld},
+    {"forecast", &Pipeline::forecast},
     {"delaunay", &Pipeline::delaunay},
     {"voronoi", &Pipeline::voronoi},
     {"triangulate", &Pipeline::triangulate},
@@ -44,6 +47,7 @@ constexpr std::array<NamedStage, 9> of_points{{
     {"inside", &Pipeline::inside},
     {"reduce", &Pipeline::reduce},
     {"pack", &Pipeline::pack},
+    {"recertify", &Pipeline::recertify},
 }};
 
 std::span<const NamedStage> stages_of(const Pipeline& pipeline) {
@@ -77,9 +81,10 @@ freespace::Metadata describe(const scene::Scene& scene, const Parameters& parame
     return metadata;
 }
 
-Result<Baked> run(const scene::Scene& scene, const Parameters& parameters, const ProgressSink& progress,
-                  const std::stop_token& stop, const ReportSink& finished) {
-    Pipeline pipeline(scene, parameters);
+Result<Baked> run(const scene::Scene& scene, const Parameters& parameters, unsigned threads,
+                  const ProgressSink& progress, const std::stop_token& stop, const ReportSink& finished,
+                  const ForecastSink& expected) {
+    Pipeline pipeline(scene, parameters, threads, expected);
     if (auto bounded = pipeline.check_size(); !bounded) return tl::unexpected(std::move(bounded.error()));
     std::vector<StageReport> reports;
     const auto report = [&](StageReport stage) {
@@ -100,7 +105,7 @@ Result<Baked> run(const scene::Scene& scene, const Parameters& parameters, const
 }  // namespace
 
 Result<Baked> bake(const scene::Scene& scene, const Parameters& parameters, const ProgressSink& progress,
-                   std::stop_token stop, const ReportSink& finished) {
+                   std::stop_token stop, const ReportSink& finished, const ForecastSink& expected) {
     if (auto checked = check(parameters); !checked) return tl::unexpected(std::move(checked.error()));
     if (scene.triangles.empty() && scene.points.empty())
         return fail(scene.source + ": the scene has no obstacles");
@@ -108,7 +113,7 @@ Result<Baked> bake(const scene::Scene& scene, const Parameters& parameters, cons
     const auto cores = static_cast<unsigned>(tbb::info::default_concurrency());
     const unsigned threads = parameters.threads == 0 ? cores : std::min(parameters.threads, cores);
     return tbb::task_arena(static_cast<int>(threads)).execute([&] {
-        return run(scene, parameters, progress, stop, finished);
+        return run(scene, parameters, threads, progress, stop, finished, expected);
     });
 }
 

@@ -17,12 +17,13 @@ struct Baked {
     std::vector<StageReport> stages;
 };
 
-// Runs all stages; tells `finished`, on the calling thread, about each when it is done. May be called by
-// several threads at once. Fails with ErrorCode::interrupted soon after `stop` is requested, and with
-// `failed` when a parameter is out of its range, or when the scene has no obstacles, no spawn point in free
-// space, or too many samples for memory.
+// Runs all stages. Calls `finished` after each, and `expected` as soon as it is known what the bake is going
+// to take, both on the calling thread. May be called by several threads at once. Fails with
+// ErrorCode::interrupted soon after `stop` is requested, and with `failed` when a parameter is out of its
+// range, when the scene has no obstacles, no spawn point in free space, or too many samples for memory, and
+// when a slab of the finished mesh is found to reach into an obstacle.
 [[nodiscard]] Result<Baked> bake(const scene::Scene& scene, const Parameters& parameters,
                                  const ProgressSink& progress, std::stop_token stop,
-                                 const ReportSink& finished = {});
+                                 const ReportSink& finished = {}, const ForecastSink& expected = {});
 
 }  // namespace camdir::bake

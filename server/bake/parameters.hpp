@@ -37,7 +37,8 @@ struct Parameters {
     double loss = 16.0;
     std::uint64_t triangles = 0;  // > 0: reduction ends as soon as no more than these are left
     Sampling sampling = Sampling::adaptive;
-    double coarsest = 8.0;  // adaptive: no sampling distance is more than this times d0. 1 .. max_coarsest
+    double coarsest = 8.0;     // adaptive: no sampling distance is more than this times d0. 1 .. max_coarsest
+    std::uint64_t memory = 0;  // > 0: a bake that is expected to take more bytes is refused
 };
 
 // What decides the result beside the source, as a JSON object: Metadata::parameters is it, and "kind", what

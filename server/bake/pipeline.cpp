@@ -6,11 +6,14 @@
 #include "bake/certify.hpp"
 #include "bake/clearance.hpp"
 #include "bake/crossing.hpp"
+#include "bake/forecast.hpp"
 #include "bake/inside.hpp"
 #include "bake/medial_axis.hpp"
 #include "bake/pack.hpp"
+#include "bake/recertify.hpp"
 #include "bake/reduce.hpp"
 #include "bake/sample.hpp"
+#include "bake/sample_estimate.hpp"
 #include "bake/shell.hpp"
 #include "bake/thin.hpp"
 #include "bake/triangulate.hpp"
@@ -39,9 +42,12 @@ Result<void> keep(Result<T> result, T& place) {
 
 }  // namespace
 
-Pipeline::Pipeline(const scene::Scene& scene, const Parameters& parameters)
+Pipeline::Pipeline(const scene::Scene& scene, const Parameters& parameters, unsigned threads,
+                   const ForecastSink& expected)
     : scene_(scene),
       parameters_(parameters),
+      threads_(threads),
+      expected_(expected),
       unit_(scene::metres_of_nominal_unit / scene.metres_per_unit),
       d0_(sampling_distance(scene, parameters)),
       obstacles_(scene),
@@ -63,6 +69,15 @@ Result<void> Pipeline::medial_axis(Stage& stage) {
     if (points->size() > max_samples) return too_many_samples(scene_, d0_, static_cast<double>(max_samples));
     distance_ = SamplingDistance(d0_, coarsest(), std::move(*points));
     return {};
+}
+
+Result<void> Pipeline::forecast(Stage& /*stage*/) {
+    const SampleEstimate estimate = is_cloud() ? SampleEstimate(static_cast<double>(samples_.size()), d0_)
+                                               : SampleEstimate(scene_, solids_, distance_, weld_distance());
+    const Forecast forecast = bake::forecast(estimate, d0_, unit_, threads_);
+    if (expected_) expected_(forecast);
+    if (parameters_.memory == 0) return {};
+    return check_memory(forecast, parameters_.memory, d0_ / unit_, scene_.source);
 }
 
 Result<void> Pipeline::sample(Stage& stage) {
@@ -138,6 +153,10 @@ Result<void> Pipeline::pack(Stage& stage) {
     for (float& distance : free_distance_)
         distance = round_down(static_cast<double>(distance) - margin());
     return keep(bake::pack(mesh_, free_distance_, scene_, stage), contents_);
+}
+
+Result<void> Pipeline::recertify(Stage& stage) {
+    return bake::recertify(contents_, obstacles_, margin(), 0.001 * unit_, scene_.source, stage);
 }
 
 }  // namespace camdir::bake

@@ -9,6 +9,7 @@
 #include "bake/geometry/solids.hpp"
 #include "bake/medial_mesh.hpp"
 #include "bake/parameters.hpp"
+#include "bake/progress.hpp"
 #include "bake/sampling_distance.hpp"
 #include "bake/stage.hpp"
 #include "bake/voronoi.hpp"
@@ -22,13 +23,16 @@ namespace camdir::bake {
 // need.
 class Pipeline {
   public:
-    // The scene and the parameters must outlive it.
-    Pipeline(const scene::Scene& scene, const Parameters& parameters);
+    // All that is passed must outlive it. `threads` is how many the stages run on.
+    Pipeline(const scene::Scene& scene, const Parameters& parameters, unsigned threads,
+             const ForecastSink& expected);
 
     // Before the first stage: fails when the samples would be too many for memory.
     [[nodiscard]] Result<void> check_size() const;
 
     [[nodiscard]] Result<void> medial_axis(Stage& stage);
+    // Reports what the other stages are going to take; fails when that is more than the bake may have.
+    [[nodiscard]] Result<void> forecast(Stage& stage);
     [[nodiscard]] Result<void> sample(Stage& stage);
     [[nodiscard]] Result<void> weld(Stage& stage);
     [[nodiscard]] Result<void> delaunay(Stage& stage);
@@ -40,6 +44,7 @@ class Pipeline {
     [[nodiscard]] Result<void> certify(Stage& stage);
     [[nodiscard]] Result<void> reduce(Stage& stage);
     [[nodiscard]] Result<void> pack(Stage& stage);
+    [[nodiscard]] Result<void> recertify(Stage& stage);
 
     [[nodiscard]] bool is_cloud() const { return !scene_.points.empty(); }
     // After the last stage. Leaves metadata to the caller.
@@ -64,6 +69,8 @@ class Pipeline {
 
     const scene::Scene& scene_;
     const Parameters& parameters_;
+    unsigned threads_;
+    const ForecastSink& expected_;
     double unit_;  // map units in a nominal unit
     double d0_;    // map units
     Obstacles obstacles_;

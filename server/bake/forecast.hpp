@@ -1,0 +1,23 @@
+// What a bake is going to take, known before it takes it: its time and memory follow the number of samples.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "bake/progress.hpp"
+#include "base/error.hpp"
+
+namespace camdir::bake {
+
+class SampleEstimate;
+
+// The cost of a bake with the sampling distance `d0` (map units) and so many threads, within about a
+// factor of two. `unit` is the length of a nominal unit.
+[[nodiscard]] Forecast forecast(const SampleEstimate& estimate, double d0, double unit, unsigned threads);
+
+// Fails when that is more than `memory` bytes; the error says which d0 would do. `source` is the map, `d0`
+// in nominal units.
+[[nodiscard]] Result<void> check_memory(const Forecast& forecast, std::uint64_t memory, double d0,
+                                        const std::string& source);
+
+}  // namespace camdir::bake
