@@ -12,8 +12,9 @@ constexpr double least_seconds = 1.0;
 
 // Mean shares of the stages in the seconds of default bakes with 2 threads (`bake --report`) of oa_dm1,
 // oa_dm3, oa_rpg3dm2, aggressor, bunker-defense, fegefeuer and lqdm1.
-constexpr std::array<StageWeight, 12> surface_weights{{
+constexpr std::array<StageWeight, 14> surface_weights{{
     {"medial axis", 0.045, true},
+    {"forecast", 0.005, false},
     {"sample", 0.040, true},
     {"weld", 0.025, true},
     {"delaunay", 0.215, false},
@@ -23,21 +24,24 @@ constexpr std::array<StageWeight, 12> surface_weights{{
     {"crossing", 0.002, true},
     {"inside", 0.030, false},
     {"certify", 0.120, true},
-    {"reduce", 0.457, false},
+    {"reduce", 0.437, false},
     {"pack", 0.001, false},
+    {"recertify", 0.015, true},
 }};
 
 // The same of room_scan1 and scan_430.
-constexpr std::array<StageWeight, 9> cloud_weights{{
+constexpr std::array<StageWeight, 11> cloud_weights{{
     {"thin", 0.001, true},
+    {"forecast", 0.001, false},
     {"delaunay", 0.028, false},
     {"voronoi", 0.004, false},
     {"triangulate", 0.002, true},
     {"clearance", 0.021, true},
     {"certify", 0.207, true},
     {"inside", 0.001, false},
-    {"reduce", 0.735, false},
+    {"reduce", 0.719, false},
     {"pack", 0.001, false},
+    {"recertify", 0.015, true},
 }};
 
 // The part of a stage that is done after `share` of its expected time: the same up to 3/4, then ever more
