@@ -84,8 +84,10 @@ class PeersOnMatch : public testing::TestWithParam<Match> {
         const auto& [map, rate] = GetParam();
         const std::string tables = "design/peers.md";
         const std::string trace = std::string("traces/") + map + "-" + std::to_string(rate) + "hz.csv.gz";
+        std::string needs;
         for (const std::string& name : {tables, trace})
-            if (!test::shared_file(name)) GTEST_SKIP() << test::needs_shared_file(name);
+            if (!test::shared_file(name)) needs += test::needs_shared_file(name) + '\n';
+        if (!needs.empty()) GTEST_SKIP() << needs;
         const auto source = test::openarena_map(map);
         if (!source) GTEST_SKIP() << test::needs_openarena_map(map);
         tables_ = *test::shared_file(tables);
