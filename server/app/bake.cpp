@@ -1,4 +1,5 @@
 // camera-director bake: a map file becomes a MAP.vfs.
+#include <cmath>
 #include <iostream>
 #include <set>
 
@@ -9,6 +10,7 @@
 #include "base/file.hpp"
 #include "config/json_text.hpp"
 #include "freespace/freespace.hpp"
+#include "maps/memory.hpp"
 #include "maps/progress.hpp"
 #include "maps/report.hpp"
 #include "maps/source.hpp"
@@ -24,11 +26,13 @@ struct BakeOptions {
     std::string report;
     bake::Parameters parameters;
     scene::ReadOptions read;
+    std::uint64_t memory_mib = 0;
     bool quiet = false;
     // For the form with --config.
     std::string config;
-    std::uint64_t memory_mib = 0;
     bool force = false;
+
+    [[nodiscard]] std::uint64_t memory() const { return memory_mib * 1024U * 1024U; }
 };
 
 void print_source(const scene::Scene& scene, const bake::Parameters& parameters) {
@@ -37,6 +41,15 @@ void print_source(const scene::Scene& scene, const bake::Parameters& parameters)
               << (scene.points.empty() ? scene.triangles.size() : scene.points.size())
               << (scene.points.empty() ? " triangles" : " points") << ", " << scene.spawn_points.size()
               << " spawn points, d0 " << d0 * scene.metres_per_unit << " m\n";
+}
+
+// What takes more than a minute is announced.
+void print_forecast(const bake::Forecast& forecast) {
+    if (!(forecast.quick_d0 > 0.0)) return;
+    std::cerr << "This bake is expected to take about " << std::lround(forecast.seconds / 60.0)
+              << " minutes and " << forecast.memory / 1'000'000U << " MB of memory for "
+              << std::llround(forecast.samples) << " samples; --d0 " << forecast.quick_d0
+              << " would take about a minute and " << forecast.quick_memory / 1'000'000U << " MB.\n";
 }
 
 // One line for the whole bake: how much is done, times, and the stage.
@@ -63,7 +76,9 @@ class BakeDisplay {
 
 Result<bake::Baked> bake_shown(const scene::Scene& scene, const BakeOptions& options,
                                const std::stop_token& stop) {
-    if (options.quiet) return bake::bake(scene, options.parameters, {}, stop);
+    bake::Parameters parameters = options.parameters;
+    parameters.memory = options.memory_mib == 0 ? maps::available_memory() : options.memory();
+    if (options.quiet) return bake::bake(scene, parameters, {}, stop);
     ProgressLine line;
     BakeDisplay display(line);
     const auto show = [&](const bake::Progress& progress) { display.update(progress); };
@@ -71,7 +86,11 @@ Result<bake::Baked> bake_shown(const scene::Scene& scene, const BakeOptions& opt
         line.clear();
         std::cerr << maps::line_of(report) << '\n';
     };
-    return bake::bake(scene, options.parameters, show, stop, finished);
+    const auto expected = [&](const bake::Forecast& forecast) {
+        line.clear();
+        print_forecast(forecast);
+    };
+    return bake::bake(scene, parameters, show, stop, finished, expected);
 }
 
 // Whether `file` is the map's file, or the archive that holds it.
@@ -125,7 +144,7 @@ void check_usage(const CLI::App& command, const BakeOptions& options) {
 
 int run_bake(const BakeOptions& options) {
     if (!options.config.empty())
-        return bake_config({options.config, options.report, options.parameters.threads, options.memory_mib,
+        return bake_config({options.config, options.report, options.parameters.threads, options.memory(),
                             options.force, options.quiet});
     return exit_code_of(bake_to_file(options));
 }
@@ -167,6 +186,16 @@ void add_read_options(CLI::App& command, scene::ReadOptions& options) {
         ->take_all();
 }
 
+void add_memory_option(CLI::App& command, BakeOptions& options) {
+    command
+        .add_option("--memory", options.memory_mib,
+                    "MiB that a bake may take: one that is expected to need more is refused after its first "
+                    "stage. With --config, for all maps that are baked at the same time as well. 0: the "
+                    "machine's memory, half of it for maps at the same time")
+        ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 30U))
+        ->capture_default_str();
+}
+
 // The form with --config.
 void add_config_options(CLI::App& command, BakeOptions& options) {
     auto* config = command
@@ -174,13 +203,6 @@ void add_config_options(CLI::App& command, BakeOptions& options) {
                                    "Bake the missing and stale maps of this configuration instead, each with "
                                    "the parameters and into the file given there")
                        ->type_name("FILE");
-    command
-        .add_option("--memory", options.memory_mib,
-                    "MiB for maps that are baked at the same time; a map that needs more is baked alone; "
-                    "0: half of the machine's memory")
-        ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 30U))
-        ->needs(config)
-        ->capture_default_str();
     command.add_flag("--force", options.force, "Bake maps that are not stale too")->needs(config);
 }
 
@@ -228,6 +250,7 @@ void add_bake(CLI::App& root, Run& run) {
     command->add_flag("--quiet", options->quiet, "Print only errors");
     command->add_option("--report", options->report,
                         "Write seconds and counts of each stage and the peak of memory as JSON");
+    add_memory_option(*command, *options);
     add_config_options(*command, *options);
     command->callback([options, command, &run] {
         check_usage(*command, *options);

@@ -23,8 +23,6 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr std::uint64_t mebibyte = 1024U * 1024U;
-
 std::string figures(const maps::BakeOutcome& outcome) {
     return std::to_string(outcome.samples) + " samples, " + std::to_string(outcome.triangles) +
            " triangles, " + std::to_string(outcome.file_bytes) + " bytes";
@@ -159,9 +157,8 @@ Result<int> run(const BakeConfigOptions& options) {
     if (maps.empty() && !options.quiet) std::cerr << options.config << ": no map has a source to bake\n";
 
     const maps::BatchParameters parameters{
-        options.threads,
-        options.memory_mib == 0 ? maps::default_memory_budget() : options.memory_mib * mebibyte,
-        options.force};
+        options.threads, options.memory == 0 ? maps::available_memory() / 2 : options.memory,
+        options.memory == 0 ? maps::available_memory() : options.memory, options.force};
     BatchDisplay display(options.quiet);
     const maps::BatchSink sink{
         [&](std::size_t to_bake) { display.examined(to_bake); },

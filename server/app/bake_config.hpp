@@ -10,7 +10,7 @@ struct BakeConfigOptions {
     std::string config;
     std::string report;  // empty: none
     unsigned threads = 0;
-    std::uint64_t memory_mib = 0;  // 0: maps::default_memory_budget()
+    std::uint64_t memory = 0;  // bytes; 0: what is available, half of it for bakes at the same time
     bool force = false;
     bool quiet = false;
 };

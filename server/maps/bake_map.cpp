@@ -47,12 +47,13 @@ Result<PendingFile> claim(const std::string& file, const bake::ProgressSink& pro
     }
 }
 
-Result<BakeReport> bake_into(PendingFile file, const config::Map& map, unsigned threads,
+Result<BakeReport> bake_into(PendingFile file, const config::Map& map, const MapBakeParameters& how,
                              const bake::ProgressSink& progress, const std::stop_token& stop) {
     const auto scene = load_source(map);
     if (!scene) return tl::unexpected(scene.error());
     bake::Parameters parameters = parameters_of(map);
-    parameters.threads = threads;
+    parameters.threads = how.threads;
+    parameters.memory = how.memory;
     const auto baked = bake::bake(*scene, parameters, progress, stop);
     if (!baked) return tl::unexpected(baked.error());
     const std::vector<std::byte> bytes = freespace::encode(baked->contents);
@@ -104,7 +105,7 @@ Result<std::optional<BakeReport>> bake_map(const config::Map& map, const MapBake
     const auto freshness = examine(map);
     if (freshness && freshness->stale.empty() && !parameters.force) return std::nullopt;
     return guarded(map.source, [&]() -> Result<std::optional<BakeReport>> {
-        return bake_into(std::move(*file), map, parameters.threads, progress, stop);
+        return bake_into(std::move(*file), map, parameters, progress, stop);
     });
 }
 

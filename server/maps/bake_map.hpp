@@ -1,6 +1,7 @@
 // Bakes one map of the configuration into its file, for `serve` and for `bake --config`.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -28,8 +29,9 @@ struct Freshness {
 [[nodiscard]] Result<std::uint64_t> memory_needed(const config::Map& map);
 
 struct MapBakeParameters {
-    unsigned threads = 0;  // bake::Parameters::threads
-    bool force = false;    // bake a fresh map too
+    unsigned threads = 0;      // bake::Parameters::threads
+    std::uint64_t memory = 0;  // bake::Parameters::memory
+    bool force = false;        // bake a fresh map too
 };
 
 // Bakes the map's source into its file. Waits while another process or thread bakes the same file; returns

@@ -122,7 +122,7 @@ void Batch::bake(std::size_t map) {
         if (sink_.progress) sink_.progress(entry.name, progress);
     };
     const auto begin = std::chrono::steady_clock::now();
-    auto baked = bake_map(entry, {threads_, parameters_.force}, show, stop_);
+    auto baked = bake_map(entry, {threads_, parameters_.largest, parameters_.force}, show, stop_);
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
 
     const std::scoped_lock lock(mutex_);

@@ -36,9 +36,10 @@ struct BakeOutcome {
 };
 
 struct BatchParameters {
-    unsigned threads = 0;      // of all bakes together; 0: one per core, which is also the maximum
-    std::uint64_t memory = 0;  // bytes for the estimates of the bakes that run at the same time
-    bool force = false;        // bake fresh maps too
+    unsigned threads = 0;       // of all bakes together; 0: one per core, which is also the maximum
+    std::uint64_t memory = 0;   // bytes for the estimates of the bakes that run at the same time
+    std::uint64_t largest = 0;  // bytes of one bake: a map that is expected to need more fails
+    bool force = false;         // bake fresh maps too
 };
 
 // Receives the progress. Called from one thread at a time.

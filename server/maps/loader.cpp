@@ -7,6 +7,7 @@
 
 #include "maps/bake_map.hpp"
 #include "maps/guarded.hpp"
+#include "maps/memory.hpp"
 #include "maps/progress.hpp"
 #include "maps/source.hpp"
 
@@ -103,7 +104,7 @@ void Loader::bake_and_open(const config::Map& map, const std::stop_token& stop) 
         progress.update(stage, seconds());
         sink_.loading(map.name, activity_of(progress, seconds()));
     };
-    const auto baked = bake_map(map, {}, show, stop);
+    const auto baked = bake_map(map, {.memory = available_memory()}, show, stop);
     if (!baked && baked.error().code == ErrorCode::interrupted) return;
     if (!baked) return set_failed(map, baked.error());
     const double bake_seconds = seconds();

@@ -7,8 +7,8 @@
 #include <fstream>
 #include <string>
 
-#include "bake/shell.hpp"
 #include "bake/geometry/triangle.hpp"
+#include "bake/shell.hpp"
 
 namespace camdir::maps {
 namespace {
@@ -41,14 +41,14 @@ std::uint64_t estimate_memory(const scene::Scene& scene, double d0) {
     return static_cast<std::uint64_t>(std::min(fixed + bytes_of_a_sample * samples, most));
 }
 
-std::uint64_t default_memory_budget() {
+std::uint64_t available_memory() {
     std::uint64_t memory = static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) *
                            static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
     for (std::filesystem::path group = control_group();; group = group.parent_path()) {
         // "max" where there is no limit.
         std::ifstream file("/sys/fs/cgroup" + group.string() + "/memory.max");
         if (std::uint64_t limit = 0; file >> limit) memory = std::min(memory, limit);
-        if (!group.has_relative_path()) return memory / 2;
+        if (!group.has_relative_path()) return memory;
     }
 }
 

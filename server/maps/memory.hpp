@@ -12,7 +12,7 @@ namespace camdir::maps {
 // and the shell has its own. `d0` in map units. Measured on the maps of OpenArena.
 [[nodiscard]] std::uint64_t estimate_memory(const scene::Scene& scene, double d0);
 
-// Half of the machine's memory, or of the limit of this process's control groups where that is less; bytes.
-[[nodiscard]] std::uint64_t default_memory_budget();
+// The machine's memory, or the limit of this process's control groups where that is less; bytes.
+[[nodiscard]] std::uint64_t available_memory();
 
 }  // namespace camdir::maps

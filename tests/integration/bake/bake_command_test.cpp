@@ -63,6 +63,19 @@ TEST_F(BakeCommand, BadInputExitsWith1AndLeavesNothing) {
     }
 }
 
+TEST_F(BakeCommand, RefusesWhatNeedsMoreMemoryThanItMayHaveAndNamesTheD0ThatWouldDo) {
+    const std::string map = (folder_ / "field.obj").string();
+    ASSERT_TRUE(
+        write_file(map, std::string("v 0 0 0\nv 200 0 0\nv 200 200 0\nv 0 200 0\nf 1 2 3\nf 1 3 4\n")));
+    ChildProcess process(
+        command({map, "-o", output_, "--d0", "4", "--sampling", "uniform", "--memory", "512"}));
+    EXPECT_EQ(process.wait(), 1);
+    EXPECT_THAT(process.errors(),
+                testing::AllOf(HasSubstr("This bake is expected to take about "),
+                               HasSubstr("the limit is 0.5 GB; d0 = "), HasSubstr("(--memory)")));
+    EXPECT_FALSE(fs::exists(output_));
+}
+
 TEST_F(BakeCommand, RefusesToWriteOverItsMap) {
     const std::string map = (folder_ / "room.obj").string();
     const std::string content = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
