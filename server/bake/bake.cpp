@@ -9,6 +9,7 @@
 #include <span>
 #include <utility>
 
+#include "bake/parameters_json.hpp"
 #include "bake/pipeline.hpp"
 #include "bake/stage.hpp"
 
@@ -22,7 +23,7 @@ constexpr std::array<NamedStage, 14> of_surfaces{{
     {"medial axis", &Pipeline::medial_axis},
     {"forecast", &Pipeline::forecast},
     {"sample", &Pipeline::sample},
-    {"weld", &Pipeline::weld},
+    {"weld", &Pipeline::thin},
     {"delaunay", &Pipeline::delaunay},
     {"voronoi", &Pipeline::voronoi},
     {"triangulate", &Pipeline::triangulate},
@@ -35,9 +36,9 @@ constexpr std::array<NamedStage, 14> of_surfaces{{
     {"recertify", &Pipeline::recertify},
 }};
 
-// Points sample themselves, and nothing crosses a point. What is connected depends on the margin.
+// Points are their own samples, and nothing crosses a point. What is connected depends on the free distances.
 constexpr std::array<NamedStage, 11> of_points{{
-    {"thin", &Pipeline::weld},
+    {"thin", &Pipeline::thin},
     {"forecast", &Pipeline::forecast},
     {"delaunay", &Pipeline::delaunay},
     {"voronoi", &Pipeline::voronoi},
@@ -55,8 +56,8 @@ std::span<const NamedStage> stages_of(const Pipeline& pipeline) {
     return of_surfaces;
 }
 
-// What the reader left out, told like a stage.
-StageReport left_out_of(const scene::Scene& scene) {
+// What the reader skipped, reported like a stage.
+StageReport skipped_by_reader(const scene::Scene& scene) {
     std::map<std::string, double> counts;
     for (const scene::Skipped& skipped : scene.skipped)
         counts[skipped.reason] += static_cast<double>(skipped.count);
@@ -74,8 +75,7 @@ freespace::Metadata describe(const scene::Scene& scene, const Parameters& parame
     metadata.source_hash = scene.source_hash;
     metadata.metres_per_unit = static_cast<float>(scene.metres_per_unit);
     metadata.d0 = static_cast<float>(sampling_distance(scene, parameters));
-    metadata.parameters = to_json(parameters, scene.options);
-    metadata.parameters.insert(1, "\"kind\": \"" + scene.kind + "\", ");
+    metadata.parameters = to_json(parameters, scene.options, scene.kind);
     for (const StageReport& report : reports)
         metadata.counts.insert(metadata.counts.end(), report.counts.begin(), report.counts.end());
     return metadata;
@@ -91,7 +91,7 @@ Result<Baked> run(const scene::Scene& scene, const Parameters& parameters, unsig
         reports.push_back(std::move(stage));
         if (finished) finished(reports.back());
     };
-    if (!scene.skipped.empty()) report(left_out_of(scene));
+    if (!scene.skipped.empty()) report(skipped_by_reader(scene));
     for (const auto& [name, run_stage] : stages_of(pipeline)) {
         Stage stage(name, progress, stop);
         if (auto done = (pipeline.*run_stage)(stage); !done) return tl::unexpected(std::move(done.error()));

@@ -11,43 +11,44 @@ namespace {
 
 using Radii = std::array<double, 3>;
 
-// The obstacles that the slab reaches into. Lowering its free distances never adds one.
-std::vector<std::uint32_t> violated(const Slab& slab, const Obstacles& obstacles) {
+// The obstacles that the slab may reach into. Lowering its free distances never adds one.
+std::vector<std::uint32_t> possibly_violated(const Slab& slab, const Obstacles& obstacles) {
     std::vector<std::uint32_t> found;
-    obstacles.tree().visit_where([&](const Box3d& box) { return slab.margin_at_least(box) < 0.0; },
+    obstacles.tree().visit_where([&](const Box3d& box) { return slab.min_gap(box) < 0.0; },
                                  [&](std::uint32_t position) {
-                                     if (slab.margin_at_least(obstacles.triangles()[position]) < 0.0)
+                                     if (slab.min_gap(obstacles.triangles()[position]) < 0.0)
                                          found.push_back(position);
                                  });
     return found;
 }
 
-Margin worst_of(const Slab& slab, const std::vector<std::uint32_t>& positions, const Obstacles& obstacles) {
-    Margin worst;
+SignedGap worst_of(const Slab& slab, const std::vector<std::uint32_t>& positions,
+                   const Obstacles& obstacles) {
+    SignedGap worst;
     for (const std::uint32_t position : positions) {
         const Triangle3d& obstacle = obstacles.triangles()[position];
-        if (!(slab.margin_at_least(obstacle) < std::min(0.0, worst.value))) continue;
-        const Margin margin = slab.margin(obstacle);
-        if (margin.value < worst.value) worst = margin;
+        if (!(slab.min_gap(obstacle) < std::min(0.0, worst.value))) continue;
+        const SignedGap gap = slab.signed_gap(obstacle);
+        if (gap.value < worst.value) worst = gap;
     }
     return worst;
 }
 
-// Lowers the free distances of one triangle, little by little where its slab is worst, until the slab is
-// free.
+// Lowers the free distances of one triangle until its slab is free: each step projects them onto the
+// constraint of the worst point.
 Radii certify(const Triangle3d& corners, Radii radii, const Obstacles& obstacles, double tolerance) {
-    const std::vector<std::uint32_t> near = violated(Slab(corners, radii), obstacles);
+    const std::vector<std::uint32_t> near = possibly_violated(Slab(corners, radii), obstacles);
     constexpr int max_steps = 64;
     for (int step = 0; !near.empty() && step < max_steps; ++step) {
-        const Margin worst = worst_of(Slab(corners, radii), near, obstacles);
+        const SignedGap worst = worst_of(Slab(corners, radii), near, obstacles);
         if (worst.value >= 0.0) break;
         if (worst.value > -tolerance || step + 1 == max_steps) {
-            // Lowering all by the violation frees the slab for certain.
+            // A ball at any m shrinks by the worst violation, so that none is left.
             for (double& r : radii)
                 r += worst.value;
             break;
         }
-        // The least change, in the sense of squares, that frees the worst point.
+        // The smallest change, by least squares, that frees the worst point.
         double squares = 0.0;
         for (const double w : worst.weights)
             squares += w * w;
@@ -65,8 +66,8 @@ void lower_to(std::atomic<float>& bound, float value) {
 
 }  // namespace
 
-// Every triangle finds free distances that make its own slab free; a vertex takes the least that its
-// triangles want. Lower ones keep a slab free, so one pass suffices and its order does not matter.
+// Every triangle finds free distances that make its own slab free; a vertex takes the least of those of its
+// triangles. Lower ones keep a slab free, so one pass suffices and its order does not matter.
 Result<std::vector<float>> free_distances(const MedialMesh& mesh, const std::vector<double>& clearance,
                                           const Obstacles& obstacles, double tolerance, Stage& stage) {
     std::vector<std::atomic<float>> bounds(mesh.vertices.size());

@@ -9,7 +9,7 @@
 
 namespace camdir::bake {
 
-// Exact distance from each vertex to the nearest obstacle.
+// Distance from each vertex to the nearest obstacle, up to the rounding of doubles.
 [[nodiscard]] Result<std::vector<double>> clearances(const MedialMesh& mesh, const Obstacles& obstacles,
                                                      Stage& stage);
 

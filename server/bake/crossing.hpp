@@ -1,5 +1,5 @@
-// Medial triangles that cross an obstacle. No free distance could make them safe. The few there are
-// come from edges shorter than twice the sampling distance, welded vertices and rounding.
+// Medial triangles that cross an obstacle: no free distance makes them safe. The few that exist come from
+// edges shorter than twice the sampling distance, merged vertices and rounding.
 #pragma once
 
 #include <vector>
@@ -10,8 +10,8 @@
 
 namespace camdir::bake {
 
-// Removes every triangle that has a point in common with an obstacle, decided exactly. `clearance` is that
-// of the vertices.
+// Removes every triangle that has a point in common with an obstacle, decided by exact predicates.
+// `clearance` is that of the vertices.
 [[nodiscard]] Result<void> remove_crossing(MedialMesh& mesh, const std::vector<double>& clearance,
                                            const Obstacles& obstacles, Stage& stage);
 

@@ -25,7 +25,7 @@ using Triangulation =
     CGAL::Delaunay_triangulation_3<Kernel, CGAL::Triangulation_data_structure_3<VertexBase, CellBase>>;
 using Point = Kernel::Point_3;
 
-// Inserts in an order that keeps neighbours together, a few thousand points between two looks at `stage`.
+// Inserts in an order that keeps neighbours together; checks `stage` every few thousand points.
 bool insert(const std::vector<Vec3d>& samples, Triangulation& triangulation, Stage& stage) {
     std::vector<std::pair<Point, std::uint32_t>> points;
     points.reserve(samples.size());
@@ -75,17 +75,17 @@ Result<Cells> number_cells(const Triangulation& triangulation, Stage& stage) {
     return cells;
 }
 
-// Finds the rings that begin with given cells.
-class RingFinder {
+// Finds the Voronoi faces that begin with given cells.
+class FaceFinder {
   public:
-    RingFinder(const Triangulation& triangulation, const std::vector<double>& min_lengths)
+    FaceFinder(const Triangulation& triangulation, const std::vector<double>& min_lengths)
         : triangulation_(triangulation), min_lengths_(min_lengths) {}
 
-    void append_rings_of(Triangulation::Cell_handle cell, Delaunay& result) const {
+    void append_faces_of(Triangulation::Cell_handle cell, Delaunay& result) const {
         for (int i = 0; i < 4; ++i)
             for (int j = 0; j < 4; ++j)
                 if (cell->vertex(i)->info() < cell->vertex(j)->info() && is_long(cell, i, j))
-                    append_ring({cell, i, j}, result);
+                    append_face({cell, i, j}, result);
     }
 
   private:
@@ -96,20 +96,20 @@ class RingFinder {
         return CGAL::squared_distance(a->point(), b->point()) >= min_length * min_length;
     }
 
-    // Nothing when another cell around the edge comes first, or the face reaches to infinity.
-    void append_ring(const Triangulation::Edge& edge, Delaunay& result) const {
+    // Nothing when another cell around the edge comes first or the face is unbounded.
+    void append_face(const Triangulation::Edge& edge, Delaunay& result) const {
         const auto& [first, i, j] = edge;
-        const std::size_t begin = result.ring_cells.size();
+        const std::size_t begin = result.face_cells.size();
         auto cell = triangulation_.incident_cells(edge, first);
         do {
             if (triangulation_.is_infinite(cell) || cell->info() < first->info()) {
-                result.ring_cells.resize(begin);
+                result.face_cells.resize(begin);
                 return;
             }
-            result.ring_cells.push_back(cell->info());
+            result.face_cells.push_back(cell->info());
         } while (Triangulation::Cell_handle(++cell) != first);
-        result.ring_begin.push_back(result.ring_cells.size());
-        result.ring_edges.push_back({first->vertex(i)->info(), first->vertex(j)->info()});
+        result.face_begin.push_back(result.face_cells.size());
+        result.generators.push_back({first->vertex(i)->info(), first->vertex(j)->info()});
     }
 
     const Triangulation& triangulation_;
@@ -117,11 +117,11 @@ class RingFinder {
 };
 
 void append(const Delaunay& part, Delaunay& whole) {
-    const std::uint64_t offset = whole.ring_cells.size();
-    whole.ring_cells.insert(whole.ring_cells.end(), part.ring_cells.begin(), part.ring_cells.end());
-    whole.ring_edges.insert(whole.ring_edges.end(), part.ring_edges.begin(), part.ring_edges.end());
-    for (std::size_t i = 1; i < part.ring_begin.size(); ++i)
-        whole.ring_begin.push_back(offset + part.ring_begin[i]);
+    const std::uint64_t offset = whole.face_cells.size();
+    whole.face_cells.insert(whole.face_cells.end(), part.face_cells.begin(), part.face_cells.end());
+    whole.generators.insert(whole.generators.end(), part.generators.begin(), part.generators.end());
+    for (std::size_t i = 1; i < part.face_begin.size(); ++i)
+        whole.face_begin.push_back(offset + part.face_begin[i]);
 }
 
 }  // namespace
@@ -136,12 +136,12 @@ Result<Delaunay> delaunay(const std::vector<Vec3d>& samples, const std::vector<d
     auto cells = number_cells(triangulation, stage);
     if (!cells) return tl::unexpected(std::move(cells.error()));
     constexpr std::size_t part_size = 4096;  // cells
-    const RingFinder finder(triangulation, min_lengths);
+    const FaceFinder finder(triangulation, min_lengths);
     std::vector<Delaunay> parts((cells->handles.size() + part_size - 1) / part_size);
     const bool done = stage.for_each(parts.size(), [&](std::uint64_t part) {
         const std::size_t end = std::min(cells->handles.size(), (part + 1) * part_size);
         for (std::size_t cell = part * part_size; cell < end; ++cell)
-            finder.append_rings_of(cells->handles[cell], parts[part]);
+            finder.append_faces_of(cells->handles[cell], parts[part]);
     });
     if (!done) return stage.interrupted();
 
@@ -150,7 +150,7 @@ Result<Delaunay> delaunay(const std::vector<Vec3d>& samples, const std::vector<d
     for (const Delaunay& part : parts)
         append(part, result);
     stage.count("cells", static_cast<double>(result.cells.size()));
-    stage.count("bounded faces", static_cast<double>(result.ring_count()));
+    stage.count("bounded faces", static_cast<double>(result.face_count()));
     return result;
 }
 

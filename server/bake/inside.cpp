@@ -19,7 +19,7 @@ DisjointSets connect(const MedialMesh& mesh) {
     return parts;
 }
 
-// Those that a triangle has.
+// Those that are the corner of a triangle.
 std::vector<char> used_vertices(const MedialMesh& mesh) {
     std::vector<char> used(mesh.vertices.size());
     for (const auto& [a, b, c] : mesh.triangles)
@@ -33,7 +33,7 @@ Result<std::vector<char>> parts_with_spawn_points(const MedialMesh& mesh,
                                                   const scene::Scene& scene, DisjointSets& parts,
                                                   Stage& stage) {
     const std::vector<char> used = used_vertices(mesh);
-    std::vector<char> wanted(mesh.vertices.size());
+    std::vector<char> selected(mesh.vertices.size());
     std::vector<char> connected(scene.spawn_points.size());
     for (std::uint32_t vertex = 0; vertex < used.size(); ++vertex) {
         if (vertex % 16384 == 0 && !stage.advance(vertex, used.size())) return stage.interrupted();
@@ -41,7 +41,7 @@ Result<std::vector<char>> parts_with_spawn_points(const MedialMesh& mesh,
         for (std::size_t spawn = 0; spawn < connected.size(); ++spawn) {
             const Vec3d to_eye = scene.spawn_points[spawn].eye - mesh.position(vertex);
             if (to_eye.norm() >= clearance[vertex]) continue;
-            wanted[parts.find(vertex)] = 1;
+            selected[parts.find(vertex)] = 1;
             connected[spawn] = 1;
         }
     }
@@ -52,11 +52,11 @@ Result<std::vector<char>> parts_with_spawn_points(const MedialMesh& mesh,
         return fail(scene.source + ": none of the " + std::to_string(connected.size()) +
                     " spawn points and seeds is in free space that is wide enough for this d0; expected a "
                     "--seed in the open, or a smaller --d0");
-    return wanted;
+    return selected;
 }
 
-// Of the area whose balls lie in the map's bounds: those around an open map reach out of them, and what is
-// around it is not meant. Of the whole area where that is the same.
+// By the area whose balls lie in the map's bounds: the space around an open map, whose balls reach out of
+// them, does not count. Ties by the whole area.
 std::vector<char> largest_part(const MedialMesh& mesh, const std::vector<double>& clearance,
                                const Box3d& bounds, DisjointSets& parts) {
     const auto is_within = [&](std::uint32_t vertex) {
@@ -75,26 +75,26 @@ std::vector<char> largest_part(const MedialMesh& mesh, const std::vector<double>
             whole += of_one;
         }
     }
-    std::vector<char> wanted(mesh.vertices.size());
+    std::vector<char> selected(mesh.vertices.size());
     const auto largest = std::max_element(areas.begin(), areas.end(),
                                           [](const auto& a, const auto& b) { return a.second < b.second; });
-    if (largest != areas.end()) wanted[largest->first] = 1;
-    return wanted;
+    if (largest != areas.end()) selected[largest->first] = 1;
+    return selected;
 }
 
-Result<std::vector<char>> wanted_parts(const MedialMesh& mesh, const std::vector<double>& clearance,
+Result<std::vector<char>> select_parts(const MedialMesh& mesh, const std::vector<double>& clearance,
                                        const scene::Scene& scene, DisjointSets& parts, Stage& stage) {
     if (scene.spawn_points.empty()) return largest_part(mesh, clearance, scene.bounds, parts);
     return parts_with_spawn_points(mesh, clearance, scene, parts, stage);
 }
 
-// Keeps the wanted parts' triangles.
-void keep_parts(MedialMesh& mesh, const std::vector<char>& wanted, DisjointSets& parts, Stage& stage) {
+// Keeps the triangles of the selected parts.
+void keep_parts(MedialMesh& mesh, const std::vector<char>& selected, DisjointSets& parts, Stage& stage) {
     std::vector<char> keep(mesh.triangles.size());
     for (std::size_t i = 0; i < keep.size(); ++i) {
         const freespace::Triangle& t = mesh.triangles[i];
         for (const std::uint32_t vertex : {t.a, t.b, t.c})
-            keep[i] = keep[i] || wanted[parts.find(vertex)];
+            keep[i] = keep[i] || selected[parts.find(vertex)];
     }
     keep_triangles(mesh, keep);
     stage.count("inside triangles", static_cast<double>(mesh.triangles.size()));
@@ -105,15 +105,15 @@ void keep_parts(MedialMesh& mesh, const std::vector<char>& wanted, DisjointSets&
 Result<void> keep_inside(MedialMesh& mesh, const std::vector<double>& clearance, const scene::Scene& scene,
                          const Solids& solids, Stage& stage) {
     DisjointSets parts = connect(mesh);
-    const auto wanted = wanted_parts(mesh, clearance, scene, parts, stage);
-    if (!wanted) return tl::unexpected(wanted.error());
+    const auto selected = select_parts(mesh, clearance, scene, parts, stage);
+    if (!selected) return tl::unexpected(selected.error());
 
-    keep_parts(mesh, *wanted, parts, stage);
+    keep_parts(mesh, *selected, parts, stage);
     std::vector<char> keep(mesh.triangles.size());
     const bool done = stage.for_each(keep.size(), [&](std::uint64_t i) {
         const auto& [a, b, c] = mesh.triangles[i];
-        keep[i] = !solids.contain(mesh.position(a)) && !solids.contain(mesh.position(b)) &&
-                  !solids.contain(mesh.position(c));
+        keep[i] = !solids.contains(mesh.position(a)) && !solids.contains(mesh.position(b)) &&
+                  !solids.contains(mesh.position(c));
     });
     if (!done) return stage.interrupted();
     keep_triangles(mesh, keep);
@@ -122,9 +122,11 @@ Result<void> keep_inside(MedialMesh& mesh, const std::vector<double>& clearance,
 }
 
 Result<void> keep_inside_cloud(MedialMesh& mesh, const std::vector<double>& clearance,
-                               const std::vector<float>& free_distance, double margin, double passage,
+                               const std::vector<float>& free_distance, double offset_radius, double passage,
                                const scene::Scene& scene, Stage& stage) {
-    const auto is_wide = [&](std::uint32_t vertex) { return free_distance[vertex] > margin + passage; };
+    const auto is_wide = [&](std::uint32_t vertex) {
+        return free_distance[vertex] > offset_radius + passage;
+    };
     DisjointSets parts(mesh.vertices.size());
     std::vector<char> keep(mesh.triangles.size());
     for (std::size_t i = 0; i < keep.size(); ++i) {
@@ -138,11 +140,11 @@ Result<void> keep_inside_cloud(MedialMesh& mesh, const std::vector<double>& clea
     // Nothing is known to be connected with the other vertices.
     std::vector<double> free(mesh.vertices.size());
     for (std::uint32_t vertex = 0; vertex < free.size(); ++vertex)
-        free[vertex] = is_wide(vertex) ? clearance[vertex] - margin : 0.0;
+        free[vertex] = is_wide(vertex) ? clearance[vertex] - offset_radius : 0.0;
 
-    const auto wanted = wanted_parts(mesh, free, scene, parts, stage);
-    if (!wanted) return tl::unexpected(wanted.error());
-    keep_parts(mesh, *wanted, parts, stage);
+    const auto selected = select_parts(mesh, free, scene, parts, stage);
+    if (!selected) return tl::unexpected(selected.error());
+    keep_parts(mesh, *selected, parts, stage);
     stage.count("triangles", static_cast<double>(mesh.triangles.size()));
     return {};
 }

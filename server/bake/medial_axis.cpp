@@ -20,7 +20,7 @@ class Prober {
 
   private:
     void probe(const Triangle3d& t, const Vec3d& normal, std::vector<Vec3d>& centres) {
-        if (stage_.stopping() || found_ > probing_.most || solids_.conceal(t, offset())) return;
+        if (stage_.stopping() || found_ > probing_.max_points || solids_.is_buried(t, offset())) return;
         const Vec3d q = (t[0] + t[1] + t[2]) / 3.0;
         const double above = radius(q, normal);
         const double below = radius(q, -normal);
@@ -38,7 +38,7 @@ class Prober {
         if (below > 0.0 && below < probing_.reach) add(q - below * normal, centres);
     }
 
-    // Counts in blocks, so that the threads seldom meet.
+    // Counts in blocks: the counter is shared by all threads.
     void add(const Vec3d& centre, std::vector<Vec3d>& centres) {
         centres.push_back(centre);
         if (centres.size() % block == 0) found_ += block;
@@ -48,11 +48,11 @@ class Prober {
 
     // 0 when the side is in a solid.
     [[nodiscard]] double radius(const Vec3d& q, const Vec3d& normal) const {
-        if (solids_.contain(q + offset() * normal)) return 0.0;
-        return tangent_radius(q, normal, probing_.reach, obstacles_);
+        if (solids_.contains(q + offset() * normal)) return 0.0;
+        return shrinking_ball_radius(q, normal, probing_.reach, obstacles_);
     }
 
-    // Away from a surface, where it is asked what lies on that side.
+    // How far from a surface its sides are tested for solids.
     [[nodiscard]] double offset() const { return 0.001 * probing_.finest; }
 
     const Obstacles& obstacles_;
@@ -64,9 +64,9 @@ class Prober {
 
 }  // namespace
 
-// Shrinks the ball, obstacle by obstacle, to the one through `q` and the obstacle point deepest inside. What
-// is outside of a ball is outside of those that it shrinks to, so that one look at each obstacle is enough.
-double tangent_radius(const Vec3d& q, const Vec3d& normal, double reach, const Obstacles& obstacles) {
+// Shrinks the ball, obstacle by obstacle, to the one through `q` and the obstacle point deepest inside. Balls
+// only shrink within themselves, so that each obstacle is examined once.
+double shrinking_ball_radius(const Vec3d& q, const Vec3d& normal, double reach, const Obstacles& obstacles) {
     constexpr int max_steps = 64;
     constexpr double rounding = 1.0 - 1e-4;
     double radius = reach;

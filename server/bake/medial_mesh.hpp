@@ -1,4 +1,4 @@
-// The medial mesh V(S) while it is being made: the paper's section 4.2.
+// The medial mesh V(S) under construction: the paper's section 4.2.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace camdir::bake {
 
-// Vertices are floats, because floats are what a freespace holds: everything from here on is exact for them.
+// Vertices are floats, as in a freespace: all later stages compute with the rounded positions.
 struct MedialMesh {
     std::vector<Vec3f> vertices;
     std::vector<freespace::Triangle> triangles;

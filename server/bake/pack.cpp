@@ -19,13 +19,13 @@ bool covered(const Vec3d& point, const freespace::Contents& contents) {
         }
         const Slab slab(corners, free_distance);
         const Triangle3d as_obstacle{point, point, point};
-        return slab.margin_at_least(as_obstacle) < 0.0 && slab.margin(as_obstacle).value < 0.0;
+        return slab.min_gap(as_obstacle) < 0.0 && slab.signed_gap(as_obstacle).value < 0.0;
     };
     return std::any_of(contents.triangles.begin(), contents.triangles.end(), holds);
 }
 
-// Of the balls within the map's bounds: above and around an open map they are wider, and reach out of them.
-// Of all, cut off at the bounds, where none is within.
+// The centre of the widest ball within the map's bounds: balls above and around an open map are wider but
+// reach out of them. Where none is within, that of the widest after clipping to the bounds.
 freespace::SpawnPoint widest_place(const freespace::Contents& contents, const Box3d& bounds) {
     const auto width = [&](const freespace::Vertex& vertex) {
         const double radius = vertex.free_distance;
@@ -43,16 +43,21 @@ Result<freespace::Contents> pack(const MedialMesh& mesh, const std::vector<float
                                  const scene::Scene& scene, Stage& stage) {
     freespace::Contents contents;
     std::vector<std::uint32_t> new_index(mesh.vertices.size(), freespace::none);
+    const double threshold = min_free_distance * scene::metres_of_nominal_unit / scene.metres_per_unit;
+    const auto stored = [&](std::uint32_t vertex) {
+        const float distance = free_distance[vertex];
+        return distance > threshold ? distance : std::min(distance, 0.0F);
+    };
     const auto take = [&](std::uint32_t vertex) {
         if (new_index[vertex] == freespace::none) {
             new_index[vertex] = static_cast<std::uint32_t>(contents.vertices.size());
             const Vec3f& p = mesh.vertices[vertex];
-            contents.vertices.push_back({p.x(), p.y(), p.z(), free_distance[vertex]});
+            contents.vertices.push_back({p.x(), p.y(), p.z(), stored(vertex)});
         }
         return new_index[vertex];
     };
     for (const auto& [a, b, c] : mesh.triangles) {
-        if (std::max({free_distance[a], free_distance[b], free_distance[c]}) <= 0.0F) continue;
+        if (std::max({stored(a), stored(b), stored(c)}) <= 0.0F) continue;
         contents.triangles.push_back({take(a), take(b), take(c)});
     }
     if (contents.triangles.empty())

@@ -10,9 +10,13 @@
 
 namespace camdir::bake {
 
-// Drops the triangles whose slab is empty (no corner has a free distance > 0) and the vertices that no
-// triangle uses. A scene without spawn points gets the middle of the ball that is widest within the bounds as
-// one. Leaves metadata to the caller. Fails when nothing is left.
+// Nominal units. Free distances up to this are stored as 0: they come from doubles, whose rounding is less
+// than 1e-9 at the coordinates of maps, so that smaller ones are rounding and not space.
+inline constexpr double min_free_distance = 1e-6;
+
+// Drops the triangles whose slab is empty (no corner has a free distance) and unused vertices. A scene
+// without spawn points gets the centre of the widest ball within the bounds as one. Leaves metadata to the
+// caller. Fails when nothing is left.
 [[nodiscard]] Result<freespace::Contents> pack(const MedialMesh& mesh,
                                                const std::vector<float>& free_distance,
                                                const scene::Scene& scene, Stage& stage);

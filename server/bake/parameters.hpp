@@ -3,11 +3,9 @@
 
 #include <cstdint>
 #include <optional>
-#include <string>
 #include <string_view>
 
 #include "base/error.hpp"
-#include "scene/read_options.hpp"
 #include "scene/scene.hpp"
 
 namespace camdir::bake {
@@ -22,28 +20,24 @@ enum class Sampling : std::uint8_t {
     uniform,   // the same distance everywhere
 };
 
-// "adaptive" or "uniform": the name in files, in the configuration and on the command line.
+// "adaptive" or "uniform": the name in files, the configuration and on the command line.
 [[nodiscard]] std::string_view name_of(Sampling sampling);
 [[nodiscard]] std::optional<Sampling> sampling_named(std::string_view name);
 
 struct Parameters {
-    // Sampling distance in units of 0.0254 m: sets which openings exist. min_d0 .. max_d0, or 0: 16, and for
-    // a point cloud the points' spacing, as far as it lies within these.
+    // Sampling distance in nominal units of 0.0254 m: decides which openings exist. min_d0 .. max_d0, or 0
+    // for the default: 16, for a point cloud the points' spacing clamped to that range.
     double d0 = 0.0;
-    unsigned threads = 0;  // 0 = one a core, which is also the most. Never changes the result
+    unsigned threads = 0;  // 0 = one per core, which is also the limit. Never changes the result
     // Mesh reduction: how much free distance the centre of a ball may lose, as percent of the mean over the
-    // mesh, but at most 3/2 d0: what keeps 3/2 d0 away from the obstacles stays in free space. 0 keeps the
-    // whole mesh. 0 .. max_loss. The default keeps tightness above 0.93 on maps of games
+    // mesh, at most 3/2 d0: points at least that far from the obstacles stay in free space. 0 .. max_loss; 0
+    // turns reduction off. The default keeps tightness above 0.93 on game maps.
     double loss = 16.0;
-    std::uint64_t triangles = 0;  // > 0: reduction ends as soon as no more than these are left
+    std::uint64_t triangles = 0;  // > 0: reduction ends when at most this many are left
     Sampling sampling = Sampling::adaptive;
-    double coarsest = 8.0;     // adaptive: no sampling distance is more than this times d0. 1 .. max_coarsest
+    double coarsest = 8.0;     // adaptive: limit of the sampling distance, times d0. 1 .. max_coarsest
     std::uint64_t memory = 0;  // > 0: a bake that is expected to take more bytes is refused
 };
-
-// What decides the result beside the source, as a JSON object: Metadata::parameters is it, and "kind", what
-// the source is.
-[[nodiscard]] std::string to_json(const Parameters& parameters, const scene::ReadOptions& options);
 
 // The sampling distance that is used, map units.
 [[nodiscard]] double sampling_distance(const scene::Scene& scene, const Parameters& parameters);

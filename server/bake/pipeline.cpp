@@ -22,17 +22,17 @@
 namespace camdir::bake {
 namespace {
 
-constexpr double most_loss = 1.5;  // of d0
-// Of the sampling distance: Delaunay edges from this length on have faces. The paper has 2, and so no face
+constexpr double max_loss_of_d0 = 1.5;
+// Of the sampling distance: Delaunay edges of at least this length have faces. The paper's 2 gives no face
 // that touches an obstacle; but a duct whose balls touch three walls evenly has its samples sqrt(3) radii
-// apart, and closes with a radius well above d0. Of the faces that the shorter edges add a few touch an
-// obstacle, as triangles that crossing.hpp removes; nothing crosses a point.
+// apart, and would close with a radius well above d0. The few faces of shorter edges that touch an obstacle
+// are removed by the stage "crossing"; nothing crosses a point.
 constexpr double long_edge = 1.7;
-// Nominal units: half the width of the narrowest gap between a cloud's points that joins two places. There
-// are always some that a hair would pass.
+// Nominal units: half the width of the narrowest gap between a cloud's points that connects two places.
+// Sparse points always leave some narrower gaps in a surface.
 constexpr double passage = 5.5;
 
-// Moves the value of a stage's result to where the next stage finds it.
+// Stores the value of a stage's result for the next stage.
 template <class T>
 Result<void> keep(Result<T> result, T& place) {
     if (!result) return tl::unexpected(std::move(result.error()));
@@ -59,21 +59,22 @@ Result<void> Pipeline::check_size() const {
     return check_sample_count(scene_, coarsest(), d0_);
 }
 
-// Uniform sampling asks no medial axis.
+// Uniform sampling needs no medial axis.
 Result<void> Pipeline::medial_axis(Stage& stage) {
     if (parameters_.sampling == Sampling::uniform) return {};
     const Probing probing{2.0 * d0_, SamplingDistance::reach(coarsest()), max_samples};
     auto points = bake::medial_axis(obstacles_, solids_, probing, stage);
     if (!points) return tl::unexpected(std::move(points.error()));
-    // Where the obstacles are that near to each other the samples are as dense.
+    // So many points mean at least as many samples.
     if (points->size() > max_samples) return too_many_samples(scene_, d0_, static_cast<double>(max_samples));
     distance_ = SamplingDistance(d0_, coarsest(), std::move(*points));
     return {};
 }
 
 Result<void> Pipeline::forecast(Stage& /*stage*/) {
-    const SampleEstimate estimate = is_cloud() ? SampleEstimate(static_cast<double>(samples_.size()), d0_)
-                                               : SampleEstimate(scene_, solids_, distance_, weld_distance());
+    const SampleEstimate estimate = is_cloud()
+                                        ? SampleEstimate(static_cast<double>(samples_.size()), d0_)
+                                        : SampleEstimate(scene_, solids_, distance_, thinning_distance());
     const Forecast forecast = bake::forecast(estimate, d0_, unit_, threads_);
     if (expected_) expected_(forecast);
     if (parameters_.memory == 0) return {};
@@ -81,11 +82,11 @@ Result<void> Pipeline::forecast(Stage& /*stage*/) {
 }
 
 Result<void> Pipeline::sample(Stage& stage) {
-    return keep(bake::sample(scene_, solids_, distance_, weld_distance(), stage), samples_);
+    return keep(bake::sample(scene_, solids_, distance_, thinning_distance(), stage), samples_);
 }
 
-Result<void> Pipeline::weld(Stage& stage) {
-    return keep(bake::weld(std::move(samples_), weld_distance(), stage), samples_);
+Result<void> Pipeline::thin(Stage& stage) {
+    return keep(bake::thin(std::move(samples_), thinning_distance(), stage), samples_);
 }
 
 Result<void> Pipeline::delaunay(Stage& stage) {
@@ -99,7 +100,7 @@ Result<void> Pipeline::delaunay(Stage& stage) {
     return keep(bake::delaunay(samples_, min_lengths, stage), delaunay_);
 }
 
-// Adds the shell's samples, and their distances.
+// Adds the shell's samples with their distances.
 void Pipeline::enclose(std::vector<double>& distances, Stage& stage) {
     const Shell shell = shell_around(scene_.bounds, d0_, distance_.coarsest());
     const std::vector<Vec3d> added = shell_samples(scene_.bounds, shell);
@@ -109,8 +110,7 @@ void Pipeline::enclose(std::vector<double>& distances, Stage& stage) {
 }
 
 Result<void> Pipeline::voronoi(Stage& stage) {
-    auto done =
-        keep(voronoi_faces(samples_, delaunay_, scene_.bounds, vertex_weld_distance(), stage), faces_);
+    auto done = keep(voronoi_faces(samples_, delaunay_, scene_.bounds, merge_distance(), stage), faces_);
     delaunay_ = {};
     samples_ = {};
     return done;
@@ -132,7 +132,8 @@ Result<void> Pipeline::crossing(Stage& stage) {
 
 Result<void> Pipeline::inside(Stage& stage) {
     if (!is_cloud()) return keep_inside(mesh_, clearance_, scene_, solids_, stage);
-    return keep_inside_cloud(mesh_, clearance_, free_distance_, margin(), passage * unit_, scene_, stage);
+    return keep_inside_cloud(mesh_, clearance_, free_distance_, offset_radius(), passage * unit_, scene_,
+                             stage);
 }
 
 Result<void> Pipeline::certify(Stage& stage) {
@@ -141,22 +142,22 @@ Result<void> Pipeline::certify(Stage& stage) {
 
 Result<void> Pipeline::reduce(Stage& stage) {
     if (!(parameters_.loss > 0.0)) return {};
-    const double mean = std::max(0.0, mean_free_distance(mesh_, free_distance_) - margin());
-    const double loss = std::min(parameters_.loss / 100.0 * mean, most_loss * d0_);
+    const double mean = std::max(0.0, mean_free_distance(mesh_, free_distance_) - offset_radius());
+    const double loss = std::min(parameters_.loss / 100.0 * mean, max_loss_of_d0 * d0_);
     stage.count("mean free distance", mean);
     stage.count("allowed loss", loss);
-    const Reduction reduction{loss, margin(), parameters_.triangles};
+    const Reduction reduction{loss, offset_radius(), parameters_.triangles};
     return bake::reduce(mesh_, free_distance_, scene_, obstacles_, reduction, stage);
 }
 
 Result<void> Pipeline::pack(Stage& stage) {
     for (float& distance : free_distance_)
-        distance = round_down(static_cast<double>(distance) - margin());
+        distance = round_down(static_cast<double>(distance) - offset_radius());
     return keep(bake::pack(mesh_, free_distance_, scene_, stage), contents_);
 }
 
 Result<void> Pipeline::recertify(Stage& stage) {
-    return bake::recertify(contents_, obstacles_, margin(), 0.001 * unit_, scene_.source, stage);
+    return bake::recertify(contents_, obstacles_, offset_radius(), 0.001 * unit_, scene_.source, stage);
 }
 
 }  // namespace camdir::bake

@@ -19,8 +19,8 @@
 
 namespace camdir::bake {
 
-// Each member function is one stage: it reads what earlier stages left and clears what later ones do not
-// need.
+// Each member function with a Stage is one stage: it reads the results of earlier stages and clears those
+// that later ones do not need.
 class Pipeline {
   public:
     // All that is passed must outlive it. `threads` is how many the stages run on.
@@ -34,7 +34,7 @@ class Pipeline {
     // Reports what the other stages are going to take; fails when that is more than the bake may have.
     [[nodiscard]] Result<void> forecast(Stage& stage);
     [[nodiscard]] Result<void> sample(Stage& stage);
-    [[nodiscard]] Result<void> weld(Stage& stage);
+    [[nodiscard]] Result<void> thin(Stage& stage);
     [[nodiscard]] Result<void> delaunay(Stage& stage);
     [[nodiscard]] Result<void> voronoi(Stage& stage);
     [[nodiscard]] Result<void> triangulate(Stage& stage);
@@ -58,14 +58,14 @@ class Pipeline {
     }
     // Where volumes are known, the solids close the map.
     [[nodiscard]] bool may_be_open() const { return scene_.brushes.empty(); }
-    // Dropped samples must not break the sampling condition: sampling is finer by this distance.
-    [[nodiscard]] double weld_distance() const { return is_cloud() ? d0_ / 2.0 : d0_ / 64.0; }
-    // Voronoi vertices nearer to each other are one. Half of the triangles lie among such vertices alone, and
-    // samples as dense as d0 say nothing of details this small. A cloud's passages are as narrow as its
-    // margin leaves them.
-    [[nodiscard]] double vertex_weld_distance() const { return is_cloud() ? d0_ / 64.0 : d0_ / 4.0; }
-    // What is free around a cloud's points: surface lies up to d0 away from them.
-    [[nodiscard]] double margin() const { return is_cloud() ? d0_ : 0.0; }
+    // Sampling is finer by this distance, so that dropped samples do not break the sampling condition.
+    [[nodiscard]] double thinning_distance() const { return is_cloud() ? d0_ / 2.0 : d0_ / 64.0; }
+    // Voronoi vertices nearer to each other are merged: half of the triangles join only such vertices, and
+    // samples as dense as d0 do not resolve details this small. Less for a cloud, whose passages are as
+    // narrow as its offset radius leaves them.
+    [[nodiscard]] double merge_distance() const { return is_cloud() ? d0_ / 64.0 : d0_ / 4.0; }
+    // Balls of this radius around a cloud's points are not free: surface lies up to d0 away from the points.
+    [[nodiscard]] double offset_radius() const { return is_cloud() ? d0_ : 0.0; }
 
     const scene::Scene& scene_;
     const Parameters& parameters_;

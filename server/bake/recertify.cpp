@@ -21,13 +21,13 @@ Slab slab_of(const freespace::Contents& contents, const freespace::Triangle& tri
     return {corners, radii};
 }
 
-tl::unexpected<Error> violation(const Slab& slab, const Margin& margin, std::uint64_t triangle,
+tl::unexpected<Error> violation(const Slab& slab, const SignedGap& gap, std::uint64_t triangle,
                                 const std::string& source) {
     Vec3d centre = Vec3d::Zero();
     for (std::size_t i = 0; i < 3; ++i)
-        centre += margin.weights[i] * slab.corners()[i];
+        centre += gap.weights[i] * slab.corners()[i];
     std::ostringstream text;
-    text << source << ": triangle " << triangle << " of the baked mesh reaches " << -margin.value
+    text << source << ": triangle " << triangle << " of the baked mesh reaches " << -gap.value
          << " map units into an obstacle near (" << centre.x() << ", " << centre.y() << ", " << centre.z()
          << "); expected none: this is a defect of the baker, nothing is written; --loss 0 may avoid it";
     return fail(text.str());
@@ -38,7 +38,7 @@ tl::unexpected<Error> violation(const Slab& slab, const Margin& margin, std::uin
 Result<void> recertify(const freespace::Contents& contents, const Obstacles& obstacles, double offset,
                        double tolerance, const std::string& source, Stage& stage) {
     const auto gap = [&](std::uint64_t i) {
-        return margin(slab_of(contents, contents.triangles[i], offset), obstacles, 0.0);
+        return signed_gap(slab_of(contents, contents.triangles[i], offset), obstacles, 0.0);
     };
     std::atomic<std::uint64_t> first{contents.triangles.size()};  // the violated one with the lowest number
     const bool done = stage.for_each(contents.triangles.size(), [&](std::uint64_t i) {

@@ -11,16 +11,15 @@ namespace {
 // Refines obstacle triangles; one object for all threads.
 class Refinement {
   public:
-    Refinement(const Solids& solids, const SamplingDistance& distance, double slack, std::uint64_t most,
+    Refinement(const Solids& solids, const SamplingDistance& distance, double slack, std::uint64_t limit,
                const Stage& stage)
-        : solids_(solids), distance_(distance), slack_(slack), most_(most), stage_(stage) {}
+        : solids_(solids), distance_(distance), slack_(slack), limit_(limit), stage_(stage) {}
 
-    // Makes the midpoints that bisecting the longest edges adds until the triangles are fine enough. Leaves
-    // off when there are too many in all, or when the stage must end. False when the triangle needs no
-    // samples.
+    // Bisects longest edges until the triangles are fine enough, and collects the midpoints. Ends early when
+    // there are too many in all, or when the stage must end. False when the triangle needs no samples.
     bool sample(const Triangle3d& t, std::vector<Vec3d>& midpoints) {
-        if (conceal(t)) return false;
-        if (total_ <= most_)
+        if (is_buried(t)) return false;
+        if (total_ <= limit_)
             refine(t, {distance_.at(t[0]), distance_.at(t[1]), distance_.at(t[2])}, midpoints);
         total_ += midpoints.size() % block;
         return true;
@@ -31,9 +30,9 @@ class Refinement {
         const int from = longest_edge(t);
         const int to = (from + 1) % 3;
         const int apex = (from + 2) % 3;
-        const double limit = distance_.covering(std::min({at[0], at[1], at[2]})) - slack_;
+        const double max_radius = distance_.covering(std::min({at[0], at[1], at[2]})) - slack_;
         const double length2 = (t[to] - t[from]).squaredNorm();
-        if (length2 < 4.0 * limit * limit && covering_radius(t) < limit) return;
+        if (length2 < 4.0 * max_radius * max_radius && covering_radius(t) < max_radius) return;
         if (stage_.stopping() || too_many(midpoints.size())) return;
         // The sum commutes exactly, so both triangles of a shared edge get the same point.
         const Vec3d middle = 0.5 * (t[from] + t[to]);
@@ -41,19 +40,19 @@ class Refinement {
         midpoints.push_back(middle);
         const Triangle3d first{t[from], middle, t[apex]};
         const Triangle3d second{middle, t[to], t[apex]};
-        if (!conceal(first)) refine(first, {at[from], at_middle, at[apex]}, midpoints);
-        if (!conceal(second)) refine(second, {at_middle, at[to], at[apex]}, midpoints);
+        if (!is_buried(first)) refine(first, {at[from], at_middle, at[apex]}, midpoints);
+        if (!is_buried(second)) refine(second, {at_middle, at[to], at[apex]}, midpoints);
     }
 
     // Gaps as narrow as rounding makes them count as closed.
-    [[nodiscard]] bool conceal(const Triangle3d& t) const {
-        return solids_.conceal(t, 0.001 * distance_.finest());
+    [[nodiscard]] bool is_buried(const Triangle3d& t) const {
+        return solids_.is_buried(t, 0.001 * distance_.finest());
     }
 
-    // Counts in blocks, so that the threads seldom meet.
+    // Counts in blocks: the counter is shared by all threads.
     bool too_many(std::size_t of_one_triangle) {
         if (of_one_triangle > 0 && of_one_triangle % block == 0) total_ += block;
-        return total_ > most_;
+        return total_ > limit_;
     }
 
     static constexpr std::uint64_t block = 1024;
@@ -61,7 +60,7 @@ class Refinement {
     const Solids& solids_;
     const SamplingDistance& distance_;
     const double slack_;
-    const std::uint64_t most_;
+    const std::uint64_t limit_;
     const Stage& stage_;
     std::atomic<std::uint64_t> total_ = 0;
 };
@@ -125,8 +124,8 @@ Result<void> check_sample_count(const scene::Scene& scene, double coarsest, doub
 
 Result<std::vector<Vec3d>> sample(const scene::Scene& scene, const Solids& solids,
                                   const SamplingDistance& distance, double slack, Stage& stage,
-                                  std::uint64_t most) {
-    Refinement refinement(solids, distance, slack, most, stage);
+                                  std::uint64_t limit) {
+    Refinement refinement(solids, distance, slack, limit, stage);
     std::vector<std::vector<Vec3d>> midpoints_of(scene.triangles.size());
     std::vector<char> needs(scene.triangles.size());
     const bool done = stage.for_each(scene.triangles.size(), [&](std::uint64_t i) {
@@ -137,7 +136,7 @@ Result<std::vector<Vec3d>> sample(const scene::Scene& scene, const Solids& solid
     std::size_t total = samples.size();
     for (const auto& of_one : midpoints_of)
         total += of_one.size();
-    if (total > most) return too_many_samples(scene, distance.finest(), static_cast<double>(most));
+    if (total > limit) return too_many_samples(scene, distance.finest(), static_cast<double>(limit));
     samples.reserve(total);
     for (const auto& of_one : midpoints_of)
         samples.insert(samples.end(), of_one.begin(), of_one.end());

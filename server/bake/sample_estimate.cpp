@@ -60,7 +60,7 @@ SampleEstimate::SampleEstimate(const scene::Scene& scene, const Solids& solids,
         if (found == weight_up_to.end()) break;
         const Triangle3d t = triangle_of(scene, static_cast<std::size_t>(found - weight_up_to.begin()));
         const Vec3d p = spread_point(t, i);
-        if (solids.conceal(piece_at(t, p), 0.001 * distance.finest())) continue;
+        if (solids.is_buried(piece_at(t, p), 0.001 * distance.finest())) continue;
         probes_.push_back({distance.at(p), area(t), longest_edge_of(t), step / weight(t)});
     }
 }

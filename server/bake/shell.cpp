@@ -7,11 +7,11 @@ namespace camdir::bake {
 namespace {
 
 // Samples: where a box is so thin that its edges have most of them.
-constexpr double most_along_one_side = 1000.0;
+constexpr double max_along_side = 1000.0;
 
 Box3d grown(const Box3d& box, double distance) {
-    const Vec3d margin = Vec3d::Constant(distance);
-    return {box.min() - margin, box.max() + margin};
+    const Vec3d by = Vec3d::Constant(distance);
+    return {box.min() - by, box.max() + by};
 }
 
 }  // namespace
@@ -20,9 +20,9 @@ Shell shell_around(const Box3d& bounds, double d0, double coarsest) {
     const double distance = std::max(4.0 * d0, 0.5 * coarsest);
     const Vec3d size = grown(bounds, distance).sizes();
     const double area = 2.0 * (size.x() * size.y() + size.y() * size.z() + size.z() * size.x());
-    // A share of them is left for the edges.
+    // 40 % are left for the edges.
     const double spacing =
-        std::max(std::sqrt(area / (0.6 * most_shell_samples)), size.maxCoeff() / most_along_one_side);
+        std::max(std::sqrt(area / (0.6 * max_shell_samples)), size.maxCoeff() / max_along_side);
     return {distance, std::max(distance, spacing)};
 }
 

@@ -1,5 +1,5 @@
 // A shell of samples around the map, so that free space that is open to the outside has a medial surface up
-// to the map's bounds. No obstacles: clearances do not know them.
+// to the map's bounds. The shell is no obstacle: clearances ignore it.
 #pragma once
 
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace camdir::bake {
 
-// About as many at most.
-inline constexpr double most_shell_samples = 30'000.0;
+// Limit, approximate.
+inline constexpr double max_shell_samples = 30'000.0;
 
 struct Shell {
     double distance;  // from the bounds

@@ -1,4 +1,4 @@
-// A running stage of the bake: how far it is, what it counted, and whether the user asked to stop.
+// A running stage of the bake: its progress, its counts, and whether a stop was requested.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ class Stage {
   public:
     Stage(std::string name, ProgressSink sink, std::stop_token stop);
 
-    // Tells the progress, at most every 50 ms and at the end; a `total` of 0 is unknown. False when the stage
+    // Reports progress, at most every 50 ms and at the end; a `total` of 0 is unknown. False when the stage
     // must end: return interrupted() then.
     [[nodiscard]] bool advance(std::uint64_t done, std::uint64_t total);
 
@@ -28,7 +28,7 @@ class Stage {
     template <class Body>
     [[nodiscard]] bool for_each(std::uint64_t count, const Body& body);
 
-    // For bodies that take long: they should end soon when it is true.
+    // For bodies that take long: they should return early when it is true.
     [[nodiscard]] bool stopping() const { return stop_.stop_requested(); }
 
     // A number for the bake's report.
@@ -50,7 +50,7 @@ class Stage {
 
 template <class Body>
 bool Stage::for_each(std::uint64_t count, const Body& body) {
-    // Slices, so that one thread tells the progress between them; grains, so that a stop is seen soon.
+    // Slices, so that one thread reports progress between them; grains, so that a stop takes effect soon.
     const std::uint64_t slice = std::clamp<std::uint64_t>(count / 64, 256, 16384);
     const std::uint64_t grain = std::clamp<std::uint64_t>(count / 64, 1, 64);
     for (std::uint64_t first = 0; first < count; first += slice) {

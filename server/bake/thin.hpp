@@ -1,4 +1,4 @@
-// Welding of samples that lie almost in the same place.
+// The stages "weld", of samples that almost coincide, and "thin", of a cloud's points: both keep a subset.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,8 @@
 
 namespace camdir::bake {
 
-// Keeps a subset of the samples, in ascending (x, y, z) order, such that every dropped one has a kept one
-// within `distance` and no two kept ones are that close.
-[[nodiscard]] Result<std::vector<Vec3d>> weld(std::vector<Vec3d> samples, double distance, Stage& stage);
+// Keeps a subset of the points, in ascending (x, y, z) order, such that every dropped one has a kept one
+// within `distance` > 0 and no two kept ones are that close. Fails when interrupted.
+[[nodiscard]] Result<std::vector<Vec3d>> thin(std::vector<Vec3d> points, double distance, Stage& stage);
 
 }  // namespace camdir::bake

@@ -46,7 +46,7 @@ bool degenerate(const MedialMesh& mesh, const freespace::Triangle& t) {
     return !(u.cross(v).squaredNorm() > 1e-24 * u.squaredNorm() * v.squaredNorm());
 }
 
-// Keeps the first of those with the same corners: neighbouring faces may end in one welded vertex.
+// Keeps the first of those with the same corners: neighbouring faces may end in one merged vertex.
 void drop_repeated(MedialMesh& mesh) {
     struct Entry {
         std::array<std::uint32_t, 3> corners;  // ascending

@@ -16,7 +16,7 @@ namespace camdir::bake {
 // triangulations it follows the distance to the obstacles best: its error is smallest for |x|^2.
 void triangulate_convex(std::span<const Vec3d> polygon, std::vector<std::array<std::uint32_t, 3>>& triangles);
 
-// Rounds the vertices to floats, which are the truth from here on. Drops triangles that rounding made
+// Rounds the vertices to floats, with which all later stages compute. Drops triangles that rounding made
 // degenerate, and all but one of those with the same corners.
 [[nodiscard]] Result<MedialMesh> triangulate(const VoronoiFaces& faces, Stage& stage);
 

@@ -8,28 +8,28 @@
 namespace camdir::bake {
 namespace {
 
-// Unites neighbouring Voronoi vertices such that none is `distance` or more away from its set's
-// representative: chains of close vertices do not collapse.
-DisjointSets weld_neighbours(const std::vector<Vec3d>& centres, const Delaunay& delaunay, double distance) {
+// Unites neighbouring Voronoi vertices; each stays nearer than `distance` to its set's representative, so
+// that chains of close vertices do not collapse.
+DisjointSets merge_neighbours(const std::vector<Vec3d>& centres, const Delaunay& delaunay, double distance) {
     DisjointSets sets(centres.size());
-    std::vector<double> reach(centres.size());  // of a representative: bound of the distance to its members
-    for (std::size_t i = 0; i < delaunay.ring_count(); ++i) {
-        const auto ring = delaunay.ring(i);
-        for (std::size_t k = 0; k < ring.size(); ++k) {
-            const std::uint32_t a = sets.find(ring[k]);
-            const std::uint32_t b = sets.find(ring[(k + 1) % ring.size()]);
+    std::vector<double> radius(centres.size());  // of a representative: bound of the distance to its members
+    for (std::size_t i = 0; i < delaunay.face_count(); ++i) {
+        const auto face = delaunay.face(i);
+        for (std::size_t k = 0; k < face.size(); ++k) {
+            const std::uint32_t a = sets.find(face[k]);
+            const std::uint32_t b = sets.find(face[(k + 1) % face.size()]);
             if (a == b) continue;
             const auto [kept, lost] = std::minmax(a, b);
-            const double needed = (centres[kept] - centres[lost]).norm() + reach[lost];
+            const double needed = (centres[kept] - centres[lost]).norm() + radius[lost];
             if (!(needed < distance)) continue;
             sets.unite(kept, lost);
-            reach[kept] = std::max(reach[kept], needed);
+            radius[kept] = std::max(radius[kept], needed);
         }
     }
     return sets;
 }
 
-// The ring's polygon over cell indices: welded corners once.
+// Over cell indices: merged corners once.
 void simplify(std::vector<std::uint32_t>& polygon) {
     polygon.erase(std::unique(polygon.begin(), polygon.end()), polygon.end());
     while (polygon.size() > 1 && polygon.front() == polygon.back())
@@ -39,7 +39,7 @@ void simplify(std::vector<std::uint32_t>& polygon) {
 }  // namespace
 
 Result<VoronoiFaces> voronoi_faces(const std::vector<Vec3d>& samples, const Delaunay& delaunay,
-                                   const Box3d& bounds, double weld_distance, Stage& stage) {
+                                   const Box3d& bounds, double merge_distance, Stage& stage) {
     const auto& cells = delaunay.cells;
     std::vector<Vec3d> centres(cells.size());
     const bool done = stage.for_each(cells.size(), [&](std::uint64_t i) {
@@ -48,15 +48,15 @@ Result<VoronoiFaces> voronoi_faces(const std::vector<Vec3d>& samples, const Dela
     });
     if (!done) return stage.interrupted();
 
-    DisjointSets sets = weld_neighbours(centres, delaunay, weld_distance);
+    DisjointSets sets = merge_neighbours(centres, delaunay, merge_distance);
     constexpr std::uint32_t unused = 0xffffffffU;
     std::vector<std::uint32_t> vertex_of(cells.size(), unused);
     VoronoiFaces faces;
     std::vector<std::uint32_t> polygon;
-    for (std::size_t i = 0; i < delaunay.ring_count(); ++i) {
-        if (i % 16384 == 0 && !stage.advance(i, delaunay.ring_count())) return stage.interrupted();
+    for (std::size_t i = 0; i < delaunay.face_count(); ++i) {
+        if (i % 16384 == 0 && !stage.advance(i, delaunay.face_count())) return stage.interrupted();
         polygon.clear();
-        for (const std::uint32_t cell : delaunay.ring(i))
+        for (const std::uint32_t cell : delaunay.face(i))
             polygon.push_back(sets.find(cell));
         simplify(polygon);
         const bool inside = std::all_of(polygon.begin(), polygon.end(),
@@ -70,7 +70,7 @@ Result<VoronoiFaces> voronoi_faces(const std::vector<Vec3d>& samples, const Dela
             faces.corners.push_back(vertex_of[cell]);
         }
         faces.begin.push_back(faces.corners.size());
-        faces.edges.push_back(delaunay.ring_edges[i]);
+        faces.generators.push_back(delaunay.generators[i]);
     }
     stage.count("vertices", static_cast<double>(faces.vertices.size()));
     stage.count("faces", static_cast<double>(faces.size()));

@@ -10,12 +10,12 @@
 
 namespace camdir::bake {
 
-// Polygons over shared vertices, convex and plane up to the weld; corners of one may repeat after it.
+// Polygons over shared vertices, convex and planar but for merged vertices, which may also repeat in one.
 struct VoronoiFaces {
     std::vector<Vec3d> vertices;
     std::vector<std::uint64_t> begin{0};
     std::vector<std::uint32_t> corners;
-    std::vector<Edge> edges;  // of each face: the samples that it lies between
+    std::vector<Generators> generators;  // of each face
 
     [[nodiscard]] std::size_t size() const { return begin.size() - 1; }
     [[nodiscard]] std::span<const std::uint32_t> face(std::size_t i) const {
@@ -23,10 +23,10 @@ struct VoronoiFaces {
     }
 };
 
-// The duals of the rings, as far as they lie inside `bounds`. Neighbouring Voronoi vertices nearer to each
-// other than `weld_distance` become one, none moved further than that: samples in regular grids have clusters
-// of cells with one circumcentre.
+// The faces that lie inside `bounds`. Neighbouring Voronoi vertices nearer to each other than
+// `merge_distance` become one, and none moves further than that: samples in regular grids have clusters of
+// cells with one circumcentre.
 [[nodiscard]] Result<VoronoiFaces> voronoi_faces(const std::vector<Vec3d>& samples, const Delaunay& delaunay,
-                                                 const Box3d& bounds, double weld_distance, Stage& stage);
+                                                 const Box3d& bounds, double merge_distance, Stage& stage);
 
 }  // namespace camdir::bake

@@ -4,6 +4,7 @@
 #include <thread>
 #include <utility>
 
+#include "bake/parameters_json.hpp"
 #include "base/file.hpp"
 #include "config/json_text.hpp"
 #include "freespace/freespace.hpp"

@@ -35,7 +35,7 @@ std::uint64_t estimate_memory(const scene::Scene& scene, double d0) {
     constexpr double bytes_of_a_sample = 1500.0;
     constexpr double samples_on_square = 1.5;
     constexpr double most = 1e15;  // no sum of estimates overflows
-    const double around = scene.brushes.empty() ? bake::most_shell_samples : 0.0;
+    const double around = scene.brushes.empty() ? bake::max_shell_samples : 0.0;
     const double samples = samples_on_square * area_of(scene) / (d0 * d0) +
                            static_cast<double>(scene.vertices.size() + scene.points.size()) + around;
     return static_cast<std::uint64_t>(std::min(fixed + bytes_of_a_sample * samples, most));

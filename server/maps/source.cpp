@@ -1,27 +1,15 @@
 #include "maps/source.hpp"
 
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <string_view>
 
+#include "bake/parameters_json.hpp"
 #include "config/json_text.hpp"
 #include "scene/load.hpp"
 
 namespace camdir::maps {
-namespace {
-
-std::optional<Vec3d> point_in(const nlohmann::json& list) {
-    if (!list.is_array() || list.size() != 3) return std::nullopt;
-    Vec3d point;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        if (!list[axis].is_number()) return std::nullopt;
-        point[static_cast<Eigen::Index>(axis)] = list[axis].get<double>();
-    }
-    return point;
-}
-
-}  // namespace
+namespace {}  // namespace
 
 std::optional<Vec3d> parse_point(std::string_view text) {
     Vec3d point;
@@ -62,18 +50,8 @@ Result<scene::ReadOptions> read_options_of(const config::Map& map) {
 }
 
 scene::ReadOptions read_options_of(const freespace::Metadata& metadata) {
-    scene::ReadOptions options;
     const auto parameters = config::parse_json(metadata.parameters);
-    if (!parameters || !parameters->is_object()) return options;
-    const auto& json = *parameters;
-    if (json.contains("metres_per_unit") && json["metres_per_unit"].is_number())
-        options.metres_per_unit = json["metres_per_unit"].get<double>();
-    if (json.contains("up") && json["up"].is_string()) options.up = parse_up(json["up"].get<std::string>());
-    if (json.contains("origin")) options.origin = point_in(json["origin"]).value_or(Vec3d::Zero());
-    if (!json.contains("seeds") || !json["seeds"].is_array()) return options;
-    for (const auto& entry : json["seeds"])
-        if (const auto seed = point_in(entry)) options.seeds.push_back(*seed);
-    return options;
+    return parameters ? bake::read_options_in(*parameters) : scene::ReadOptions();
 }
 
 Result<scene::Scene> load_source(const config::Map& map) {

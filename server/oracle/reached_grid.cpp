@@ -44,15 +44,6 @@ std::vector<Vec3d> spawn_eyes(const scene::Scene& scene) {
     return eyes;
 }
 
-std::size_t ReachedGrid::Hash::operator()(const Cell& cell) const {
-    std::uint64_t hash = 0;
-    for (const int coordinate : cell) {
-        hash = (hash ^ static_cast<std::uint32_t>(coordinate)) * 0x9e3779b97f4a7c15U;
-        hash ^= hash >> 32U;
-    }
-    return hash;
-}
-
 ReachedGrid::Place::Place(const Cell& cell)
     : block(floor_div(cell.x()), floor_div(cell.y()), floor_div(cell.z())) {
     const Cell local = cell - block * block_side;

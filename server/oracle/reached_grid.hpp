@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "base/point_grid.hpp"
 #include "oracle/oracle.hpp"
 
 namespace camdir::oracle {
@@ -71,10 +72,7 @@ class ReachedGrid {
     double largest_coordinate_;  // within the bounds
     double sight_;               // how far away joined() looks for a centre
     std::vector<Cell> near_;     // offsets of the cells that may lie so near, nearest first
-    struct Hash {
-        std::size_t operator()(const Cell& cell) const;
-    };
-    std::unordered_map<Cell, Block, Hash> blocks_;
+    std::unordered_map<Cell, Block, TripleHash> blocks_;
     Box3d joined_box_;
     std::size_t reached_count_ = 0;
 };

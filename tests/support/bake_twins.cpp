@@ -21,8 +21,8 @@ Vec3d point_of(const Triangle3d& triangle, const std::array<double, 3>& weights)
     return weights[0] * triangle[0] + weights[1] * triangle[1] + weights[2] * triangle[2];
 }
 
-double searched_margin(const Triangle3d& corners, const std::array<double, 3>& free_distance,
-                       const Triangle3d& obstacle) {
+double searched_signed_gap(const Triangle3d& corners, const std::array<double, 3>& free_distance,
+                           const Triangle3d& obstacle) {
     constexpr int steps = 3;  // on each side of the best so far
     std::array<double, 4> centre{0.5, 0.5, 0.5, 0.5};
     std::array<double, 4> best_at = centre;
@@ -49,7 +49,7 @@ double searched_margin(const Triangle3d& corners, const std::array<double, 3>& f
 }
 
 double searched_distance(const Vec3d& point, const Triangle3d& triangle) {
-    return searched_margin({point, point, point}, {0.0, 0.0, 0.0}, triangle);
+    return searched_signed_gap({point, point, point}, {0.0, 0.0, 0.0}, triangle);
 }
 
 double distance_to_nearest(const Vec3d& point, const std::vector<Vec3d>& points) {

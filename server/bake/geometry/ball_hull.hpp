@@ -1,4 +1,4 @@
-// The convex hull of some balls, and how far it surely stays away from an obstacle: the cheap part of the
+// The convex hull of some balls, and a lower bound of its distance from an obstacle: the cheap part of the
 // certificate.
 #pragma once
 
@@ -25,19 +25,19 @@ class BallHull {
         }
     }
 
-    // The largest value of a point's coordinate along `direction` (of length <= 1) over the hull.
-    [[nodiscard]] double reach(const Vec3d& direction) const {
-        double reach = of_ball(direction, 0);
+    // The support function: the largest coordinate along `direction` (of length <= 1) of the hull's points.
+    [[nodiscard]] double support(const Vec3d& direction) const {
+        double largest = of_ball(direction, 0);
         for (std::size_t i = 1; i < centres_.size(); ++i)
-            reach = std::max(reach, of_ball(direction, i));
-        return reach;
+            largest = std::max(largest, of_ball(direction, i));
+        return largest;
     }
 
-    // Lower bounds of the smallest |m - q| - r over the hull's balls (m, r) and the points q of an obstacle:
-    // a direction separates the hull from what lies beyond. For a triangle the search for a direction ends
-    // with the first that gives 0 or more.
-    [[nodiscard]] double margin_at_least(const Box3d& box) const;
-    [[nodiscard]] double margin_at_least(const Triangle3d& obstacle) const;
+    // Lower bounds of the smallest |m - q| - r over the hull's balls (m, r) and the points q of an obstacle,
+    // by a direction that separates the two. For a triangle the search for a direction ends with the first
+    // that gives 0 or more.
+    [[nodiscard]] double min_gap(const Box3d& box) const;
+    [[nodiscard]] double min_gap(const Triangle3d& obstacle) const;
 
   private:
     [[nodiscard]] double of_ball(const Vec3d& direction, std::size_t ball) const {
@@ -46,7 +46,7 @@ class BallHull {
     [[nodiscard]] std::size_t farthest(const Vec3d& direction) const;
 
     // Both of the obstacle's normals as the direction.
-    [[nodiscard]] double margin_at_least_by_plane(const Triangle3d& obstacle) const;
+    [[nodiscard]] double min_gap_by_plane(const Triangle3d& obstacle) const;
 
     std::span<const Vec3d, count> centres_;
     std::span<const double, count> radii_;
@@ -57,46 +57,46 @@ class BallHull {
 template <std::size_t count>
 std::size_t BallHull<count>::farthest(const Vec3d& direction) const {
     std::size_t ball = 0;
-    double reach = of_ball(direction, 0);
+    double largest = of_ball(direction, 0);
     for (std::size_t i = 1; i < centres_.size(); ++i) {
         const double other = of_ball(direction, i);
-        if (!(other > reach)) continue;
-        reach = other;
+        if (!(other > largest)) continue;
+        largest = other;
         ball = i;
     }
     return ball;
 }
 
 template <std::size_t count>
-double BallHull<count>::margin_at_least(const Box3d& box) const {
+double BallHull<count>::min_gap(const Box3d& box) const {
     const Vec3d nearest = middle_.cwiseMax(box.min()).cwiseMin(box.max());
     const Vec3d to_box = nearest - middle_;
     const double distance = to_box.norm();
     if (!(distance > 0.0)) return -std::numeric_limits<double>::infinity();
     const Vec3d direction = to_box / distance;
     // The nearest point of a box to a point outside is also its lowest along the direction to it.
-    return direction.dot(nearest) - reach(direction);
+    return direction.dot(nearest) - support(direction);
 }
 
 template <std::size_t count>
-double BallHull<count>::margin_at_least_by_plane(const Triangle3d& obstacle) const {
+double BallHull<count>::min_gap_by_plane(const Triangle3d& obstacle) const {
     const Vec3d normal = (obstacle[1] - obstacle[0]).cross(obstacle[2] - obstacle[0]);
     const double length = normal.norm();
     const double side = normal.dot(middle_ - obstacle[0]);
     if (!(length > 0.0)) return -std::numeric_limits<double>::infinity();
     const Vec3d direction = normal / (side < 0.0 ? length : -length);
-    return direction.dot(obstacle[0]) - reach(direction);
+    return direction.dot(obstacle[0]) - support(direction);
 }
 
-// Walks from the middle towards the m of the smallest margin, in the manner of Frank and Wolfe: the direction
-// to the nearest point of the obstacle separates the two, or else the hull reaches farthest along it at one
-// of its balls, and the walk goes there. Three of four obstacles that the middle's own direction leaves are
-// told apart so at a fraction of what the margin costs.
+// Walks from the middle towards the m of the smallest gap, after Frank and Wolfe: the direction to the
+// nearest point of the obstacle separates the two, or else the walk goes towards the ball that supports the
+// hull along it. Separates three of four obstacles that the middle's own direction does not, at a fraction of
+// the cost of the gap itself.
 template <std::size_t count>
-double BallHull<count>::margin_at_least(const Triangle3d& obstacle) const {
+double BallHull<count>::min_gap(const Triangle3d& obstacle) const {
     constexpr int max_steps = 8;
     constexpr double stride = 0.4;
-    double bound = margin_at_least_by_plane(obstacle);
+    double bound = min_gap_by_plane(obstacle);
     Vec3d m = middle_;
     double r = middle_radius_;
     for (int step = 0; step < max_steps && bound < 0.0; ++step) {

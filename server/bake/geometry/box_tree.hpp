@@ -1,4 +1,4 @@
-// A bounding volume hierarchy over boxes, built once: the spatial index under Obstacles, Solids and
+// A bounding volume hierarchy over boxes, built once: the spatial index of Obstacles, Solids and
 // SamplingDistance.
 #pragma once
 
@@ -19,13 +19,13 @@ class BoxTree {
   public:
     explicit BoxTree(std::span<const Box3d> boxes);
 
-    // Order of the items in the tree: visits hand out positions in it, so that an owner who stores its
-    // items in this order reads memory forwards.
+    // Order of the items in the tree: visits report positions in it. Items stored in this order are read
+    // sequentially.
     [[nodiscard]] const std::vector<std::uint32_t>& order() const { return order_; }
 
-    // Visits what may matter, nearest first. `key(box)` orders and prunes: boxes whose key is >= limit() at
-    // the time of the visit are skipped, with all that is in them; it must be a lower bound for that.
-    // `visit(position)` handles an item and may lower what limit() returns.
+    // Branch and bound, smallest key first. `key(box)`, a lower bound for all that is in the box, orders and
+    // prunes: boxes whose key is >= limit() at the time of the visit are skipped. `visit(position)` handles
+    // an item and may lower what limit() returns.
     template <class Key, class Limit, class Visit>
     void visit_by(const Key& key, const Limit& limit, const Visit& visit) const;
 

@@ -6,7 +6,7 @@
 namespace camdir::bake {
 namespace {
 
-void take_smaller(Margin& best, const Margin& other) {
+void take_smaller(SignedGap& best, const SignedGap& other) {
     if (other.value < best.value) best = other;
 }
 
@@ -46,7 +46,7 @@ struct Balls {
     std::vector<double> radii;
 };
 
-// Shared corners once.
+// Those at the corners; shared ones once.
 Balls balls_of(std::span<const Slab> slabs) {
     Balls balls;
     const auto contain = [&](const Vec3d& centre, double radius) {
@@ -80,14 +80,14 @@ Slab::Slab(const Triangle3d& corners, const std::array<double, 3>& free_distance
     incline_ = steep_ ? Vec3d::Zero() : Vec3d(gradient / std::sqrt(1.0 - slope2));
 }
 
-Margin Slab::at(const std::array<double, 3>& weights, const Vec3d& q) const {
+SignedGap Slab::at(const std::array<double, 3>& weights, const Vec3d& q) const {
     const Vec3d m = weights[0] * corners_[0] + weights[1] * corners_[1] + weights[2] * corners_[2];
     const double r =
         weights[0] * free_distance_[0] + weights[1] * free_distance_[1] + weights[2] * free_distance_[2];
     return {(m - q).norm() - r, weights};
 }
 
-Margin Slab::from_edge_to_point(int edge, const Vec3d& q) const {
+SignedGap Slab::from_edge_to_point(int edge, const Vec3d& q) const {
     const Vec3d& a = corners_[edge];
     const Vec3d along = corners_[(edge + 1) % 3] - a;
     const double rise = free_distance_[(edge + 1) % 3] - free_distance_[edge];
@@ -102,7 +102,7 @@ Margin Slab::from_edge_to_point(int edge, const Vec3d& q) const {
     return at(on_edge(edge, t), q);
 }
 
-Margin Slab::towards_point(const Vec3d& q) const {
+SignedGap Slab::towards_point(const Vec3d& q) const {
     if (!steep_ && area2_ > 0.0) {
         const double height = std::abs((q - corners_[0]).dot(normal_)) / std::sqrt(area2_);
         const Vec3d m = q + height * incline_ - corners_[0];  // its foot in the plane is the best m
@@ -114,14 +114,14 @@ Margin Slab::towards_point(const Vec3d& q) const {
         if (weight_u >= 0.0 && weight_v >= 0.0 && weight_0 >= 0.0)
             return at({weight_0, weight_u, weight_v}, q);
     }
-    Margin best = from_edge_to_point(0, q);
+    SignedGap best = from_edge_to_point(0, q);
     take_smaller(best, from_edge_to_point(1, q));
     take_smaller(best, from_edge_to_point(2, q));
     return best;
 }
 
 // Only inner points of both edges: their ends belong to from_corner and towards_point.
-Margin Slab::from_edge_to_edge(int edge, const Vec3d& a, const Vec3d& b) const {
+SignedGap Slab::from_edge_to_edge(int edge, const Vec3d& a, const Vec3d& b) const {
     const Vec3d& p = corners_[edge];
     const Vec3d along = corners_[(edge + 1) % 3] - p;
     const double rise = free_distance_[(edge + 1) % 3] - free_distance_[edge];
@@ -142,15 +142,15 @@ Margin Slab::from_edge_to_edge(int edge, const Vec3d& a, const Vec3d& b) const {
     return at(on_edge(edge, s), a + t * other);
 }
 
-Margin Slab::from_corner(int corner, const Triangle3d& obstacle) const {
+SignedGap Slab::from_corner(int corner, const Triangle3d& obstacle) const {
     std::array<double, 3> weights{};
     weights[corner] = 1.0;
     return at(weights, closest_point(obstacle, corners_[corner]));
 }
 
 // Where the triangles cross, the distance is 0 on a segment, and r is largest at one of its ends.
-Margin Slab::where_crossing(const Triangle3d& obstacle) const {
-    Margin best;
+SignedGap Slab::where_crossing(const Triangle3d& obstacle) const {
+    SignedGap best;
     const auto consider = [&](const std::array<double, 3>& weights) {
         const double r =
             weights[0] * free_distance_[0] + weights[1] * free_distance_[1] + weights[2] * free_distance_[2];
@@ -167,8 +167,8 @@ Margin Slab::where_crossing(const Triangle3d& obstacle) const {
 
 // The function is convex in m and q together, so unless the triangles cross, the optimum is attained where
 // one of the two points is a corner or both lie on edges.
-Margin Slab::margin(const Triangle3d& obstacle) const {
-    Margin best = where_crossing(obstacle);
+SignedGap Slab::signed_gap(const Triangle3d& obstacle) const {
+    SignedGap best = where_crossing(obstacle);
     for (int i = 0; i < 3; ++i) {
         take_smaller(best, towards_point(obstacle[i]));
         take_smaller(best, from_corner(i, obstacle));
@@ -178,37 +178,36 @@ Margin Slab::margin(const Triangle3d& obstacle) const {
     return best;
 }
 
-Margin margin(const Slab& slab, const Obstacles& obstacles, double enough) {
-    Margin worst{enough, {}};
-    obstacles.tree().visit_by([&](const Box3d& box) { return slab.margin_at_least(box); },
+SignedGap signed_gap(const Slab& slab, const Obstacles& obstacles, double enough) {
+    SignedGap worst{enough, {}};
+    obstacles.tree().visit_by([&](const Box3d& box) { return slab.min_gap(box); },
                               [&] { return worst.value; },
                               [&](std::uint32_t position) {
                                   const Triangle3d& obstacle = obstacles.triangles()[position];
-                                  if (slab.margin_at_least(obstacle) < worst.value)
-                                      take_smaller(worst, slab.margin(obstacle));
+                                  if (slab.min_gap(obstacle) < worst.value)
+                                      take_smaller(worst, slab.signed_gap(obstacle));
                               });
     return worst;
 }
 
-std::uint32_t find_violated(std::span<const Slab> slabs, const Obstacles& obstacles, std::uint32_t suspect) {
+std::uint32_t find_violated(std::span<const Slab> slabs, const Obstacles& obstacles, std::uint32_t hint) {
     if (slabs.empty()) return freespace::none;
     const auto violates = [&](std::uint32_t position) {
         const Triangle3d& obstacle = obstacles.triangles()[position];
         return std::any_of(slabs.begin(), slabs.end(), [&](const Slab& slab) {
-            return slab.margin_at_least(obstacle) < 0.0 && slab.margin(obstacle).value < 0.0;
+            return slab.min_gap(obstacle) < 0.0 && slab.signed_gap(obstacle).value < 0.0;
         });
     };
-    if (suspect != freespace::none && violates(suspect)) return suspect;
+    if (hint != freespace::none && violates(hint)) return hint;
     const Balls balls = balls_of(slabs);
     const BallHull<> hull(balls.centres, balls.radii);
     std::uint32_t found = freespace::none;
     obstacles.tree().visit_by(
-        [&](const Box3d& box) { return hull.margin_at_least(box); },
+        [&](const Box3d& box) { return hull.min_gap(box); },
         [&] { return found == freespace::none ? 0.0 : -std::numeric_limits<double>::infinity(); },
         [&](std::uint32_t position) {
             if (found != freespace::none) return;
-            if (hull.margin_at_least(obstacles.triangles()[position]) < 0.0 && violates(position))
-                found = position;
+            if (hull.min_gap(obstacles.triangles()[position]) < 0.0 && violates(position)) found = position;
         });
     return found;
 }

@@ -16,7 +16,7 @@ class Obstacles {
   public:
     explicit Obstacles(const scene::Scene& scene);
 
-    // In the tree's order: positions handed out by tree() index them. A point is a triangle whose corners
+    // In the tree's order: positions that tree() reports index them. A point is a triangle whose corners
     // coincide.
     [[nodiscard]] const std::vector<Triangle3d>& triangles() const { return triangles_; }
     [[nodiscard]] const BoxTree& tree() const { return tree_; }
@@ -24,7 +24,7 @@ class Obstacles {
     // The obstacle point nearest to `point`, when one is nearer than `within`.
     [[nodiscard]] std::optional<Vec3d> nearest(const Vec3d& point, double within) const;
 
-    // Exact distance to the nearest obstacle, or `at_most` when there is none nearer.
+    // Distance to the nearest obstacle, or `at_most` when none is nearer. Up to the rounding of doubles.
     [[nodiscard]] double distance(const Vec3d& point,
                                   double at_most = std::numeric_limits<double>::infinity()) const;
 

@@ -17,18 +17,18 @@ std::vector<Box3d> boxes_of_brushes(const scene::Scene& scene) {
 
 Solids::Solids(const scene::Scene& scene) : scene_(scene), tree_(boxes_of_brushes(scene)) {}
 
-bool Solids::contain(const Vec3d& point) const {
-    return cover({point, point, point});
+bool Solids::contains(const Vec3d& point) const {
+    return is_covered({point, point, point});
 }
 
-bool Solids::conceal(const Triangle3d& t, double offset) const {
+bool Solids::is_buried(const Triangle3d& t, double offset) const {
     const Vec3d normal = (t[1] - t[0]).cross(t[2] - t[0]);
     if (!(normal.norm() > 0.0)) return false;
     const Vec3d up = offset * normal.normalized();
-    return cover({t[0] + up, t[1] + up, t[2] + up}) && cover({t[0] - up, t[1] - up, t[2] - up});
+    return is_covered({t[0] + up, t[1] + up, t[2] + up}) && is_covered({t[0] - up, t[1] - up, t[2] - up});
 }
 
-bool Solids::cover(const Triangle3d& t) const {
+bool Solids::is_covered(const Triangle3d& t) const {
     bool covered = false;
     const auto matters = [&](const Box3d& box) {
         return !covered && box.contains(t[0]) && box.contains(t[1]) && box.contains(t[2]);

@@ -13,15 +13,15 @@ class Solids {
     explicit Solids(const scene::Scene& scene);
 
     // Inside or on the surface of a brush; always false for scenes that know no volumes.
-    [[nodiscard]] bool contain(const Vec3d& point) const;
+    [[nodiscard]] bool contains(const Vec3d& point) const;
 
-    // At `offset` from the triangle, on both sides, all is solid: it bounds no free space. Surely so when
-    // true; when false, several brushes may still conceal it together.
-    [[nodiscard]] bool conceal(const Triangle3d& triangle, double offset) const;
+    // At `offset` from the triangle both sides are solid: it bounds no free space. Conservative: false also
+    // when only several brushes together bury it.
+    [[nodiscard]] bool is_buried(const Triangle3d& triangle, double offset) const;
 
   private:
     // One brush contains all of the triangle.
-    [[nodiscard]] bool cover(const Triangle3d& triangle) const;
+    [[nodiscard]] bool is_covered(const Triangle3d& triangle) const;
 
     const scene::Scene& scene_;
     BoxTree tree_;

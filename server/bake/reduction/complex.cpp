@@ -67,8 +67,8 @@ bool Complex::can_collapse(std::uint32_t from, std::uint32_t to) const {
         for (const std::uint32_t corner : triangles_[triangle]) {
             if (corner != from) far[count++] = corner;
         }
-        // A corner that both ends know must be known through a triangle at their edge, and no edge opposite
-        // to both may exist: it would become two equal triangles.
+        // A common neighbour must be one through a triangle at their edge, and no edge may be opposite to
+        // both: it would get two equal triangles.
         for (const std::uint32_t corner : far) {
             if (!is_edge(corner, to)) continue;
             const bool at_edge = std::any_of(stars_[from].begin(), stars_[from].end(), [&](std::uint32_t t) {

@@ -1,5 +1,5 @@
-// The medial mesh while it shrinks: a complex of triangles, edges and vertices, not a manifold, in which a
-// vertex can be merged into a neighbour.
+// The medial mesh during its reduction: a complex of triangles, edges and vertices, not a manifold, in which
+// a vertex can be merged into a neighbour.
 #pragma once
 
 #include <array>
@@ -21,19 +21,20 @@ class Complex {
     [[nodiscard]] std::span<const std::uint32_t> star(std::uint32_t vertex) const { return stars_[vertex]; }
     [[nodiscard]] const Corners& corners(std::uint32_t triangle) const { return triangles_[triangle]; }
     [[nodiscard]] bool contains(std::uint32_t triangle, std::uint32_t vertex) const;
-    // Vertices that share a triangle with `vertex`, ascending. Replaces what is in `neighbours`.
+    // Vertices that share a triangle with `vertex`, ascending; replaces the contents of `neighbours`.
     void neighbours(std::uint32_t vertex, std::vector<std::uint32_t>& neighbours) const;
 
-    // Merging `from` into `to` leaves the complex with the same holes and branches (the link condition:
-    // what both ends see of each other's surroundings is what their common edge sees) and no edge of it
-    // without a triangle.
+    // Merging `from` into `to` keeps the homotopy type of the complex, thus its components, holes and
+    // cavities (link condition: the links of both ends meet in the link of their edge; Attali, Lieutier and
+    // Salinas 2011), and leaves no edge without a triangle. Branches may go: a fin can shrink onto the curve
+    // where it is attached. The two must be neighbours.
     [[nodiscard]] bool can_collapse(std::uint32_t from, std::uint32_t to) const;
 
     // Triangles of both ends vanish, the others at `from` move their corner to `to`.
     void collapse(std::uint32_t from, std::uint32_t to);
 
     [[nodiscard]] std::size_t triangle_count() const;
-    // The triangles that are left, over the vertices of the mesh it was made from.
+    // The remaining triangles, over the vertices of the mesh that it was made from.
     [[nodiscard]] std::vector<freespace::Triangle> triangles() const;
 
   private:

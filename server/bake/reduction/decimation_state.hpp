@@ -1,4 +1,4 @@
-// The medial mesh while collapses shrink it, and what must stay covered meanwhile.
+// The medial mesh during its reduction, and what must stay covered meanwhile.
 #pragma once
 
 #include <cstdint>
@@ -17,27 +17,30 @@
 namespace camdir::bake {
 
 // A point that must stay covered: a vertex of the unreduced mesh, or a spawn point.
-struct Witness {
+struct ConstraintSample {
     Vec3d point;
-    double free_distance;                                     // in the unreduced mesh
-    double least = -std::numeric_limits<double>::infinity();  // that it keeps whatever the loss
+    double unreduced_distance;  // its free distance in the unreduced mesh
+    // What it keeps whatever the loss.
+    double min_distance = -std::numeric_limits<double>::infinity();
 };
 
 // The slab that gives the most free distance to a point.
-struct Home {
+struct CoveringSlab {
     std::uint32_t position = freespace::none;  // in the list of triangles
     double distance = -std::numeric_limits<double>::infinity();
 };
 
-// Found in floats, measured in doubles: the slab has a ball that gives the point this distance.
-[[nodiscard]] Home find_home(std::span<const freespace::Vertex> vertices,
-                             std::span<const freespace::Triangle> triangles, const Vec3d& point);
+// Searched in floats, measured in doubles: the slab has a ball that gives the point this distance.
+[[nodiscard]] CoveringSlab find_covering_slab(std::span<const freespace::Vertex> vertices,
+                                              std::span<const freespace::Triangle> triangles,
+                                              const Vec3d& point);
 
-// Parts that no triangle joins may be changed by different threads.
-struct Shrinking {
-    // Every vertex with a ball is a witness of one of its slabs, every spawn point of the best slab there.
-    Shrinking(const MedialMesh& mesh, const std::vector<float>& free_distance, const scene::Scene& scene,
-              const Obstacles& around, const Reduction& wanted);
+// Parts that share no triangle may be changed by different threads.
+struct DecimationState {
+    // Every vertex with a ball is a sample of one of its slabs, every spawn point of the best slab there. The
+    // obstacles must outlive the state.
+    DecimationState(const MedialMesh& mesh, const std::vector<float>& free_distance,
+                    const scene::Scene& scene, const Obstacles& around, const Reduction& limits);
 
     [[nodiscard]] Vec3d position(std::uint32_t vertex) const {
         return vertices[vertex].position().cast<double>();
@@ -50,28 +53,29 @@ struct Shrinking {
                 {vertices[t.a].free_distance, vertices[t.b].free_distance, vertices[t.c].free_distance}};
     }
 
-    // Lowers the free distances by `share` of the slack that the loss has for them, and forgets what was
-    // refused for want of it. A witness that has lost at most half of `share` of the loss before has lost at
-    // most all of it afterwards; one with a least free distance loses nothing.
-    void give_slack(double share);
+    // Spends part of the loss on all vertices at once: lowers their free distances by `share` of the slack
+    // reserved for that, which lets more collapses keep clear of the obstacles, and forgets the collapses
+    // that were refused without it. A sample that lost at most half of `share` of the loss before has lost at
+    // most all of it afterwards; one with a min_distance loses nothing.
+    void spend_slack(double share);
 
-    // Whether the slabs that a collapse would make were found free.
+    // Whether the slabs that a collapse would make are free.
     struct Certified {
         std::uint32_t to;
         bool free;
     };
 
-    // The corners of triangles whose witnesses have a least free distance.
-    [[nodiscard]] std::vector<bool> bound_vertices() const;
+    // The corners of triangles whose samples have a min_distance.
+    [[nodiscard]] std::vector<bool> constrained_vertices() const;
 
     std::vector<freespace::Vertex> vertices;
-    const std::vector<float>& whole_distance;  // of the vertices in the unreduced mesh
+    const std::vector<float> unreduced_distance;  // of the vertices
     const Obstacles& obstacles;
-    const Reduction& reduction;
+    const Reduction reduction;
     Complex complex;
-    std::vector<std::vector<Witness>> witnesses;    // of each triangle: those that it covers
-    std::vector<std::vector<Certified>> certified;  // of each vertex: its collapses that were looked at
-    std::vector<std::uint32_t> suspect;             // of each vertex: the obstacle that was last in its way
+    std::vector<std::vector<ConstraintSample>> samples;  // of each triangle: those that it covers
+    std::vector<std::vector<Certified>> certified;       // of each vertex: its collapses that were examined
+    std::vector<std::uint32_t> last_violated;            // of each vertex: the obstacle that refused it last
 };
 
 }  // namespace camdir::bake

@@ -5,14 +5,14 @@
 namespace camdir::bake {
 namespace {
 
-constexpr double flattest_triangle = 1e-3;  // height over longest side
+constexpr double min_relative_height = 1e-3;  // of a triangle, over its longest side
 // Where nothing is lost, short edges go first.
 constexpr double loss_of_length = 0.005;
 
 bool is_flat(const Triangle3d& t) {
     const double longest2 =
         std::max({(t[1] - t[0]).squaredNorm(), (t[2] - t[1]).squaredNorm(), (t[0] - t[2]).squaredNorm()});
-    return 2.0 * area(t) < flattest_triangle * longest2;
+    return 2.0 * area(t) < min_relative_height * longest2;
 }
 
 freespace::Triangle triangle_of(const Complex::Corners& corners) {
@@ -21,58 +21,58 @@ freespace::Triangle triangle_of(const Complex::Corners& corners) {
 
 }  // namespace
 
-void Collapses::run(std::uint64_t wanted, const Stage& stage) {
+void EdgeCollapser::run(std::uint64_t target, const Stage& stage) {
     for (const std::uint32_t vertex : vertices_)
         enqueue(vertex);
-    while (!queue_.empty() && removed_ < wanted && !stage.stopping()) {
+    while (!queue_.empty() && removed_ < target && !stage.stopping()) {
         const Candidate next = queue_.top();
         queue_.pop();
-        State& state = state_of(next.from);
-        state.queued = false;
-        if (!state.changed) {
-            if (collapse(next.from, next.to)) continue;
-            state.refused.push_back(next.to);
+        VertexProgress& progress = progress_of(next.from);
+        progress.queued = false;
+        if (!progress.changed) {
+            if (try_collapse(next.from, next.to)) continue;
+            progress.refused.push_back(next.to);
         }
         enqueue(next.from);
     }
 }
 
-double Collapses::star_area(std::uint32_t vertex) const {
+double EdgeCollapser::star_area(std::uint32_t vertex) const {
     double sum = 0.0;
-    for (const std::uint32_t triangle : all_.complex.star(vertex))
-        sum += area(all_.corners(triangle_of(all_.complex.corners(triangle))));
+    for (const std::uint32_t triangle : state_.complex.star(vertex))
+        sum += area(state_.corners(triangle_of(state_.complex.corners(triangle))));
     return sum;
 }
 
 // Queues the vertex's cheapest collapse.
-void Collapses::enqueue(std::uint32_t vertex) {
-    State& state = state_of(vertex);
-    state.changed = false;
-    if (all_.complex.star(vertex).empty()) return;
-    all_.complex.neighbours(vertex, neighbours_);
-    if (!std::all_of(neighbours_.begin(), neighbours_.end(), [&](std::uint32_t n) { return is_mine(n); }))
-        return;
-    const std::optional<Target> best = cheapest_target(vertex, state);
+void EdgeCollapser::enqueue(std::uint32_t vertex) {
+    VertexProgress& progress = progress_of(vertex);
+    progress.changed = false;
+    if (state_.complex.star(vertex).empty()) return;
+    const std::optional<Target> best = cheapest_target(vertex);
     if (!best) return;
     // Two sides of a third of the star, thinner by what is lost.
-    state.lost_volume = 2.0 / 3.0 * star_area(vertex) * best->cost;
-    state.queued = true;
-    queue_.push({state.lost_volume, vertex, best->to});
+    progress.lost_volume = 2.0 / 3.0 * star_area(vertex) * best->cost;
+    progress.queued = true;
+    queue_.push({progress.lost_volume, vertex, best->to});
 }
 
-// The neighbour that may take the vertex's place at the least cost. The length alone bounds the cost from
-// below, so that most neighbours need not be looked at.
-std::optional<Collapses::Target> Collapses::cheapest_target(std::uint32_t vertex, const State& state) {
+// The neighbour into which the vertex may be merged at the least cost; none when a neighbour is in another
+// region. The length alone bounds the cost from below, so that most neighbours need not be examined.
+std::optional<EdgeCollapser::Target> EdgeCollapser::cheapest_target(std::uint32_t vertex) {
+    state_.complex.neighbours(vertex, neighbours_);
+    if (!std::all_of(neighbours_.begin(), neighbours_.end(), [&](std::uint32_t n) { return is_mine(n); }))
+        return std::nullopt;
     targets_.clear();
     for (const std::uint32_t to : neighbours_)
-        if (may_take_place(vertex, to, state)) targets_.push_back({cost_of_length(vertex, to), to, false});
+        if (may_collapse(vertex, to)) targets_.push_back({cost_of_length(vertex, to), to, false});
     std::make_heap(targets_.begin(), targets_.end());
     while (!targets_.empty()) {
         std::pop_heap(targets_.begin(), targets_.end());
         Target& least = targets_.back();
         if (least.known) return least;
         const double lost = lost_distance(vertex, least.to);
-        if (lost <= most_loss_) {
+        if (lost <= max_loss_) {
             least = {std::max(lost, 0.0) + least.cost, least.to, true};
             std::push_heap(targets_.begin(), targets_.end());
         } else {
@@ -82,111 +82,121 @@ std::optional<Collapses::Target> Collapses::cheapest_target(std::uint32_t vertex
     return std::nullopt;
 }
 
-double Collapses::cost_of_length(std::uint32_t from, std::uint32_t to) const {
-    return loss_of_length * (all_.position(to) - all_.position(from)).norm();
+double EdgeCollapser::cost_of_length(std::uint32_t from, std::uint32_t to) const {
+    return loss_of_length * (state_.position(to) - state_.position(from)).norm();
 }
 
-// As far as is known without a look at the slabs.
-bool Collapses::may_take_place(std::uint32_t vertex, std::uint32_t to, const State& state) const {
+// As far as is known without examining the slabs.
+bool EdgeCollapser::may_collapse(std::uint32_t vertex, std::uint32_t to) const {
     // A vertex of the roadmap must stay on it.
     if (has_ball(vertex) && !has_ball(to)) return false;
-    if (std::find(state.refused.begin(), state.refused.end(), to) != state.refused.end()) return false;
-    const auto& certified = all_.certified[vertex];
+    const std::vector<std::uint32_t>& refused = progress_[indices_[vertex].index].refused;
+    if (std::find(refused.begin(), refused.end(), to) != refused.end()) return false;
+    const auto& certified = state_.certified[vertex];
     return std::none_of(certified.begin(), certified.end(),
                         [&](const auto& known) { return known.to == to && !known.free; });
 }
 
-// At the vertex itself, when `to` takes its place.
-double Collapses::lost_distance(std::uint32_t vertex, std::uint32_t to) {
+// At the vertex itself, when it is merged into `to`.
+double EdgeCollapser::lost_distance(std::uint32_t vertex, std::uint32_t to) {
     if (!has_ball(vertex)) return 0.0;
-    find_moved(vertex, to);
-    return all_.vertices[vertex].free_distance -
-           find_home(all_.vertices, homes_, all_.position(vertex)).distance;
+    const Collapse& collapse = move_star(vertex, to);
+    return state_.vertices[vertex].free_distance -
+           find_covering_slab(state_.vertices, collapse.moved(), state_.position(vertex)).distance;
 }
 
-void Collapses::surroundings_changed(std::span<const std::uint32_t> vertices) {
-    for (const std::uint32_t near : vertices) {
-        State& state = state_of(near);
-        state.changed = true;
-        state.refused.clear();
-        all_.certified[near].clear();
-        if (state.queued) continue;
-        state.queued = true;
-        queue_.push({state.lost_volume, near, near});
-    }
+bool EdgeCollapser::try_collapse(std::uint32_t from, std::uint32_t to) {
+    // Not when it was queued: triangles beyond the star, which the answer depends on, may have changed since.
+    if (!state_.complex.can_collapse(from, to)) return false;
+    Collapse& collapse = move_star(from, to);
+    if (!is_certified(collapse) || !assign_samples(collapse)) return false;
+    apply(collapse);
+    return true;
 }
 
-void Collapses::find_moved(std::uint32_t from, std::uint32_t to) {
-    homes_.clear();
-    home_ids_.clear();
-    for (const std::uint32_t triangle : all_.complex.star(from)) {
-        Complex::Corners corners = all_.complex.corners(triangle);
+// A collapse with its moved triangles only. Valid until the next call.
+EdgeCollapser::Collapse& EdgeCollapser::move_star(std::uint32_t from, std::uint32_t to) {
+    Collapse& collapse = collapse_;
+    collapse.from = from;
+    collapse.to = to;
+    collapse.triangles.clear();
+    collapse.ids.clear();
+    collapse.assigned.clear();
+    for (const std::uint32_t triangle : state_.complex.star(from)) {
+        Complex::Corners corners = state_.complex.corners(triangle);
         if (corners[0] == to || corners[1] == to || corners[2] == to) continue;
         for (std::uint32_t& corner : corners)
             corner = corner == from ? to : corner;
-        homes_.push_back(triangle_of(corners));
-        home_ids_.push_back(triangle);
+        collapse.triangles.push_back(triangle_of(corners));
+        collapse.ids.push_back(triangle);
     }
-    moved_count_ = homes_.size();
+    collapse.moved_count = collapse.triangles.size();
+    return collapse;
 }
 
-// No moved triangle is flat or comes too near to an obstacle.
-bool Collapses::moved_is_free(std::uint32_t from, std::uint32_t to) {
-    auto& certified = all_.certified[from];
-    for (const auto& known : certified) {
-        if (known.to == to) return known.free;
-    }
-    const bool free =
-        std::none_of(homes_.begin(), homes_.end(),
-                     [&](const freespace::Triangle& moved) { return is_flat(all_.corners(moved)); }) &&
-        slabs_are_free(from);
-    certified.push_back({to, free});
+// No moved triangle is flat or reaches into an obstacle. Remembers the answer until the surroundings change.
+bool EdgeCollapser::is_certified(const Collapse& collapse) {
+    auto& certified = state_.certified[collapse.from];
+    for (const auto& known : certified)
+        if (known.to == collapse.to) return known.free;
+    const auto moved = collapse.moved();
+    const auto flat = [&](const freespace::Triangle& triangle) { return is_flat(state_.corners(triangle)); };
+    const bool free = std::none_of(moved.begin(), moved.end(), flat) && slabs_are_free(collapse);
+    certified.push_back({collapse.to, free});
     return free;
 }
 
-// Those of the moved triangles.
-bool Collapses::slabs_are_free(std::uint32_t from) {
+bool EdgeCollapser::slabs_are_free(const Collapse& collapse) {
     slabs_.clear();
-    for (const freespace::Triangle& moved : homes_)
-        slabs_.push_back(all_.slab(moved));
-    const std::uint32_t violated = find_violated(slabs_, all_.obstacles, all_.suspect[from]);
-    if (violated != freespace::none) all_.suspect[from] = violated;
+    for (const freespace::Triangle& moved : collapse.moved())
+        slabs_.push_back(state_.slab(moved));
+    std::uint32_t& last_violated = state_.last_violated[collapse.from];
+    const std::uint32_t violated = find_violated(slabs_, state_.obstacles, last_violated);
+    if (violated != freespace::none) last_violated = violated;
     return violated == freespace::none;
 }
 
-// Settles the witnesses of the triangles at `from`. False when one would lose too much.
-bool Collapses::find_homes(std::uint32_t from, std::uint32_t to) {
-    for (const std::uint32_t triangle : all_.complex.star(to)) {
-        const Complex::Corners& corners = all_.complex.corners(triangle);
-        if (all_.complex.contains(triangle, from) || !is_mine(corners)) continue;
-        homes_.push_back(triangle_of(corners));
-        home_ids_.push_back(triangle);
+// Finds covering slabs for the samples of the triangles at `from`. False when a sample would lose too much.
+bool EdgeCollapser::assign_samples(Collapse& collapse) const {
+    for (const std::uint32_t triangle : state_.complex.star(collapse.to)) {
+        const Complex::Corners& corners = state_.complex.corners(triangle);
+        if (state_.complex.contains(triangle, collapse.from) || !is_mine(corners)) continue;
+        collapse.triangles.push_back(triangle_of(corners));
+        collapse.ids.push_back(triangle);
     }
-    settled_.clear();
-    for (const std::uint32_t triangle : all_.complex.star(from)) {
-        for (const Witness& witness : all_.witnesses[triangle]) {
-            const Home home = find_home(all_.vertices, homes_, witness.point);
-            if (!(home.distance >= std::max(witness.free_distance - most_loss_, witness.least))) return false;
-            settled_.emplace_back(home_ids_[home.position], witness);
+    for (const std::uint32_t triangle : state_.complex.star(collapse.from)) {
+        for (const ConstraintSample& sample : state_.samples[triangle]) {
+            const CoveringSlab slab = find_covering_slab(state_.vertices, collapse.triangles, sample.point);
+            const double required = std::max(sample.unreduced_distance - max_loss_, sample.min_distance);
+            if (!(slab.distance >= required)) return false;
+            collapse.assigned.emplace_back(collapse.ids[slab.position], sample);
         }
     }
     return true;
 }
 
-bool Collapses::collapse(std::uint32_t from, std::uint32_t to) {
-    // Not before: the triangles beyond the star, which have a say in it, may have changed.
-    if (!all_.complex.can_collapse(from, to)) return false;
-    find_moved(from, to);
-    if (!moved_is_free(from, to) || !find_homes(from, to)) return false;
-    for (const std::uint32_t triangle : all_.complex.star(from))
-        all_.witnesses[triangle].clear();
-    for (const auto& [home, witness] : settled_)
-        all_.witnesses[home].push_back(witness);
-    all_.complex.neighbours(from, neighbours_);
-    removed_ += all_.complex.star(from).size() - moved_count_;
-    all_.complex.collapse(from, to);
+void EdgeCollapser::apply(const Collapse& collapse) {
+    const auto star = state_.complex.star(collapse.from);
+    for (const std::uint32_t triangle : star)
+        state_.samples[triangle].clear();
+    for (const auto& [triangle, sample] : collapse.assigned)
+        state_.samples[triangle].push_back(sample);
+    removed_ += star.size() - collapse.moved_count;
+    state_.complex.neighbours(collapse.from, neighbours_);
+    state_.complex.collapse(collapse.from, collapse.to);
     surroundings_changed(neighbours_);
-    return true;
+}
+
+void EdgeCollapser::surroundings_changed(std::span<const std::uint32_t> vertices) {
+    for (const std::uint32_t near : vertices) {
+        VertexProgress& progress = progress_of(near);
+        progress.changed = true;
+        progress.refused.clear();
+        state_.certified[near].clear();
+        if (progress.queued) continue;
+        progress.queued = true;
+        queue_.push({progress.lost_volume, near, near});
+    }
 }
 
 }  // namespace camdir::bake

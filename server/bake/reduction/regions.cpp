@@ -7,25 +7,25 @@
 namespace camdir::bake {
 namespace {
 
-class Cutter {
+class Bisector {
   public:
-    Cutter(std::span<const Vec3f> positions, std::size_t most, double cut)
-        : positions_(positions), most_(most), cut_(cut) {}
+    Bisector(std::span<const Vec3f> positions, std::size_t max_size, double fraction)
+        : positions_(positions), max_size_(max_size), fraction_(fraction) {}
 
-    void cut(std::vector<std::uint32_t> vertices) {
-        if (vertices.size() <= most_) {
+    void bisect(std::vector<std::uint32_t> vertices) {
+        if (vertices.size() <= max_size_) {
             std::sort(vertices.begin(), vertices.end());
             regions_.push_back(std::move(vertices));
             return;
         }
         const int axis = longest_side(vertices);
         const auto at =
-            vertices.begin() + static_cast<std::ptrdiff_t>(cut_ * static_cast<double>(vertices.size()));
+            vertices.begin() + static_cast<std::ptrdiff_t>(fraction_ * static_cast<double>(vertices.size()));
         std::nth_element(vertices.begin(), at, vertices.end(), [&](std::uint32_t a, std::uint32_t b) {
             return std::pair(positions_[a][axis], a) < std::pair(positions_[b][axis], b);
         });
-        cut({vertices.begin(), at});
-        cut({at, vertices.end()});
+        bisect({vertices.begin(), at});
+        bisect({at, vertices.end()});
     }
 
     [[nodiscard]] std::vector<std::vector<std::uint32_t>> take() { return std::move(regions_); }
@@ -41,20 +41,20 @@ class Cutter {
     }
 
     std::span<const Vec3f> positions_;
-    std::size_t most_;
-    double cut_;
+    std::size_t max_size_;
+    double fraction_;
     std::vector<std::vector<std::uint32_t>> regions_;
 };
 
 }  // namespace
 
 std::vector<std::vector<std::uint32_t>> make_regions(std::span<const Vec3f> positions,
-                                                     std::span<const std::uint32_t> chosen, std::size_t most,
-                                                     double cut) {
-    assert(cut * static_cast<double>(most) > 1.0 && cut < 1.0);
-    Cutter cutter(positions, most, cut);
-    cutter.cut({chosen.begin(), chosen.end()});
-    return cutter.take();
+                                                     std::span<const std::uint32_t> chosen,
+                                                     std::size_t max_size, double fraction) {
+    assert(fraction * static_cast<double>(max_size) > 1.0 && fraction < 1.0);
+    Bisector bisector(positions, max_size, fraction);
+    bisector.bisect({chosen.begin(), chosen.end()});
+    return bisector.take();
 }
 
 }  // namespace camdir::bake

@@ -1,4 +1,4 @@
-// Cuts the medial mesh into regions that can be worked on in parallel.
+// Divides the medial mesh into regions that are reduced in parallel.
 #pragma once
 
 #include <cstdint>
@@ -9,11 +9,11 @@
 
 namespace camdir::bake {
 
-// Vertex lists of at most `most` vertices, cut at `cut` (above 1 / `most`, below 1) of each box's count along
-// its longest side. Depends on the input alone; another `cut` puts the borders elsewhere. Lists are
-// ascending.
+// Lists of at most `max_size` vertices, ascending: bisects each box along its longest side at `fraction`
+// (above 1 / `max_size`, below 1) of its count. Depends on the input alone; another `fraction` puts the
+// borders elsewhere.
 [[nodiscard]] std::vector<std::vector<std::uint32_t>> make_regions(std::span<const Vec3f> positions,
                                                                    std::span<const std::uint32_t> chosen,
-                                                                   std::size_t most, double cut);
+                                                                   std::size_t max_size, double fraction);
 
 }  // namespace camdir::bake

@@ -91,7 +91,7 @@ Result<void> Run::sample() {
     } else {
         const double slack = d0_ / 64.0;  // what welding may take
         done = keep(bake::sample(scene_, solids_, bake::SamplingDistance(d0_), slack, stage_), samples_);
-        if (done) done = keep(bake::weld(std::move(samples_), slack, stage_), samples_);
+        if (done) done = keep(bake::thin(std::move(samples_), slack, stage_), samples_);
     }
     product_.figures.samples = samples_.size();
     return done;

@@ -60,7 +60,7 @@ void take_face(qhT* qh, FILE* user, vertexT* from, vertexT* to, setT* centres, b
     bake::VoronoiFaces& faces = visit.result.faces;
     faces.corners.insert(faces.corners.end(), visit.corners.begin(), visit.corners.end());
     faces.begin.push_back(faces.corners.size());
-    faces.edges.push_back({p, q});
+    faces.generators.push_back({p, q});
     visit.result.generator_distance.push_back(distance);
 }
 

@@ -18,7 +18,7 @@ Result<Faces> voronoi_by_cgal(const std::vector<Vec3d>& samples, double min_dist
     result.faces = std::move(*faces);
     result.voronoi_vertices = delaunay->cells.size();
     result.diagram = diagram;
-    for (const auto& [a, b] : result.faces.edges)
+    for (const auto& [a, b] : result.faces.generators)
         result.generator_distance.push_back((samples[a] - samples[b]).norm());
     return result;
 }

@@ -92,7 +92,7 @@ class BakeConfig : public testing::Test {
         return read_file(folder_ / name).value_or(Bytes{});
     }
 
-    // A process that bakes a map which takes minutes, and is at it.
+    // A running process that bakes one map for minutes.
     [[nodiscard]] std::unique_ptr<ChildProcess> start_slow_bake() const {
         auto process = std::make_unique<ChildProcess>(command());
         EXPECT_TRUE(test::eventually([&] { return fs::exists(folder_ / "slow.vfs.part"); }))

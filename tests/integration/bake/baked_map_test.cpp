@@ -73,16 +73,16 @@ class BakedMap : public testing::Test {
     std::optional<freespace::Freespace> freespace_;
 };
 
-TEST_F(BakedMap, InspectTellsWhatTheFileHoldsAndWhatTheBakeLeftOut) {
-    const json told = json::parse(printed({"inspect", baked_, "--json", "-"}));
-    EXPECT_EQ(told.at("map_name"), "room");
-    EXPECT_EQ(told.at("source_name"), map_);
-    EXPECT_EQ(told.at("d0"), 32.0);
-    EXPECT_EQ(told.at("vertices"), freespace_->vertices().size());
-    EXPECT_EQ(told.at("triangles"), freespace_->triangles().size());
-    EXPECT_EQ(told.at("bytes"), fs::file_size(baked_));
-    EXPECT_EQ(told.at("spawn_points").size(), 1U);
-    EXPECT_THAT(told.at("counts"),
+TEST_F(BakedMap, InspectPrintsWhatTheFileHoldsAndWhatTheBakeSkipped) {
+    const json report = json::parse(printed({"inspect", baked_, "--json", "-"}));
+    EXPECT_EQ(report.at("map_name"), "room");
+    EXPECT_EQ(report.at("source_name"), map_);
+    EXPECT_EQ(report.at("d0"), 32.0);
+    EXPECT_EQ(report.at("vertices"), freespace_->vertices().size());
+    EXPECT_EQ(report.at("triangles"), freespace_->triangles().size());
+    EXPECT_EQ(report.at("bytes"), fs::file_size(baked_));
+    EXPECT_EQ(report.at("spawn_points").size(), 1U);
+    EXPECT_THAT(report.at("counts"),
                 testing::Contains(json{{"stage", "left out"}, {"what", "liquid"}, {"value", 6.0}}));
 }
 
@@ -145,7 +145,7 @@ TEST_F(BakedMap, ExportedPlyHoldsAllVerticesAndTriangles) {
     EXPECT_THAT(ply, HasSubstr("element face " + std::to_string(freespace_->triangles().size()) + "\n"));
 }
 
-TEST_F(BakedMap, RenderDrawsAPngOfTheAskedSizeFromEachViewpoint) {
+TEST_F(BakedMap, RenderDrawsAPngOfTheRequestedSizeFromEachViewpoint) {
     std::vector<std::string> pictures;
     for (const std::string view : {"plan", "auto", "100,100,100,45,-10"}) {
         const std::string picture =

@@ -19,7 +19,7 @@ namespace {
 
 using test::SolidScene;
 
-// The whole mesh; reduce_test.cpp looks at reduced ones.
+// Without reduction, which reduce_test.cpp tests.
 Baked baked(const SolidScene& scene, double d0, unsigned threads = 0) {
     return bake(scene.scene(), {d0, threads, 0.0, 0}, {}, {}).value();
 }
@@ -41,8 +41,7 @@ double count_of(const Baked& baked, const std::string& stage, const std::string&
 
 bool covered(const std::vector<Slab>& slabs, const Vec3d& p) {
     return std::any_of(slabs.begin(), slabs.end(), [&](const Slab& slab) {
-        return slab.margin_at_least(Triangle3d{p, p, p}) < 0.0 &&
-               slab.margin(Triangle3d{p, p, p}).value < 0.0;
+        return slab.min_gap(Triangle3d{p, p, p}) < 0.0 && slab.signed_gap(Triangle3d{p, p, p}).value < 0.0;
     });
 }
 
@@ -110,14 +109,14 @@ scene::Scene duct(double radius) {
 }
 
 // Its samples are sqrt(3) radii apart.
-TEST(Bake, CoversADuctLittleWiderThanD0) {
+TEST(Bake, CoversADuctSlightlyWiderThanD0) {
     const Baked result = baked(duct(21.0), 16.0, Sampling::adaptive);
     const std::vector<Slab> slabs = slabs_of(result.contents);
     for (double x = 20.0; x <= 380.0; x += 5.0)
         EXPECT_TRUE(covered(slabs, {x, 0, 0})) << x;
 }
 
-// The room without its ceiling, under and amidst open space, as a mesh without volumes.
+// The room without its ceiling, in open space, as a mesh without volumes.
 struct Yard {
     Yard() {
         scene.brushes.clear();
@@ -171,7 +170,7 @@ TEST(Bake, WithoutSpawnPointsAnOpenYardsWidestPlaceIsInsideIt) {
     EXPECT_EQ(count_of(result, "pack", "covered spawn points"), 1.0);
 }
 
-TEST(Bake, SmallD0LeadsThroughTheDoor) {
+TEST(Bake, SmallD0KeepsTheDoorOpen) {
     const SolidScene rooms = test::two_rooms();
     const Baked result = baked(rooms, 16.0);
     expect_safe(rooms, result.contents);
@@ -231,19 +230,35 @@ TEST(Bake, TheCoarsestSamplingDistanceIsLimited) {
     }
 }
 
-TEST(Bake, AdaptiveSamplingOfARealMapFindsWhatUniformFinds) {
+class RealMap : public testing::TestWithParam<double> {};
+
+TEST_P(RealMap, AdaptiveSamplingFindsWhatUniformFinds) {
     const auto map = test::openarena_map("oa_dm1");
     if (!map) GTEST_SKIP() << test::needs_openarena_map("oa_dm1");
     const scene::Scene scene = scene::load(*map).value();
-    const Baked adaptive = baked(scene, 32.0, Sampling::adaptive);
-    const Baked uniform = baked(scene, 32.0, Sampling::uniform);
+    const auto of = [&](Sampling sampling) {
+        Parameters parameters;
+        parameters.d0 = 32.0;
+        parameters.loss = GetParam();
+        parameters.sampling = sampling;
+        return bake(scene, parameters, {}, {}).value();
+    };
+    const Baked adaptive = of(Sampling::adaptive);
+    const Baked uniform = of(Sampling::uniform);
     EXPECT_LE(count_of(adaptive, "weld", "samples"), count_of(uniform, "weld", "samples"));
-    EXPECT_LE(adaptive.contents.triangles.size(), uniform.contents.triangles.size());
     EXPECT_EQ(count_of(adaptive, "pack", "covered spawn points"),
               count_of(uniform, "pack", "covered spawn points"));
     EXPECT_EQ(count_of(adaptive, "inside", "connected spawn points"),
               count_of(uniform, "inside", "connected spawn points"));
+    if (GetParam() == 0.0) {
+        EXPECT_LE(adaptive.contents.triangles.size(), uniform.contents.triangles.size());
+    }
+    const Obstacles obstacles(scene);
+    for (const Slab& slab : slabs_of(adaptive.contents))
+        ASSERT_TRUE(is_certified(slab, obstacles));
 }
+
+INSTANTIATE_TEST_SUITE_P(Losses, RealMap, testing::Values(0.0, Parameters().loss));
 
 TEST(Sampling, IsNamed) {
     EXPECT_EQ(sampling_named("adaptive"), Sampling::adaptive);
@@ -299,7 +314,7 @@ TEST(Bake, ReportsEveryStageAndItsProgress) {
     EXPECT_EQ(covered_spawns->value, 1.0);
 }
 
-TEST(Bake, StopsInWhicheverStageItIsAsked) {
+TEST(Bake, StopsInEveryStage) {
     const SolidScene room = test::box_room();
     for (const char* stage : {"medial axis", "sample", "weld", "delaunay", "voronoi", "triangulate",
                               "clearance", "crossing", "inside", "certify", "reduce", "pack"}) {

@@ -39,7 +39,7 @@ TEST(BoxTree, VisitsEveryItemOnce) {
     }
 }
 
-// Many equal boxes defeat every split, and the tree must stay shallow enough for its visits.
+// No split separates equal boxes; the tree must stay shallow enough for its visits.
 TEST(BoxTree, TakesEqualBoxes) {
     const std::vector<Box3d> boxes(5000, Box3d(Vec3d(1, 1, 1), Vec3d(2, 2, 2)));
     const BoxTree tree(boxes);
@@ -111,24 +111,24 @@ TEST(Obstacles, DistanceIsTheClosedForm) {
 TEST(Solids, ContainTheirInsideAndSurface) {
     const test::SolidScene room = test::pillar_room();
     const Solids solids(room.scene());
-    EXPECT_TRUE(solids.contain({160, 70, 64}));
-    EXPECT_TRUE(solids.contain({150, 70, 64}));
-    EXPECT_FALSE(solids.contain({149.999, 70, 64}));
-    EXPECT_TRUE(solids.contain({-8, 70, 64}));
-    EXPECT_FALSE(solids.contain({-17, 70, 64}));
-    EXPECT_FALSE(Solids(scene::Scene{}).contain({0, 0, 0}));
+    EXPECT_TRUE(solids.contains({160, 70, 64}));
+    EXPECT_TRUE(solids.contains({150, 70, 64}));
+    EXPECT_FALSE(solids.contains({149.999, 70, 64}));
+    EXPECT_TRUE(solids.contains({-8, 70, 64}));
+    EXPECT_FALSE(solids.contains({-17, 70, 64}));
+    EXPECT_FALSE(Solids(scene::Scene{}).contains({0, 0, 0}));
 }
 
 // The pillar stands on the floor.
-TEST(Solids, ConcealWhatHasASolidOnBothSides) {
+TEST(Solids, BuryWhatHasASolidOnBothSides) {
     const test::SolidScene room = test::pillar_room();
     const Solids solids(room.scene());
     const double offset = 0.01;
-    EXPECT_TRUE(solids.conceal({Vec3d(150, 60, 0), Vec3d(182, 60, 0), Vec3d(182, 92, 0)}, offset));
-    EXPECT_TRUE(solids.conceal({Vec3d(182, 60, 0), Vec3d(150, 60, 0), Vec3d(182, 92, 0)}, offset));
-    EXPECT_FALSE(solids.conceal({Vec3d(149, 60, 0), Vec3d(182, 60, 0), Vec3d(182, 92, 0)}, offset));
-    EXPECT_FALSE(solids.conceal({Vec3d(150, 60, 0), Vec3d(150, 92, 0), Vec3d(150, 60, 50)}, offset));
-    EXPECT_FALSE(solids.conceal({Vec3d(150, 60, 0), Vec3d(150, 60, 0), Vec3d(182, 92, 0)}, offset))
+    EXPECT_TRUE(solids.is_buried({Vec3d(150, 60, 0), Vec3d(182, 60, 0), Vec3d(182, 92, 0)}, offset));
+    EXPECT_TRUE(solids.is_buried({Vec3d(182, 60, 0), Vec3d(150, 60, 0), Vec3d(182, 92, 0)}, offset));
+    EXPECT_FALSE(solids.is_buried({Vec3d(149, 60, 0), Vec3d(182, 60, 0), Vec3d(182, 92, 0)}, offset));
+    EXPECT_FALSE(solids.is_buried({Vec3d(150, 60, 0), Vec3d(150, 92, 0), Vec3d(150, 60, 50)}, offset));
+    EXPECT_FALSE(solids.is_buried({Vec3d(150, 60, 0), Vec3d(150, 60, 0), Vec3d(182, 92, 0)}, offset))
         << "a segment has no sides";
 }
 

@@ -68,33 +68,34 @@ double free_distance_at(const Pair& pair, const std::array<double, 3>& weights) 
            weights[2] * pair.free_distance[2];
 }
 
-TEST(Certificate, MarginIsAttainedAndNoSearchFindsLess) {
+TEST(Certificate, GapIsAttainedAndNoSearchFindsLess) {
     std::mt19937 random(13);
     for (int round = 0; round < 1000; ++round) {
         const Pair pair = random_pair(random);
-        const Margin margin = Slab(pair.corners, pair.free_distance).margin(pair.obstacle);
-        ASSERT_NEAR(margin.weights[0] + margin.weights[1] + margin.weights[2], 1.0, 1e-9);
-        for (const double w : margin.weights)
+        const SignedGap gap = Slab(pair.corners, pair.free_distance).signed_gap(pair.obstacle);
+        ASSERT_NEAR(gap.weights[0] + gap.weights[1] + gap.weights[2], 1.0, 1e-9);
+        for (const double w : gap.weights)
             ASSERT_GE(w, 0.0);
-        const Vec3d m = test::point_of(pair.corners, margin.weights);
+        const Vec3d m = test::point_of(pair.corners, gap.weights);
         const double attained =
-            (closest_point(pair.obstacle, m) - m).norm() - free_distance_at(pair, margin.weights);
-        ASSERT_NEAR(margin.value, attained, 1e-7) << "round " << round;
-        ASSERT_LE(margin.value, test::searched_margin(pair.corners, pair.free_distance, pair.obstacle) + 1e-7)
+            (closest_point(pair.obstacle, m) - m).norm() - free_distance_at(pair, gap.weights);
+        ASSERT_NEAR(gap.value, attained, 1e-7) << "round " << round;
+        ASSERT_LE(gap.value,
+                  test::searched_signed_gap(pair.corners, pair.free_distance, pair.obstacle) + 1e-7)
             << "round " << round;
     }
 }
 
-TEST(Certificate, BoundsAreNeverAboveTheMargin) {
+TEST(Certificate, BoundsAreNeverAboveTheGap) {
     std::mt19937 random(14);
     int separated = 0;
     for (int round = 0; round < 20000; ++round) {
         const Pair pair = random_pair(random);
         const Slab slab(pair.corners, pair.free_distance);
-        const double margin = slab.margin(pair.obstacle).value;
-        ASSERT_LE(slab.margin_at_least(pair.obstacle), margin + 1e-9) << "round " << round;
-        ASSERT_LE(slab.margin_at_least(box_of(pair.obstacle)), margin + 1e-9) << "round " << round;
-        separated += slab.margin_at_least(pair.obstacle) > 0.0;
+        const double gap = slab.signed_gap(pair.obstacle).value;
+        ASSERT_LE(slab.min_gap(pair.obstacle), gap + 1e-9) << "round " << round;
+        ASSERT_LE(slab.min_gap(box_of(pair.obstacle)), gap + 1e-9) << "round " << round;
+        separated += slab.min_gap(pair.obstacle) > 0.0;
     }
     EXPECT_GT(separated, 1000);
 }
@@ -103,11 +104,11 @@ TEST(Certificate, OfASlabWithoutAreaIsThatOfItsSegmentOrPoint) {
     const Triangle3d wall{Vec3d(-50, -50, 0), Vec3d(50, -50, 0), Vec3d(0, 80, 0)};
     const Vec3d a(0, 0, 5);
     const Vec3d b(0, 4, 9);
-    EXPECT_DOUBLE_EQ(Slab({a, a, a}, {3, 3, 3}).margin(wall).value, 2.0);
-    EXPECT_DOUBLE_EQ(Slab({a, b, b}, {3, 8, 8}).margin(wall).value, 1.0);
+    EXPECT_DOUBLE_EQ(Slab({a, a, a}, {3, 3, 3}).signed_gap(wall).value, 2.0);
+    EXPECT_DOUBLE_EQ(Slab({a, b, b}, {3, 8, 8}).signed_gap(wall).value, 1.0);
 }
 
-TEST(Certificate, MarginTowardsASceneIsTheSmallestOfAllOrEnough) {
+TEST(Certificate, GapToASceneIsTheSmallestOfAllOrEnough) {
     std::mt19937 random(15);
     const test::SolidScene room = test::pillar_room();
     const Obstacles obstacles(room.scene());
@@ -119,13 +120,13 @@ TEST(Certificate, MarginTowardsASceneIsTheSmallestOfAllOrEnough) {
         const Slab slab(corners, {40.0 * unit(random), 40.0 * unit(random), 40.0 * unit(random)});
         double smallest = std::numeric_limits<double>::infinity();
         for (const Triangle3d& obstacle : obstacles.triangles())
-            smallest = std::min(smallest, slab.margin(obstacle).value);
-        ASSERT_DOUBLE_EQ(margin(slab, obstacles, 1000.0).value, smallest) << "round " << round;
-        ASSERT_EQ(margin(slab, obstacles, smallest - 1.0).value, smallest - 1.0) << "round " << round;
+            smallest = std::min(smallest, slab.signed_gap(obstacle).value);
+        ASSERT_DOUBLE_EQ(signed_gap(slab, obstacles, 1000.0).value, smallest) << "round " << round;
+        ASSERT_EQ(signed_gap(slab, obstacles, smallest - 1.0).value, smallest - 1.0) << "round " << round;
     }
 }
 
-TEST(Certificate, IsThatOfEveryObstacleWhateverIsSuspected) {
+TEST(Certificate, IsThatOfEveryObstacleWhateverTheHint) {
     std::mt19937 random(16);
     const test::SolidScene room = test::pillar_room();
     const Obstacles obstacles(room.scene());
@@ -144,14 +145,14 @@ TEST(Certificate, IsThatOfEveryObstacleWhateverIsSuspected) {
         }
         const auto reach_into = [&](const Triangle3d& obstacle) {
             return std::any_of(slabs.begin(), slabs.end(),
-                               [&](const Slab& slab) { return slab.margin(obstacle).value < 0.0; });
+                               [&](const Slab& slab) { return slab.signed_gap(obstacle).value < 0.0; });
         };
         const auto& triangles = obstacles.triangles();
         const bool violates = std::any_of(triangles.begin(), triangles.end(), reach_into);
         violating += violates;
-        const auto suspect =
+        const auto hint =
             static_cast<std::uint32_t>(random() % (count + 1)) == count ? freespace::none : random() % count;
-        const std::uint32_t found = find_violated(slabs, obstacles, static_cast<std::uint32_t>(suspect));
+        const std::uint32_t found = find_violated(slabs, obstacles, static_cast<std::uint32_t>(hint));
         ASSERT_EQ(found != freespace::none, violates) << "round " << round;
         const bool certified = std::all_of(slabs.begin(), slabs.end(),
                                            [&](const Slab& slab) { return is_certified(slab, obstacles); });

@@ -7,6 +7,7 @@
 #include "bake/clearance.hpp"
 #include "bake/crossing.hpp"
 #include "bake/geometry/certificate.hpp"
+#include "support/bake_twins.hpp"
 #include "support/solid_scenes.hpp"
 
 namespace camdir::bake {
@@ -69,6 +70,36 @@ TEST(FreeDistances, GiveNothingAwayWhereTheClearanceIsLinear) {
     const auto free = free_distances(mesh, clearance, obstacles, 0.005, stage).value();
     for (std::size_t i = 0; i < free.size(); ++i)
         EXPECT_FLOAT_EQ(free[i], static_cast<float>(clearance[i]));
+}
+
+// Many points near large slabs: the search takes its 64 steps, as no violation is less than a tolerance of 0.
+TEST(FreeDistances, ASlabIsFreeAlsoWhenTheStepsAreUsedUp) {
+    std::mt19937 random(8);
+    std::uniform_real_distribution<double> coordinate(-100.0, 100.0);
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    for (int round = 0; round < 20; ++round) {
+        scene::Scene scene;
+        for (int i = 0; i < 400; ++i)
+            scene.points.emplace_back(coordinate(random), coordinate(random), 5.0 + 40.0 * unit(random));
+        const Obstacles obstacles(scene);
+        MedialMesh mesh;
+        for (int i = 0; i < 3; ++i)
+            mesh.vertices.emplace_back(static_cast<float>(coordinate(random)),
+                                       static_cast<float>(coordinate(random)), 0.0F);
+        mesh.triangles = {{0, 1, 2}};
+        Stage stage("certify", {}, {});
+        const std::vector<double> promised(3, 60.0);  // far more than there is
+        const auto free = free_distances(mesh, promised, obstacles, 0.0, stage).value();
+        const Triangle3d corners = mesh.corners(mesh.triangles[0]);
+        EXPECT_GE(signed_gap(Slab(corners, {free[0], free[1], free[2]}), obstacles, 0.0).value, -1e-9);
+        for (int i = 0; i < 500; ++i) {
+            const double u = unit(random);
+            const double v = unit(random) * (1.0 - u);
+            const Vec3d m = (1.0 - u - v) * corners[0] + u * corners[1] + v * corners[2];
+            const double r = (1.0 - u - v) * free[0] + u * free[1] + v * free[2];
+            ASSERT_LE(r, test::distance_to_nearest(m, scene.points) + 1e-9) << "round " << round;
+        }
+    }
 }
 
 }  // namespace

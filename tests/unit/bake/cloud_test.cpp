@@ -1,4 +1,4 @@
-// A point cloud bakes without triangles: what is free keeps d0 away from every point.
+// Bakes of point clouds: free space stays d0 away from every point.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -53,7 +53,7 @@ TEST(RemoveCrossing, KeepsExactlyWhatStaysClearOfTheObstacles) {
             }
         const bool is_kept = kept < after.triangles.size() && after.triangles[kept].a == t.a;
         kept += is_kept;
-        // Between these the triangle only grazes a solid, or lies within one.
+        // In between, the triangle touches a solid or lies inside one.
         const bool leaves_a_solid = nearest == 0.0 && farthest > 0.0;
         const bool in_the_open = nearest > 120.0 * 2.0 / steps;
         if (leaves_a_solid || in_the_open) {

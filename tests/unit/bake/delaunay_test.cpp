@@ -46,11 +46,11 @@ void expect_empty_spheres(const std::vector<Vec3d>& points, const Delaunay& resu
     }
 }
 
-// The two samples that all cells of a ring share.
-std::pair<std::uint32_t, std::uint32_t> edge_of(const Delaunay& result, std::size_t ring) {
-    const Cell& first = result.cells[result.ring(ring)[0]];
+// The two samples that all cells of a face share.
+std::pair<std::uint32_t, std::uint32_t> edge_of(const Delaunay& result, std::size_t face) {
+    const Cell& first = result.cells[result.face(face)[0]];
     std::vector<std::uint32_t> shared(first.begin(), first.end());
-    for (const std::uint32_t i : result.ring(ring)) {
+    for (const std::uint32_t i : result.face(face)) {
         const Cell& cell = result.cells[i];
         std::erase_if(shared, [&](std::uint32_t sample) {
             return std::find(cell.begin(), cell.end(), sample) == cell.end();
@@ -60,23 +60,23 @@ std::pair<std::uint32_t, std::uint32_t> edge_of(const Delaunay& result, std::siz
     return {shared.front(), shared.back()};
 }
 
-// Every ring goes around one edge: its cells share two samples, neighbours in it share a third.
-void expect_rings_around_edges(const std::vector<Vec3d>& points, const Delaunay& result, double min_length) {
+// Every face goes around one edge: its cells share two samples, neighbours in it share a third.
+void expect_faces_around_edges(const std::vector<Vec3d>& points, const Delaunay& result, double min_length) {
     std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
-    for (std::size_t i = 0; i < result.ring_count(); ++i) {
-        const auto ring = result.ring(i);
-        ASSERT_GE(ring.size(), 3U);
-        EXPECT_EQ(ring[0], *std::min_element(ring.begin(), ring.end()));
-        for (std::size_t k = 0; k < ring.size(); ++k) {
-            const Cell& cell = result.cells[ring[k]];
-            const Cell& next = result.cells[ring[(k + 1) % ring.size()]];
+    for (std::size_t i = 0; i < result.face_count(); ++i) {
+        const auto face = result.face(i);
+        ASSERT_GE(face.size(), 3U);
+        EXPECT_EQ(face[0], *std::min_element(face.begin(), face.end()));
+        for (std::size_t k = 0; k < face.size(); ++k) {
+            const Cell& cell = result.cells[face[k]];
+            const Cell& next = result.cells[face[(k + 1) % face.size()]];
             std::vector<std::uint32_t> facet;
             std::set_intersection(cell.begin(), cell.end(), next.begin(), next.end(),
                                   std::back_inserter(facet));
             EXPECT_EQ(facet.size(), 3U);
         }
         const auto [a, b] = edge_of(result, i);
-        EXPECT_EQ(result.ring_edges[i], (Edge{a, b}));
+        EXPECT_EQ(result.generators[i], (Generators{a, b}));
         EXPECT_GE((points[a] - points[b]).norm(), min_length);
         EXPECT_TRUE(edges.emplace(a, b).second) << "each edge once";
     }
@@ -87,16 +87,16 @@ TEST(Delaunay, SpheresOfRandomPointsAreEmpty) {
     const auto points = random_points(random, 400);
     const Delaunay result = triangulated(points, 20.0);
     expect_empty_spheres(points, result);
-    EXPECT_GT(result.ring_count(), 0U);
-    expect_rings_around_edges(points, result, 20.0);
+    EXPECT_GT(result.face_count(), 0U);
+    expect_faces_around_edges(points, result, 20.0);
 }
 
 TEST(Delaunay, SpheresOfAGridAreEmpty) {
     const auto points = grid_points(6);
     const Delaunay result = triangulated(points, 1.2);
     expect_empty_spheres(points, result);
-    EXPECT_GT(result.ring_count(), 0U);
-    expect_rings_around_edges(points, result, 1.2);
+    EXPECT_GT(result.face_count(), 0U);
+    expect_faces_around_edges(points, result, 1.2);
 }
 
 TEST(Delaunay, TheSmallerLengthDecidesWhichEdgesAreLong) {
@@ -109,7 +109,7 @@ TEST(Delaunay, TheSmallerLengthDecidesWhichEdgesAreLong) {
         Stage stage("delaunay", {}, {});
         const Delaunay result = delaunay(points, of, stage).value();
         std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
-        for (std::size_t i = 0; i < result.ring_count(); ++i)
+        for (std::size_t i = 0; i < result.face_count(); ++i)
             edges.push_back(edge_of(result, i));
         return edges;
     };

@@ -22,7 +22,7 @@ std::vector<Vec3d> medial_axis_of(const scene::Scene& scene, const Probing& prob
     return medial_axis(obstacles, solids, probing, stage).value();
 }
 
-TEST(TangentRadius, IsThatOfTheLargestEmptyBallThatTouches) {
+TEST(ShrinkingBall, IsTheLargestEmptyBallThatTouches) {
     const SolidScene room = test::pillar_room();
     const Obstacles obstacles(room.scene());
     std::mt19937 random(30);
@@ -32,7 +32,7 @@ TEST(TangentRadius, IsThatOfTheLargestEmptyBallThatTouches) {
         const Vec3d q(x(random), y(random), 0.0);
         if (Box3d(Vec3d(150, 60, 0), Vec3d(182, 92, 128)).contains(q)) continue;
         const double reach = round % 2 == 0 ? 500.0 : 40.0;
-        const double radius = tangent_radius(q, Vec3d::UnitZ(), reach, obstacles);
+        const double radius = shrinking_ball_radius(q, Vec3d::UnitZ(), reach, obstacles);
         ASSERT_LE(radius, reach);
         const auto free_at = [&](double r) { return room.clearance(q + r * Vec3d::UnitZ()); };
         EXPECT_GE(free_at(radius), radius * (1.0 - 1e-3)) << "empty, round " << round;
@@ -42,11 +42,11 @@ TEST(TangentRadius, IsThatOfTheLargestEmptyBallThatTouches) {
     }
 }
 
-TEST(TangentRadius, OfAFreeSideIsTheReach) {
+TEST(ShrinkingBall, OfAFreeSideHasTheLargestRadius) {
     scene::Scene floor;
     floor.vertices = {{0, 0, 0}, {100, 0, 0}, {0, 100, 0}};
     floor.triangles = {{0, 1, 2}};
-    EXPECT_EQ(tangent_radius({20, 20, 0}, Vec3d::UnitZ(), 77.0, Obstacles(floor)), 77.0);
+    EXPECT_EQ(shrinking_ball_radius({20, 20, 0}, Vec3d::UnitZ(), 77.0, Obstacles(floor)), 77.0);
 }
 
 TEST(MedialAxis, OfARoomHasEqualDistancesToTwoWalls) {
@@ -81,14 +81,14 @@ TEST(MedialAxis, IsFoundInsideADoorThatIsSmallOnItsWall) {
     EXPECT_LT(test::distance_to_nearest({0, 0, 40}, points), 20.0);
 }
 
-TEST(MedialAxis, KnowsNoPointsBeyondTheReach) {
+TEST(MedialAxis, HasNoPointsOfBallsBeyondTheReach) {
     const auto points = medial_axis_of(test::box_room().scene(), {16.0, 40.0});
     EXPECT_GT(points.size(), 0U);
     for (const Vec3d& p : points)
         EXPECT_LT(test::box_room().clearance(p), 40.0);
 }
 
-TEST(MedialAxis, LeavesOffSoonAfterTheMost) {
+TEST(MedialAxis, EndsSoonAfterTheMaximumNumberOfPoints) {
     const scene::Scene room = test::box_room().scene();
     const std::size_t all = medial_axis_of(room, {0.5, 300.0}).size();
     const std::size_t some = medial_axis_of(room, {0.5, 300.0, 1000}).size();
@@ -97,7 +97,7 @@ TEST(MedialAxis, LeavesOffSoonAfterTheMost) {
     EXPECT_GT(all, 5000U);
 }
 
-TEST(MedialAxis, EndsWhenAsked) {
+TEST(MedialAxis, StopsOnRequest) {
     const scene::Scene scene = test::box_room().scene();
     std::stop_source stop;
     stop.request_stop();

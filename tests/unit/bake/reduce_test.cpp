@@ -44,8 +44,8 @@ SolidScene random_room(unsigned seed) {
     return room.spawn({30, 96, 64});
 }
 
-// Parts into which the edges between vertices with a ball fall.
-std::size_t roadmap_parts(const freespace::Contents& contents) {
+// Components of the edges between vertices with a ball.
+std::size_t roadmap_components(const freespace::Contents& contents) {
     DisjointSets parts(contents.vertices.size());
     const auto on_roadmap = [&](std::uint32_t v) { return contents.vertices[v].free_distance > 0.0F; };
     for (const freespace::Triangle& t : contents.triangles)
@@ -58,12 +58,12 @@ std::size_t roadmap_parts(const freespace::Contents& contents) {
 }
 
 // In map units: `percent` of what a random point of the mesh has, but at most 3/2 d0.
-double allowed_loss(const freespace::Contents& whole, double percent) {
+double allowed_loss(const freespace::Contents& unreduced, double percent) {
     double sum = 0.0;
     double areas = 0.0;
-    for (const freespace::Triangle& t : whole.triangles) {
-        const std::array<freespace::Vertex, 3> v{whole.vertices[t.a], whole.vertices[t.b],
-                                                 whole.vertices[t.c]};
+    for (const freespace::Triangle& t : unreduced.triangles) {
+        const std::array<freespace::Vertex, 3> v{unreduced.vertices[t.a], unreduced.vertices[t.b],
+                                                 unreduced.vertices[t.c]};
         const double of_one = area(
             {v[0].position().cast<double>(), v[1].position().cast<double>(), v[2].position().cast<double>()});
         for (const freespace::Vertex& corner : v)
@@ -73,11 +73,11 @@ double allowed_loss(const freespace::Contents& whole, double percent) {
     return std::min(percent / 100.0 * sum / areas, 1.5 * 16.0);
 }
 
-// Every centre of the whole mesh keeps its free distance less the loss.
-void expect_kept(const freespace::Contents& whole, const freespace::Contents& reduced, double percent) {
+// Every centre of the unreduced mesh keeps its free distance less the loss.
+void expect_kept(const freespace::Contents& unreduced, const freespace::Contents& reduced, double percent) {
     const std::vector<Slab> slabs = slabs_of(reduced);
-    const double loss = allowed_loss(whole, percent);
-    for (const freespace::Vertex& v : whole.vertices) {
+    const double loss = allowed_loss(unreduced, percent);
+    for (const freespace::Vertex& v : unreduced.vertices) {
         const double kept = v.free_distance - loss;
         if (kept <= 0.0) continue;
         ASSERT_GE(distance(slabs, v.position().cast<double>()), kept - 1e-4);
@@ -88,10 +88,10 @@ class Reduce : public testing::TestWithParam<double> {};
 
 TEST_P(Reduce, LosesNoMoreThanAllowed) {
     const SolidScene rooms = test::two_rooms();
-    const freespace::Contents whole = reduced_bake(rooms, 0.0).contents;
+    const freespace::Contents unreduced = reduced_bake(rooms, 0.0).contents;
     const freespace::Contents reduced = reduced_bake(rooms, GetParam()).contents;
-    EXPECT_LT(reduced.triangles.size(), whole.triangles.size() / 2);
-    expect_kept(whole, reduced, GetParam());
+    EXPECT_LT(reduced.triangles.size(), unreduced.triangles.size() / 2);
+    expect_kept(unreduced, reduced, GetParam());
     expect_safe(rooms, reduced);
     const Obstacles obstacles(rooms.scene());
     for (const Slab& slab : slabs_of(reduced))
@@ -105,11 +105,11 @@ TEST(Reduce, IsSafeAndKeepsTheRoadmapWhateverTheRoom) {
         SCOPED_TRACE(seed);
         const double loss = seed % 2 == 0 ? 20.0 : 10.0;
         const SolidScene room = random_room(seed);
-        const freespace::Contents whole = reduced_bake(room, 0.0).contents;
+        const freespace::Contents unreduced = reduced_bake(room, 0.0).contents;
         const freespace::Contents reduced = reduced_bake(room, loss).contents;
-        expect_kept(whole, reduced, loss);
+        expect_kept(unreduced, reduced, loss);
         expect_safe(room, reduced);
-        EXPECT_EQ(roadmap_parts(reduced), roadmap_parts(whole));
+        EXPECT_EQ(roadmap_components(reduced), roadmap_components(unreduced));
         EXPECT_GT(distance(slabs_of(reduced), room.scene().spawn_points[0].eye), 0.0);
     }
 }
@@ -136,14 +136,14 @@ TEST(Reduce, MoreLossLeavesFewerTriangles) {
     }
 }
 
-TEST(Reduce, EndsNearTheWantedNumberOfTriangles) {
+TEST(Reduce, EndsNearTheTargetNumberOfTriangles) {
     const SolidScene room = test::pillar_room();
-    const std::size_t whole = reduced_bake(room, 0.0).contents.triangles.size();
+    const std::size_t unreduced = reduced_bake(room, 0.0).contents.triangles.size();
     const std::size_t least = reduced_bake(room, 20.0).contents.triangles.size();
-    for (const std::size_t wanted : {(whole + least) / 2, 2 * least}) {
-        const std::size_t left = reduced_bake(room, 20.0, wanted).contents.triangles.size();
-        EXPECT_LE(left, wanted);
-        EXPECT_GT(left, wanted - wanted / 10);
+    for (const std::size_t target : {(unreduced + least) / 2, 2 * least}) {
+        const std::size_t left = reduced_bake(room, 20.0, target).contents.triangles.size();
+        EXPECT_LE(left, target);
+        EXPECT_GT(left, target - target / 10);
     }
 }
 
@@ -157,7 +157,7 @@ TEST(Reduce, IsTheSameForAnyNumberOfThreads) {
         parameters.threads = threads;
         return bake(rooms, parameters, {}, {}).value().contents;
     };
-    ASSERT_GT(baked(0.0, 2).vertices.size(), 4 * region_size) << "or there is nothing to share out";
+    ASSERT_GT(baked(0.0, 2).vertices.size(), 4 * region_size) << "or there is one region only";
     EXPECT_EQ(freespace::encode(baked(20.0, 1)), freespace::encode(baked(20.0, 2)));
 }
 

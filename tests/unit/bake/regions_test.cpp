@@ -9,7 +9,7 @@
 namespace camdir::bake {
 namespace {
 
-TEST(Regions, ShareOutEveryVertexOnceInLimitedLists) {
+TEST(Regions, HoldEveryVertexOnceInListsOfLimitedSize) {
     std::mt19937 random(5);
     std::uniform_real_distribution<float> unit(0.0F, 1.0F);
     std::vector<Vec3f> positions(5000);

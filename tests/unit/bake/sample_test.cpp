@@ -115,7 +115,7 @@ TEST(Sample, NearestSamplesAreNearerThanTheirSamplingDistance) {
         Stage stage("sample", {}, {});
         const double welded = 0.1;
         const auto samples =
-            weld(sample(soup, no_solids, distance, welded, stage).value(), welded, stage).value();
+            thin(sample(soup, no_solids, distance, welded, stage).value(), welded, stage).value();
         for (const auto& [a, b, c] : soup.triangles)
             for (const Vec3d& x : dense_points({soup.vertices[a], soup.vertices[b], soup.vertices[c]}, 40)) {
                 const double nearest = test::distance_to_nearest(x, samples);
@@ -127,7 +127,7 @@ TEST(Sample, NearestSamplesAreNearerThanTheirSamplingDistance) {
     }
 }
 
-// The pillar's ends are concealed, and what of the floor and the ceiling is behind them.
+// The pillar's ends are buried, and so are the parts of floor and ceiling behind them.
 TEST(Sample, OnlyWhatBoundsFreeSpaceNeedsSamples) {
     const test::SolidScene room = test::pillar_room();
     const scene::Scene& scene = room.scene();
@@ -142,7 +142,7 @@ TEST(Sample, OnlyWhatBoundsFreeSpaceNeedsSamples) {
         const Triangle3d t{scene.vertices[a], scene.vertices[b], scene.vertices[c]};
         const Vec3d normal = (t[1] - t[0]).cross(t[2] - t[0]).normalized();
         for (const Vec3d& p : dense_points(t, 40)) {
-            if (solids.contain(p + 0.1 * normal) && solids.contain(p - 0.1 * normal)) continue;
+            if (solids.contains(p + 0.1 * normal) && solids.contains(p - 0.1 * normal)) continue;
             ++bounding;
             ASSERT_LT(test::distance_to_nearest(p, samples), distance);
         }
@@ -171,14 +171,14 @@ TEST(Sample, TrianglesWithACommonEdgeHaveTheSameSamplesThere) {
         const auto samples = sample(pair, no_solids, distance, 0.0, stage).value();
         const Vec3d& a = pair.vertices[0];
         const Vec3d& b = pair.vertices[1];
-        // Samples of the common edge are midpoints of midpoints of it: none but those lie this near to it.
+        // Samples of the common edge are repeated midpoints of it; no other samples lie this near to it.
         std::vector<double> along;
         for (const Vec3d& p : samples)
             if ((closest_point(a, b, p) - p).norm() < 1e-9) along.push_back((p - a).norm() / (b - a).norm());
         std::sort(along.begin(), along.end());
         along.erase(std::unique(along.begin(), along.end()), along.end());
         for (std::size_t i = 1; i < along.size(); ++i)
-            ASSERT_GT(along[i] - along[i - 1], 1e-6) << "almost the same point twice, round " << round;
+            ASSERT_GT(along[i] - along[i - 1], 1e-6) << "no two samples almost coincide, round " << round;
     }
 }
 

@@ -48,7 +48,7 @@ TEST(Shell, HasALimitedNumberOfSamplesWhateverTheBox) {
         const Box3d box(Vec3d(-1, -2, -3), Vec3d(-1, -2, -3) + size);
         const auto samples = shell_samples(box, shell_around(box, 2.0, 16.0));
         EXPECT_GE(samples.size(), 8U) << size.transpose();
-        EXPECT_LE(samples.size(), most_shell_samples) << size.transpose();
+        EXPECT_LE(samples.size(), max_shell_samples) << size.transpose();
     }
 }
 

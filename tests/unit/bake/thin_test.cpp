@@ -16,12 +16,12 @@ std::vector<Vec3d> random_points(std::mt19937& random, int count) {
     return points;
 }
 
-TEST(Weld, KeepsASparseSubsetThatCoversTheRest) {
+TEST(Thin, KeepsASparseSubsetThatCoversTheRest) {
     std::mt19937 random(3);
     const std::vector<Vec3d> points = random_points(random, 2000);
     const double distance = 0.5;
-    Stage stage("weld", {}, {});
-    const auto kept = weld(points, distance, stage).value();
+    Stage stage("thin", {}, {});
+    const auto kept = thin(points, distance, stage).value();
     EXPECT_LT(kept.size(), points.size());
     const auto near = [&](const Vec3d& a) {
         return std::count_if(kept.begin(), kept.end(),
@@ -35,14 +35,14 @@ TEST(Weld, KeepsASparseSubsetThatCoversTheRest) {
     }
 }
 
-TEST(Weld, DoesNotDependOnTheOrder) {
+TEST(Thin, DoesNotDependOnTheOrder) {
     std::mt19937 random(4);
     std::vector<Vec3d> points = random_points(random, 1000);
     points.insert(points.end(), points.begin(), points.begin() + 100);
-    Stage stage("weld", {}, {});
-    const auto kept = weld(points, 0.5, stage).value();
+    Stage stage("thin", {}, {});
+    const auto kept = thin(points, 0.5, stage).value();
     std::shuffle(points.begin(), points.end(), random);
-    EXPECT_EQ(weld(points, 0.5, stage).value(), kept);
+    EXPECT_EQ(thin(points, 0.5, stage).value(), kept);
 }
 
 }  // namespace

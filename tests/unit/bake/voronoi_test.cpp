@@ -19,11 +19,11 @@
 namespace camdir::bake {
 namespace {
 
-std::map<Edge, std::vector<Vec3d>> corners_by_edge(const VoronoiFaces& faces) {
-    std::map<Edge, std::vector<Vec3d>> corners;
+std::map<Generators, std::vector<Vec3d>> corners_by_edge(const VoronoiFaces& faces) {
+    std::map<Generators, std::vector<Vec3d>> corners;
     for (std::size_t i = 0; i < faces.size(); ++i)
         for (const std::uint32_t corner : faces.face(i))
-            corners[faces.edges[i]].push_back(faces.vertices[corner]);
+            corners[faces.generators[i]].push_back(faces.vertices[corner]);
     return corners;
 }
 
@@ -82,7 +82,7 @@ TEST(Voronoi, NoFaceOfSamplesTwiceTheirDistanceApartTouchesAnObstacle) {
     const auto map = test::openarena_map("oa_dm1");
     if (!map) GTEST_SKIP() << test::needs_openarena_map("oa_dm1");
     scene::Scene scene = scene::load(*map).value();
-    scene.brushes.clear();  // what they conceal has no samples, and is touched
+    scene.brushes.clear();  // what they bury has no samples, and is touched
     constexpr double d0 = 32.0;
     constexpr double slack = 0.5;
     Stage stage("voronoi", {}, {});
@@ -91,7 +91,7 @@ TEST(Voronoi, NoFaceOfSamplesTwiceTheirDistanceApartTouchesAnObstacle) {
     const Probing probing{2.0 * d0, SamplingDistance::reach(8.0 * d0)};
     const SamplingDistance distance(d0, 8.0 * d0, medial_axis(obstacles, solids, probing, stage).value());
     const std::vector<Vec3d> samples =
-        weld(sample(scene, solids, distance, slack, stage).value(), slack, stage).value();
+        thin(sample(scene, solids, distance, slack, stage).value(), slack, stage).value();
     std::vector<double> twice = distances_at(samples, distance, stage).value();
     for (double& length : twice)
         length *= 2.0;
