@@ -1,4 +1,5 @@
 // camera-director inspect: the contents of a MAP.vfs.
+#include <cmath>
 #include <iomanip>
 #include <iostream>
 #include <limits>
@@ -43,6 +44,14 @@ std::string number(Number value) {
     return text.str();
 }
 
+// Whole numbers with all digits, others with six.
+std::string count_text(double value) {
+    if (value == std::floor(value) && std::abs(value) < 1e15) return std::to_string(std::llround(value));
+    std::ostringstream text;
+    text << value;
+    return text.str();
+}
+
 // What the bake counted: a row for each number, the name of the stage in its first row.
 void print_counts(const std::vector<freespace::Count>& counts) {
     if (counts.empty()) return;
@@ -50,7 +59,7 @@ void print_counts(const std::vector<freespace::Count>& counts) {
     std::string stage;
     for (const freespace::Count& count : counts) {
         std::cerr << "  " << std::left << std::setw(14) << (count.stage == stage ? "" : count.stage)
-                  << std::right << std::setw(14) << number(count.value) << "  " << count.what << '\n';
+                  << std::right << std::setw(14) << count_text(count.value) << "  " << count.what << '\n';
         stage = count.stage;
     }
 }

@@ -11,37 +11,37 @@ constexpr double least_fraction = 0.02;  // below, a speed says nothing
 constexpr double least_seconds = 1.0;
 
 // Mean shares of the stages in the seconds of default bakes with 2 threads (`bake --report`) of oa_dm1,
-// oa_dm3, oa_rpg3dm2, aggressor, bunker-defense, fegefeuer and lqdm1.
+// oa_dm3, oa_rpg3dm2, aggressor, bunker-defense, dung3on, fegefeuer and lqdm1.
 constexpr std::array<StageWeight, 14> surface_weights{{
-    {"medial axis", 0.045, true},
-    {"forecast", 0.005, false},
-    {"sample", 0.040, true},
-    {"weld", 0.025, true},
-    {"delaunay", 0.215, false},
+    {"medial axis", 0.054, true},
+    {"forecast", 0.006, false},
+    {"sample", 0.045, true},
+    {"weld", 0.014, true},
+    {"delaunay", 0.169, false},
     {"voronoi", 0.025, false},
     {"triangulate", 0.010, true},
     {"clearance", 0.030, true},
     {"crossing", 0.002, true},
-    {"inside", 0.030, false},
-    {"certify", 0.120, true},
-    {"reduce", 0.437, false},
+    {"inside", 0.031, false},
+    {"certify", 0.128, true},
+    {"reduce", 0.473, false},
     {"pack", 0.001, false},
-    {"recertify", 0.015, true},
+    {"recertify", 0.012, false},
 }};
 
-// The same of room_scan1 and scan_430.
+// The same of the point clouds room_scan1 and scan_430.
 constexpr std::array<StageWeight, 11> cloud_weights{{
-    {"thin", 0.001, true},
+    {"thin", 0.002, true},
     {"forecast", 0.001, false},
-    {"delaunay", 0.028, false},
-    {"voronoi", 0.004, false},
+    {"delaunay", 0.027, false},
+    {"voronoi", 0.003, false},
     {"triangulate", 0.002, true},
-    {"clearance", 0.021, true},
-    {"certify", 0.207, true},
+    {"clearance", 0.028, true},
+    {"certify", 0.218, true},
     {"inside", 0.001, false},
-    {"reduce", 0.719, false},
+    {"reduce", 0.688, false},
     {"pack", 0.001, false},
-    {"recertify", 0.015, true},
+    {"recertify", 0.029, false},
 }};
 
 // The part of a stage that is done after `share` of its expected time: the same up to 3/4, then ever more

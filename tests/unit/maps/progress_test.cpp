@@ -33,6 +33,21 @@ std::vector<std::string> stages_of_bake(const scene::Scene& scene, double d0) {
     return stages;
 }
 
+// The points of a room's walls, floor and ceiling.
+scene::Scene room_cloud(double spacing) {
+    scene::Scene cloud;
+    for (double x = 0.0; x <= 256.0; x += spacing)
+        for (double y = 0.0; y <= 192.0; y += spacing)
+            for (double z = 0.0; z <= 128.0; z += spacing)
+                if (x == 0.0 || x == 256.0 || y == 0.0 || y == 192.0 || z == 0.0 || z == 128.0)
+                    cloud.points.emplace_back(x, y, z);
+    cloud.point_spacing = 1.25 * spacing;  // to the nearest 8
+    cloud.metres_per_unit = scene::metres_of_nominal_unit;
+    cloud.bounds = Box3d(Vec3d::Zero(), Vec3d(256.0, 192.0, 128.0));
+    cloud.spawn_points.push_back({Vec3d(128.0, 96.0, 64.0), 0.0F, "test"});
+    return cloud;
+}
+
 std::vector<std::string> names_of(std::span<const StageWeight> stages) {
     std::vector<std::string> names;
     for (const StageWeight& entry : stages)
@@ -44,6 +59,11 @@ TEST(StageWeights, NameTheStagesOfABake) {
     auto bsp = test::room_map(Box3d(Vec3d(0.0, 0.0, 0.0), Vec3d(512.0, 384.0, 256.0)));
     test::add_spawn_point(bsp, Vec3d(256.0, 192.0, 40.0));
     EXPECT_EQ(stages_of_bake(test::scene_of(bsp), 64.0), names_of(surface_stages()));
+}
+
+TEST(StageWeights, NameTheStagesOfACloudsBake) {
+    scene::Scene cloud = room_cloud(16.0);
+    EXPECT_EQ(stages_of_bake(cloud, 0.0), names_of(cloud_stages()));
 }
 
 // A bake whose stages take `scale` times the seconds of their weights, with noise, and report as they do.
