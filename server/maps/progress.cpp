@@ -26,7 +26,7 @@ constexpr std::array<StageWeight, 14> surface_weights{{
     {"certify", 0.128, true},
     {"reduce", 0.473, false},
     {"pack", 0.001, false},
-    {"recertify", 0.012, false},
+    {"recertify", 0.012, true},
 }};
 
 // The same of the point clouds room_scan1 and scan_430.
@@ -41,7 +41,7 @@ constexpr std::array<StageWeight, 11> cloud_weights{{
     {"inside", 0.001, false},
     {"reduce", 0.688, false},
     {"pack", 0.001, false},
-    {"recertify", 0.029, false},
+    {"recertify", 0.029, true},
 }};
 
 // The part of a stage that is done after `share` of its expected time: the same up to 3/4, then ever more
