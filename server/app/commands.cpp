@@ -32,6 +32,10 @@ int report(const Error& error) {
     return error.code == ErrorCode::interrupted ? exit_interrupted : exit_failed;
 }
 
+void ExitWhenInterrupted::leave() {
+    ::_exit(report(Error{"interrupted", ErrorCode::interrupted}));
+}
+
 int exit_code_of(const Result<void>& done) {
     return done ? exit_done : report(done.error());
 }

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 #include <initializer_list>
+#include <stop_token>
 #include <string>
 #include <utility>
 
@@ -31,6 +32,19 @@ void add_render(CLI::App& root, Run& run);
 
 // Prints the error to standard error as `camera-director: message`; returns the exit code that it stands for.
 [[nodiscard]] int report(const Error& error);
+
+// While it lives, an interruption ends the process at once, with a message and exit_interrupted: around work
+// that takes no stop token and leaves nothing behind.
+class ExitWhenInterrupted {
+  public:
+    explicit ExitWhenInterrupted(const service::Interruption& interruption)
+        : callback_(interruption.token(), leave) {}
+
+  private:
+    static void leave();
+
+    std::stop_callback<void (*)()> callback_;
+};
 
 // exit_done, or reports the error.
 [[nodiscard]] int exit_code_of(const Result<void>& done);

@@ -152,6 +152,7 @@ Result<void> write_results(const EvaluateOptions& options, const evaluation::Tra
 
 Result<void> evaluate(const EvaluateOptions& options) {
     const service::Interruption interruption;
+    std::optional<ExitWhenInterrupted> reading(interruption);
     if (auto writable = check_outputs({options.cameras, options.terms, options.json}); !writable)
         return writable;
     ProgressLine line;
@@ -161,13 +162,13 @@ Result<void> evaluate(const EvaluateOptions& options) {
     line.show("reading " + options.map, 0, 0);
     const auto map = open_map(options);
     if (!map) return tl::unexpected(map.error());
-    const scene::Scene* scene = &map->scene;
-    const auto recording = make_cameras(options, *trace, *scene, line, interruption.token());
+    const oracle::Oracle oracle(map->scene, map->point_radius);
+    reading.reset();
+    const auto recording = make_cameras(options, *trace, map->scene, line, interruption.token());
     if (!recording) return tl::unexpected(recording.error());
-    line.show("judging", 0, 0);
-    const oracle::Oracle oracle(*scene, map->point_radius);
+    const auto explored = [&](std::uint64_t cells) { line.show("judging, cells explored", cells, 0); };
     const auto metrics =
-        evaluation::measure(oracle, scene->metres_per_unit, *trace, recording->cameras, interruption.token());
+        evaluation::measure(map->scene, oracle, *trace, recording->cameras, explored, interruption.token());
     if (!metrics) return tl::unexpected(metrics.error());
     line.clear();
     print(options, *trace, *metrics, *recording);

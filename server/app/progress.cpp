@@ -57,6 +57,8 @@ void ProgressLine::show(std::string_view activity, std::uint64_t done, std::uint
     if (total > 0) {
         text.resize(std::max<std::size_t>(text.size(), 12), ' ');
         text += bar(static_cast<double>(done) / static_cast<double>(total));
+    } else if (done > 0) {
+        text += " " + std::to_string(done);
     }
     show([text](double seconds) { return text + "  " + times_text(seconds); });
 }

@@ -32,7 +32,8 @@ class ProgressLine {
     ~ProgressLine();
 
     void show(Text text);
-    // An activity, its bar, and the seconds since the line was made. A `total` of 0 is unknown.
+    // An activity, its bar, and the seconds since the line was made. A `total` of 0 is unknown: the line has
+    // the count instead.
     void show(std::string_view activity, std::uint64_t done, std::uint64_t total);
 
     // Removes the line until the next show(), so that something else can be printed.

@@ -4,6 +4,7 @@
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
 #include <string>
 
@@ -60,11 +61,23 @@ nlohmann::ordered_json counts_json(const BallCounts& counts) {
     return json;
 }
 
-nlohmann::ordered_json result_json(const VerifyOptions& options, const freespace::Metadata& metadata,
-                                   bool same_source, const Verification& result) {
+// The baked file, its map, and what answers about that.
+struct Subject {
+    freespace::Freespace freespace;
+    scene::Scene scene;
+    oracle::Oracle oracle;
+
+    [[nodiscard]] bool has_same_source() const {
+        return freespace.metadata().source_hash == scene.source_hash;
+    }
+};
+
+nlohmann::ordered_json result_json(const VerifyOptions& options, const Subject& subject,
+                                   const Verification& result) {
+    const freespace::Metadata& metadata = subject.freespace.metadata();
     nlohmann::ordered_json json = {{"file", options.file},
                                    {"map", options.map},
-                                   {"source_matches", same_source},
+                                   {"source_matches", subject.has_same_source()},
                                    {"seed", options.parameters.seed},
                                    {"d0", metadata.d0},
                                    {"metres_per_unit", metadata.metres_per_unit},
@@ -119,37 +132,49 @@ void print_table(const VerifyOptions& options, const Verification& result, doubl
         << ", in one component of the roadmap " << result.joined_spawn_points << " (of " << result.components
         << " components)"
         << "\nseed " << options.parameters.seed << ", " << std::setprecision(3) << seconds << " s\n"
-        << (result.has_violation() ? "VIOLATED: the representation reaches into obstacles\n"
-                                   : "no violation found\n");
+        << (result.has_violation()
+                ? "VIOLATED: the representation reaches into obstacles\n"
+                : "no violation found among these balls and points, against the map as the "
+                  "baker reads it too\n");
     std::cerr << out.str();
+}
+
+Result<Subject> read_subject(const VerifyOptions& options) {
+    auto freespace = freespace::Freespace::open(options.file);
+    if (!freespace) return tl::unexpected(freespace.error());
+    auto scene = maps::load_source(*freespace, options.map);
+    if (!scene) return tl::unexpected(scene.error());
+    oracle::Oracle oracle(*scene, freespace->metadata().d0);
+    return Subject{std::move(*freespace), std::move(*scene), std::move(oracle)};
 }
 
 Result<int> verify(const VerifyOptions& options) {
     const service::Interruption interruption;
+    std::optional<ExitWhenInterrupted> reading(interruption);
     if (auto writable = check_outputs({options.json}); !writable) return tl::unexpected(writable.error());
-    const auto freespace = freespace::Freespace::open(options.file);
-    if (!freespace) return tl::unexpected(freespace.error());
-    const auto scene = maps::load_source(*freespace, options.map);
-    if (!scene) return tl::unexpected(scene.error());
-    const bool same_source = freespace->metadata().source_hash == scene->source_hash;
-    if (!same_source)
+    ProgressLine line;
+    const auto start = std::chrono::steady_clock::now();
+    line.show("reading " + options.map, 0, 0);
+    const auto subject = read_subject(options);
+    if (!subject) return tl::unexpected(subject.error());
+    reading.reset();
+    if (!subject->has_same_source()) {
+        line.clear();
         std::cerr << "camera-director: warning: " << options.file << " was baked from other bytes than "
                   << options.map << '\n';
+    }
 
-    ProgressLine line;
     const auto show = [&](std::string_view stage, std::uint64_t done, std::uint64_t total) {
         line.show(stage, done, total);
     };
-    const auto start = std::chrono::steady_clock::now();
-    const oracle::Oracle oracle(*scene, freespace->metadata().d0);
-    const auto result =
-        evaluation::verify(*freespace, *scene, oracle, options.parameters, show, interruption.token());
+    const auto result = evaluation::verify(subject->freespace, subject->scene, subject->oracle,
+                                           options.parameters, show, interruption.token());
     line.clear();
     if (!result) return tl::unexpected(result.error());
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     print_table(options, *result, seconds.count());
     if (!options.json.empty()) {
-        const auto json = result_json(options, freespace->metadata(), same_source, *result);
+        const auto json = result_json(options, *subject, *result);
         const auto written = write_file(options.json, json.dump(2) + '\n');
         if (!written) return tl::unexpected(written.error());
     }
@@ -160,14 +185,17 @@ Result<int> verify(const VerifyOptions& options) {
 
 void add_verify(CLI::App& root, Run& run) {
     const auto options = std::make_shared<VerifyOptions>();
-    CLI::App* command = root.add_subcommand("verify",
-                                            "Test a baked file against its map: no ball may reach "
-                                            "into an obstacle; how much free space it knows.");
+    CLI::App* command = root.add_subcommand(
+        "verify",
+        "Test a baked file against its map: no ball may reach deeper than 0.02 units of 0.0254 m into an "
+        "obstacle; how much of the free space it knows. Balls and points are drawn at random, and measured "
+        "without any code of the baker. The map's reader is the baker's: what it makes of the map, such as "
+        "flat triangles within a unit of curved patches, is taken for the obstacles.");
     command->add_option("file", options->file, "The baked file, MAP.vfs")->required();
     command->add_option("--map", options->map, "The map: a file, or archive.pk3:maps/name.bsp")->required();
     command
         ->add_option("--balls", options->parameters.balls,
-                     "Balls to draw; every vertex and edge midpoint comes on top")
+                     "Balls to draw, in addition to every vertex and edge midpoint")
         ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{10'000'000'000}))
         ->capture_default_str();
     command

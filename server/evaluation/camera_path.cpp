@@ -42,7 +42,7 @@ std::string described(std::uint32_t id, std::int64_t time) {
     return "player " + std::to_string(id) + " at t_ms " + format_milliseconds(time);
 }
 
-// Puts the rows, in the file's order, to the poses of the trace.
+// Assigns the rows, in the file's order, to the poses of the trace.
 class Alignment {
   public:
     explicit Alignment(const Trace& trace)

@@ -24,8 +24,8 @@ using CameraPath = std::vector<CameraSample>;
 [[nodiscard]] std::string format_cameras(const Trace& trace, std::span<const CameraSample> cameras);
 
 // Reads such a table (CSV or CSV.gz, columns by name, rows ordered by t_ms) that was made for `trace`. Fails
-// when it lacks a row for a pose of the trace, has one that the trace lacks, or a quaternion whose length
-// differs from 1 by more than 1e-3; errors name the file and the line.
+// when a pose of the trace has no row or a row has no pose, and when a quaternion's length differs from 1 by
+// more than 1e-3; errors name the file and the line.
 [[nodiscard]] Result<CameraPath> read_cameras(const std::filesystem::path& path, const Trace& trace);
 [[nodiscard]] Result<CameraPath> parse_cameras(std::span<const std::byte> bytes, const std::string& name,
                                                const Trace& trace);

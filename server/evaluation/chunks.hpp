@@ -1,4 +1,4 @@
-// Sampling in parallel with the same outcome on any number of threads.
+// Random sampling in parallel with the same outcome on any number of threads.
 #pragma once
 
 #include <algorithm>
@@ -36,8 +36,9 @@ class ChunkRandom {
     std::mt19937_64 engine_;
 };
 
-// outcomes[i] = work(first + i) for i < count, on all cores. Stops early, with part of the outcomes left
-// as they are made by default, when `stop` is requested. done(k) is called after k chunks, from any thread.
+// outcomes[i] = work(first + i) for i < count, on all cores. When `stop` is requested, the chunks that have
+// not started are left out: their outcomes are default-constructed. done(k) is called after k chunks, from
+// any thread.
 template <class Outcome, class Work, class Done>
 [[nodiscard]] std::vector<Outcome> run_chunks(std::uint64_t first, std::uint64_t count,
                                               const std::stop_token& stop, const Work& work,

@@ -78,10 +78,10 @@ class Table {
         const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
         const bool number = error == std::errc{} && end == field.data() + field.size() && !field.empty();
         if (number && value >= column.minimum && value <= column.maximum &&
-            (!column.whole || value == std::trunc(value)))
+            (!column.integer || value == std::trunc(value)))
             return value;
         return fail("column \"" + std::string(column.name) + "\" is " + quoted(field) + ", expected " +
-                    (column.whole ? "an integer" : "a number") + " from " + shown(column.minimum) + " to " +
+                    (column.integer ? "an integer" : "a number") + " from " + shown(column.minimum) + " to " +
                     shown(column.maximum));
     }
 

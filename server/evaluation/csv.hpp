@@ -14,19 +14,18 @@ struct Column {
     const char* name;
     double minimum;
     double maximum;
-    bool whole = false;  // only integers
+    bool integer = false;
 };
 
-// Takes one row: a number for each column asked for, in that order. An error's message needs no place; it is
-// prefixed with the file's name and the line.
+// Receives one row: a number for each requested column, in that order. Its errors need not say where: the
+// file's name and the line are put before them.
 using RowSink = std::function<Result<void>(std::span<const double>)>;
 
 // Reads the header line, which must name every one of `columns` (others are ignored, the order is free), then
 // hands each row to `sink`. Fields are plain numbers without quotes; lines may end in CR LF; the last line
 // may lack its end. Errors name the line, the column, what was found and what was expected.
 //
-// `bytes` are text, or gzip of it. What is held in memory is one line of at most 4096 bytes. Compressed text
-// is refused beyond 1 MiB plus 200 times its compressed size, or beyond 1 GiB.
+// `bytes` are text, or gzip of it; the limits are those of for_each_line().
 [[nodiscard]] Result<void> read_csv(std::span<const std::byte> bytes, const std::string& name,
                                     std::span<const Column> columns, const RowSink& sink);
 

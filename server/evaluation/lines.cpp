@@ -75,7 +75,7 @@ class Inflater {
                 if (exhausted()) return {};
                 if (inflateReset(&stream_) != Z_OK) return fail("cannot restart decompression");
             } else if (status == Z_BUF_ERROR && exhausted()) {
-                return fail("compressed data are cut off");
+                return fail("compressed data end too early");
             } else if (status != Z_OK) {
                 return fail(std::string("compressed data are damaged: ") +
                             (stream_.msg != nullptr ? stream_.msg : "unexpected end"));
@@ -101,7 +101,7 @@ class Inflater {
         produced_ += size;
         if (produced_ > limit_)
             return fail("decompresses to more than " + std::to_string(limit_) +
-                        " bytes, the most that is accepted for a file of this size");
+                        " bytes, which is the limit for a file of this size");
         return lines.add({reinterpret_cast<const char*>(buffer_.data()), size});
     }
 

@@ -10,7 +10,7 @@
 
 namespace camdir::evaluation {
 
-// Takes one line without its end.
+// Receives one line, without its line end.
 using LineSink = std::function<Result<void>(std::string_view)>;
 
 // Hands each line of `bytes` (text, or gzip with any number of members) to `sink`, in order, without holding

@@ -15,7 +15,7 @@ namespace camdir::evaluation {
 namespace {
 
 constexpr std::int64_t settling = 500'000'000;    // ns after an event in which nothing is counted
-constexpr std::int64_t event_span = 100'000'000;  // ns around an event within which a cut belongs to it
+constexpr std::int64_t event_span = 100'000'000;  // ns after an event within which a cut belongs to it
 
 // The thresholds in map units.
 struct Thresholds {
@@ -111,8 +111,11 @@ void Tally::add(const Tally& other) {
 // Judges the cameras of one player in the trace's order.
 class Judge {
   public:
-    Judge(const oracle::Oracle& oracle, const Thresholds& thresholds)
-        : oracle_(oracle), limits_(thresholds) {}
+    Judge(const oracle::Oracle& oracle, const oracle::Reachability& reachability,
+          const Thresholds& thresholds)
+        : oracle_(oracle), reachability_(reachability), limits_(thresholds) {}
+    Judge(const Judge&) = delete;
+    Judge& operator=(const Judge&) = delete;
 
     void add(std::int64_t time, const TracePose& pose, const CameraSample& camera) {
         if (pose.discontinuity) last_event_ = time;
@@ -150,7 +153,7 @@ class Judge {
         const bool framed = in_frame(camera, pose.eye);
         // What sees a living player's eye is joined to it by free space.
         const bool solid =
-            oracle_.in_solid(camera.position) || (!head && !oracle_.reachable(camera.position));
+            oracle_.in_solid(camera.position) || (!head && !reachability_.reachable(camera.position));
         const bool low = solid || oracle_.clearance(camera.position, limits_.clearance) < limits_.clearance;
         ++tally_.frames;
         tally_.head += head;
@@ -185,6 +188,7 @@ class Judge {
     }
 
     const oracle::Oracle& oracle_;
+    const oracle::Reachability& reachability_;
     const Thresholds& limits_;
     std::int64_t last_event_ = 0;
     Sample before_;
@@ -192,8 +196,8 @@ class Judge {
     MotionMeter meter_{tally_.motion};
 };
 
-double per_cent(std::size_t part, std::size_t whole) {
-    return whole == 0 ? unmeasured : 100.0 * static_cast<double>(part) / static_cast<double>(whole);
+double per_cent(std::size_t part, std::size_t total) {
+    return total == 0 ? unmeasured : 100.0 * static_cast<double>(part) / static_cast<double>(total);
 }
 
 Spread spread(const std::vector<double>& values) {
@@ -229,9 +233,8 @@ Metrics summarise(const Tally& tally) {
     return metrics;
 }
 
-Tally judge_player(const oracle::Oracle& oracle, const Thresholds& thresholds, const Trace& trace,
-                   std::span<const CameraSample> cameras, std::uint32_t player, const std::stop_token& stop) {
-    Judge judge(oracle, thresholds);
+void judge_player(std::uint32_t player, const Trace& trace, std::span<const CameraSample> cameras,
+                  const std::stop_token& stop, Judge& judge) {
     const auto track = track_of(trace, player);
     for (std::size_t frame = 0; frame < track.size() && !stop.stop_requested(); ++frame) {
         if (track[frame] == absent)
@@ -239,18 +242,22 @@ Tally judge_player(const oracle::Oracle& oracle, const Thresholds& thresholds, c
         else
             judge.add(trace.frames[frame].time, trace.poses[track[frame]], cameras[track[frame]]);
     }
-    return judge.tally();
 }
 
 }  // namespace
 
-Result<Metrics> measure(const oracle::Oracle& oracle, double metres_per_unit, const Trace& trace,
-                        std::span<const CameraSample> cameras, const std::stop_token& stop) {
+Result<Metrics> measure(const scene::Scene& scene, const oracle::Oracle& oracle, const Trace& trace,
+                        std::span<const CameraSample> cameras, const oracle::ExploreProgress& progress,
+                        const std::stop_token& stop) {
     assert(cameras.size() == trace.poses.size());
-    const Thresholds thresholds(metres_per_unit);
+    const auto reachability = oracle::Reachability::explore(oracle, scene, progress, stop);
+    if (!reachability) return tl::unexpected(reachability.error());
+    const Thresholds thresholds(scene.metres_per_unit);
     std::vector<Tally> tallies(trace.players.size());
     parallel_for(std::size_t{0}, tallies.size(), [&](std::size_t i) {
-        tallies[i] = judge_player(oracle, thresholds, trace, cameras, trace.players[i], stop);
+        Judge judge(oracle, *reachability, thresholds);
+        judge_player(trace.players[i], trace, cameras, stop, judge);
+        tallies[i] = judge.tally();
     });
     if (stop.stop_requested()) return fail("interrupted", ErrorCode::interrupted);
     Tally all;

@@ -12,7 +12,7 @@
 
 #include "evaluation/camera_path.hpp"
 #include "evaluation/trace.hpp"
-#include "oracle/oracle.hpp"
+#include "oracle/reachability.hpp"
 
 namespace camdir::evaluation {
 
@@ -51,15 +51,16 @@ struct Metrics {
     // Of all frames of a living player.
     double pops = unmeasured;            // undeclared steps beyond max(64, 3 x the eye's step), a minute
     double max_speed = unmeasured;       // the largest undeclared speed
-    double cuts = unmeasured;            // declared, a minute, apart from those below
-    double cuts_at_events = unmeasured;  // declared within 100 ms of a respawn or teleport, a minute
+    double cuts = unmeasured;            // declared, a minute, without those below
+    double cuts_at_events = unmeasured;  // declared, up to 100 ms after a respawn or teleport, a minute
 };
 
-// Judges cameras[i] as a camera of trace.poses[i]. `metres_per_unit` is the map's. Players are judged in
-// parallel; the result does not depend on the number of threads. Fails only with ErrorCode::interrupted, soon
-// after `stop` is requested. Precondition: one camera a pose.
-[[nodiscard]] Result<Metrics> measure(const oracle::Oracle& oracle, double metres_per_unit,
+// Judges cameras[i] as a camera of trace.poses[i]. Explores the scene first, with `progress`; fails as
+// oracle::ReachedGrid::explore. Players are judged in parallel; the result does not depend on the number of
+// threads. Fails with ErrorCode::interrupted soon after `stop` is requested. Precondition: one camera a pose;
+// `oracle` is that of `scene`.
+[[nodiscard]] Result<Metrics> measure(const scene::Scene& scene, const oracle::Oracle& oracle,
                                       const Trace& trace, std::span<const CameraSample> cameras,
-                                      const std::stop_token& stop = {});
+                                      const oracle::ExploreProgress& progress, const std::stop_token& stop);
 
 }  // namespace camdir::evaluation

@@ -17,7 +17,7 @@ struct MotionSamples {
     double largest_rotation = 0.0;  // degrees between two frames
 };
 
-// Takes the cameras of one player in order and adds what they give to `samples`.
+// Takes the cameras of one player in order and adds their motion to `samples`.
 class MotionMeter {
   public:
     explicit MotionMeter(MotionSamples& samples) : samples_(samples) {}

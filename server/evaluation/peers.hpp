@@ -1,4 +1,4 @@
-// The cameras that users would pick instead: what the tracker is compared with.
+// Simple cameras that the tracker is compared with.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@ enum class Peer {
     rigid,  // fixed to the player, 120 units behind the eye, through walls
 };
 
-// By its name above.
+// The peer of this name: eye or rigid.
 [[nodiscard]] std::optional<Peer> find_peer(std::string_view name);
 
 // The cameras of `peer` over the trace; cuts at discontinuities. `metres_per_unit` is the map's.

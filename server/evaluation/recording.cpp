@@ -35,7 +35,7 @@ double cpu_nanoseconds() {
     return static_cast<double>(now.tv_sec) * 1e9 + static_cast<double>(now.tv_nsec);
 }
 
-// Records one player at a time; several may share a recording.
+// Records one player at a time; several recorders may share a recording.
 class Recorder {
   public:
     Recorder(const freespace::Freespace& freespace, const camera::Profile& profile, const Trace& trace,
@@ -46,11 +46,12 @@ class Recorder {
           recording_(recording),
           scratch_(freespace) {}
 
-    // Calls `keep_on` after every frame and stops when it says no. `nanoseconds` has one place a frame.
+    // Calls `keep_on` before every frame and stops when it returns false. `nanoseconds` has one element a
+    // frame.
     template <class KeepOn>
     void follow(std::uint32_t player, double* nanoseconds, const KeepOn& keep_on) {
         camera::ShotState state;
-        bool cut_unseen = false;  // a cut while the player had no pose shows in the next row
+        bool cut_unseen = false;  // a cut while the player had no pose: goes into the next row
         const auto track = track_of(trace_, player);
         for (std::size_t frame = 0; frame < track.size() && keep_on(); ++frame) {
             const bool present = track[frame] != absent;
@@ -90,8 +91,8 @@ Result<Recording> record(const freespace::Freespace& freespace, const camera::Pr
     const std::size_t frames = trace.frames.size();
     const std::uint64_t total = std::uint64_t{frames} * trace.players.size();
     if (total > max_updates)
-        return fail("the trace has more than " + std::to_string(max_updates / 1'000'000U) +
-                    " million updates, its frames times its players, which is the most that is accepted");
+        return fail("the trace has " + std::to_string(total) + " updates (frames times players); at most " +
+                    std::to_string(max_updates) + " are accepted");
     Recording recording;
     recording.cameras.resize(trace.poses.size());
     recording.terms.resize(trace.poses.size());

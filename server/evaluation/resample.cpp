@@ -24,7 +24,7 @@ const TracePose* find(std::span<const TracePose> poses, std::uint32_t player) {
     return nullptr;
 }
 
-// Walks the source's frames in step with the output's.
+// Advances through the source's frames as the output's times do.
 class Resampler {
   public:
     explicit Resampler(const Trace& source) : source_(source) {
@@ -75,7 +75,7 @@ Result<Trace> resample(const Trace& trace, double rate_hz) {
     const double frames = std::floor(static_cast<double>(end - start) * 1e-9 * rate_hz) + 1.0;
     if (frames * static_cast<double>(trace.players.size()) > max_poses)
         return fail("at " + std::to_string(rate_hz) +
-                    " Hz the trace would have more than 50 million poses, the most that is accepted");
+                    " Hz the trace would have more than 50 million poses, which is the limit");
     Resampler resampler(trace);
     for (std::int64_t i = 0;; ++i) {
         const std::int64_t time = start + std::llround(static_cast<double>(i) * 1e9 / rate_hz);

@@ -6,7 +6,7 @@
 
 namespace camdir::evaluation {
 
-// Each is NaN of no values.
+// All are NaN for no values.
 [[nodiscard]] double mean(std::span<const double> values);
 [[nodiscard]] double root_mean_square(std::span<const double> values);
 

@@ -150,9 +150,9 @@ std::vector<std::uint32_t> track_of(const Trace& trace, std::uint32_t player) {
     track.reserve(trace.frames.size());
     for (const TraceFrame& frame : trace.frames) {
         const auto poses = trace.poses_of(frame);
-        TracePose wanted;
-        wanted.player = player;
-        const auto found = std::lower_bound(poses.begin(), poses.end(), wanted, by_player);
+        TracePose key;
+        key.player = player;
+        const auto found = std::lower_bound(poses.begin(), poses.end(), key, by_player);
         const bool present = found != poses.end() && found->player == player;
         track.push_back(present ? frame.first_pose + static_cast<std::uint32_t>(found - poses.begin())
                                 : absent);

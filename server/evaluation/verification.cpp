@@ -4,8 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "evaluation/verify_balls.hpp"
-#include "evaluation/verify_coverage.hpp"
+#include "evaluation/verification_stages.hpp"
 #include "freespace/distance.hpp"
 #include "freespace/roadmap.hpp"
 
@@ -51,14 +50,14 @@ std::uint64_t Verification::unsafe_balls() const {
 Result<Verification> verify(const freespace::Freespace& freespace, const scene::Scene& scene,
                             const oracle::Oracle& oracle, const VerificationParameters& parameters,
                             const VerificationProgress& progress, const std::stop_token& stop) {
+    const auto reachability = oracle::Reachability::explore(oracle, scene, explore_progress(progress), stop);
+    if (!reachability) return tl::unexpected(reachability.error());
     const double tolerance = unsafe_depth / scene.metres_per_unit;
+    const VerificationJob job{freespace, scene, oracle, *reachability, tolerance, parameters, progress, stop};
     Verification result;
     verify_spawn_points(freespace, scene, result);
-    const Result<void> covered =
-        verify_coverage(freespace, scene, oracle, tolerance, parameters, progress, stop, result);
-    if (!covered) return tl::unexpected(covered.error());
-    verify_balls(freespace, oracle, tolerance, parameters, progress, stop, result);
-    if (stop.stop_requested()) return fail("interrupted", ErrorCode::interrupted);
+    if (auto done = verify_coverage(job, result); !done) return tl::unexpected(std::move(done.error()));
+    if (auto done = verify_balls(job, result); !done) return tl::unexpected(std::move(done.error()));
     return result;
 }
 

@@ -1,5 +1,15 @@
-// Does a VFS-rep keep its promise on the map that it was baked from? The definitions are those of the
-// project's contracts: unsafe ball, reachable, coverage, tightness.
+// Does a VFS-rep keep its promise on the map that it was baked from?
+//
+// Balls and points are drawn at random: a fault that none of them hits stays unseen. They are measured by the
+// oracle, which shares no code with the baker, but against the same Scene: what the map's reader did to the
+// map, such as the flat triangles in place of curved patches, no verification sees.
+//
+// Unsafe ball: obstacle surface lies deeper than 0.02 units of 0.0254 m inside it, or its centre lies in a
+// solid or is not reachable. Coverage: share of the random points, drawn uniformly in the reachable free
+// volume, that lie in a slab. Tightness: mean of reported free distance / clearance over the points with
+// clearance > d0. Reachable: on a grid of pitch 8 units, joined by a free segment to a cell that the flood
+// from the spawn points reaches (oracle/reached_grid.hpp), with clearance > d0 for points, > half a pitch for
+// the centres of balls.
 #pragma once
 
 #include <array>
@@ -19,7 +29,7 @@
 namespace camdir::evaluation {
 
 struct VerificationParameters {
-    std::uint64_t balls = 100'000;   // drawn at random; every vertex and edge midpoint comes on top
+    std::uint64_t balls = 100'000;   // drawn at random, in addition to every vertex and edge midpoint
     std::uint64_t points = 100'000;  // of the reachable free space, for coverage and tightness
     std::uint64_t seed = 1;
 };
@@ -31,7 +41,7 @@ inline constexpr std::array<const char*, 3> fault_names = {"surface_inside", "ce
 struct UnsafeBall {
     Vec3d centre;
     double radius;
-    double excess;  // how deep the surface, or how deep in solid the centre; 0 for one that is unreachable
+    double excess;  // depth of the surface in the ball, or of the centre in the solid; 0 when unreachable
 };
 
 struct BallCounts {
@@ -62,19 +72,20 @@ struct Verification {
     std::uint64_t components = 0;  // of the roadmap
     std::uint64_t spawn_points = 0;
     std::uint64_t covered_spawn_points = 0;
-    std::uint64_t joined_spawn_points = 0;  // of those the most that lie in one component of the roadmap
+    std::uint64_t joined_spawn_points = 0;  // of those, the largest number in one component of the roadmap
 
     [[nodiscard]] std::uint64_t unsafe_balls() const;
     // A ball or a reported distance that reaches into an obstacle.
     [[nodiscard]] bool has_violation() const { return unsafe_balls() + overestimates > 0; }
 };
 
-// How far a stage is; called from several threads.
+// How far a stage is; `total` 0 = unknown. Called from several threads.
 using VerificationProgress =
     std::function<void(std::string_view stage, std::uint64_t done, std::uint64_t total)>;
 
 // Uses all cores; the result does not depend on how many there are. Fails with ErrorCode::interrupted soon
-// after `stop` is requested, and with `failed` when no spawn point of the scene lies in free space.
+// after `stop` is requested; when no spawn point of the scene lies in free space; and before it allocates
+// anything when the scene's bounds are too large to explore (oracle::max_grid_bytes).
 [[nodiscard]] Result<Verification> verify(const freespace::Freespace& freespace, const scene::Scene& scene,
                                           const oracle::Oracle& oracle,
                                           const VerificationParameters& parameters,

@@ -1,5 +1,3 @@
-#include "evaluation/verify_balls.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -7,9 +5,12 @@
 #include <vector>
 
 #include "evaluation/chunks.hpp"
+#include "evaluation/verification_stages.hpp"
 
 namespace camdir::evaluation {
 namespace {
+
+constexpr std::uint64_t max_outcomes = 65536;  // held at once
 
 struct Ball {
     Vec3d centre;
@@ -71,21 +72,6 @@ void count_fault(Fault fault, const UnsafeBall& ball, BallCounts& counts) {
     if (!counts.deepest[kind] || ball.excess > counts.deepest[kind]->excess) counts.deepest[kind] = ball;
 }
 
-void test_ball(const Ball& ball, const oracle::Oracle& oracle, double tolerance, BallCounts& counts) {
-    if (ball.radius <= 0.0) {
-        ++counts.skipped;
-        return;
-    }
-    ++counts.tested;
-    const double clearance = oracle.clearance(ball.centre, ball.radius);
-    if (oracle.in_solid(ball.centre))
-        count_fault(Fault::centre_in_solid, {ball.centre, ball.radius, -clearance}, counts);
-    else if (clearance < ball.radius - tolerance)
-        count_fault(Fault::surface_inside, {ball.centre, ball.radius, ball.radius - clearance}, counts);
-    else if (!oracle.reachable(ball.centre))
-        count_fault(Fault::centre_unreachable, {ball.centre, ball.radius, 0.0}, counts);
-}
-
 void add(const BallCounts& more, BallCounts& counts) {
     counts.tested += more.tested;
     counts.skipped += more.skipped;
@@ -99,53 +85,64 @@ void add(const BallCounts& more, BallCounts& counts) {
 
 class BallTest {
   public:
-    BallTest(const oracle::Oracle& oracle, double tolerance, std::uint64_t seed,
-             const VerificationProgress& progress, const std::stop_token& stop)
-        : oracle_(oracle), tolerance_(tolerance), seed_(seed), progress_(progress), stop_(stop) {}
+    explicit BallTest(const VerificationJob& job) : job_(job) {}
 
-    // Tests make(i, random) for i < count. Stages with different names of a run draw independently.
+    // Tests make(i, random) for i < count. Each `purpose` draws other random numbers.
     template <class Make>
     [[nodiscard]] BallCounts run(std::string_view stage, std::uint32_t purpose, std::uint64_t count,
                                  const Make& make) const {
         const auto test_chunk = [&](std::uint64_t chunk) {
-            ChunkRandom random(seed_, purpose, chunk);
+            ChunkRandom random(job_.parameters.seed, purpose, chunk);
             BallCounts counts;
             const std::uint64_t end = std::min(count, (chunk + 1) * chunk_size);
-            for (std::uint64_t i = chunk * chunk_size; i < end; ++i) {
-                test_ball(make(i, random), oracle_, tolerance_, counts);
+            for (std::uint64_t i = chunk * chunk_size; i < end && !job_.stop.stop_requested(); ++i) {
+                test(make(i, random), counts);
             }
             return counts;
         };
         const std::uint64_t chunks = (count + chunk_size - 1) / chunk_size;
-        const auto outcomes = run_chunks<BallCounts>(
-            0, chunks, stop_, test_chunk, [&](std::uint64_t done) { progress_(stage, done, chunks); });
         BallCounts sum;
-        for (const BallCounts& counts : outcomes) {
-            add(counts, sum);
+        for (std::uint64_t first = 0; first < chunks; first += max_outcomes) {
+            const auto outcomes = run_chunks<BallCounts>(
+                first, std::min(chunks - first, max_outcomes), job_.stop, test_chunk,
+                [&](std::uint64_t done) { job_.progress(stage, first + done, chunks); });
+            for (const BallCounts& counts : outcomes) {
+                add(counts, sum);
+            }
         }
         return sum;
     }
 
   private:
-    const oracle::Oracle& oracle_;
-    double tolerance_;
-    std::uint64_t seed_;
-    const VerificationProgress& progress_;
-    const std::stop_token& stop_;
+    void test(const Ball& ball, BallCounts& counts) const {
+        if (ball.radius <= 0.0) {
+            ++counts.skipped;
+            return;
+        }
+        ++counts.tested;
+        const double clearance = job_.oracle.clearance(ball.centre, ball.radius);
+        if (job_.oracle.in_solid(ball.centre))
+            count_fault(Fault::centre_in_solid, {ball.centre, ball.radius, -clearance}, counts);
+        else if (clearance < ball.radius - job_.tolerance)
+            count_fault(Fault::surface_inside, {ball.centre, ball.radius, ball.radius - clearance}, counts);
+        else if (!job_.reachability.reachable(ball.centre))
+            count_fault(Fault::centre_unreachable, {ball.centre, ball.radius, 0.0}, counts);
+    }
+
+    const VerificationJob& job_;
 };
 
 }  // namespace
 
-void verify_balls(const freespace::Freespace& freespace, const oracle::Oracle& oracle, double tolerance,
-                  const VerificationParameters& parameters, const VerificationProgress& progress,
-                  const std::stop_token& stop, Verification& result) {
+Result<void> verify_balls(const VerificationJob& job, Verification& result) {
+    const freespace::Freespace& freespace = job.freespace;
     const auto vertices = freespace.vertices();
     const std::size_t triangle_count = freespace.triangles().size();
     const std::vector<double> areas = summed_areas(freespace);
     const std::vector<Edge> edges = edges_of(freespace);
-    const std::uint64_t by_area = triangle_count == 0 ? 0 : parameters.balls / 2;
-    const std::uint64_t by_triangle = triangle_count == 0 ? 0 : parameters.balls - by_area;
-    const BallTest test(oracle, tolerance, parameters.seed, progress, stop);
+    const std::uint64_t by_area = triangle_count == 0 ? 0 : job.parameters.balls / 2;
+    const std::uint64_t by_triangle = triangle_count == 0 ? 0 : job.parameters.balls - by_area;
+    const BallTest test(job);
 
     result.by_area = test.run("balls by area", 1, by_area, [&](std::uint64_t, ChunkRandom& random) {
         const auto chosen = std::upper_bound(areas.begin(), areas.end(), random.uniform() * areas.back());
@@ -163,6 +160,8 @@ void verify_balls(const freespace::Freespace& freespace, const oracle::Oracle& o
         const Ball b = ball_at(vertices[edges[i].second]);
         return Ball{(a.centre + b.centre) / 2.0, (a.radius + b.radius) / 2.0};
     });
+    if (job.stop.stop_requested()) return fail("interrupted", ErrorCode::interrupted);
+    return {};
 }
 
 }  // namespace camdir::evaluation

@@ -1,10 +1,9 @@
-#include "evaluation/verify_coverage.hpp"
-
 #include <algorithm>
 #include <limits>
 #include <vector>
 
 #include "evaluation/chunks.hpp"
+#include "evaluation/verification_stages.hpp"
 #include "freespace/distance.hpp"
 #include "oracle/reached_grid.hpp"
 
@@ -23,36 +22,28 @@ struct Sample {
 
 class Sampler {
   public:
-    Sampler(const freespace::Freespace& freespace, const scene::Scene& scene, const oracle::Oracle& oracle,
-            std::uint64_t seed)
-        : freespace_(freespace),
-          oracle_(oracle),
-          seed_(seed),
-          grid_(oracle, scene.bounds, oracle::spawn_eyes(scene), oracle::grid_pitch(scene),
-                static_cast<double>(freespace.metadata().d0)),
-          box_(grid_.joined_box()) {}
-
-    [[nodiscard]] bool is_empty() const { return grid_.reached_count() == 0; }
+    Sampler(const VerificationJob& job, const oracle::ReachedGrid& grid)
+        : job_(job), grid_(grid), box_(grid.joined_box()) {}
 
     // Of chunk_size points of the box those that are reachable.
     [[nodiscard]] std::vector<Sample> draw(std::uint64_t chunk) const {
-        ChunkRandom random(seed_, purpose, chunk);
+        ChunkRandom random(job_.parameters.seed, purpose, chunk);
         std::vector<Sample> samples;
-        for (std::uint64_t i = 0; i < chunk_size; ++i) {
+        // With a large d0 a point that joins nothing takes milliseconds.
+        for (std::uint64_t i = 0; i < chunk_size && !job_.stop.stop_requested(); ++i) {
             const Vec3d part(random.uniform(), random.uniform(), random.uniform());
             const Vec3f point = (box_.min() + part.cwiseProduct(box_.sizes())).cast<float>();
             if (!grid_.joined(point.cast<double>())) continue;
-            samples.push_back({oracle_.clearance(point.cast<double>()),
-                               static_cast<double>(freespace::distance_everywhere(freespace_, point).value)});
+            samples.push_back(
+                {job_.oracle.clearance(point.cast<double>()),
+                 static_cast<double>(freespace::distance_everywhere(job_.freespace, point).value)});
         }
         return samples;
     }
 
   private:
-    const freespace::Freespace& freespace_;
-    const oracle::Oracle& oracle_;
-    std::uint64_t seed_;
-    oracle::ReachedGrid grid_;
+    const VerificationJob& job_;
+    const oracle::ReachedGrid& grid_;
     Box3d box_;
 };
 
@@ -78,28 +69,28 @@ void summarise(const std::vector<Sample>& samples, double d0, double tolerance, 
 
 }  // namespace
 
-Result<void> verify_coverage(const freespace::Freespace& freespace, const scene::Scene& scene,
-                             const oracle::Oracle& oracle, double tolerance,
-                             const VerificationParameters& parameters, const VerificationProgress& progress,
-                             const std::stop_token& stop, Verification& result) {
-    progress("exploring", 0, 0);
-    const Sampler sampler(freespace, scene, oracle, parameters.seed);
-    if (sampler.is_empty()) return fail("no spawn point of the map lies in free space");
+Result<void> verify_coverage(const VerificationJob& job, Verification& result) {
+    const auto d0 = static_cast<double>(job.freespace.metadata().d0);
+    const auto grid = oracle::ReachedGrid::explore(job.oracle, job.scene, oracle::grid_pitch(job.scene), d0,
+                                                   explore_progress(job.progress), job.stop);
+    if (!grid) return tl::unexpected(grid.error());
+    if (grid->reached_count() == 0) return fail(job.scene.source + ": no spawn point lies in free space");
 
+    const Sampler sampler(job, *grid);
     std::vector<Sample> samples;
-    const std::uint64_t max_chunks = parameters.points * max_candidates_a_point / chunk_size + chunks_a_round;
-    for (std::uint64_t chunk = 0; samples.size() < parameters.points && chunk < max_chunks;
-         chunk += chunks_a_round) {
+    const std::uint64_t points = job.parameters.points;
+    const std::uint64_t max_chunks = points * max_candidates_a_point / chunk_size + chunks_a_round;
+    for (std::uint64_t chunk = 0; samples.size() < points && chunk < max_chunks; chunk += chunks_a_round) {
         const auto drawn = run_chunks<std::vector<Sample>>(
-            chunk, chunks_a_round, stop, [&](std::uint64_t i) { return sampler.draw(i); },
-            [&](std::uint64_t) { progress("coverage", samples.size(), parameters.points); });
-        if (stop.stop_requested()) return {};
+            chunk, chunks_a_round, job.stop, [&](std::uint64_t i) { return sampler.draw(i); },
+            [&](std::uint64_t) { job.progress("coverage", samples.size(), points); });
+        if (job.stop.stop_requested()) return fail("interrupted", ErrorCode::interrupted);
         for (const std::vector<Sample>& some : drawn) {
             samples.insert(samples.end(), some.begin(), some.end());
         }
     }
-    if (samples.size() > parameters.points) samples.resize(parameters.points);
-    summarise(samples, static_cast<double>(freespace.metadata().d0), tolerance, result);
+    if (samples.size() > points) samples.resize(points);
+    summarise(samples, d0, job.tolerance, result);
     return {};
 }
 

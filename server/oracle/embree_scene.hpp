@@ -1,8 +1,9 @@
-// Embree's handles, owned.
+// Embree's handles, owned; its scenes, and what their rounding to float costs.
 #pragma once
 
 #include <embree3/rtcore.h>
 
+#include <functional>
 #include <memory>
 
 #include "base/geometry.hpp"
@@ -20,11 +21,16 @@ using EmbreeScene = std::unique_ptr<RTCSceneTy, ReleaseScene>;
 
 [[nodiscard]] Device make_device();
 
-// A robust, high-quality scene of the one geometry that `geometry` is; takes it over.
+// A robust, high-quality scene of this one geometry; takes it over.
 [[nodiscard]] EmbreeScene make_scene(RTCDevice device, RTCGeometry geometry);
 
-// Bound of what the rounding of `coordinate` (the largest absolute one in play) to float moves a point,
-// a box or a distance.
+// The same of `count` primitives that Embree knows only by their boxes, for visit_near(). `box_of` is not
+// called after the return.
+[[nodiscard]] EmbreeScene make_scene(RTCDevice device, std::size_t count,
+                                     const std::function<Box3d(std::size_t)>& box_of);
+
+// How far the rounding to float may move a point, a box or a distance, when no coordinate is larger than
+// `coordinate`.
 [[nodiscard]] inline double rounding_of(double coordinate) {
     return coordinate * 0x1p-21;
 }

@@ -4,31 +4,11 @@
 #include <limits>
 
 namespace camdir::oracle {
-namespace {
-
-void bounds_of_point(const RTCBoundsFunctionArguments* arguments) {
-    const auto& points = *static_cast<const std::vector<Vec3d>*>(arguments->geometryUserPtr);
-    const Vec3d& point = points[arguments->primID];
-    const double margin = rounding_of(point.cwiseAbs().maxCoeff());
-    RTCBounds& bounds = *arguments->bounds_o;
-    bounds.lower_x = static_cast<float>(point.x() - margin);
-    bounds.lower_y = static_cast<float>(point.y() - margin);
-    bounds.lower_z = static_cast<float>(point.z() - margin);
-    bounds.upper_x = static_cast<float>(point.x() + margin);
-    bounds.upper_y = static_cast<float>(point.y() + margin);
-    bounds.upper_z = static_cast<float>(point.z() + margin);
-}
-
-}  // namespace
 
 Points::Points(RTCDevice device, const scene::Scene& scene, double radius)
     : points_(scene.points), radius_(radius) {
     if (points_.empty()) return;
-    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
-    rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(points_.size()));
-    rtcSetGeometryUserData(geometry, &points_);
-    rtcSetGeometryBoundsFunction(geometry, bounds_of_point, nullptr);
-    scene_ = make_scene(device, geometry);
+    scene_ = make_scene(device, points_.size(), [this](std::size_t i) { return Box3d(points_[i]); });
 }
 
 Nearest Points::nearest(const Vec3d& point, double limit) const {

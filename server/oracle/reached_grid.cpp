@@ -2,13 +2,27 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cmath>
+#include <iomanip>
+#include <sstream>
 
 namespace camdir::oracle {
 namespace {
 
 using Cell = Eigen::Vector3i;
 constexpr int block_side = 8;
+constexpr std::uint64_t cells_of_a_block = block_side * block_side * block_side;
+
+// A block in the map of blocks, with its node and bucket, and its places in the frontier.
+constexpr double bytes_of_a_block = 256.0;
+// In pitches: the largest d0 of a bake, 32, and some rounding. Bounds the cells that joined() looks at.
+constexpr double max_clearance = 33.0;
+
+// How far away joined() looks for a centre.
+double sight_of(double pitch, double min_clearance) {
+    return 3.0 * min_clearance + 2.0 * pitch;
+}
 
 int floor_div(int value) {
     return (value - (value < 0 ? block_side - 1 : 0)) / block_side;
@@ -30,18 +44,40 @@ std::vector<Cell> offsets_within(double radius) {
     return offsets;
 }
 
+double max_bytes(const Box3d& bounds, double pitch) {
+    const Vec3d blocks = (bounds.sizes() / (pitch * block_side)).array().floor() + 1.0;
+    return blocks.prod() * bytes_of_a_block;
+}
+
+Result<void> check_size(const scene::Scene& scene, double pitch) {
+    constexpr double megabyte = 1e6;
+    constexpr double million = 1e6;
+    const double bytes = max_bytes(scene.bounds, pitch);
+    if (bytes <= static_cast<double>(max_grid_bytes)) return {};
+    const Vec3d size = scene.bounds.sizes();
+    std::ostringstream text;
+    text << scene.source << ": the bounds of " << std::fixed << std::setprecision(0) << size.x() << " x "
+         << size.y() << " x " << size.z() << " map units hold " << (size / pitch).prod() / million
+         << " million cells of " << std::defaultfloat << std::setprecision(4) << pitch << std::fixed
+         << std::setprecision(0) << " units, which may take " << bytes / megabyte
+         << " MB to explore; the limit is " << static_cast<double>(max_grid_bytes) / megabyte
+         << " MB: cut the map to the part that players can be in";
+    return fail(text.str());
+}
+
+Result<void> check_clearance(const scene::Scene& scene, double pitch, double min_clearance) {
+    if (min_clearance <= max_clearance * pitch) return {};
+    std::ostringstream text;
+    text << scene.source << ": free space with a clearance of " << min_clearance
+         << " map units cannot be explored in cells of " << pitch << "; the limit is "
+         << max_clearance * pitch;
+    return fail(text.str());
+}
+
 }  // namespace
 
 double grid_pitch(const scene::Scene& scene) {
     return 8.0 * scene::metres_of_nominal_unit / scene.metres_per_unit;
-}
-
-std::vector<Vec3d> spawn_eyes(const scene::Scene& scene) {
-    std::vector<Vec3d> eyes;
-    for (const scene::SpawnPoint& spawn : scene.spawn_points) {
-        eyes.push_back(spawn.eye);
-    }
-    return eyes;
 }
 
 ReachedGrid::Place::Place(const Cell& cell)
@@ -51,22 +87,32 @@ ReachedGrid::Place::Place(const Cell& cell)
     bit = std::uint64_t{1} << (8 * local.y() + local.x());
 }
 
-ReachedGrid::ReachedGrid(const Oracle& oracle, const Box3d& bounds, const std::vector<Vec3d>& seeds,
-                         double pitch, double min_clearance)
+Result<ReachedGrid> ReachedGrid::explore(const Oracle& oracle, const scene::Scene& scene, double pitch,
+                                         double min_clearance, const ExploreProgress& progress,
+                                         const std::stop_token& stop) {
+    assert(pitch > 0.0 && min_clearance > 0.0);
+    if (auto fits = check_size(scene, pitch); !fits) return tl::unexpected(std::move(fits.error()));
+    if (auto fits = check_clearance(scene, pitch, min_clearance); !fits)
+        return tl::unexpected(std::move(fits.error()));
+    ReachedGrid grid(oracle, scene.bounds, pitch, min_clearance);
+    std::vector<Cell> frontier;
+    for (const scene::SpawnPoint& spawn : scene.spawn_points) {
+        grid.seed(spawn.eye, frontier, stop);
+    }
+    grid.flood(std::move(frontier), progress, stop);
+    if (stop.stop_requested()) return fail("interrupted", ErrorCode::interrupted);
+    grid.summarise();
+    return grid;
+}
+
+ReachedGrid::ReachedGrid(const Oracle& oracle, const Box3d& bounds, double pitch, double min_clearance)
     : oracle_(&oracle),
       bounds_(bounds),
       pitch_(pitch),
       min_clearance_(min_clearance),
       largest_coordinate_(std::max(bounds.min().cwiseAbs().maxCoeff(), bounds.max().cwiseAbs().maxCoeff())),
-      sight_(3.0 * min_clearance + 2.0 * pitch),
-      near_(offsets_within(sight_ / pitch)) {
-    std::vector<Cell> frontier;
-    for (const Vec3d& point : seeds) {
-        seed(point, frontier);
-    }
-    flood(std::move(frontier));
-    summarise();
-}
+      sight_(sight_of(pitch, min_clearance)),
+      near_(offsets_within(sight_ / pitch)) {}
 
 bool ReachedGrid::reached(const Vec3d& point) const {
     return bounds_.contains(point) && reached(cell_of(point));
@@ -75,14 +121,14 @@ bool ReachedGrid::reached(const Vec3d& point) const {
 bool ReachedGrid::joined(const Vec3d& point) const {
     if (!joined_box_.contains(point) || oracle_->in_solid(point)) return false;
     if (!oracle_->end_clear(point, largest_coordinate_)) return false;
-    const Cell home = cell_of(point);
+    const Cell own = cell_of(point);
     const auto sees = [&](const Cell& offset) {
-        const Cell cell = home + offset;
+        const Cell cell = own + offset;
         return reached(cell) && oracle_->between_clear(point, centre_of(cell));
     };
     const auto farther = near_.begin() + 27;  // after the cell and those around it
     return std::any_of(near_.begin(), farther, sees) ||
-           (has_blocks_near(home) && std::any_of(farther, near_.end(), sees));
+           (has_blocks_near(own) && std::any_of(farther, near_.end(), sees));
 }
 
 // Spares points far outside the search through all of near_.
@@ -154,11 +200,12 @@ void ReachedGrid::find_open(const Cell& first, int size, Slices& open) const {
     }
 }
 
-void ReachedGrid::seed(const Vec3d& point, std::vector<Cell>& frontier) {
+void ReachedGrid::seed(const Vec3d& point, std::vector<Cell>& frontier, const std::stop_token& stop) {
     if (!bounds_.contains(point) || oracle_->in_solid(point) ||
         !oracle_->end_clear(point, largest_coordinate_))
         return;
     for (const Cell& offset : near_) {
+        if (stop.stop_requested()) return;
         const Cell cell = cell_of(point) + offset;
         if (!is_inside(cell)) continue;
         const Place place(cell);
@@ -170,11 +217,14 @@ void ReachedGrid::seed(const Vec3d& point, std::vector<Cell>& frontier) {
     }
 }
 
-void ReachedGrid::flood(std::vector<Cell> frontier) {
-    while (!frontier.empty()) {
+void ReachedGrid::flood(std::vector<Cell> frontier, const ExploreProgress& progress,
+                        const std::stop_token& stop) {
+    constexpr std::uint64_t stride = 1024;
+    for (std::uint64_t i = 0; !frontier.empty() && !stop.stop_requested(); ++i) {
         const Cell block = frontier.back();
         frontier.pop_back();
         spread(block, frontier);
+        if (progress && i % stride == 0) progress(blocks_.size() * cells_of_a_block);
     }
 }
 

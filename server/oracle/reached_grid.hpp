@@ -4,9 +4,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <stop_token>
 #include <unordered_map>
 #include <vector>
 
+#include "base/error.hpp"
 #include "base/point_grid.hpp"
 #include "oracle/oracle.hpp"
 
@@ -14,17 +17,29 @@ namespace camdir::oracle {
 
 // 8 units of 0.0254 m, in the scene's units.
 [[nodiscard]] double grid_pitch(const scene::Scene& scene);
-[[nodiscard]] std::vector<Vec3d> spawn_eyes(const scene::Scene& scene);
 
-// The flood from `seeds` over the 6 neighbours of each cell, through cells whose centre has more
-// clearance than `min_clearance`. With min_clearance >= pitch / 2 neighbouring centres are joined by free
-// space for certain. Seeds enter at all centres around them that they see.
+// How far an exploration is: the cells visited so far. Called now and then, from the exploring thread; may be
+// empty.
+using ExploreProgress = std::function<void(std::uint64_t cells)>;
+
+// The memory that a grid may take at most.
+inline constexpr std::uint64_t max_grid_bytes = std::uint64_t{2} << 30U;
+
+// The flood from the scene's spawn points, within its bounds, over the 6 neighbours of each cell, through
+// cells whose centre has more clearance than `min_clearance`. With min_clearance >= pitch / 2 the segment
+// between neighbouring centres is free. A spawn point's eye starts the flood at all centres around it that it
+// sees.
 //
-// Immutable after construction; const members are thread-safe. The oracle must outlive it.
+// Immutable; const members are thread-safe. The oracle must outlive it.
 class ReachedGrid {
   public:
-    ReachedGrid(const Oracle& oracle, const Box3d& bounds, const std::vector<Vec3d>& seeds, double pitch,
-                double min_clearance);
+    // `pitch` > 0, `min_clearance` > 0. Fails before it allocates anything when all cells of the bounds would
+    // take more than max_grid_bytes, or min_clearance is more than 33 pitches; with ErrorCode::interrupted
+    // soon after `stop` is requested.
+    [[nodiscard]] static Result<ReachedGrid> explore(const Oracle& oracle, const scene::Scene& scene,
+                                                     double pitch, double min_clearance,
+                                                     const ExploreProgress& progress,
+                                                     const std::stop_token& stop);
 
     // The centre of the cell that holds `point` was reached.
     [[nodiscard]] bool reached(const Vec3d& point) const;
@@ -53,6 +68,7 @@ class ReachedGrid {
         std::uint64_t bit;
     };
 
+    ReachedGrid(const Oracle& oracle, const Box3d& bounds, double pitch, double min_clearance);
     [[nodiscard]] Cell cell_of(const Vec3d& point) const;
     [[nodiscard]] Vec3d centre_of(const Cell& cell) const;
     [[nodiscard]] bool is_inside(const Cell& cell) const;
@@ -60,8 +76,9 @@ class ReachedGrid {
     [[nodiscard]] bool has_blocks_near(const Cell& cell) const;
     [[nodiscard]] Block& block_at(const Cell& block);
     void find_open(const Cell& first, int size, Slices& open) const;
-    void flood(std::vector<Cell> frontier);
-    void seed(const Vec3d& point, std::vector<Cell>& frontier);
+    // Both return early when `stop` is requested.
+    void flood(std::vector<Cell> frontier, const ExploreProgress& progress, const std::stop_token& stop);
+    void seed(const Vec3d& point, std::vector<Cell>& frontier, const std::stop_token& stop);
     void spread(const Cell& block, std::vector<Cell>& frontier);
     void summarise();
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "oracle/embree_scene.hpp"
+#include "oracle/oracle.hpp"
 #include "scene/scene.hpp"
 
 namespace camdir::oracle {
@@ -13,23 +14,18 @@ namespace camdir::oracle {
 // The point of the closed triangle that is nearest to `point`.
 [[nodiscard]] Vec3d closest_on_triangle(const Vec3d& point, const Vec3d& a, const Vec3d& b, const Vec3d& c);
 
-struct Nearest {
-    double distance;
-    Vec3d point;
-};
-
 class Surfaces {
   public:
     Surfaces(RTCDevice device, const scene::Scene& scene);
 
-    // Nearest obstacle point no further away than `limit`; else distance infinity. In double precision:
-    // Embree only finds the candidates.
+    // Nearest obstacle point within `limit`; else distance infinity. In double precision: Embree only finds
+    // the candidates.
     [[nodiscard]] Nearest nearest(const Vec3d& point, double limit) const;
 
     // No triangle comes as near to `end` as the rounding to float of coordinates up to `largest` may hide.
     [[nodiscard]] bool end_clear(const Vec3d& end, double largest) const;
 
-    // Embree's watertight test, on vertices rounded to float, of a segment whose ends are clear.
+    // Of a segment whose ends are clear: Embree's watertight test, on vertices rounded to float.
     [[nodiscard]] bool between_clear(const Vec3d& from, const Vec3d& to) const;
 
   private:

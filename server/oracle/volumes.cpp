@@ -5,32 +5,11 @@
 #include <span>
 
 namespace camdir::oracle {
-namespace {
-
-void bounds_of_brush(const RTCBoundsFunctionArguments* arguments) {
-    const auto& brushes = *static_cast<const std::vector<scene::Brush>*>(arguments->geometryUserPtr);
-    const Box3d& box = brushes[arguments->primID].bounds;
-    const double margin =
-        rounding_of(std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff()));
-    RTCBounds& bounds = *arguments->bounds_o;
-    bounds.lower_x = static_cast<float>(box.min().x() - margin);
-    bounds.lower_y = static_cast<float>(box.min().y() - margin);
-    bounds.lower_z = static_cast<float>(box.min().z() - margin);
-    bounds.upper_x = static_cast<float>(box.max().x() + margin);
-    bounds.upper_y = static_cast<float>(box.max().y() + margin);
-    bounds.upper_z = static_cast<float>(box.max().z() + margin);
-}
-
-}  // namespace
 
 Volumes::Volumes(RTCDevice device, const scene::Scene& scene)
     : planes_(scene.planes), brushes_(scene.brushes) {
     if (brushes_.empty()) return;
-    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
-    rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(brushes_.size()));
-    rtcSetGeometryUserData(geometry, &brushes_);
-    rtcSetGeometryBoundsFunction(geometry, bounds_of_brush, nullptr);
-    scene_ = make_scene(device, geometry);
+    scene_ = make_scene(device, brushes_.size(), [this](std::size_t i) { return brushes_[i].bounds; });
 }
 
 double Volumes::depth(const Vec3d& point) const {

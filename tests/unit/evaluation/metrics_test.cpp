@@ -41,7 +41,7 @@ struct Standing {
 };
 
 Metrics judge(const scene::Scene& scene, const Trace& trace, const CameraPath& cameras) {
-    return measure(oracle::Oracle(scene), scene.metres_per_unit, trace, cameras).value();
+    return measure(scene, oracle::Oracle(scene), trace, cameras, {}, {}).value();
 }
 
 Metrics judge(const scene::Scene& scene, const std::vector<CameraSample>& counted) {
@@ -232,6 +232,16 @@ TEST(Metrics, NothingCountedIsNotZero) {
     EXPECT_TRUE(std::isnan(metrics.pops));
     EXPECT_THAT(to_json(metrics), testing::HasSubstr("\"good\": null"));
     EXPECT_THAT(to_table(metrics), testing::HasSubstr("good             - %"));
+}
+
+TEST(Metrics, RefusesASceneThatIsTooLargeToExplore) {
+    scene::Scene scene = room();
+    scene.source = "plain.obj";
+    scene.bounds.extend(Vec3d::Constant(4e4));
+    const Standing scenario({looking_at({-120, 0, 100}, eye)});
+    const auto metrics = measure(scene, oracle::Oracle(scene), scenario.trace, scenario.cameras, {}, {});
+    ASSERT_FALSE(metrics);
+    EXPECT_THAT(metrics.error().message, testing::StartsWith("plain.obj: the bounds of"));
 }
 
 // The same match in metres instead of units of 0.0254 m.

@@ -112,9 +112,8 @@ TEST_P(PeersOnMatch, MeasureAsElsewhere) {
         const Row row =
             find_row(tables_, std::string(match.map) + ", " + std::to_string(match.rate) + " Hz", camera);
         ASSERT_EQ(row.size(), 27U);
-        const Metrics m = measure(oracle, scene->metres_per_unit, *trace,
-                                  follow(*find_peer(camera), *trace, scene->metres_per_unit))
-                              .value();
+        const CameraPath cameras = follow(*find_peer(camera), *trace, scene->metres_per_unit);
+        const Metrics m = measure(*scene, oracle, *trace, cameras, {}, {}).value();
         // The tables round to the last digit shown.
         const auto same = [&](const char* column, double value, double digit) {
             EXPECT_NEAR(value, row.at(column), 0.501 * digit) << column;

@@ -150,13 +150,13 @@ TEST(Trace, ReadsGzipWithSeveralMembers) {
     EXPECT_EQ(trace->frames.size(), 2U);
 }
 
-TEST(Trace, RefusesBrokenAndBombingGzip) {
+TEST(Trace, RefusesDamagedGzip) {
     std::string text = header;
     for (int i = 0; i < 2000; ++i)
         text += std::to_string(8 * i) + ",0,0,0,0,0,0,0,0,0,0,26,1,0,0,1\n";
     const std::string packed = gzip(text);
     ASSERT_TRUE(parse(packed));
-    EXPECT_THAT(error_of(packed.substr(0, packed.size() / 2)), HasSubstr("cut off"));
+    EXPECT_THAT(error_of(packed.substr(0, packed.size() / 2)), HasSubstr("end too early"));
     std::string damaged = packed;
     for (std::size_t i = 40; i < 60; ++i)
         damaged[i] = '\x55';
@@ -179,7 +179,7 @@ TEST(Trace, RefusesTextThatExpandsTooFar) {
     EXPECT_LT(lines * 17, (std::size_t{1} << 20) + 200 * bomb.size() + 1);
 }
 
-// Whatever the bytes: an error or a trace that keeps its promises.
+// Whatever the bytes: an error, or a trace that keeps its invariants.
 TEST(Trace, RandomDamageNeverBreaksInvariants) {
     std::string text = header;
     for (int i = 0; i < 40; ++i)

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <random>
 
+#include "oracle/reachability.hpp"
 #include "support/clouds.hpp"
 #include "support/freespace_meshes.hpp"
 #include "support/oracle_twins.hpp"
@@ -137,11 +138,12 @@ TEST_F(VerificationTest, CoverageAndTightnessAreThoseOfTheSlab) {
     std::array<double, 3> points{};
     std::array<double, 3> covered{};
     double ratios = 0.0;
+    const auto reachability = oracle::Reachability::explore(oracle_, scene_, {}, {}).value();
     std::mt19937 random(5);
     for (int i = 0; i < 40000; ++i) {
         const Vec3d point = test::random_point_in(random, room);
         const double clearance = oracle_.clearance(point);
-        if (!oracle_.reachable(point)) continue;
+        if (!reachability.reachable(point)) continue;
         const Vec3d nearest(std::clamp(point.x(), -100.0, 100.0), std::clamp(point.y(), -100.0, 100.0),
                             middle);
         const double reported = std::max(60.0 - (point - nearest).norm(), 0.0);
@@ -160,7 +162,7 @@ TEST_F(VerificationTest, CoverageAndTightnessAreThoseOfTheSlab) {
     EXPECT_NEAR(result.tightness, ratios / points[1], 0.015);
 }
 
-TEST_F(VerificationTest, SpawnPointsInDifferentComponentsAreTold) {
+TEST_F(VerificationTest, SpawnPointsInDifferentComponentsAreReported) {
     freespace::Contents contents = contents_with({-64.0F, 0, middle}, 20.0F, 50.0F);
     add_square(contents, {64.0F, 0, middle}, 20.0F, 50.0F);
     const Verification apart = run(contents);
@@ -210,6 +212,28 @@ TEST_F(VerificationTest, StopIsObeyed) {
     const auto result = run(contents_with({0, 0, middle}, 100.0F, 60.0F), {}, stop.get_token());
     ASSERT_FALSE(result);
     EXPECT_EQ(result.error().code, ErrorCode::interrupted);
+}
+
+TEST_F(VerificationTest, StopIsObeyedInEveryStage) {
+    for (const std::string_view last : {"cells explored", "coverage", "balls by area", "balls at edges"}) {
+        std::stop_source stop;
+        const auto result = verify(
+            test::make_freespace(contents_with({0, 0, middle}, 100.0F, 60.0F)), scene_, oracle_, {},
+            [&](std::string_view stage, std::uint64_t, std::uint64_t) {
+                if (stage == last) stop.request_stop();
+            },
+            stop.get_token());
+        ASSERT_FALSE(result) << last;
+        EXPECT_EQ(result.error().code, ErrorCode::interrupted) << last;
+    }
+}
+
+TEST_F(VerificationTest, SceneThatIsTooLargeToExploreIsRefused) {
+    scene_.source = "plain.obj";
+    scene_.bounds.extend(Vec3d::Constant(4e4));
+    const auto result = run(contents_with({0, 0, middle}, 100.0F, 60.0F), {});
+    ASSERT_FALSE(result);
+    EXPECT_THAT(result.error().message, testing::StartsWith("plain.obj: the bounds of"));
 }
 
 TEST_F(VerificationTest, SceneWithoutAFreeSpawnPointIsRefused) {

@@ -1,7 +1,7 @@
 // The oracle among the points of a cloud, by arithmetic.
 #include <gtest/gtest.h>
 
-#include "oracle/oracle.hpp"
+#include "oracle/reachability.hpp"
 #include "support/clouds.hpp"
 
 namespace camdir::oracle {
@@ -39,10 +39,12 @@ TEST(CloudOracle, SegmentsEndAtWalls) {
 }
 
 TEST(CloudOracle, BehindTheWallIsNotReachable) {
-    const Oracle oracle(room(), radius);
-    EXPECT_TRUE(oracle.reachable({3.8, 2.8, 1.8}));
-    EXPECT_FALSE(oracle.reachable({5.0, 1.5, 1.0}));
-    EXPECT_FALSE(oracle.reachable({3.95, 1.5, 1.0}));
+    const scene::Scene scene = room();
+    const Oracle oracle(scene, radius);
+    const Reachability reachability = Reachability::explore(oracle, scene, {}, {}).value();
+    EXPECT_TRUE(reachability.reachable({3.8, 2.8, 1.8}));
+    EXPECT_FALSE(reachability.reachable({5.0, 1.5, 1.0}));
+    EXPECT_FALSE(reachability.reachable({3.95, 1.5, 1.0}));
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ TEST_P(RandomMap, ClearanceIsThatOfTheTwin) {
     EXPECT_GT(inside, 20);
 }
 
-TEST_P(RandomMap, LimitOnlyHidesWhatIsFurther) {
+TEST_P(RandomMap, LimitHidesOnlyWhatIsFarther) {
     for (int i = 0; i < 2000; ++i) {
         const Vec3d point = test::random_point_in(random_, around);
         const double exact = oracle_.clearance(point);
@@ -137,7 +137,6 @@ TEST_F(Crate, NumbersThatAreNotFiniteAreNowhereFree) {
     EXPECT_EQ(oracle_.clearance(nowhere), -infinity);
     EXPECT_FALSE(oracle_.segment_clear(nowhere, Vec3d::Zero()));
     EXPECT_FALSE(oracle_.ball_clear(nowhere, 1.0));
-    EXPECT_FALSE(oracle_.reachable({infinity, 0.0, 0.0}));
 }
 
 TEST(Oracle, EmptySceneIsFree) {
@@ -145,7 +144,6 @@ TEST(Oracle, EmptySceneIsFree) {
     EXPECT_EQ(oracle.clearance(Vec3d::Zero()), infinity);
     EXPECT_TRUE(oracle.segment_clear(Vec3d::Zero(), Vec3d::Ones()));
     EXPECT_FALSE(oracle.in_solid(Vec3d::Zero()));
-    EXPECT_FALSE(oracle.reachable(Vec3d::Zero())) << "no spawn point";
 }
 
 TEST(Oracle, AgreesWithTheTwinOnARealMap) {

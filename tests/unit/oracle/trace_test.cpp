@@ -5,7 +5,7 @@
 #include <tuple>
 
 #include "evaluation/trace.hpp"
-#include "oracle/oracle.hpp"
+#include "oracle/reachability.hpp"
 #include "scene/load.hpp"
 #include "support/openarena.hpp"
 #include "support/shared_files.hpp"
@@ -23,7 +23,9 @@ TEST_P(RecordedMatch, EveryAliveEyeIsFreeAndReachable) {
     const auto source = test::openarena_map(map);
     if (!source) GTEST_SKIP() << test::needs_openarena_map(map);
 
-    const Oracle oracle(scene::load(*source).value());
+    const scene::Scene scene = scene::load(*source).value();
+    const Oracle oracle(scene);
+    const Reachability reachability = Reachability::explore(oracle, scene, {}, {}).value();
     const evaluation::Trace trace = evaluation::read_trace(*path).value();
     std::size_t eyes = 0;
     for (const evaluation::TracePose& pose : trace.poses) {
@@ -31,7 +33,7 @@ TEST_P(RecordedMatch, EveryAliveEyeIsFreeAndReachable) {
         ++eyes;
         ASSERT_FALSE(oracle.in_solid(pose.eye)) << "player " << pose.player << " at " << pose.eye.transpose();
         ASSERT_GT(oracle.clearance(pose.eye), 0.0) << pose.eye.transpose();
-        ASSERT_TRUE(oracle.reachable(pose.eye)) << pose.eye.transpose();
+        ASSERT_TRUE(reachability.reachable(pose.eye)) << pose.eye.transpose();
     }
     EXPECT_GT(eyes, 10'000U);
 }
