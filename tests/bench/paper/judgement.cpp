@@ -43,6 +43,14 @@ Json to_json(const evaluation::Verification& found) {
             {"joined_spawn_points", found.joined_spawn_points}};
 }
 
+// A mesh or a cloud has none of its own: those that the bake chose.
+scene::Scene with_spawn_points(scene::Scene scene, const freespace::Freespace& freespace) {
+    if (!scene.spawn_points.empty()) return scene;
+    for (const freespace::SpawnPoint& spawn : freespace.spawn_points())
+        scene.spawn_points.push_back({spawn.eye.cast<double>(), spawn.yaw, "baked"});
+    return scene;
+}
+
 }  // namespace
 
 Result<Json> measure(const Method& method, const scene::Scene& scene, const Settings& settings,
@@ -63,8 +71,9 @@ Result<Json> measure(const Method& method, const scene::Scene& scene, const Sett
     if (!freespace) return tl::unexpected(freespace.error());
     evaluation::VerificationParameters parameters;
     parameters.balls = balls;
-    const oracle::Oracle oracle(scene, freespace->metadata().d0);
-    const auto found = evaluation::verify(*freespace, scene, oracle, parameters,
+    const scene::Scene source = with_spawn_points(scene, *freespace);
+    const oracle::Oracle oracle(source, freespace->metadata().d0);
+    const auto found = evaluation::verify(*freespace, source, oracle, parameters,
                                           [](std::string_view, std::uint64_t, std::uint64_t) {}, {});
     if (!found) return tl::unexpected(found.error());
     json.update(to_json(*found));
