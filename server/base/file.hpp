@@ -26,8 +26,8 @@ using Bytes = std::vector<std::byte>;
 [[nodiscard]] Result<void> write_file(const std::filesystem::path& path, const std::string& content);
 
 // A file that takes long to make, and that several processes or threads may want to make at once. While it is
-// made, `path`.part exists and is locked, and others can wait for the file. A process that is killed leaves at
-// most an unlocked `path`.part, which the next one takes over. Movable.
+// made, `path`.part exists and is locked, and others can wait for the file. A process that is killed leaves
+// at most an unlocked `path`.part, which the next one takes over. Movable.
 class PendingFile {
   public:
     // Nothing: another process or thread is making the file.
