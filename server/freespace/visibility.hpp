@@ -23,10 +23,11 @@ struct Sight {
 // radius (or of the segment's length), or more than 128 balls. `free_length` is 0 only when the free distance
 // of `from` does not exceed the radius by more than rounding.
 //
-// Measured on ten maps of OpenArena with the default bake, over random segments of up to 512 units from
-// points with a free distance below 64: 4 to 11 % (median 7 %) of those that exact geometry proves free are
-// reported blocked, because the slabs do not cover them. Of segments that the slabs cover, less than 0.2 %
-// are missed.
+// Measured against exact geometry on default bakes. On wrackdm17, oa_dm1, kaos and cbctf1, 3,000 random
+// segments each: of the free segments of up to 512 units between covered points 0.03 to 0.97 % are reported
+// blocked, of free sweeps of radius 5 over 120 units 0.03 to 3.1 %, and of those that the slabs cover at most
+// 0.21 %; none at its start. Near the obstacles it is more, because the slabs do not reach into every corner:
+// on ten maps, 4 to 11 % of the free segments from points with a free distance below 64 to any point.
 [[nodiscard]] Sight sight(const Freespace& freespace, const Vec3f& from, const Vec3f& to, float radius = 0.0F,
                           std::uint32_t previous = none);
 

@@ -2,7 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <random>
 
@@ -18,23 +20,30 @@ namespace {
 
 constexpr const char* archive = "/usr/share/games/openarena/baseoa/pak1-maps.pk3";
 
-class RealMap : public testing::Test {
+// Baked with a loss of 0, which keeps the whole mesh, and with the default.
+class RealMap : public testing::TestWithParam<double> {
+  public:
+    static constexpr std::array<double, 2> losses{0.0, bake::Parameters().loss};
+
   protected:
     static void SetUpTestSuite() {
         if (!std::filesystem::exists(archive)) return;
         const auto scene = scene::load(std::string(archive) + ":maps/oa_dm1.bsp");
         ASSERT_TRUE(scene) << scene.error().message;
-        const auto baked = bake::bake(*scene, {.loss = 0.0}, {}, {});
-        ASSERT_TRUE(baked) << baked.error().message;
-        freespace_.emplace(test::make_freespace(baked->contents));
+        for (const double loss : losses) {
+            const auto baked = bake::bake(*scene, {.loss = loss}, {}, {});
+            ASSERT_TRUE(baked) << baked.error().message;
+            freespaces_.emplace(loss, test::make_freespace(baked->contents));
+        }
         oracle_.emplace(*scene);
     }
     static void TearDownTestSuite() {
-        freespace_.reset();
+        freespaces_.clear();
         oracle_.reset();
     }
     void SetUp() override {
-        if (!freespace_) GTEST_SKIP() << "needs the package openarena-081-maps";
+        if (!oracle_) GTEST_SKIP() << "needs the package openarena-081-maps";
+        freespace_ = &freespaces_.at(GetParam());
     }
 
     // Another covered point at most `reach` away.
@@ -46,15 +55,16 @@ class RealMap : public testing::Test {
         }
     }
 
-    static std::optional<Freespace> freespace_;
+    static std::map<double, Freespace> freespaces_;
     static std::optional<oracle::Oracle> oracle_;
+    const Freespace* freespace_ = nullptr;
     std::mt19937 random_{1};
 };
 
-std::optional<Freespace> RealMap::freespace_;
+std::map<double, Freespace> RealMap::freespaces_;
 std::optional<oracle::Oracle> RealMap::oracle_;
 
-TEST_F(RealMap, DistanceNeverExceedsTheClearance) {
+TEST_P(RealMap, DistanceNeverExceedsTheClearance) {
     double reported = 0.0;
     double exact = 0.0;
     for (int i = 0; i < 3'000; ++i) {
@@ -68,7 +78,7 @@ TEST_F(RealMap, DistanceNeverExceedsTheClearance) {
     EXPECT_GT(reported, 0.9 * exact);
 }
 
-TEST_F(RealMap, NothingIsSeenThroughAWallAndLittleIsMissed) {
+TEST_P(RealMap, NothingIsSeenThroughAWallAndLittleIsMissed) {
     int visible = 0;
     int missed = 0;
     for (int i = 0; i < 10'000; ++i) {
@@ -83,6 +93,8 @@ TEST_F(RealMap, NothingIsSeenThroughAWallAndLittleIsMissed) {
     EXPECT_GT(visible, 5'000);
     EXPECT_LE(missed, 0.008 * visible) << missed << " of " << visible;
 }
+
+INSTANTIATE_TEST_SUITE_P(Losses, RealMap, testing::ValuesIn(RealMap::losses));
 
 }  // namespace
 }  // namespace camdir::freespace
