@@ -137,7 +137,7 @@ Result<void> write_report(const BakeConfigOptions& options, const maps::BatchPar
     return write_file(options.report, config::format_json(report));
 }
 
-int exit_code_of(const std::vector<maps::BakeOutcome>& outcomes) {
+int batch_exit_code(const std::vector<maps::BakeOutcome>& outcomes) {
     const auto any = [&](maps::BakeStatus status) {
         return std::any_of(outcomes.begin(), outcomes.end(),
                            [&](const maps::BakeOutcome& outcome) { return outcome.status == status; });
@@ -171,7 +171,7 @@ Result<int> run(const BakeConfigOptions& options) {
     if (!options.quiet && !maps.empty()) print_table(outcomes);
     auto written = write_report(options, parameters, seconds.count(), outcomes);
     if (!written) return tl::unexpected(written.error());
-    return exit_code_of(outcomes);
+    return batch_exit_code(outcomes);
 }
 
 }  // namespace

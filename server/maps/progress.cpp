@@ -108,11 +108,11 @@ std::optional<double> TimeEstimate::remaining(double fraction, double seconds) c
     return std::max(0.0, total(fraction, seconds) - seconds);
 }
 
-// Approaches seconds / fraction with a time constant that grows with the work.
+// Approaches seconds / fraction, the faster the less time that leaves.
 double TimeEstimate::total(double fraction, double seconds) const {
     const double now = seconds / fraction;
     if (total_ == 0.0) return now;
-    const double constant = 2.0 + 0.1 * seconds;
+    const double constant = 2.0 + 0.1 * std::min(seconds, now - seconds);
     return now + (total_ - now) * std::exp((updated_ - seconds) / constant);
 }
 
