@@ -65,11 +65,6 @@ class Refinement {
     std::atomic<std::uint64_t> total_ = 0;
 };
 
-Triangle3d triangle_of(const scene::Scene& scene, std::size_t index) {
-    const auto& [a, b, c] = scene.triangles[index];
-    return {scene.vertices[a], scene.vertices[b], scene.vertices[c]};
-}
-
 // The corners of the triangles that need samples, each once.
 std::vector<Vec3d> corners_of(const scene::Scene& scene, const std::vector<char>& needs) {
     std::vector<char> is_corner(scene.vertices.size());
@@ -117,7 +112,7 @@ double covering_radius(const Triangle3d& t) {
 Result<void> check_sample_count(const scene::Scene& scene, double coarsest, double finest) {
     double discs = 0.0;  // a sample covers at most one
     for (std::size_t i = 0; i < scene.triangles.size(); ++i)
-        discs += area(triangle_of(scene, i)) / (M_PI * coarsest * coarsest);
+        discs += area(scene::corners(scene, i)) / (M_PI * coarsest * coarsest);
     if (discs > static_cast<double>(max_samples)) return too_many_samples(scene, finest, discs);
     return {};
 }
@@ -129,7 +124,7 @@ Result<std::vector<Vec3d>> sample(const scene::Scene& scene, const Solids& solid
     std::vector<std::vector<Vec3d>> midpoints_of(scene.triangles.size());
     std::vector<char> needs(scene.triangles.size());
     const bool done = stage.for_each(scene.triangles.size(), [&](std::uint64_t i) {
-        needs[i] = refinement.sample(triangle_of(scene, i), midpoints_of[i]);
+        needs[i] = refinement.sample(scene::corners(scene, i), midpoints_of[i]);
     });
     if (!done) return stage.interrupted();
     std::vector<Vec3d> samples = corners_of(scene, needs);

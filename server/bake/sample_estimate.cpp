@@ -13,11 +13,6 @@ namespace {
 constexpr double squares_of_sample = 0.85;
 constexpr std::uint64_t probe_count = 16'384;
 
-Triangle3d triangle_of(const scene::Scene& scene, std::size_t index) {
-    const auto& [a, b, c] = scene.triangles[index];
-    return {scene.vertices[a], scene.vertices[b], scene.vertices[c]};
-}
-
 constexpr double edges_of_sample = 0.5;  // a sliver's two long edges, each shared with another triangle
 
 double longest_edge_of(const Triangle3d& t) {
@@ -36,9 +31,9 @@ Vec3d spread_point(const Triangle3d& t, std::uint64_t i) {
     return t[0] + u * (t[1] - t[0]) + v * (t[2] - t[0]);
 }
 
-// A copy of the triangle around one of its points, small enough to stand for it.
-Triangle3d piece_at(const Triangle3d& t, const Vec3d& p) {
-    constexpr double size = 1e-3;
+// A copy of the triangle around one of its points, as small as sampling makes its pieces.
+Triangle3d piece_at(const Triangle3d& t, const Vec3d& p, double length) {
+    const double size = std::min(1.0, length / longest_edge_of(t));
     return {p + size * (t[0] - p), p + size * (t[1] - p), p + size * (t[2] - p)};
 }
 
@@ -52,15 +47,15 @@ SampleEstimate::SampleEstimate(const scene::Scene& scene, const Solids& solids,
     std::vector<double> weight_up_to;
     double sum = 0.0;
     for (std::size_t i = 0; i < scene.triangles.size(); ++i)
-        weight_up_to.push_back(sum += weight(triangle_of(scene, i)));
+        weight_up_to.push_back(sum += weight(scene::corners(scene, i)));
     const double step = sum / static_cast<double>(probe_count);
     for (std::uint64_t i = 0; i < probe_count; ++i) {
         const double position = (static_cast<double>(i) + 0.5) * step;
         const auto found = std::upper_bound(weight_up_to.begin(), weight_up_to.end(), position);
         if (found == weight_up_to.end()) break;
-        const Triangle3d t = triangle_of(scene, static_cast<std::size_t>(found - weight_up_to.begin()));
+        const Triangle3d t = scene::corners(scene, static_cast<std::size_t>(found - weight_up_to.begin()));
         const Vec3d p = spread_point(t, i);
-        if (solids.is_buried(piece_at(t, p), 0.001 * distance.finest())) continue;
+        if (solids.is_buried(piece_at(t, p, distance.at(p)), 0.001 * distance.finest())) continue;
         probes_.push_back({distance.at(p), area(t), longest_edge_of(t), step / weight(t)});
     }
 }

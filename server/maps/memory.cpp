@@ -15,8 +15,8 @@ namespace {
 
 double area_of(const scene::Scene& scene) {
     double sum = 0.0;
-    for (const auto& [a, b, c] : scene.triangles)
-        sum += bake::area({scene.vertices[a], scene.vertices[b], scene.vertices[c]});
+    for (std::size_t i = 0; i < scene.triangles.size(); ++i)
+        sum += bake::area(scene::corners(scene, i));
     return sum;
 }
 

@@ -71,6 +71,12 @@ struct Scene {
     std::vector<Skipped> skipped;
 };
 
+// The corners of triangle `index`.
+[[nodiscard]] inline std::array<Vec3d, 3> corners(const Scene& scene, std::size_t index) {
+    const auto& [a, b, c] = scene.triangles[index];
+    return {scene.vertices[a], scene.vertices[b], scene.vertices[c]};
+}
+
 // Inside the brush or on its surface.
 [[nodiscard]] inline bool contains(const Scene& scene, const Brush& brush, const Vec3d& point) {
     const auto planes = std::span(scene.planes).subspan(brush.first_plane, brush.plane_count);

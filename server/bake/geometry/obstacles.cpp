@@ -8,16 +8,15 @@ std::size_t obstacle_count(const scene::Scene& scene) {
     return scene.points.empty() ? scene.triangles.size() : scene.points.size();
 }
 
-Triangle3d triangle_of(const scene::Scene& scene, std::size_t index) {
+Triangle3d obstacle_at(const scene::Scene& scene, std::size_t index) {
     if (!scene.points.empty()) return {scene.points[index], scene.points[index], scene.points[index]};
-    const auto& corners = scene.triangles[index];
-    return {scene.vertices[corners[0]], scene.vertices[corners[1]], scene.vertices[corners[2]]};
+    return scene::corners(scene, index);
 }
 
 std::vector<Box3d> boxes_of_obstacles(const scene::Scene& scene) {
     std::vector<Box3d> boxes(obstacle_count(scene));
     for (std::size_t i = 0; i < boxes.size(); ++i)
-        boxes[i] = box_of(triangle_of(scene, i));
+        boxes[i] = box_of(obstacle_at(scene, i));
     return boxes;
 }
 
@@ -26,7 +25,7 @@ std::vector<Box3d> boxes_of_obstacles(const scene::Scene& scene) {
 Obstacles::Obstacles(const scene::Scene& scene) : tree_(boxes_of_obstacles(scene)) {
     triangles_.reserve(obstacle_count(scene));
     for (const std::uint32_t index : tree_.order())
-        triangles_.push_back(triangle_of(scene, index));
+        triangles_.push_back(obstacle_at(scene, index));
 }
 
 std::optional<Vec3d> Obstacles::nearest(const Vec3d& point, double within) const {
