@@ -164,7 +164,7 @@ void add_read_options(CLI::App& command, scene::ReadOptions& options) {
         ->check(CLI::Range(1e-6, 1e6));
     command
         .add_option_function<std::string>(
-            "--up", [&options](const std::string& axis) { options.up = maps::parse_up(axis); },
+            "--up", [&options](const std::string& axis) { options.up = scene::up_axis_named(axis); },
             "Axis of a mesh or a point cloud that points up: y or z; default: y for glTF, else z. With y, "
             "(x, y, z) becomes (z, x, y)")
         ->check(CLI::IsMember({"y", "z"}));

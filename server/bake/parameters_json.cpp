@@ -4,27 +4,12 @@
 #include <charconv>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <string_view>
-#include <utility>
 
 namespace camdir::bake {
 namespace {
 
 using nlohmann::json;
 using nlohmann::ordered_json;
-
-constexpr std::array<std::pair<scene::UpAxis, std::string_view>, 2> up_axes{
-    {{scene::UpAxis::y, "y"}, {scene::UpAxis::z, "z"}}};
-
-std::string_view name_of(scene::UpAxis up) {
-    return up_axes[up == up_axes[0].first ? 0 : 1].second;
-}
-
-std::optional<scene::UpAxis> up_axis_in(const json& name) {
-    for (const auto& [axis, known] : up_axes)
-        if (name.is_string() && name.get_ref<const std::string&>() == known) return axis;
-    return std::nullopt;
-}
 
 ordered_json triple(const Vec3d& point) {
     return {point.x(), point.y(), point.z()};
@@ -42,7 +27,7 @@ std::optional<Vec3d> point_in(const json& triple) {
 
 void add_read_options(const scene::ReadOptions& options, ordered_json& object) {
     if (options.metres_per_unit) object["metres_per_unit"] = *options.metres_per_unit;
-    if (options.up) object["up"] = name_of(*options.up);
+    if (options.up) object["up"] = scene::name_of(*options.up);
     if (options.origin != Vec3d::Zero()) object["origin"] = triple(options.origin);
     for (const Vec3d& seed : options.seeds)
         object["seeds"].push_back(triple(seed));
@@ -92,7 +77,8 @@ scene::ReadOptions read_options_in(const json& parameters) {
     };
     if (const json unit = member("metres_per_unit"); unit.is_number())
         options.metres_per_unit = unit.get<double>();
-    options.up = up_axis_in(member("up"));
+    if (const json up = member("up"); up.is_string())
+        options.up = scene::up_axis_named(up.get_ref<const std::string&>());
     options.origin = point_in(member("origin")).value_or(Vec3d::Zero());
     const json seeds = member("seeds");
     if (!seeds.is_array()) return options;

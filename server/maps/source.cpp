@@ -2,14 +2,12 @@
 
 #include <charconv>
 #include <cmath>
-#include <string_view>
 
 #include "bake/parameters_json.hpp"
 #include "config/json_text.hpp"
 #include "scene/load.hpp"
 
 namespace camdir::maps {
-namespace {}  // namespace
 
 std::optional<Vec3d> parse_point(std::string_view text) {
     Vec3d point;
@@ -26,16 +24,10 @@ std::optional<Vec3d> parse_point(std::string_view text) {
     return text.empty() ? std::optional(point) : std::nullopt;
 }
 
-std::optional<scene::UpAxis> parse_up(std::string_view name) {
-    if (name == "y") return scene::UpAxis::y;
-    if (name == "z") return scene::UpAxis::z;
-    return std::nullopt;
-}
-
 Result<scene::ReadOptions> read_options_of(const config::Map& map) {
     scene::ReadOptions options;
     if (map.metres_per_unit > 0.0) options.metres_per_unit = map.metres_per_unit;
-    options.up = parse_up(map.up);
+    options.up = scene::up_axis_named(map.up);
     if (!map.origin.empty()) {
         const auto origin = parse_point(map.origin);
         if (!origin) return fail("origin: '" + map.origin + "': expected three numbers, x,y,z");

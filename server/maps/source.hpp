@@ -17,9 +17,6 @@ namespace camdir::maps {
 // `x,y,z`, finite numbers.
 [[nodiscard]] std::optional<Vec3d> parse_point(std::string_view text);
 
-// `y` or `z`.
-[[nodiscard]] std::optional<scene::UpAxis> parse_up(std::string_view name);
-
 // The options of a configured map. Errors name the key.
 [[nodiscard]] Result<scene::ReadOptions> read_options_of(const config::Map& map);
 
