@@ -43,13 +43,17 @@ void print_source(const scene::Scene& scene, const bake::Parameters& parameters)
               << " spawn points, d0 " << d0 * scene.metres_per_unit << " m\n";
 }
 
-// What takes more than a minute is announced.
+// Announces a bake that takes more than a minute.
 void print_forecast(const bake::Forecast& forecast) {
-    if (!(forecast.quick_d0 > 0.0)) return;
-    std::cerr << "This bake is expected to take about " << std::lround(forecast.seconds / 60.0)
-              << " minutes and " << forecast.memory / 1'000'000U << " MB of memory for "
-              << std::llround(forecast.samples) << " samples; --d0 " << forecast.quick_d0
-              << " would take about a minute and " << forecast.quick_memory / 1'000'000U << " MB.\n";
+    if (forecast.seconds <= bake::quick_seconds) return;
+    const long minutes = std::lround(forecast.seconds / 60.0);
+    std::cerr << "This bake is expected to take about " << minutes << (minutes == 1 ? " minute" : " minutes")
+              << " and " << forecast.memory / 1'000'000U << " MB of memory for "
+              << std::llround(forecast.samples) << " samples";
+    if (forecast.quick_d0 > 0.0)
+        std::cerr << "; --d0 " << forecast.quick_d0 << " would take about a minute and "
+                  << forecast.quick_memory / 1'000'000U << " MB";
+    std::cerr << ".\n";
 }
 
 // One line for the whole bake: how much is done, times, and the stage.

@@ -16,11 +16,22 @@ constexpr double serial_seconds = 16e-6;    // a sample
 constexpr double parallel_seconds = 44e-6;  // a sample, shared out over the threads
 constexpr double fixed_bytes = 24e6;
 constexpr double bytes_of_sample = 1'150.0;
-constexpr double quick_seconds = 60.0;
 
-Forecast cost_of(double samples, unsigned threads) {
-    const double seconds = samples * (serial_seconds + parallel_seconds / std::max(1U, threads));
-    return {samples, seconds, static_cast<std::uint64_t>(fixed_bytes + bytes_of_sample * samples)};
+double seconds_of_sample(unsigned threads) {
+    return serial_seconds + parallel_seconds / std::max(1U, threads);
+}
+
+std::uint64_t memory_of(double samples) {
+    return static_cast<std::uint64_t>(fixed_bytes + bytes_of_sample * samples);
+}
+
+// Nominal units: the first of a series of larger sampling distances that leaves at most so many samples; 0
+// when none up to max_d0 does.
+double coarser_d0(const SampleEstimate& estimate, double d0, double unit, double max_samples) {
+    constexpr double step = 1.19;  // a quarter of an octave
+    for (double coarser = std::ceil(step * d0 / unit); coarser <= max_d0; coarser = std::ceil(step * coarser))
+        if (estimate.samples(coarser * unit) <= max_samples) return coarser;
+    return 0.0;
 }
 
 std::string gigabytes(std::uint64_t bytes) {
@@ -32,33 +43,30 @@ std::string gigabytes(std::uint64_t bytes) {
 }  // namespace
 
 Forecast forecast(const SampleEstimate& estimate, double d0, double unit, unsigned threads) {
-    Forecast forecast = cost_of(estimate.samples(d0), threads);
+    const double samples = estimate.samples(d0);
+    Forecast forecast{samples, samples * seconds_of_sample(threads), memory_of(samples)};
     if (forecast.seconds <= quick_seconds) return forecast;
-    constexpr double step = 1.19;  // a quarter of an octave
-    for (double coarser = std::ceil(step * d0 / unit); coarser <= max_d0;
-         coarser = std::ceil(step * coarser)) {
-        const Forecast quick = cost_of(estimate.samples(coarser * unit), threads);
-        if (quick.seconds > quick_seconds) continue;
-        forecast.quick_d0 = coarser;
-        forecast.quick_memory = quick.memory;
-        break;
-    }
+    forecast.quick_d0 = coarser_d0(estimate, d0, unit, quick_seconds / seconds_of_sample(threads));
+    if (forecast.quick_d0 > 0.0)
+        forecast.quick_memory = memory_of(estimate.samples(forecast.quick_d0 * unit));
     return forecast;
 }
 
-Result<void> check_memory(const Forecast& forecast, std::uint64_t memory, double d0,
-                          const std::string& source) {
+Result<void> check_memory(const Forecast& forecast, const SampleEstimate& estimate, double d0, double unit,
+                          std::uint64_t memory, const std::string& source) {
     if (forecast.memory <= memory) return {};
+    const double max_samples = (static_cast<double>(memory) - fixed_bytes) / bytes_of_sample;
+    const double fitting = coarser_d0(estimate, d0, unit, max_samples);
     std::ostringstream text;
-    text << source << ": a bake with d0 = " << d0 << " is expected to take " << gigabytes(forecast.memory)
-         << " of memory for " << std::llround(forecast.samples) << " samples, and the limit is "
-         << gigabytes(memory) << "; ";
-    if (forecast.quick_d0 > 0.0)
-        text << "d0 = " << forecast.quick_d0 << " would take " << gigabytes(forecast.quick_memory)
-             << " and about a minute";
+    text << source << ": a bake with d0 = " << d0 / unit << " is expected to take "
+         << gigabytes(forecast.memory) << " of memory for " << std::llround(forecast.samples)
+         << " samples, and the limit is " << gigabytes(memory) << "; ";
+    if (fitting > 0.0)
+        text << "d0 = " << fitting << " would take " << gigabytes(memory_of(estimate.samples(fitting * unit)))
+             << ", or";
     else
-        text << "choose a larger d0";
-    text << ", or raise the limit (--memory)";
+        text << "no d0 up to " << max_d0 << " would fit:";
+    text << " raise the limit (--memory)";
     return fail(text.str());
 }
 

@@ -15,9 +15,9 @@ class SampleEstimate;
 // factor of two. `unit` is the length of a nominal unit.
 [[nodiscard]] Forecast forecast(const SampleEstimate& estimate, double d0, double unit, unsigned threads);
 
-// Fails when that is more than `memory` bytes; the error says which d0 would do. `source` is the map, `d0`
-// in nominal units.
-[[nodiscard]] Result<void> check_memory(const Forecast& forecast, std::uint64_t memory, double d0,
-                                        const std::string& source);
+// Fails when that is more than `memory` bytes; the error names a larger d0 that would fit, if there is one.
+// `source` names the map in the error.
+[[nodiscard]] Result<void> check_memory(const Forecast& forecast, const SampleEstimate& estimate, double d0,
+                                        double unit, std::uint64_t memory, const std::string& source);
 
 }  // namespace camdir::bake

@@ -78,7 +78,7 @@ Result<void> Pipeline::forecast(Stage& /*stage*/) {
     const Forecast forecast = bake::forecast(estimate, d0_, unit_, threads_);
     if (expected_) expected_(forecast);
     if (parameters_.memory == 0) return {};
-    return check_memory(forecast, parameters_.memory, d0_ / unit_, scene_.source);
+    return check_memory(forecast, estimate, d0_, unit_, parameters_.memory, scene_.source);
 }
 
 Result<void> Pipeline::sample(Stage& stage) {

@@ -27,12 +27,16 @@ struct StageReport {
 };
 using ReportSink = std::function<void(const StageReport&)>;
 
+// A bake that takes longer is worth an announcement.
+inline constexpr double quick_seconds = 60.0;
+
 // What a bake is expected to take; known after its first stage.
 struct Forecast {
     double samples = 0.0;      // of the obstacles
     double seconds = 0.0;      // of the whole bake, on a machine like that of tests/bench/all-maps.md
     std::uint64_t memory = 0;  // bytes, at the peak
-    // Nominal units: a d0 whose bake would take about a minute. 0 when this one does, or none would.
+    // Nominal units: a larger d0 whose bake would take at most quick_seconds. 0 when this one does, or none
+    // would.
     double quick_d0 = 0.0;
     std::uint64_t quick_memory = 0;  // bytes that it would take
 };

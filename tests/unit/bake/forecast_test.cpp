@@ -79,6 +79,27 @@ TEST(Forecast, NamesTheD0OfAMinutesWorkWhereItIsNeeded) {
     EXPECT_EQ(in_metres.quick_d0, expected.quick_d0);
 }
 
+TEST(Forecast, RefusalNamesAD0ThatFitsIntoTheMemory) {
+    // With 64 threads, a bake of one minute takes more than 3 GB.
+    const SampleEstimate large(1e7, 16.0);
+    const Forecast expected = forecast(large, 16.0, 1.0, 64);
+    ASSERT_GT(expected.quick_memory, 3'000'000'000U);
+    const auto refused = check_memory(expected, large, 16.0, 1.0, 1'000'000'000, "made.map");
+    ASSERT_FALSE(refused);
+    EXPECT_THAT(
+        refused.error().message,
+        testing::AllOf(testing::StartsWith("made.map: a bake with d0 = 16 is expected to take 11.5 GB"),
+                       testing::HasSubstr("the limit is 1.0 GB; d0 = 60 would take 0.8 GB")));
+    EXPECT_TRUE(check_memory(forecast(large, 60.0, 1.0, 64), large, 60.0, 1.0, 1'000'000'000, "made.map"));
+    // Also when the bake is quick.
+    const SampleEstimate small(1e5, 16.0);
+    const Forecast quick = forecast(small, 16.0, 1.0, 64);
+    EXPECT_THAT(check_memory(quick, small, 16.0, 1.0, 100'000'000, "made.map").error().message,
+                testing::HasSubstr("the limit is 0.1 GB; d0 = 20 would take 0.1 GB"));
+    EXPECT_THAT(check_memory(quick, small, 16.0, 1.0, 1'000'000, "made.map").error().message,
+                testing::HasSubstr("the limit is 0.0 GB; no d0 up to 256 would fit: raise the limit"));
+}
+
 TEST(Forecast, ABakeThatNeedsMoreMemoryThanItMayHaveIsRefused) {
     const test::SolidScene room = test::pillar_room();
     Parameters parameters;
