@@ -56,14 +56,21 @@ std::span<const NamedStage> stages_of(const Pipeline& pipeline) {
     return of_surfaces;
 }
 
-// What the reader skipped, reported like a stage.
+// What the reader skipped, reported like a stage. The reasons name classes of the map, which may be more than
+// a MAP.vfs holds counts: those beyond the limit are summed.
 StageReport skipped_by_reader(const scene::Scene& scene) {
+    constexpr std::size_t max_reasons = 1'000;
     std::map<std::string, double> counts;
     for (const scene::Skipped& skipped : scene.skipped)
         counts[skipped.reason] += static_cast<double>(skipped.count);
     StageReport report{"left out", 0.0, {}};
+    double others = 0.0;
     for (const auto& [reason, count] : counts)
-        report.counts.push_back({report.stage, reason, count});
+        if (report.counts.size() < max_reasons)
+            report.counts.push_back({report.stage, reason, count});
+        else
+            others += count;
+    if (others > 0.0) report.counts.push_back({report.stage, "other reasons", others});
     return report;
 }
 

@@ -153,7 +153,8 @@ Result<std::vector<PlacedModel>> placed_models(const std::vector<Entity>& entiti
 
 std::string skip_reason(const PlacedModel& placed) {
     constexpr std::size_t max_class_bytes = 64;
-    const std::string class_name = to_utf8(placed.class_name);
+    // A few bytes more than are kept, so that the last character is whole.
+    const std::string class_name = to_utf8(placed.class_name.substr(0, max_class_bytes + 4));
     return std::string(name_of(placed.use)) + ": " +
            (class_name.empty() ? "without a name"
                                : class_name.substr(0, utf8_prefix(class_name, max_class_bytes)));

@@ -292,6 +292,20 @@ TEST(Bake, IsTheSameForAnyNumberOfThreads) {
     EXPECT_EQ(freespace::encode(baked(rooms, 12.0, 2).contents), bytes);
 }
 
+// A map may name any number of classes, but a MAP.vfs holds a limited number of counts.
+TEST(Bake, SumsWhatIsSkippedForTooManyReasons) {
+    scene::Scene scene = test::box_room().scene();
+    for (int i = 0; i < 20'000; ++i)
+        scene.skipped.push_back({"unknown class: " + std::to_string(i), "", 2});
+    const auto baked = bake(scene, {32.0, 0}, {}, {});
+    ASSERT_TRUE(baked);
+    const std::vector<freespace::Count>& counts = baked->stages.front().counts;
+    EXPECT_EQ(counts.size(), 1'001U);
+    EXPECT_EQ(counts.back().what, "other reasons");
+    EXPECT_EQ(counts.back().value, 2.0 * 19'000);
+    EXPECT_TRUE(freespace::Freespace::parse(freespace::encode(baked->contents), "room"));
+}
+
 TEST(Bake, ReportsEveryStageAndItsProgress) {
     std::vector<std::string> shown;
     std::vector<std::string> finished;
