@@ -11,6 +11,7 @@
 #include "app/commands.hpp"
 #include "app/progress.hpp"
 #include "base/file.hpp"
+#include "config/json_text.hpp"
 #include "evaluation/verification.hpp"
 #include "freespace/freespace.hpp"
 #include "maps/source.hpp"
@@ -175,7 +176,7 @@ Result<int> verify(const VerifyOptions& options) {
     print_table(options, *result, seconds.count());
     if (!options.json.empty()) {
         const auto json = result_json(options, *subject, *result);
-        const auto written = write_file(options.json, json.dump(2) + '\n');
+        const auto written = write_file(options.json, config::format_json(json));
         if (!written) return tl::unexpected(written.error());
     }
     return result->has_violation() ? exit_failed : exit_done;
