@@ -13,8 +13,8 @@ namespace camdir::bake {
 // d_f of each vertex, rounded down to a float: at most its clearance, and such that no slab of the mesh
 // reaches into an obstacle (up to the rounding of doubles). May be negative. No triangle may cross an
 // obstacle. A slab's free distances are lowered step by step until its violation is less than `tolerance`
-// (map units,
-// >= 0) or for 64 steps; then all three by the violation that is left, which frees the slab in either case.
+// (map units, >= 0) or for 64 steps; then all three by the violation that is left, which frees the slab in
+// either case.
 [[nodiscard]] Result<std::vector<float>> free_distances(const MedialMesh& mesh,
                                                         const std::vector<double>& clearance,
                                                         const Obstacles& obstacles, double tolerance,

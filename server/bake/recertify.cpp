@@ -1,6 +1,6 @@
 #include "bake/recertify.hpp"
 
-#include <algorithm>
+#include <array>
 #include <atomic>
 #include <sstream>
 

@@ -28,8 +28,7 @@ inline constexpr std::size_t region_size = 4096;
 // - each vertex, and each spawn point, that had a free distance has it less the loss; a spawn point also half
 //   of what it had above the offset radius;
 // - the mesh has the same homotopy type (connected components, holes, cavities) and no edge without a
-// triangle,
-//   but not necessarily the same branches;
+//   triangle, but not necessarily the same branches;
 // - what the roadmap (edges between vertices with a free distance) connected is still connected.
 // The result does not depend on the number of threads. Drops unused vertices. On failure mesh and free
 // distances are unchanged.

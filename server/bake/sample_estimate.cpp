@@ -11,6 +11,7 @@ namespace {
 
 // Bisection leaves a sample on about so many squares of the distance that covers a triangle.
 constexpr double squares_of_sample = 0.85;
+constexpr double edges_of_sample = 0.5;  // a sliver's two long edges, each shared with another triangle
 constexpr std::uint64_t probe_count = 16'384;
 
 constexpr double edges_of_sample = 0.5;  // a sliver's two long edges, each shared with another triangle

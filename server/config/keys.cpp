@@ -111,8 +111,7 @@ void add_maps(std::vector<Key>& table) {
          in_map(&Map::source),
          "The map's file, or `archive.pk3:maps/name.bsp`: a BSP, a mesh or a point cloud. When given, `file` "
          "is baked from it at start, or by `bake --config`, if it is missing, damaged, or was baked from "
-         "other "
-         "bytes or with other parameters.",
+         "other bytes or with other parameters.",
          "",
          0,
          4095,

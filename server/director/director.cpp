@@ -129,7 +129,7 @@ void Director::Impl::run_housekeeping(const std::stop_token& stop) {
     }
 }
 
-// Tells matches without poses that they are silent. Returns the matches that may have to be retired.
+// Notifies matches that are without poses. Returns those that may have to be retired.
 std::vector<std::string> Director::Impl::notify_silent() {
     std::vector<std::string> leaving;
     const std::shared_lock lock(mutex);

@@ -7,8 +7,8 @@ namespace camdir::freespace {
 
 struct Sight {
     bool clear = false;  // the whole segment is proved free, with a sphere of the asked radius around it
-    float free_length =
-        0.0F;  // how far from `from` it is proved free, map units; the segment's length if clear
+    // How far from `from` it is proved free, map units; the segment's length if clear.
+    float free_length = 0.0F;
     float clearance = 0.0F;         // lower bound of the clearance along the free part; > 0 when clear
     std::uint32_t triangle = none;  // slab of the last free point: tracking state of its end
 };

@@ -34,7 +34,7 @@ constexpr std::array table = {
                  "opens a way"},
     BrushClasses{"func_wall_toggle func_togglewall func_movewall func_episodegate func_bossgate", yes, no,
                  BrushUse::mover,
-                 "is there or not as the game goes on"},
+                 "appears and disappears during the game"},
     BrushClasses{"func_plat func_train", yes, yes, BrushUse::mover,
                  "carries players"},
     BrushClasses{"func_platrot func_new_plat func_train2 func_tracktrain func_trackchange func_trackautochange "

@@ -9,7 +9,7 @@ namespace camdir::scene {
 
 enum class BrushUse : std::uint8_t {
     obstacle,
-    mover,    // moves away, comes or goes: baked in, it would close the way behind it for good
+    mover,    // moves, appears or disappears: baked in, it would close what is behind it for good
     none,     // has no body, or is only drawn
     unknown,  // not in the table: no obstacle either, and reported by its class
 };

@@ -43,7 +43,7 @@ TEST(BrushClasses, EveryRowDecidesForAGame) {
     }
 }
 
-TEST(BrushClasses, WholeNamesAndPrefixesAreToldApart) {
+TEST(BrushClasses, DistinguishesWholeNamesAndPrefixes) {
     EXPECT_EQ(brush_use(BspFamily::quake, "func_detail_wall"), BrushUse::obstacle);
     EXPECT_EQ(brush_use(BspFamily::quake, "func_detail_illusionary"), BrushUse::none);
     EXPECT_EQ(brush_use(BspFamily::quake, "func_tank_of"), BrushUse::mover);
