@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs what is missing of the Debian 12 packages in the named groups: build (default), map, test, lint, or all.
 # Needs root or sudo when something is missing. On any other system it prints what is missing and fails.
+#     install-packages.sh [GROUP ...]
 set -euo pipefail
 cd "$(dirname "$0")"
 source ./packages.sh
@@ -8,6 +9,7 @@ source ./packages.sh
 wanted=()
 for group in "${@:-build}"; do
     case "$group" in
+        -h|--help) sed -n '2,/^set /s/^# \{0,1\}//p' install-packages.sh; exit 0 ;;
         build) wanted+=("${build_packages[@]}") ;;
         map) wanted+=("${map_packages[@]}") ;;
         test) wanted+=("${test_packages[@]}") ;;

@@ -5,6 +5,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
+case "${1:-}" in -h|--help) sed -n '2,/^set /s/^# \{0,1\}//p' deploy/lint.sh; exit 0 ;; esac
 preset=release
 [ $# -eq 0 ] || preset=debug
 cmake --preset "$preset" >/dev/null

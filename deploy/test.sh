@@ -1,13 +1,15 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds, and runs every test that a change must pass: formatting, the release build with
 # its unit and integration tests and a short soak, the unit tests under the address and undefined-behaviour sanitizers.
-#   --all   also the thread sanitizer, clang-tidy, and every fuzzer for a minute
+#     test.sh [--all]
+# --all: also the thread sanitizer, clang-tidy, and every fuzzer for a minute
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
 all=false
 case "${1:-}" in
     "") ;;
+    -h|--help) sed -n '2,/^set /s/^# \{0,1\}//p' deploy/test.sh; exit 0 ;;
     --all) all=true ;;
     *) echo "usage: deploy/test.sh [--all]" >&2; exit 2 ;;
 esac

@@ -18,6 +18,7 @@ seconds=60 matches=4 players=8 observers=8 rate=60 trace='' json='' growth=4 map
 map=/usr/share/games/openarena/baseoa/pak1-maps.pk3:maps/oa_dm1.bsp
 
 while [ $# -gt 0 ]; do
+    case "$1" in -h|--help) sed -n '2,/^set /s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 0 ;; esac
     [ $# -ge 2 ] || { echo "soak.sh: $1 needs a value" >&2; exit 2; }
     case "$1" in
         --seconds) seconds=$2 ;;
@@ -35,11 +36,17 @@ while [ $# -gt 0 ]; do
         --work) work=$2 ;;
         --json) json=$2 ;;
         --max-growth-mib) growth=$2 ;;
-        *) echo "soak.sh: unknown option '$1'" >&2; exit 2 ;;
+        *) echo "soak.sh: unknown option '$1'; --help lists the options" >&2; exit 2 ;;
     esac
     shift 2
 done
 [ -e "${map%%:*}" ] || { printf "soak.sh: no file %s\nneeds the package openarena-081-maps\n" "${map%%:*}" >&2; exit 77; }
+for program in camera-director pose-replay synthetic-players observer-probe; do
+    [ -x "$bin/$program" ] || {
+        echo "soak.sh: $bin/$program is missing; build it: cmake --preset release && cmake --build --preset release" >&2
+        exit 1
+    }
+done
 mkdir -p "$work"
 
 # A domain that no test and no other soak run uses; the lock is held until this script ends.
