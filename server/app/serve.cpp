@@ -68,8 +68,11 @@ void add_serve(CLI::App& root, Run& run) {
     auto* print = command.add_option_group("print", "Print documentation of the configuration, then exit");
     print->add_flag("--print-schema", options->print_schema, "JSON Schema of the configuration.");
     print->add_flag("--print-reference", options->print_reference, "Reference of its keys, Markdown.");
-    command.require_option(1, 0);
-    command.callback([&run, options] { run = [options] { return serve(*options); }; });
+    command.callback([&run, options] {
+        if (options->config.empty() && !options->print_schema && !options->print_reference)
+            throw CLI::RequiredError("--config, --print-schema or --print-reference");
+        run = [options] { return serve(*options); };
+    });
 }
 
 }  // namespace camdir::app
