@@ -75,10 +75,14 @@ Result<void> Pipeline::forecast(Stage& /*stage*/) {
     const SampleEstimate estimate = is_cloud()
                                         ? SampleEstimate(static_cast<double>(samples_.size()), d0_)
                                         : SampleEstimate(scene_, solids_, distance_, thinning_distance());
-    const Forecast forecast = bake::forecast(estimate, d0_, unit_, threads_);
-    if (expected_) expected_(forecast);
+    if (expected_) expected_(bake::forecast(estimate, d0_, unit_, threads_));
+    return check_memory(estimate);
+}
+
+Result<void> Pipeline::check_memory(const SampleEstimate& estimate) const {
     if (parameters_.memory == 0) return {};
-    return check_memory(forecast, estimate, d0_, unit_, parameters_.memory, scene_.source);
+    const Forecast forecast = bake::forecast(estimate, d0_, unit_, threads_);
+    return bake::check_memory(forecast, estimate, d0_, unit_, parameters_.memory, scene_.source);
 }
 
 Result<void> Pipeline::sample(Stage& stage) {
@@ -86,7 +90,10 @@ Result<void> Pipeline::sample(Stage& stage) {
 }
 
 Result<void> Pipeline::thin(Stage& stage) {
-    return keep(bake::thin(std::move(samples_), thinning_distance(), stage), samples_);
+    auto done = keep(bake::thin(std::move(samples_), thinning_distance(), stage), samples_);
+    if (!done) return done;
+    // Until now their number was an estimate, which can be half of it.
+    return check_memory(SampleEstimate(static_cast<double>(samples_.size()), d0_));
 }
 
 Result<void> Pipeline::delaunay(Stage& stage) {

@@ -19,6 +19,8 @@
 
 namespace camdir::bake {
 
+class SampleEstimate;
+
 // Each member function with a Stage is one stage: it reads the results of earlier stages and clears those
 // that later ones do not need.
 class Pipeline {
@@ -52,6 +54,8 @@ class Pipeline {
 
   private:
     void enclose(std::vector<double>& distances, Stage& stage);
+    // Fails when a bake of so many samples takes more memory than it may have.
+    [[nodiscard]] Result<void> check_memory(const SampleEstimate& estimate) const;
 
     [[nodiscard]] double coarsest() const {
         return parameters_.sampling == Sampling::uniform ? d0_ : parameters_.coarsest * d0_;

@@ -14,8 +14,6 @@ constexpr double squares_of_sample = 0.85;
 constexpr double edges_of_sample = 0.5;  // a sliver's two long edges, each shared with another triangle
 constexpr std::uint64_t probe_count = 16'384;
 
-constexpr double edges_of_sample = 0.5;  // a sliver's two long edges, each shared with another triangle
-
 double longest_edge_of(const Triangle3d& t) {
     const int from = longest_edge(t);
     return (t[(from + 1) % 3] - t[from]).norm();
@@ -62,7 +60,7 @@ SampleEstimate::SampleEstimate(const scene::Scene& scene, const Solids& solids,
 }
 
 double SampleEstimate::samples(double d0) const {
-    if (cloud_points_ > 0.0) return cloud_points_ * std::min(1.0, std::pow(cloud_d0_ / d0, 2.0));
+    if (known_samples_ > 0.0) return known_samples_ * std::min(1.0, std::pow(known_d0_ / d0, 2.0));
     const SamplingDistance uniform(d0);
     double midpoints = 0.0;
     for (const Probe& probe : probes_) {

@@ -16,7 +16,7 @@ constexpr std::array table = {
                  "drawn only: players and cameras pass through"},
     BrushClasses{"func_group func_static", yes, yes, BrushUse::obstacle,
                  "stands still"},
-    BrushClasses{"func_wall func_conveyor func_detail*", yes, no, BrushUse::obstacle,
+    BrushClasses{"func_wall func_conveyor func_detail*", yes, yes, BrushUse::obstacle,
                  "stands still; a conveyor moves what is on it, not itself"},
     BrushClasses{"func_healthcharger func_recharge", yes, no, BrushUse::obstacle,
                  "stands still on a wall"},
