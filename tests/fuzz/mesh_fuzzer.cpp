@@ -8,7 +8,7 @@
 
 #include "scene/format.hpp"
 #include "scene/mesh/gltf_buffers.hpp"
-#include "scene/mesh/subtract_origin.hpp"
+#include "scene/mesh/obj_text.hpp"
 
 namespace {
 
@@ -87,7 +87,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
     const Vec3d origin(448262.0, 5412345.0, 300.0);
     const auto obj = scene::subtract_origin_from_obj(bytes, origin);
-    const auto ply = scene::subtract_origin_from_ply(bytes, origin);
+    const auto ply = scene::ply_to_obj(bytes, origin);
     if ((!obj && obj.error().message.empty()) || (!ply && ply.error().message.empty())) std::abort();
 
     Input input(data, size);

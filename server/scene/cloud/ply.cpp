@@ -12,7 +12,8 @@ namespace {
 
 struct Property {
     std::string_view name;
-    std::optional<NumberType> type;  // none: a list, whose length differs from row to row
+    std::optional<NumberType> type;        // none: a list, whose length differs from row to row
+    NumberType count_type{}, item_type{};  // of a list
 };
 
 struct Element {
@@ -55,7 +56,11 @@ Result<void> add_property(const Words& words, const Lines& lines, PlyHeader& hea
     std::vector<Property>& properties = header.elements.back().properties;
     if (properties.size() == max_properties) return lines.bad_line("more than 256 properties");
     if (words.size() == 5 && words[1] == "list") {
-        properties.push_back({words[4], std::nullopt});
+        const auto count_type = number_type(words[2]);
+        const auto item_type = number_type(words[3]);
+        if (!count_type || !item_type)
+            return lines.bad_line("expected `property list TYPE TYPE NAME` with numbers' types");
+        properties.push_back({words[4], std::nullopt, *count_type, *item_type});
         return {};
     }
     const auto type = words.size() == 3 ? number_type(words[1]) : std::nullopt;
@@ -111,10 +116,19 @@ Result<std::array<std::size_t, 3>> coordinates(const Element& vertex) {
     return places;
 }
 
-// Passes the rows of `element`. A row of text is a line.
+// A row of text: the words of the next line that is neither blank nor a comment; none at the end.
+Words next_row(Lines& lines) {
+    while (const auto line = lines.next()) {
+        Words words = words_of(*line, blanks);
+        if (!words.empty() && !words.front().starts_with('#')) return words;
+    }
+    return {};
+}
+
+// Passes the rows of `element`.
 Result<void> skip_rows(const Element& element, bool is_text, Lines& lines) {
     if (is_text) {
-        for (std::uint64_t i = 0; i < element.count && lines.next(); ++i) {
+        for (std::uint64_t i = 0; i < element.count && !next_row(lines).empty(); ++i) {
         }
         return {};
     }
@@ -138,6 +152,72 @@ Columns columns_of(const Element& vertex, const std::array<std::size_t, 3>& plac
         columns[axis] = {offset, row_size(vertex).value_or(0), *vertex.properties[places[axis]].type};
     }
     return columns;
+}
+
+// Reads rows with lists, number by number.
+class RowReader {
+  public:
+    RowReader(Lines& lines, std::string_view format)
+        : lines_(lines), is_text_(format == "ascii"), big_endian_(format == "binary_big_endian") {}
+
+    // The numbers of the list `wanted` in the next row; nothing where the row is incomplete or has something
+    // else than numbers.
+    std::optional<std::vector<double>> list(const Element& element, const Property& wanted) {
+        if (is_text_) row_ = next_row(lines_);
+        next_word_ = 0;
+        std::vector<double> numbers;
+        for (const Property& property : element.properties) {
+            const auto length = property.type ? 1.0 : next(property.count_type);
+            if (!length || !(*length >= 0.0)) return std::nullopt;
+            for (double i = 0.0; i < *length; ++i) {
+                const auto number = next(property.type.value_or(property.item_type));
+                if (!number) return std::nullopt;
+                if (&property == &wanted) numbers.push_back(*number);
+            }
+        }
+        return numbers;
+    }
+
+  private:
+    std::optional<double> next(NumberType type) {
+        if (is_text_) return next_word_ < row_.size() ? number_of(row_[next_word_++]) : std::nullopt;
+        const std::size_t size = size_of(type);
+        if (lines_.rest().size() < size) return std::nullopt;
+        const auto* const place = reinterpret_cast<const std::byte*>(lines_.rest().data());
+        const double number = number_at(place, type, big_endian_);
+        lines_.skip(size);
+        return number;
+    }
+
+    Lines& lines_;
+    bool is_text_, big_endian_;
+    Words row_;  // of text
+    std::size_t next_word_ = 0;
+};
+
+Result<void> visit_rows(const Element& element, std::uint64_t vertices, RowReader& reader,
+                        const PlyFaceVisitor& visit) {
+    const auto list =
+        std::find_if(element.properties.begin(), element.properties.end(), [](const Property& p) {
+            return !p.type && (p.name == "vertex_indices" || p.name == "vertex_index");
+        });
+    const std::string name(element.name);
+    if (list == element.properties.end())
+        return fail("the element " + name + " has no list vertex_indices or vertex_index");
+    const bool is_strip = element.name == "tristrips";
+    const double least = is_strip ? -1.0 : 0.0;  // -1 begins another strip
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+        const auto indices = reader.list(element, *list);
+        if (!indices)
+            return fail(name + " " + std::to_string(i) + ": expected a row of numbers; the header promises " +
+                        std::to_string(element.count));
+        for (const double index : *indices)
+            if (!(index >= least && index < static_cast<double>(vertices)))
+                return fail(name + " " + std::to_string(i) + ": expected indices of " +
+                            std::to_string(vertices) + " vertices");
+        visit({indices->begin(), indices->end()}, is_strip);
+    }
+    return {};
 }
 
 }  // namespace
@@ -188,8 +268,26 @@ Result<std::vector<Vec3d>> read_ply_points(std::span<const std::byte> bytes) {
     Result<PlyVertices> vertices = find_ply_vertices(bytes);
     if (!vertices) return tl::unexpected(vertices.error());
     if (const auto fits = check_point_count(vertices->count); !fits) return tl::unexpected(fits.error());
-    if (vertices->is_text) return read_lines(vertices->lines, vertices->places, vertices->count);
+    if (vertices->is_text) return read_lines(vertices->lines, vertices->places, vertices->count, blanks);
     return read_columns(bytes, vertices->columns, vertices->count, vertices->big_endian);
+}
+
+Result<void> visit_ply_faces(std::span<const std::byte> bytes, std::uint64_t vertices,
+                             const PlyFaceVisitor& visit) {
+    Lines lines(text_of(bytes));
+    const auto header = read_ply_header(lines);
+    if (!header) return tl::unexpected(header.error());
+    RowReader reader(lines, header->format);
+    const auto has_faces = [](const Element& element) {
+        return element.name == "face" || element.name == "tristrips";
+    };
+    const auto last = std::find_if(header->elements.rbegin(), header->elements.rend(), has_faces).base();
+    for (auto element = header->elements.begin(); element != last; ++element) {
+        const auto read = has_faces(*element) ? visit_rows(*element, vertices, reader, visit)
+                                              : skip_rows(*element, header->format == "ascii", lines);
+        if (!read) return tl::unexpected(read.error());
+    }
+    return {};
 }
 
 }  // namespace camdir::scene

@@ -1,9 +1,10 @@
-// PLY: ascii, binary_little_endian and binary_big_endian. The faces of PLY meshes are left to Assimp.
+// PLY: ascii, binary_little_endian and binary_big_endian.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -32,5 +33,13 @@ struct PlyVertices {
 
 // The positions of the element `vertex`, in the file's order. Errors name the line or the byte.
 [[nodiscard]] Result<std::vector<Vec3d>> read_ply_points(std::span<const std::byte> bytes);
+
+// Takes the vertices of a face, or of a triangle strip, in which -1 begins another.
+using PlyFaceVisitor = std::function<void(const std::vector<std::int64_t>&, bool is_strip)>;
+
+// All faces and triangle strips, in the file's order; fails where a row is incomplete, or names a vertex that
+// is not one of `vertices`.
+[[nodiscard]] Result<void> visit_ply_faces(std::span<const std::byte> bytes, std::uint64_t vertices,
+                                           const PlyFaceVisitor& visit);
 
 }  // namespace camdir::scene

@@ -22,6 +22,8 @@ double number_at(const std::byte* place, bool big_endian) {
     return static_cast<double>(value);
 }
 
+}  // namespace
+
 double number_at(const std::byte* place, NumberType type, bool big_endian) {
     switch (type) {
         case NumberType::int8:
@@ -48,12 +50,6 @@ double number_at(const std::byte* place, NumberType type, bool big_endian) {
     assert(false);
     return 0.0;
 }
-
-bool is_separator(char c) {
-    return c == ' ' || c == '\t' || c == ',' || c == ';' || c == '\r';
-}
-
-}  // namespace
 
 Result<void> check_point_count(std::uint64_t count) {
     if (count <= max_points) return {};
@@ -93,17 +89,13 @@ tl::unexpected<Error> Lines::bad_line(const std::string& what) const {
     return fail("line " + std::to_string(number_) + ": " + what);
 }
 
-std::vector<std::string_view> words_of(std::string_view line) {
+std::vector<std::string_view> words_of(std::string_view line, std::string_view separators) {
     std::vector<std::string_view> words;
-    for (std::size_t i = 0; i < line.size();) {
-        if (is_separator(line[i])) {
-            ++i;
-            continue;
-        }
-        const auto* end = std::find_if(line.begin() + i, line.end(), is_separator);
-        const auto length = static_cast<std::size_t>(end - line.begin()) - i;
-        words.push_back(line.substr(i, length));
-        i += length;
+    for (std::size_t i = line.find_first_not_of(separators); i < line.size();
+         i = line.find_first_not_of(separators, i)) {
+        const std::size_t end = std::min(line.find_first_of(separators, i), line.size());
+        words.push_back(line.substr(i, end - i));
+        i = end;
     }
     return words;
 }
@@ -124,13 +116,13 @@ std::optional<std::uint64_t> whole_number(std::string_view word) {
 }
 
 Result<std::vector<Vec3d>> read_lines(Lines& lines, const std::array<std::size_t, 3>& places,
-                                      std::optional<std::uint64_t> count) {
+                                      std::optional<std::uint64_t> count, std::string_view separators) {
     const std::size_t needed = *std::max_element(places.begin(), places.end()) + 1;
     std::vector<Vec3d> points;
     while (!count || points.size() < *count) {
         const auto line = lines.next();
         if (!line) break;
-        const std::vector<std::string_view> words = words_of(*line);
+        const std::vector<std::string_view> words = words_of(*line, separators);
         if (words.empty() || words.front().starts_with('#')) continue;
         if (words.size() < needed)
             return lines.bad_line(std::to_string(words.size()) + " numbers; expected at least " +

@@ -30,6 +30,9 @@ struct Column {
 };
 using Columns = std::array<Column, 3>;  // x, y, z
 
+// Reads the bytes of one number.
+[[nodiscard]] double number_at(const std::byte* place, NumberType type, bool big_endian);
+
 // Precondition: all numbers lie in `bytes`.
 [[nodiscard]] std::vector<Vec3d> read_columns(std::span<const std::byte> bytes, const Columns& columns,
                                               std::size_t count, bool big_endian = false);
@@ -51,8 +54,11 @@ class Lines {
     std::size_t number_ = 0;
 };
 
-// Words between blanks, commas and semicolons.
-[[nodiscard]] std::vector<std::string_view> words_of(std::string_view line);
+inline constexpr std::string_view blanks = " \t\r";
+inline constexpr std::string_view blanks_and_commas = " \t\r,;";
+
+[[nodiscard]] std::vector<std::string_view> words_of(std::string_view line,
+                                                     std::string_view separators = blanks_and_commas);
 // The whole word is a number; NaN and infinity are numbers.
 [[nodiscard]] std::optional<double> number_of(std::string_view word);
 // The whole word is a number below 2^63.
@@ -61,7 +67,8 @@ class Lines {
 // A position a line in words x, y, z (their places in the line); NaN is a number. Blank lines and lines that
 // start with # are skipped. With `count`: exactly that many; fails when there are fewer.
 [[nodiscard]] Result<std::vector<Vec3d>> read_lines(Lines& lines, const std::array<std::size_t, 3>& places,
-                                                    std::optional<std::uint64_t> count);
+                                                    std::optional<std::uint64_t> count,
+                                                    std::string_view separators = blanks_and_commas);
 
 [[nodiscard]] std::string_view text_of(std::span<const std::byte> bytes);
 

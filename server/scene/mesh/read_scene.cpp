@@ -7,7 +7,7 @@
 
 #include "scene/coordinate_transform.hpp"
 #include "scene/mesh/import.hpp"
-#include "scene/mesh/subtract_origin.hpp"
+#include "scene/mesh/obj_text.hpp"
 #include "scene/triangle_welder.hpp"
 
 namespace camdir::scene {
@@ -92,15 +92,27 @@ Result<Scene> MeshBuilder::finish() {
     return scene;
 }
 
-// Nothing where Assimp keeps all the precision that the file has, and for STL and glTF.
-Result<std::optional<Bytes>> subtract_origin(std::span<const std::byte> bytes, MeshFormat format,
-                                             const Vec3d& origin) {
-    if (origin == Vec3d::Zero()) return std::nullopt;
-    if (format == MeshFormat::ply) return subtract_origin_from_ply(bytes, origin);
-    if (format != MeshFormat::obj) return std::nullopt;
-    return subtract_origin_from_obj(bytes, origin).map([](Bytes moved) {
-        return std::optional(std::move(moved));
-    });
+// What Assimp reads instead of the file.
+struct ObjText {
+    Bytes bytes;
+    Vec3d origin;  // still to be subtracted
+};
+
+// Nothing for what Assimp reads as it is.
+Result<std::optional<ObjText>> obj_text_of(std::span<const std::byte> bytes, MeshFormat format,
+                                           const Vec3d& origin) {
+    if (format == MeshFormat::obj) {
+        if (origin == Vec3d::Zero()) return std::nullopt;
+        auto text = subtract_origin_from_obj(bytes, origin);
+        if (!text) return tl::unexpected(text.error());
+        return ObjText{std::move(*text), Vec3d::Zero()};
+    }
+    if (format != MeshFormat::ply) return std::nullopt;
+    const auto is_precise = keeps_double_precision(bytes);
+    if (!is_precise) return tl::unexpected(is_precise.error());
+    auto text = ply_to_obj(bytes, *is_precise ? origin : Vec3d::Zero());
+    if (!text) return tl::unexpected(text.error());
+    return ObjText{std::move(*text), *is_precise ? Vec3d::Zero() : origin};
 }
 
 struct PlacedNode {
@@ -135,12 +147,16 @@ Result<Scene> mesh_scene_of(const aiScene& imported, MeshFormat format, const Re
 
 Result<Scene> read_mesh_scene(std::span<const std::byte> bytes, MeshFormat format,
                               const Companions& companions, const ReadOptions& options) {
-    const Result<std::optional<Bytes>> moved = subtract_origin(bytes, format, options.origin);
-    if (!moved) return tl::unexpected(moved.error());
+    const auto text = obj_text_of(bytes, format, options.origin);
+    if (!text) return tl::unexpected(text.error());
+    if (!*text) {
+        const auto imported = import_mesh(bytes, format, companions);
+        if (!imported) return tl::unexpected(imported.error());
+        return mesh_scene_of(*imported->scene(), format, options);
+    }
     ReadOptions rest = options;
-    if (*moved) rest.origin = Vec3d::Zero();
-    const auto imported =
-        import_mesh(*moved ? std::span<const std::byte>(**moved) : bytes, format, companions);
+    rest.origin = (*text)->origin;
+    const auto imported = import_mesh((*text)->bytes, MeshFormat::obj, {});
     if (!imported) return tl::unexpected(imported.error());
     return mesh_scene_of(*imported->scene(), format, rest);
 }

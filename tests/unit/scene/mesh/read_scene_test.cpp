@@ -139,7 +139,7 @@ const std::vector<Vec3d> utm_corners = {utm + Vec3d(0.234, 0.678, 0.001), utm + 
                                         utm + Vec3d(0.234, 1.123, 0.00002)};
 
 std::string utm_obj() {
-    return "v " + test::xyz_of({utm_corners[0]}) + "v\t" + test::xyz_of({utm_corners[1]}) + " v  " +
+    return "v " + test::xyz_of({utm_corners[0]}) + "v\t" + test::xyz_of({utm_corners[1]}) + "v  " +
            test::xyz_of({utm_corners[2]}) + "vn 0 0 1\nf 1 2 3\n";
 }
 
@@ -222,6 +222,73 @@ TEST_F(Mesh, CountsWhatItSkips) {
     const Scene scene = load(write("a.obj", obj)).value();
     ASSERT_EQ(scene.skipped.size(), 1U);
     EXPECT_EQ(scene.skipped[0].count, 1U);
+}
+
+TEST_F(Mesh, OriginReadsTheLinesThatAssimpReads) {
+    ReadOptions options;
+    options.origin = Vec3d(10.0, 0.0, 0.0);
+    const std::string faces = "f 1 2 3\n";
+    const std::string carriage_returns = "v 11 0 2\rv 15 0 2\rv 11 1 2\rf 1 2 3\r";
+    const std::string trailing = "v 11 0 2 1 0.5 0 # red\nv\t15\t0\t2\r\nv  +1.1e1  1 2 \t\n" + faces;
+    for (const std::string& text : {carriage_returns, trailing}) {
+        SCOPED_TRACE(text);
+        const auto scene = load(write("a.obj", text), options);
+        ASSERT_TRUE(scene.has_value()) << scene.error().message;
+        EXPECT_THAT(scene->vertices, UnorderedElementsAre(Vec3d(1, 0, 2), Vec3d(5, 0, 2), Vec3d(1, 1, 2)));
+    }
+    const std::string decimal_commas = "v 11,0 0,0 2,0\nv 15,0 0,0 2,0\nv 11,0 1,0 2,0\n" + faces;
+    EXPECT_THAT(refusal(write("b.obj", decimal_commas), options), HasSubstr("line 1: '11,0'"));
+    EXPECT_THAT(refusal(write("c.obj", "v 11 0 2\n v 15 0 2\nv 15 0 2\nv 11 1 2\n v\nf 1 2 4\n"), options),
+                HasSubstr("out of range"))
+        << "for Assimp an indented line is no position";
+}
+
+// Corners of ply, with a face of five.
+std::string five_cornered(const std::string& last_index) {
+    return "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n"
+           "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+           "0 0 0\n2 0 0\n2 1 0\n1 2 0\n0 1 0\n5 0 1 2 3 " +
+           last_index + "\n";
+}
+
+TEST_F(Mesh, PlyIndicesThatDoNotExistAreRefused) {
+    EXPECT_EQ(load(write("a.ply", five_cornered("4"))).value().triangles.size(), 3U);
+    for (const std::string index : {"99999999", "5", "-5", "1e300", "nan"})
+        EXPECT_THAT(refusal(write("b.ply", five_cornered(index))),
+                    HasSubstr("face 0: expected indices of 5 vertices"))
+            << index;
+}
+
+TEST_F(Mesh, EveryTruncatedPlyIsRefused) {
+    for (const std::string format : {"ascii", "binary_little_endian", "binary_big_endian"}) {
+        const std::string whole = utm_ply(format, "double");
+        const std::size_t least = format == "ascii" ? 3 : 1;  // without the last index
+        for (std::size_t size = 4; size + least <= whole.size(); size += size < 200 ? 7 : 1)
+            EXPECT_NE(refusal(write("cut.ply", whole.substr(0, size))), "nothing refused") << format << size;
+    }
+}
+
+TEST_F(Mesh, PlyElementsMayStandInAnyNumberAndOrder) {
+    const std::string corners = "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
+    const std::string faces = "property list uchar int vertex_indices\n";
+    const std::string head = "ply\nformat ascii 1.0\n";
+    const std::string rows = "0 0 2\n\n4 0 2\n0 1 2\n";
+    const std::vector<std::string> same = {
+        head + "element camera 1\nproperty list uchar int q\n" + corners + "element face 1\n" + faces +
+            "end_header\n2 7 7\n" + rows + "3 0 1 2\n",
+        head + corners + "element camera 1\nproperty int q\nelement face 1\nproperty int flags\n" + faces +
+            "end_header\n" + rows + "7\n1 3 0 1 2\n",
+        head + corners + "element face 1\n" + faces + "element face 2\n" + faces + "end_header\n" + rows +
+            "3 0 1 2\n3 0 1 2\n3 0 2 1\n",
+        head + corners + "element tristrips 1\n" + faces + "end_header\n" + rows + "7 0 1 2 -1 2 1 0\n"};
+    const Scene expected = load(write("a.ply", ply)).value();
+    for (const std::string& text : same) {
+        SCOPED_TRACE(text);
+        const auto scene = load(write("b.ply", text));
+        ASSERT_TRUE(scene.has_value()) << scene.error().message;
+        EXPECT_EQ(scene->vertices, expected.vertices);
+        EXPECT_EQ(scene->triangles.size(), 1U);
+    }
 }
 
 }  // namespace
