@@ -25,6 +25,13 @@ Result<void> check_output(const std::string& file) {
     return {};
 }
 
+// Devices may be named twice.
+bool is_same_file(const std::string& a, const std::string& b) {
+    if (a.empty() || b.empty() || a == "-" || b == "-") return false;
+    if (fs::exists(a) && !fs::is_regular_file(a)) return false;
+    return fs::weakly_canonical(a) == fs::weakly_canonical(b);
+}
+
 }  // namespace
 
 int report(const Error& error) {
@@ -41,8 +48,11 @@ int exit_code_of(const Result<void>& done) {
 }
 
 Result<void> check_outputs(std::initializer_list<std::string> files) {
-    for (const std::string& file : files)
-        if (auto writable = check_output(file); !writable) return writable;
+    for (const std::string* file = files.begin(); file != files.end(); ++file) {
+        if (auto writable = check_output(*file); !writable) return writable;
+        if (std::any_of(files.begin(), file, [&](const auto& other) { return is_same_file(other, *file); }))
+            return fail(*file + ": is named for two outputs; expected a file for each");
+    }
     return {};
 }
 

@@ -49,7 +49,8 @@ class ExitWhenInterrupted {
 // exit_done, or reports the error.
 [[nodiscard]] int exit_code_of(const Result<void>& done);
 
-// Whether each file can be created in its folder; an empty name and "-" always can. For use before long work.
+// Whether each file can be created in its folder and is named once; an empty name and "-" always can. For use
+// before long work.
 [[nodiscard]] Result<void> check_outputs(std::initializer_list<std::string> files);
 
 // Options and the files that they name. Throws CLI::ValidationError when more than one file is "-".

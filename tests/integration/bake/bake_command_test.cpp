@@ -69,11 +69,11 @@ TEST_F(BakeCommand, RefusesWhatNeedsMoreMemoryThanItMayHaveAndNamesTheD0ThatWoul
     ASSERT_TRUE(
         write_file(map, std::string("v 0 0 0\nv 200 0 0\nv 200 200 0\nv 0 200 0\nf 1 2 3\nf 1 3 4\n")));
     ChildProcess process(
-        command({map, "-o", output_, "--d0", "4", "--sampling", "uniform", "--memory", "512"}));
+        command({map, "-o", output_, "--d0", "4", "--sampling", "uniform", "--memory", "2048"}));
     EXPECT_EQ(process.wait(), 1);
     EXPECT_THAT(process.errors(),
                 testing::AllOf(HasSubstr("This bake is expected to take about "),
-                               HasSubstr("the limit is 0.5 GB; d0 = "), HasSubstr("(--memory)")));
+                               HasSubstr("the limit is 2.1 GB; d0 = "), HasSubstr("(--memory)")));
     EXPECT_FALSE(fs::exists(output_));
 }
 
@@ -88,6 +88,16 @@ TEST_F(BakeCommand, RefusesToWriteOverItsMap) {
         EXPECT_THAT(process.errors(), HasSubstr(output + ": is the map"));
     }
     EXPECT_EQ(fs::file_size(map), content.size());
+}
+
+TEST_F(BakeCommand, RefusesOneFileForTwoOutputs) {
+    const std::string map = (folder_ / "room.obj").string();
+    ASSERT_TRUE(write_file(map, std::string("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")));
+    const std::string same = (folder_ / "." / fs::path(output_).filename()).string();
+    ChildProcess process(command({map, "-o", output_, "--report", same}));
+    EXPECT_EQ(process.wait(), 1);
+    EXPECT_THAT(process.errors(), HasSubstr(same + ": is named for two outputs"));
+    EXPECT_FALSE(fs::exists(output_));
 }
 
 TEST_F(BakeCommand, RefusesAFolderThatIsNotThereBeforeItWorks) {
