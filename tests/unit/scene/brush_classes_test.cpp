@@ -51,7 +51,8 @@ TEST(BrushClasses, DistinguishesWholeNamesAndPrefixes) {
     EXPECT_EQ(brush_use(BspFamily::quake, "func_wall2"), BrushUse::unknown);
     EXPECT_EQ(brush_use(BspFamily::quake, "func_"), BrushUse::unknown);
     EXPECT_EQ(brush_use(BspFamily::quake, ""), BrushUse::unknown);
-    EXPECT_EQ(brush_use(BspFamily::quake3, "func_wall"), BrushUse::unknown);
+    EXPECT_EQ(brush_use(BspFamily::quake3, "func_wall"), BrushUse::obstacle);
+    EXPECT_EQ(brush_use(BspFamily::quake3, "func_platrot"), BrushUse::unknown);
 }
 
 }  // namespace
