@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <ostream>
 #include <random>
 
 #include "bake/bake.hpp"
@@ -25,6 +26,10 @@ struct Expected {
     double loss;
     double tightness;  // of reported distances, at least
     double missed;     // share of the clear sights, at most
+
+    friend std::ostream& operator<<(std::ostream& out, const Expected& expected) {
+        return out << "loss " << expected.loss;
+    }
 };
 
 class RealMap : public testing::TestWithParam<Expected> {
