@@ -34,9 +34,12 @@ double coarser_d0(const SampleEstimate& estimate, double d0, double unit, double
     return 0.0;
 }
 
-std::string gigabytes(std::uint64_t bytes) {
+std::string size_text(std::uint64_t bytes) {
     std::ostringstream text;
-    text << std::fixed << std::setprecision(1) << static_cast<double>(bytes) / 1e9 << " GB";
+    if (bytes < 1'000'000'000U)
+        text << bytes / 1'000'000U << " MB";
+    else
+        text << std::fixed << std::setprecision(1) << static_cast<double>(bytes) / 1e9 << " GB";
     return text.str();
 }
 
@@ -59,14 +62,14 @@ Result<void> check_memory(const Forecast& forecast, const SampleEstimate& estima
     const double fitting = coarser_d0(estimate, d0, unit, max_samples);
     std::ostringstream text;
     text << source << ": a bake with d0 = " << d0 / unit << " is expected to take "
-         << gigabytes(forecast.memory) << " of memory for " << std::llround(forecast.samples)
-         << " samples, and the limit is " << gigabytes(memory) << "; ";
+         << size_text(forecast.memory) << " of memory for " << std::llround(forecast.samples)
+         << " samples, and the limit is " << size_text(memory) << "; ";
     if (fitting > 0.0)
-        text << "d0 = " << fitting << " would take " << gigabytes(memory_of(estimate.samples(fitting * unit)))
+        text << "d0 = " << fitting << " would take " << size_text(memory_of(estimate.samples(fitting * unit)))
              << ", or";
     else
         text << "no d0 up to " << max_d0 << " would fit:";
-    text << " raise the limit (--memory)";
+    text << " allow the bake more memory (bake --memory)";
     return fail(text.str());
 }
 

@@ -26,9 +26,9 @@ std::string activity_of(const BakeProgress& progress, double seconds) {
 
 Result<void> check_map(const config::Map& map) {
     if (map.source.empty()) {
-        const auto opened = freespace::Freespace::open(map.file);
-        if (!opened) return tl::unexpected(opened.error());
-        return {};
+        const auto opened = guarded(map.file, [&] { return freespace::Freespace::open(map.file); });
+        if (opened) return {};
+        return fail(opened.error().message + "; expected a baked map, or a source to bake it from");
     }
     const auto options = read_options_of(map);
     if (!options) return tl::unexpected(options.error());

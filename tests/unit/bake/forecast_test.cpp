@@ -89,15 +89,16 @@ TEST(Forecast, RefusalNamesAD0ThatFitsIntoTheMemory) {
     EXPECT_THAT(
         refused.error().message,
         testing::AllOf(testing::StartsWith("made.map: a bake with d0 = 16 is expected to take 11.5 GB"),
-                       testing::HasSubstr("the limit is 1.0 GB; d0 = 60 would take 0.8 GB")));
+                       testing::HasSubstr("the limit is 1.0 GB; d0 = 60 would take 841 MB")));
     EXPECT_TRUE(check_memory(forecast(large, 60.0, 1.0, 64), large, 60.0, 1.0, 1'000'000'000, "made.map"));
     // Also when the bake is quick.
     const SampleEstimate small(1e5, 16.0);
     const Forecast quick = forecast(small, 16.0, 1.0, 64);
     EXPECT_THAT(check_memory(quick, small, 16.0, 1.0, 100'000'000, "made.map").error().message,
-                testing::HasSubstr("the limit is 0.1 GB; d0 = 20 would take 0.1 GB"));
-    EXPECT_THAT(check_memory(quick, small, 16.0, 1.0, 1'000'000, "made.map").error().message,
-                testing::HasSubstr("the limit is 0.0 GB; no d0 up to 256 would fit: raise the limit"));
+                testing::HasSubstr("the limit is 100 MB; d0 = 20 would take 97 MB"));
+    EXPECT_THAT(
+        check_memory(quick, small, 16.0, 1.0, 1'000'000, "made.map").error().message,
+        testing::HasSubstr("the limit is 1 MB; no d0 up to 256 would fit: allow the bake more memory"));
 }
 
 TEST(Forecast, ABakeThatNeedsMoreMemoryThanItMayHaveIsRefused) {
