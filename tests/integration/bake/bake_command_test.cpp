@@ -73,7 +73,7 @@ TEST_F(BakeCommand, RefusesWhatNeedsMoreMemoryThanItMayHaveAndNamesTheD0ThatWoul
     EXPECT_EQ(process.wait(), 1);
     EXPECT_THAT(process.errors(),
                 testing::AllOf(HasSubstr("This bake is expected to take about "),
-                               HasSubstr("the limit is 2.1 GB; d0 = "), HasSubstr("(--memory)")));
+                               HasSubstr("the limit is 2.1 GB; d0 = "), HasSubstr("(bake --memory)")));
     EXPECT_FALSE(fs::exists(output_));
 }
 
