@@ -11,7 +11,7 @@
 namespace camdir::bake {
 namespace {
 
-// Fitted to the default bakes of 63 maps (tests/bench/all-maps.md).
+// Typical of the default bakes in tests/bench/all-maps.md, on 2 cores; single maps take up to twice as much.
 constexpr double serial_seconds = 16e-6;    // a sample
 constexpr double parallel_seconds = 44e-6;  // a sample, shared out over the threads
 constexpr double fixed_bytes = 24e6;
