@@ -8,9 +8,9 @@
 
 #include "scene/cloud/las.hpp"
 #include "scene/cloud/pcd.hpp"
-#include "scene/cloud/ply.hpp"
-#include "scene/cloud/records.hpp"
 #include "scene/mesh/gltf_buffers.hpp"
+#include "scene/records/ply.hpp"
+#include "scene/records/records.hpp"
 
 namespace camdir::scene {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <string>
 
-#include "scene/cloud/records.hpp"
+#include "scene/records/records.hpp"
 
 namespace camdir::scene {
 namespace {

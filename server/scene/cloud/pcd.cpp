@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "scene/cloud/records.hpp"
+#include "scene/records/records.hpp"
 
 namespace camdir::scene {
 namespace {

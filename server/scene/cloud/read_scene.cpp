@@ -7,9 +7,9 @@
 #include "scene/cloud/las.hpp"
 #include "scene/cloud/neighbours.hpp"
 #include "scene/cloud/pcd.hpp"
-#include "scene/cloud/ply.hpp"
-#include "scene/cloud/records.hpp"
 #include "scene/coordinate_transform.hpp"
+#include "scene/records/ply.hpp"
+#include "scene/records/records.hpp"
 
 namespace camdir::scene {
 namespace {

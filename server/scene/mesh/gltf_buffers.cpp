@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "scene/cloud/records.hpp"
+#include "scene/records/records.hpp"
 
 namespace camdir::scene {
 namespace {

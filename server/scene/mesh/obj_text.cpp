@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
-#include "scene/cloud/ply.hpp"
-#include "scene/cloud/records.hpp"
+#include "scene/records/ply.hpp"
+#include "scene/records/records.hpp"
 
 namespace camdir::scene {
 namespace {

@@ -1,4 +1,4 @@
-#include "scene/cloud/records.hpp"
+#include "scene/records/records.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -1,11 +1,11 @@
-#include "scene/cloud/ply.hpp"
+#include "scene/records/ply.hpp"
 
 #include <algorithm>
 #include <map>
 #include <optional>
 #include <string>
 
-#include "scene/cloud/records.hpp"
+#include "scene/records/records.hpp"
 
 namespace camdir::scene {
 namespace {

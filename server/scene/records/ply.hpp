@@ -10,7 +10,7 @@
 
 #include "base/error.hpp"
 #include "base/geometry.hpp"
-#include "scene/cloud/records.hpp"
+#include "scene/records/records.hpp"
 
 namespace camdir::scene {
 

@@ -1,4 +1,4 @@
-// Positions in rows of numbers: what the point cloud formats share.
+// Text and binary records of numbers: what the formats of meshes and point clouds share.
 #pragma once
 
 #include <array>
