@@ -8,6 +8,7 @@
 #include "app/progress.hpp"
 #include "bake/bake.hpp"
 #include "base/file.hpp"
+#include "config/config.hpp"
 #include "config/json_text.hpp"
 #include "freespace/freespace.hpp"
 #include "maps/memory.hpp"
@@ -165,7 +166,7 @@ void add_read_options(CLI::App& command, scene::ReadOptions& options) {
         .add_option_function<double>(
             "--metres-per-unit", [&options](double value) { options.metres_per_unit = value; },
             "Length of a map unit; default: 0.0254 for a BSP, 1 for a mesh or a point cloud")
-        ->check(CLI::Range(1e-6, 1e6));
+        ->check(CLI::Range(config::min_metres_per_unit, config::max_metres_per_unit));
     command
         .add_option_function<std::string>(
             "--up", [&options](const std::string& axis) { options.up = scene::up_axis_named(axis); },

@@ -11,9 +11,6 @@
 namespace camdir::config {
 namespace {
 
-// As bake::min_d0.
-constexpr double min_d0 = 2.0;
-
 using nlohmann::json;
 namespace fs = std::filesystem;
 
@@ -118,8 +115,6 @@ void read_maps(const json& list, Config& config, ValidationErrors& errors) {
         const std::string pointer = "/maps/" + std::to_string(i);
         Map map;
         read_object("/maps/*", pointer, list[i], {nullptr, &map, nullptr}, errors);
-        if (map.d0 > 0.0 && map.d0 < min_d0)
-            errors.add(pointer + "/d0", map.d0, "a number from 2 to 256, or 0");
         if (!map.name.empty() && !names.insert(map.name).second)
             errors.add(pointer + "/name", map.name, "a name that no other map has");
         config.maps.push_back(std::move(map));

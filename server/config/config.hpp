@@ -33,6 +33,12 @@ struct Http {
     std::int64_t port = 9464;  // 0 = any free one, which the log names
 };
 
+// The ranges of these two keys of a map, besides 0 for their default, and of the options of `bake`.
+inline constexpr double min_d0 = 2.0;
+inline constexpr double max_d0 = 256.0;
+inline constexpr double min_metres_per_unit = 1e-6;
+inline constexpr double max_metres_per_unit = 1e6;
+
 struct Map {
     std::string name;    // as in MatchInfo.map_name
     std::string file;    // MAP.vfs

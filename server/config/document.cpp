@@ -17,8 +17,11 @@ ordered key_schema(const Key& key) {
     ordered schema = {{"description", described(key)}};
     if (type == "integer" || type == "number") {
         schema["type"] = type;
-        schema["minimum"] = key.minimum;
-        schema["maximum"] = key.maximum;
+        ordered range = {{"minimum", key.minimum}, {"maximum", key.maximum}};
+        if (key.zero_is_default)
+            schema["anyOf"] = {range, {{"const", 0}}};
+        else
+            schema.update(range);
     } else if (type == "string") {
         schema["type"] = "string";
         if (key.minimum > 0) schema["minLength"] = static_cast<std::int64_t>(key.minimum);
@@ -78,7 +81,7 @@ std::string range_cell(const Key& key) {
         return whole ? std::to_string(static_cast<std::int64_t>(value)) : end(value);
     };
     const std::string of = type == "string" ? " bytes" : type == "list of strings" ? " strings" : "";
-    return text(key.minimum) + " .. " + text(key.maximum) + of;
+    return (key.zero_is_default ? "0, " : "") + text(key.minimum) + " .. " + text(key.maximum) + of;
 }
 
 std::string row(const Key& key) {

@@ -121,23 +121,25 @@ void add_maps(std::vector<Key>& table) {
     table.push_back({section,
                      "d0",
                      in_map(&Map::d0),
-                     "Sampling distance of the bake, at least 2: openings narrower than about one and a half "
-                     "times this are closed. 0: 16, or the points' spacing for a point cloud.",
+                     "Sampling distance of the bake: openings narrower than about one and a half times this "
+                     "are closed. 0: 16, or the points' spacing for a point cloud.",
                      "0.0254 m",
-                     0,
-                     256,
+                     min_d0,
+                     max_d0,
                      {},
                      false,
+                     true,
                      true});
     table.push_back({section,
                      "metres_per_unit",
                      in_map(&Map::metres_per_unit),
                      "Length of a unit of the source; 0: 0.0254 for a BSP, 1 for a mesh or a point cloud.",
                      "m",
-                     0,
-                     1000000,
+                     min_metres_per_unit,
+                     max_metres_per_unit,
                      {},
                      false,
+                     true,
                      true});
     table.push_back({section,
                      "up",
@@ -330,7 +332,7 @@ void add_log(std::vector<Key>& table) {
 }
 
 bool in_range(const Key& key, double value) {
-    return value >= key.minimum && value <= key.maximum;
+    return (value >= key.minimum && value <= key.maximum) || (key.zero_is_default && value == 0.0);
 }
 
 bool holds_string(const Key& key, const json& value) {
@@ -367,7 +369,7 @@ std::string number(double value) {
 }
 
 std::string range(const Key& key) {
-    return number(key.minimum) + " to " + number(key.maximum);
+    return number(key.minimum) + " to " + number(key.maximum) + (key.zero_is_default ? ", or 0" : "");
 }
 
 }  // namespace

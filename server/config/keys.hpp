@@ -35,7 +35,8 @@ struct Key {
     double maximum = std::numeric_limits<double>::max();
     std::vector<std::string> choices = {};  // of a string; empty: any
     bool required = false;
-    bool reloads = false;  // takes effect on SIGHUP
+    bool reloads = false;          // takes effect on SIGHUP
+    bool zero_is_default = false;  // of a number: 0, below the minimum, is accepted and is the default
 };
 
 // In the order of the documentation, grouped by section.

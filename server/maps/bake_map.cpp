@@ -78,6 +78,8 @@ Result<Freshness> freshness_of(const config::Map& map) {
 
 }  // namespace
 
+static_assert(config::min_d0 == bake::min_d0 && config::max_d0 == bake::max_d0);
+
 bake::Parameters parameters_of(const config::Map& map) {
     bake::Parameters parameters;
     parameters.d0 = map.d0;

@@ -25,9 +25,13 @@ TEST(Schema, DescribesEveryKey) {
         ASSERT_TRUE(described.is_object()) << key.name;
         EXPECT_EQ(described.value("default", json()), key.required ? json() : default_of(key)) << key.name;
         const bool number = type_name(key) == "number" || type_name(key) == "integer";
-        EXPECT_EQ(described.contains("minimum"), number) << key.name;
-        EXPECT_EQ(described.value("minimum", key.minimum), key.minimum) << key.name;
-        EXPECT_EQ(described.value("maximum", key.maximum), key.maximum) << key.name;
+        const json& range = key.zero_is_default ? described["anyOf"][0] : described;
+        EXPECT_EQ(range.contains("minimum"), number) << key.name;
+        EXPECT_EQ(range.value("minimum", key.minimum), key.minimum) << key.name;
+        EXPECT_EQ(range.value("maximum", key.maximum), key.maximum) << key.name;
+        if (key.zero_is_default) {
+            EXPECT_EQ(described["anyOf"][1], json({{"const", 0}})) << key.name;
+        }
     }
 }
 

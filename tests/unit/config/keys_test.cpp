@@ -73,6 +73,17 @@ TEST(EveryKey, AcceptsItsBoundsAndNothingBeyond) {
     }
 }
 
+TEST(EveryKey, AcceptsZeroForItsDefaultButNothingBetweenItAndTheMinimum) {
+    for (const Key& key : keys()) {
+        if (!key.zero_is_default) continue;
+        ASSERT_GT(key.minimum, 0.0);
+        EXPECT_EQ(default_of(key), 0.0);
+        for (const double between : {1e-300, key.minimum / 2.0, std::nextafter(key.minimum, 0.0)})
+            expect_refused(key, between);
+        expect_refused(key, -key.minimum);
+    }
+}
+
 TEST(EveryKey, RefusesOtherTypes) {
     for (const Key& key : keys()) {
         const std::string type = type_name(key);
