@@ -28,9 +28,8 @@ void carry_discontinuities(const PoseFrame& from, PoseFrame& to) {
 
 void Inbox::put(Message message) {
     const bool event = std::holds_alternative<MatchEvent>(message);
-    const bool of_observer = std::holds_alternative<ObserverRequest>(message) ||
-                             std::holds_alternative<RequestEnded>(message) ||
-                             std::holds_alternative<ViewRequest>(message);
+    const bool of_observer =
+        std::holds_alternative<ObserverRequest>(message) || std::holds_alternative<ViewRequest>(message);
     const std::lock_guard lock(mutex_);
     if (event && events_ >= max_events) return counters_.add(Counter::drop_events);
     if (of_observer && observer_messages_ >= max_observer_messages_)

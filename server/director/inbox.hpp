@@ -35,13 +35,13 @@ struct ViewRequest {
 using Message = std::variant<MatchInfo, ServerLost, PosesMissing, MatchEnded, MatchRefused, MatchEvent,
                              ObserverRequest, RequestEnded, MapsChanged, Reconfigured, ViewRequest>;
 
-// Keeps messages in their order of arrival, and only the newest pose frame. Events and observers' messages
-// are bounded, and drops are counted; messages about the match itself are never dropped. Each match has its
-// own inbox. Thread-safe. Does not allocate once its buffers have grown.
+// Keeps messages in their order of arrival, and only the newest pose frame. Events and what observers ask for
+// are bounded, and drops are counted. Messages about the match itself are never dropped, and neither are the
+// ends of requests: observers who have left would keep their places. Each match has its own inbox.
+// Thread-safe. Does not allocate once its buffers have grown.
 class Inbox {
   public:
-    // `max_observer_messages` bounds requests, their ends and view requests together. At most 256 events
-    // wait.
+    // `max_observer_messages` bounds requests and view requests together. At most 256 events wait.
     Inbox(std::size_t max_observer_messages, MatchCounters& counters)
         : max_observer_messages_(max_observer_messages), counters_(counters) {}
 

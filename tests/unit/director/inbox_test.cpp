@@ -83,12 +83,23 @@ TEST_F(InboxTest, BothQueuesAreBounded) {
     for (int i = 0; i < 300; ++i)
         inbox_.put(MatchEvent{});
     for (int i = 0; i < 13; ++i)
-        inbox_.put(RequestEnded{"a"});
+        inbox_.put(ObserverRequest{});
     inbox_.put(MatchEnded{});
     inbox_.take(content_);
     ASSERT_EQ(content_.messages.size(), 256U + 10U + 1U);
     EXPECT_TRUE(std::holds_alternative<MatchEnded>(content_.messages.back())) << "however many came before";
     EXPECT_EQ(counted(Counter::drop_events), 44U);
+    EXPECT_EQ(counted(Counter::drop_messages), 3U);
+}
+
+TEST_F(InboxTest, TheEndOfARequestIsNeverDropped) {
+    for (int i = 0; i < 13; ++i)
+        inbox_.put(ObserverRequest{});
+    for (int i = 0; i < 1000; ++i)
+        inbox_.put(RequestEnded{std::to_string(i)});
+    inbox_.take(content_);
+    ASSERT_EQ(content_.messages.size(), 10U + 1000U);
+    EXPECT_EQ(std::get<RequestEnded>(content_.messages.back()).observer_id, "999");
     EXPECT_EQ(counted(Counter::drop_messages), 3U);
     inbox_.put(MatchEvent{});
     inbox_.take(content_);
