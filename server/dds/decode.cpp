@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <span>
 
 namespace camdir::dds {
 namespace {
 
 constexpr float unit_tolerance = 1e-3F;
+constexpr std::size_t max_map_name = 255;  // as in the configuration
 
 template <class Sequence>
 auto elements(const Sequence& sequence) {
@@ -54,6 +56,8 @@ std::optional<ValidationError> check(const camera_director_PoseFrame& sample) {
 
 std::optional<ValidationError> check(const camera_director_MatchInfo& sample) {
     if (!valid_match_id(sample.match_id)) return ValidationError::bad_match_id;
+    if (sample.map_name != nullptr && ::strnlen(sample.map_name, max_map_name + 1) > max_map_name)
+        return ValidationError::long_map_name;
     const std::size_t count = sample.player_id._length;
     if (count > director::max_players) return ValidationError::too_many;
     const auto fits = [count](std::size_t length) { return length == count || length == 0; };

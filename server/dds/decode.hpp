@@ -22,11 +22,13 @@ enum class ValidationError : std::size_t {
     out_of_range,     // a negative rate, delay or scale
     bad_match_id,     // empty, or not usable as the name of a partition
     wrong_partition,  // the sample names another match than its partition does
+    long_map_name,    // more than 255 bytes: no configured map has such a name
 };
 
 // Names in metrics and log, in the order of ValidationError.
-inline constexpr std::array<const char*, 7> validation_error_names = {
-    "array_length", "too_many", "not_finite", "not_unit", "out_of_range", "bad_match_id", "wrong_partition"};
+inline constexpr std::array<const char*, 8> validation_error_names = {
+    "array_length", "too_many",     "not_finite",      "not_unit",
+    "out_of_range", "bad_match_id", "wrong_partition", "long_map_name"};
 
 // Each function fills `message`, whose memory it reuses, or returns the first error found and leaves
 // `message` unspecified. Reads nothing beyond the sample's arrays.

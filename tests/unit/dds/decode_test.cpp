@@ -156,6 +156,18 @@ TEST(DecodeMatchInfo, RefusesInvalidNumbers) {
     EXPECT_EQ(decode(sample, message), ValidationError::too_many);
 }
 
+TEST(DecodeMatchInfo, RefusesALongMapName) {
+    director::MatchInfo message;
+    camera_director_MatchInfo sample = test::raw_match_info("m", 1);
+    std::string name(255, 'x');
+    sample.map_name = name.data();
+    EXPECT_EQ(decode(sample, message), std::nullopt);
+    EXPECT_EQ(message.map_name, name);
+    name += 'x';
+    sample.map_name = name.data();
+    EXPECT_EQ(decode(sample, message), ValidationError::long_map_name);
+}
+
 TEST(DecodeMatchInfo, RefusesIdsThatCannotNameAPartition) {
     for (const char* id : {"", "*", "cup?", "a/b", "tab\t"}) {
         director::MatchInfo message;
