@@ -40,6 +40,7 @@ std::string find_metadata_flaw(const Metadata& metadata, std::span<const SpawnPo
     const auto positive = [](float value) { return value > 0.0F && std::isfinite(value); };
     if (!positive(metadata.metres_per_unit)) return "metres_per_unit is not a positive number";
     if (!positive(metadata.d0)) return "d0 is not a positive number";
+    if (!within_limit(metadata.d0)) return "d0 is out of range";
     if (metadata.counts.size() >= count_limit) return "the report has too many counts";
     for (std::size_t i = 0; i < spawn_points.size(); ++i)
         if (!spawn_points[i].eye.allFinite() || !std::isfinite(spawn_points[i].yaw))
@@ -51,6 +52,15 @@ std::string find_mesh_flaw(std::span<const Vertex> vertices, std::span<const Tri
     std::string flaw = flaw_of_vertices(vertices);
     if (flaw.empty()) flaw = flaw_of_triangles(triangles, vertices.size());
     return flaw;
+}
+
+std::string find_bounds_flaw(const Box3f& bounds, std::span<const Vertex> vertices) {
+    for (int axis = 0; axis < 3; ++axis)
+        if (!within_limit(bounds.min()[axis]) || !within_limit(bounds.max()[axis]))
+            return "the bounds are not finite or out of range";
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+        if (!bounds.contains(vertices[i].position())) return at("vertex", i, "lies outside the bounds");
+    return {};
 }
 
 std::string find_hints_flaw(const HintGrid& hints, std::size_t triangle_count) {

@@ -17,6 +17,9 @@ inline constexpr std::uint32_t count_limit = 10'000;
 [[nodiscard]] std::string find_mesh_flaw(std::span<const Vertex> vertices,
                                          std::span<const Triangle> triangles);
 
+// Of the box that a file states around its vertices.
+[[nodiscard]] std::string find_bounds_flaw(const Box3f& bounds, std::span<const Vertex> vertices);
+
 // Of the hints for a mesh of so many triangles.
 [[nodiscard]] std::string find_hints_flaw(const HintGrid& hints, std::size_t triangle_count);
 

@@ -225,9 +225,8 @@ Result<Freespace> Freespace::read(std::shared_ptr<Storage> storage, const std::s
     const auto triangles = view<Triangle>(root.triangles());
     const HintGrid hints = view_hints(root);
     std::string flaw = find_metadata_flaw(storage->metadata, storage->spawn_points);
-    if (flaw.empty() && !(storage->bounds.min().allFinite() && storage->bounds.max().allFinite()))
-        flaw = "the bounds are not finite";
     if (flaw.empty()) flaw = find_mesh_flaw(vertices, triangles);
+    if (flaw.empty()) flaw = find_bounds_flaw(storage->bounds, vertices);
     if (flaw.empty()) flaw = find_hints_flaw(hints, triangles.size());
     if (!flaw.empty()) return fail(name + ": is damaged: " + flaw);
     storage->incidence = build_incidence(vertices.size(), triangles);

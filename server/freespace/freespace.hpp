@@ -61,8 +61,8 @@ struct Metadata {
     std::string source_name;        // what the map was baked from, as it was given to the bake
     std::uint64_t source_hash = 0;  // xxh3-64 of the source map's bytes
     float metres_per_unit = 1.0F;   // > 0
-    float d0 = 0.0F;                // > 0: sampling distance that was used, map units
-    std::string parameters;         // the bake's parameters as a JSON object; not parsed here
+    float d0 = 0.0F;         // > 0, at most coordinate_limit: sampling distance that was used, map units
+    std::string parameters;  // the bake's parameters as a JSON object; not parsed here
     // The bake's report, without its seconds: equal input gives equal bytes. Fewer than 10,000.
     std::vector<Count> counts;
 };

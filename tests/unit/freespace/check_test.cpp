@@ -39,6 +39,21 @@ class CheckTest : public testing::Test {
     Mesh mesh;
 };
 
+TEST_F(CheckTest, Bounds) {
+    const std::vector<Vertex> vertices{{0.0F, 0.0F, 0.0F, 1.0F}, {2.0F, 1.0F, -1.0F, 1.0F}};
+    const Box3f bounds(Vec3f(0.0F, 0.0F, -1.0F), Vec3f(2.0F, 1.0F, 0.0F));
+    EXPECT_EQ(find_bounds_flaw(bounds, vertices), "");
+    EXPECT_EQ(find_bounds_flaw({bounds.min(), Vec3f(1.0F, 1.0F, 0.0F)}, vertices),
+              "vertex 1 lies outside the bounds");
+    EXPECT_EQ(find_bounds_flaw({bounds.max(), bounds.min()}, vertices), "vertex 0 lies outside the bounds");
+    for (const float bad : {NAN, INFINITY, 3e38F}) {
+        EXPECT_EQ(find_bounds_flaw({bounds.min(), Vec3f::Constant(bad)}, vertices),
+                  "the bounds are not finite or out of range");
+        EXPECT_EQ(find_bounds_flaw({Vec3f::Constant(-bad), bounds.max()}, {}),
+                  "the bounds are not finite or out of range");
+    }
+}
+
 TEST_F(CheckTest, Metadata) {
     const Contents good = test::empty_contents();
     EXPECT_EQ(find_metadata_flaw(good.metadata, good.spawn_points), "");
@@ -50,6 +65,11 @@ TEST_F(CheckTest, Metadata) {
         broken.d0 = bad;
         EXPECT_EQ(find_metadata_flaw(broken, {}), "d0 is not a positive number");
     }
+    Metadata coarse = good.metadata;
+    coarse.d0 = coordinate_limit;
+    EXPECT_EQ(find_metadata_flaw(coarse, {}), "");
+    coarse.d0 = std::nextafter(coordinate_limit, INFINITY);
+    EXPECT_EQ(find_metadata_flaw(coarse, {}), "d0 is out of range");
     Metadata long_report = good.metadata;
     long_report.counts.resize(count_limit);
     EXPECT_EQ(find_metadata_flaw(long_report, {}), "the report has too many counts");
