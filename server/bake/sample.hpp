@@ -22,9 +22,6 @@ inline constexpr std::uint64_t max_samples = 20'000'000;
 // whose unit is wrong. `finest` is the requested distance, for the message.
 [[nodiscard]] Result<void> check_sample_count(const scene::Scene& scene, double coarsest, double finest);
 
-// Largest distance from a point of the triangle to the nearest of its corners.
-[[nodiscard]] double covering_radius(const Triangle3d& triangle);
-
 // Points on the scene's triangles that satisfy the sampling condition of `distance` (sampling_distance.hpp)
 // wherever the obstacles bound free space, also after every sample was moved, or replaced by another one, by
 // less than `slack`. Surfaces buried in `solids` need no samples: free points are nearer to other surfaces.

@@ -16,11 +16,17 @@ int longest_edge(const Triangle3d& t) {
     return longest;
 }
 
+double longest_edge_length2(const Triangle3d& t) {
+    const int from = longest_edge(t);
+    return (t[(from + 1) % 3] - t[from]).squaredNorm();
+}
+
 std::array<Triangle3d, 2> halves(const Triangle3d& t) {
     const int from = longest_edge(t);
     const Vec3d& a = t[from];
     const Vec3d& b = t[(from + 1) % 3];
     const Vec3d& c = t[(from + 2) % 3];
+    // The sum commutes exactly, so both triangles of a shared edge get the same point.
     const Vec3d middle = 0.5 * (a + b);
     return {{{a, middle, c}, {middle, b, c}}};
 }

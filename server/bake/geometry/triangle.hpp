@@ -23,6 +23,9 @@ using Triangle3d = std::array<Vec3d, 3>;
 // The corner from which the longest edge leads to the next corner; of equal ones the first.
 [[nodiscard]] int longest_edge(const Triangle3d& triangle);
 
+// The square of its length.
+[[nodiscard]] double longest_edge_length2(const Triangle3d& triangle);
+
 // Cut through the middle of the longest edge, with the triangle's orientation.
 [[nodiscard]] std::array<Triangle3d, 2> halves(const Triangle3d& triangle);
 

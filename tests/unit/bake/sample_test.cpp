@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <random>
 
+#include "bake/bisection.hpp"
 #include "bake/thin.hpp"
 #include "support/bake_twins.hpp"
 #include "support/solid_scenes.hpp"

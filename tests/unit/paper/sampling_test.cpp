@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bake/sample.hpp"
+#include "bake/bisection.hpp"
 
 namespace camdir::paper {
 namespace {
