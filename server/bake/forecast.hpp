@@ -11,8 +11,8 @@ namespace camdir::bake {
 
 class SampleEstimate;
 
-// The cost of a bake with the sampling distance `d0` (map units) and so many threads: a rough figure, which
-// is no better than the estimate of the samples. `unit` is the length of a nominal unit.
+// The cost of a bake with the sampling distance `d0` (map units) and so many threads: a rough figure.
+// `unit` is the length of a nominal unit.
 [[nodiscard]] Forecast forecast(const SampleEstimate& estimate, double d0, double unit, unsigned threads);
 
 // Fails when that is more than `memory` bytes; the error names a larger d0 that would fit, if there is one.

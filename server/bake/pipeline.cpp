@@ -92,7 +92,7 @@ Result<void> Pipeline::sample(Stage& stage) {
 Result<void> Pipeline::thin(Stage& stage) {
     auto done = keep(bake::thin(std::move(samples_), thinning_distance(), stage), samples_);
     if (!done) return done;
-    // Until now their number was an estimate, which can be half of it.
+    // Until now their number was an estimate.
     return check_memory(SampleEstimate(static_cast<double>(samples_.size()), d0_));
 }
 
