@@ -35,8 +35,8 @@ TEST(Forecast, KnowsTheNumberOfSamplesOfARoom) {
             parameters.loss = 0.0;
             parameters.sampling = sampling;
             const double ratio = forecast_ratio(room.scene(), parameters);
-            EXPECT_GT(ratio, 0.5) << "d0 " << d0 << ", " << name_of(sampling);
-            EXPECT_LT(ratio, 2.0) << "d0 " << d0 << ", " << name_of(sampling);
+            EXPECT_GT(ratio, 0.8) << "d0 " << d0 << ", " << name_of(sampling);
+            EXPECT_LT(ratio, 1.25) << "d0 " << d0 << ", " << name_of(sampling);
         }
 }
 
@@ -49,8 +49,8 @@ TEST(Forecast, KnowsTheNumberOfSamplesOfARealMap) {
         parameters.d0 = d0;
         parameters.loss = 0.0;
         const double ratio = forecast_ratio(scene, parameters);
-        EXPECT_GT(ratio, 0.67) << "d0 " << d0;
-        EXPECT_LT(ratio, 1.5) << "d0 " << d0;
+        EXPECT_GT(ratio, 0.9) << "d0 " << d0;
+        EXPECT_LT(ratio, 1.1) << "d0 " << d0;
     }
 }
 
