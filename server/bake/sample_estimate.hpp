@@ -24,9 +24,9 @@ class SampleEstimate {
                    double slack);
 
     // With a sampling distance of at least `d0` (map units), which should be no smaller than that measured.
-    // Without those of the shell. On 17 maps 0.98 to 1.03 times what sampling and welding leave; 1.14 and
-    // 1.17 times on two maps of open terrain, where welding merges most. For a larger d0 rather too many:
-    // where the free space is wide, the sampling distance was measured only up to its limit.
+    // Without those of the shell. On 17 maps 0.98 to 1.03 times what sampling and welding leave;
+    // 1.13 to 1.17 times on three maps of open terrain, where welding merges most. For a larger d0 rather too
+    // many: where the free space is wide, the sampling distance was measured only up to its limit.
     [[nodiscard]] double samples(double d0) const;
 
   private:
