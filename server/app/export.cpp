@@ -1,11 +1,13 @@
 // camera-director export: the medial mesh with its free distances, for mesh viewers.
 #include <memory>
+#include <utility>
 
 #include "app/commands.hpp"
 #include "base/file.hpp"
 #include "export/glb.hpp"
 #include "export/ply.hpp"
 #include "freespace/freespace.hpp"
+#include "service/signals.hpp"
 
 namespace camdir::app {
 namespace {
@@ -19,16 +21,31 @@ void check_usage(const ExportOptions& options) {
     check_one_standard_output({{"--ply", options.ply}, {"--glb", options.glb}});
 }
 
-Result<void> export_mesh(const ExportOptions& options) {
-    if (auto writable = check_outputs({options.ply, options.glb}); !writable) return writable;
+struct Files {
+    Bytes ply, glb;  // empty where not wanted
+};
+
+Result<Files> make_files(const ExportOptions& options, const service::Interruption& interruption) {
+    const ExitWhenInterrupted exits(interruption);
     const auto freespace = freespace::Freespace::open(options.file);
     if (!freespace) return tl::unexpected(freespace.error());
-    Result<void> written;
-    if (!options.ply.empty()) written = write_file(options.ply, exports::to_ply(*freespace));
-    if (!written || options.glb.empty()) return written;
-    const auto glb = exports::to_glb(*freespace);
+    Files files;
+    if (!options.ply.empty()) files.ply = exports::to_ply(*freespace);
+    if (options.glb.empty()) return files;
+    auto glb = exports::to_glb(*freespace);
     if (!glb) return fail(options.glb + ": " + glb.error().message);
-    return write_file(options.glb, *glb);
+    files.glb = std::move(*glb);
+    return files;
+}
+
+Result<void> export_mesh(const ExportOptions& options) {
+    const service::Interruption interruption;
+    if (auto writable = check_outputs({options.ply, options.glb}); !writable) return writable;
+    const auto files = make_files(options, interruption);
+    if (!files) return tl::unexpected(files.error());
+    if (!options.ply.empty())
+        if (auto written = write_file(options.ply, files->ply); !written) return written;
+    return options.glb.empty() ? Result<void>{} : write_file(options.glb, files->glb);
 }
 
 }  // namespace

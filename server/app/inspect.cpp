@@ -10,6 +10,7 @@
 #include "base/file.hpp"
 #include "config/json_text.hpp"
 #include "freespace/freespace.hpp"
+#include "service/signals.hpp"
 
 namespace camdir::app {
 namespace {
@@ -106,8 +107,14 @@ ordered_json to_json(const Freespace& freespace) {
             {"counts", counts}};
 }
 
+Result<Freespace> open_interruptibly(const std::string& file, const service::Interruption& interruption) {
+    const ExitWhenInterrupted exits(interruption);
+    return Freespace::open(file);
+}
+
 int inspect(const std::string& file, const std::string& json) {
-    const auto freespace = Freespace::open(file);
+    const service::Interruption interruption;
+    const auto freespace = open_interruptibly(file, interruption);
     if (!freespace) return report(freespace.error());
     print_table(*freespace);
     if (json.empty()) return exit_done;

@@ -93,7 +93,7 @@ TEST(Service, SighupReloads) {
     folder.write("config.json", R"({"maps": [{"name": "other", "file": "other.vfs", "d0": 1}]})");
     served.signal(SIGHUP);
     ASSERT_TRUE(served.logged("not reloaded")) << served.log();
-    EXPECT_THAT(served.log(), HasSubstr("/maps/0/d0: 1.0: expected a number from 2 to 256, or 0"));
+    EXPECT_THAT(served.log(), HasSubstr("/maps/0/d0: 1: expected a number from 2 to 256, or 0"));
     EXPECT_EQ(served.status()["maps"][0]["name"], "square");
 
     json config = with_square();

@@ -45,7 +45,8 @@ TEST(Situations, WithAWallBehindTheCutLandsOnTheBestFreeSpot) {
     const Camera camera = shot.step(pose);
     EXPECT_TRUE(has(camera, target_visible));
     EXPECT_GE(camera.clearance, 4.5F);
-    EXPECT_GT((camera.position - pose.eye).norm(), 60.0F) << "beside the player rather than right behind the head";
+    EXPECT_GT((camera.position - pose.eye).norm(), 60.0F)
+        << "beside the player rather than right behind the head";
 }
 
 TEST(Situations, RespawnAndTeleportCutAtOnce) {
