@@ -150,6 +150,7 @@ void GameMatch::publish(const cdir_match_event& event) {
     sample.actor = event.actor;
     sample.subject = event.subject;
     sample.value = event.value;
+    copy_string(sample.detail, event.detail);
     check_written("MatchEvent", dds_write(event_writer_.get(), &sample));
 }
 

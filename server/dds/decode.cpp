@@ -129,7 +129,8 @@ std::optional<ValidationError> decode(const camera_director_MatchEvent& sample,
                .kind = sample.kind,
                .actor = sample.actor,
                .subject = sample.subject,
-               .value = sample.value};
+               .value = sample.value,
+               .detail = sample.detail};
     return std::nullopt;
 }
 

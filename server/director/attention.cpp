@@ -31,7 +31,9 @@ Worth worth(const MatchEvent& event) {
             return {0.2, 0.1};  // damage
         case 6:
             return {0.5, 0.0};  // award
-        default:
+        case 7:
+            return {0.25, 0.0};  // item
+        default:                 // a round concerns nobody in particular
             return {0.0, 0.0};
     }
 }

@@ -56,6 +56,7 @@ struct MatchEvent {
     std::uint32_t actor = no_player;
     std::uint32_t subject = no_player;
     float value = 0.0F;
+    std::string detail = {};
 };
 
 struct ObserverRequest {

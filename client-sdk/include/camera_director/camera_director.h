@@ -226,13 +226,18 @@ static inline cdir_pose_frame cdir_pose_frame_default(void) {
  * its own. */
 CDIR_API cdir_status cdir_match_publish_poses(cdir_match match, const cdir_pose_frame* frame) CDIR_NOEXCEPT;
 
+/* What the fields of an event mean for each kind. Names are the game's own, such as "MOD_ROCKET" or
+ * "item_quad". What does not apply or is not known is CDIR_NO_PLAYER, 0 or "". A player who dies or is hurt
+ * through no other player is the subject alone, by their own doing also the actor. */
 enum {
-    CDIR_EVENT_KILL = 1,
-    CDIR_EVENT_FLAG_TAKEN = 2,
-    CDIR_EVENT_FLAG_CAPTURED = 3,
-    CDIR_EVENT_OBJECTIVE = 4,
-    CDIR_EVENT_DAMAGE = 5,
-    CDIR_EVENT_AWARD = 6
+    CDIR_EVENT_KILL = 1,          /* actor killed subject; value: points for actor; detail: means */
+    CDIR_EVENT_FLAG_TAKEN = 2,    /* by actor; value: team of the flag; detail: its name */
+    CDIR_EVENT_FLAG_CAPTURED = 3, /* by actor; value: points for actor's team; detail: the flag's name */
+    CDIR_EVENT_OBJECTIVE = 4,     /* reached by actor, lost by subject; value: points; detail: its name */
+    CDIR_EVENT_DAMAGE = 5,        /* actor hurt subject; value: hit points; detail: means */
+    CDIR_EVENT_AWARD = 6,         /* for actor, at subject's cost; value: points; detail: its name */
+    CDIR_EVENT_ITEM = 7,          /* picked up by actor; value: amount; detail: its name */
+    CDIR_EVENT_ROUND = 8          /* won by actor; value: number, from 1; detail: "begin" or "end" */
 };
 
 typedef struct cdir_match_event {
@@ -240,14 +245,15 @@ typedef struct cdir_match_event {
     uint32_t kind;      /* one of CDIR_EVENT_ */
     int64_t frame_time; /* when it happened */
     uint32_t actor;     /* player id or CDIR_NO_PLAYER */
-    uint32_t subject;   /* player id or CDIR_NO_PLAYER: who was killed or damaged */
-    float value;        /* points, damage and the like; finite */
+    uint32_t subject;   /* player id or CDIR_NO_PLAYER */
+    float value;        /* finite */
     uint32_t reserved;
+    char detail[32]; /* up to 31 bytes without control characters */
 } cdir_match_event;
 
 static inline cdir_match_event cdir_match_event_default(void) {
     cdir_match_event event = {
-        sizeof(cdir_match_event), CDIR_EVENT_KILL, 0, CDIR_NO_PLAYER, CDIR_NO_PLAYER, 0.0f, 0u};
+        sizeof(cdir_match_event), CDIR_EVENT_KILL, 0, CDIR_NO_PLAYER, CDIR_NO_PLAYER, 0.0f, 0u, {0}};
     return event;
 }
 

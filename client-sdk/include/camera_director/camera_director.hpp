@@ -49,8 +49,9 @@ inline cdir_status check(cdir_status status) {
 template <std::size_t size>
 void copy_text(char (&to)[size], std::string_view from, const char* field) {
     if (from.size() >= size || from.find('\0') != std::string_view::npos) {
-        throw Error(CDIR_INVALID_ARGUMENT,
-                    (std::string(field) + " is too long or holds a zero byte").c_str());
+        throw Error(CDIR_INVALID_ARGUMENT, (std::string(field) + " must have at most " +
+                                            std::to_string(size - 1) + " bytes, none of them zero")
+                                               .c_str());
     }
     std::memcpy(to, from.data(), from.size());
     to[from.size()] = '\0';
@@ -147,6 +148,7 @@ struct MatchEvent {
     std::uint32_t actor = CDIR_NO_PLAYER;
     std::uint32_t subject = CDIR_NO_PLAYER;
     float value = 0.0F;
+    std::string detail = {};
 };
 
 namespace detail {
@@ -220,6 +222,7 @@ class Match {
         raw.actor = event.actor;
         raw.subject = event.subject;
         raw.value = event.value;
+        detail::copy_text(raw.detail, event.detail, "an event's detail");
         detail::check(cdir_match_publish_event(owner_.get(), &raw));
     }
 

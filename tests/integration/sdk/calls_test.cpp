@@ -225,6 +225,10 @@ TEST_F(Calls, WrongArgumentsAreRefusedAndNamed) {
     event_.reserved = 0;
     event_.kind = 0;
     EXPECT_EQ(cdir_match_publish_event(match_, &event_), CDIR_INVALID_ARGUMENT);
+    event_ = cdir_match_event_default();
+    std::memset(event_.detail, 'x', sizeof event_.detail);
+    EXPECT_EQ(cdir_match_publish_event(match_, &event_), CDIR_INVALID_ARGUMENT);
+    EXPECT_THAT(cdir_last_error(), HasSubstr("detail must have 0 to 31 bytes"));
     const std::string profile(32, 'x');
     request_ = cdir_shot_request_default();
     request_.profile = profile.c_str();

@@ -179,9 +179,14 @@ TEST_F(GameServer, EventsAllArriveInOrder) {
     }));
     while (director.take_event()) {
     }
+    const auto detail = [](std::uint32_t i) { return std::string(i % 32, 'x'); };
     for (std::uint32_t i = 0; i < 200; ++i) {
-        match.publish(cd::MatchEvent{
-            .kind = CDIR_EVENT_KILL, .frame_time = i, .actor = i, .subject = i + 1, .value = 0.5F});
+        match.publish(cd::MatchEvent{.kind = CDIR_EVENT_KILL,
+                                     .frame_time = i,
+                                     .actor = i,
+                                     .subject = i + 1,
+                                     .value = 0.5F,
+                                     .detail = detail(i)});
     }
     for (std::uint32_t i = 0; i < 200; ++i) {
         std::optional<camera_director_MatchEvent> event;
@@ -191,6 +196,20 @@ TEST_F(GameServer, EventsAllArriveInOrder) {
         EXPECT_EQ(event->actor, i);
         EXPECT_EQ(event->subject, i + 1);
         EXPECT_EQ(event->value, 0.5F);
+        EXPECT_EQ(event->detail, detail(i));
+    }
+}
+
+TEST_F(GameServer, ADetailThatIsTooLongIsRefused) {
+    cd::Match match(context_, info());
+    for (const std::string& wrong : {std::string(32, 'x'), std::string("a\0b", 3)}) {
+        try {
+            match.publish(cd::MatchEvent{.detail = wrong});
+            ADD_FAILURE() << "published";
+        } catch (const cd::Error& error) {
+            EXPECT_EQ(error.status(), CDIR_INVALID_ARGUMENT);
+            EXPECT_STREQ(error.what(), "an event's detail must have at most 31 bytes, none of them zero");
+        }
     }
 }
 

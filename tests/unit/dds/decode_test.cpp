@@ -176,16 +176,18 @@ TEST(DecodeMatchInfo, RefusesIdsThatCannotNameAPartition) {
     EXPECT_TRUE(valid_match_id("Große Halle [2] 'x' & <y>"));
 }
 
-TEST(DecodeMatchEvent, RefusesAValueThatIsNotFinite) {
+TEST(DecodeMatchEvent, KeepsTheFieldsAndRefusesAValueThatIsNotFinite) {
     camera_director_MatchEvent sample{};
     sample.kind = 1;
     sample.actor = 4;
     sample.subject = director::no_player;
     sample.value = 2.5F;
+    std::snprintf(sample.detail, sizeof sample.detail, "MOD_ROCKET");
     director::MatchEvent message;
     ASSERT_EQ(decode(sample, message), std::nullopt);
     EXPECT_EQ(message.actor, 4U);
     EXPECT_EQ(message.value, 2.5F);
+    EXPECT_EQ(message.detail, "MOD_ROCKET");
     sample.value = infinity;
     EXPECT_EQ(decode(sample, message), ValidationError::not_finite);
 }

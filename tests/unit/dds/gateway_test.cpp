@@ -33,7 +33,7 @@ class Recorder final : public director::Ingress {
         note("pose " + match_id + " " + std::to_string(frame.frame_number));
     }
     void receive(const std::string& match_id, const director::MatchEvent& event) override {
-        note("event " + match_id + " " + std::to_string(event.kind));
+        note("event " + match_id + " " + std::to_string(event.kind) + " " + event.detail);
     }
     void receive(const director::ObserverRequest& request) override {
         note("request " + request.observer_id + " " + std::to_string(request.target));
@@ -145,9 +145,10 @@ TEST_F(GatewayTest, HandsOnTheSamplesOfAMatch) {
     EXPECT_TRUE(arrives(raw, frame, "pose cup 5"));
     camera_director_MatchEvent event{};
     std::snprintf(event.match_id, sizeof event.match_id, "cup");
-    event.kind = 2;
+    event.kind = 7;
+    std::snprintf(event.detail, sizeof event.detail, "item_armor_body");
     raw.write(event);
-    EXPECT_TRUE(eventually([&] { return recorder_.has("event cup 2"); }));
+    EXPECT_TRUE(eventually([&] { return recorder_.has("event cup 7 item_armor_body"); }));
     raw.write(test::raw_request("cup", "anna", 3));
     EXPECT_TRUE(eventually([&] { return recorder_.has("request anna 3"); }));
     raw.write(test::raw_request("cup", "anna", 4));

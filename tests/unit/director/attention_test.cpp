@@ -39,6 +39,20 @@ TEST_F(AttentionTest, BeginsWithTheHighestScoreThenTheLowestId) {
     EXPECT_EQ(choose(0), 3U);
 }
 
+TEST_F(AttentionTest, AnItemCountsLessThanAKillAndARoundNothing) {
+    const auto record = [&](std::uint32_t kind, std::uint32_t actor) {
+        attention_.record({.epoch = 1, .kind = kind, .actor = actor}, rules_.automatic_half_life_s);
+    };
+    record(8, 2);
+    EXPECT_EQ(choose(0), 1U);
+    target_ = {};
+    record(7, 3);
+    EXPECT_EQ(choose(0), 3U);
+    target_ = {};
+    record(1, 2);
+    EXPECT_EQ(choose(0), 2U);
+}
+
 TEST_F(AttentionTest, KeepsATargetForTheHold) {
     EXPECT_EQ(choose(0), 1U);
     kill(2, 0);

@@ -127,5 +127,40 @@ TEST(Checks, PoseFrameIsFiniteAndItsOrientationsAreUnit) {
     EXPECT_NO_THROW(check(cdir_pose_frame_default())) << "a frame without players needs no arrays";
 }
 
+std::string refusal(const cdir_match_event& event) {
+    try {
+        check(event);
+        return "";
+    } catch (const Failure& failure) {
+        return failure.text;
+    }
+}
+
+TEST(Checks, KindsOfEventsAreThoseOfTheHeader) {
+    cdir_match_event event = cdir_match_event_default();
+    for (event.kind = CDIR_EVENT_KILL; event.kind <= CDIR_EVENT_ROUND; ++event.kind)
+        EXPECT_EQ(refusal(event), "");
+    EXPECT_NE(refusal(event), "");
+}
+
+TEST(Checks, DetailOfAnEventIsUtf8WithoutControlCharacters) {
+    const auto with = [](const std::string& detail) {
+        cdir_match_event event = cdir_match_event_default();
+        detail.copy(event.detail, sizeof event.detail);
+        return event;
+    };
+    for (const char* right : {"", "MOD_ROCKET", "\xc2\x80", "\xdf\xbf", "\xe0\xa0\x80", "\xed\x9f\xbf",
+                              "\xee\x80\x80", "\xef\xbf\xbf", "\xf0\x90\x80\x80", "\xf4\x8f\xbf\xbf"})
+        EXPECT_EQ(refusal(with(right)), "") << right;
+    EXPECT_EQ(refusal(with(std::string(31, 'x'))), "");
+    EXPECT_EQ(refusal(with(std::string(32, 'x'))),
+              "an event's detail must have 0 to 31 bytes before its zero byte");
+    for (const char* wrong : {"\x80", "a\xbf", "\xc0\x80", "\xc1\xbf", "\xc3", "\xc3(", "\xe0\x9f\xbf",
+                              "\xe2\x82", "\xed\xa0\x80", "\xf0\x8f\xbf\xbf", "\xf4\x90\x80\x80",
+                              "\xf8\x88\x80\x80\x80", "\xff", "a\nb", "a\x7f"})
+        EXPECT_EQ(refusal(with(wrong)), "an event's detail must be UTF-8 without control characters")
+            << wrong;
+}
+
 }  // namespace
 }  // namespace camdir::sdk
