@@ -22,3 +22,8 @@ map_packages=(openarena-081-maps)
 test_packages=(clang-format-14 openarena-088-data)
 # What test.sh --all needs in addition.
 lint_packages=(clang-14 clang-tidy-14 libclang-rt-14-dev)
+# What i386-packages.sh unpacks: the libraries of 32-bit game servers, and what to build against them.
+i386_packages=(
+    libc6 libc6-dev linux-libc-dev libgcc-s1 libgcc-12-dev libstdc++6 libstdc++-12-dev libeigen3-dev
+    cyclonedds-dev libddsc0debian libcycloneddsidl0 libssl3
+)

@@ -56,9 +56,9 @@ class HandleTable {
     };
 
     [[nodiscard]] std::size_t index_of(std::uint64_t id) const {
-        const std::uint64_t index = (id & 0xffffffffU) - 1;  // 0 wraps to an index that no slot has
+        const std::size_t index = static_cast<std::size_t>(id & 0xffffffffU) - 1;  // 0 wraps: no slot has it
         const bool current = index < slots_.size() && slots_[index].generation == id >> 32U;
-        return current ? static_cast<std::size_t>(index) : slots_.size();
+        return current ? index : slots_.size();
     }
 
     [[nodiscard]] static std::shared_ptr<T> release(Slot& slot) {

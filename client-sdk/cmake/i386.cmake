@@ -1,0 +1,13 @@
+# A toolchain for 32-bit x86 Linux on an amd64 machine: clang against a folder of Debian's i386 packages, which
+# deploy/i386-packages.sh makes. With -DCMAKE_SYSROOT=FOLDER.
+set(CMAKE_SYSTEM_NAME Linux)
+set(CMAKE_SYSTEM_PROCESSOR i686)
+set(CMAKE_C_COMPILER clang-14)
+set(CMAKE_CXX_COMPILER clang++-14)
+set(CMAKE_C_COMPILER_TARGET i686-linux-gnu)
+set(CMAKE_CXX_COMPILER_TARGET i686-linux-gnu)
+set(CMAKE_LIBRARY_ARCHITECTURE i386-linux-gnu)
+set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
+set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
+set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
+set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)

@@ -1,0 +1,150 @@
+#include "game.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+
+#include "exchange.h"
+#include "messages.h"
+#include "players.h"
+#include "settings.h"
+#include "worker.h"
+
+static const double settings_interval = 1.0; /* s of game time; server.cfg is read after a map has begun */
+
+static struct {
+    struct worker* worker; /* null until the plugin was enabled during a map */
+    struct exchange* exchange;
+    bool in_map;
+    struct entity_list entities;
+    struct match_state match;
+    bool match_sent;
+    double settings_read_at, previous_frame_at; /* s of game time, less than 0: not yet in this map */
+    struct server_frame frame;                  /* collects the events of the next frame */
+    uint64_t dropped_frames, dropped_events;
+} game;
+
+void game_begin_map(struct entity* entities, int count, int max_clients,
+                    int (*find_message)(const char* name)) {
+    game.in_map = true;
+    game.entities = (struct entity_list){entities, count, max_clients};
+    ++game.match.life;
+    snprintf(game.match.map, sizeof game.match.map, "%s", engine_map_name());
+    game.match_sent = false;
+    game.settings_read_at = -1.0;
+    game.previous_frame_at = -1.0;
+    game.frame.event_count = 0;
+    players_reset();
+    messages_reset(find_message);
+}
+
+static void read_settings(double now) {
+    if (game.settings_read_at >= 0.0 && now < game.settings_read_at + settings_interval) return;
+    game.settings_read_at = now;
+    const struct settings settings = settings_read();
+    if (memcmp(&settings, &game.match.settings, sizeof settings) == 0) return;
+    game.match.settings = settings;
+    game.match_sent = false;
+}
+
+static bool has_worker(void) {
+    if (game.worker != NULL) return true;
+    if (game.exchange == NULL) game.exchange = exchange_create();
+    if (game.exchange != NULL) game.worker = worker_start(game.exchange);
+    return game.worker != NULL;
+}
+
+static void send_match(void) {
+    struct player_identity players[max_players];
+    players_identify(&game.entities, players);
+    if (memcmp(players, game.match.players, sizeof players) != 0) {
+        memcpy(game.match.players, players, sizeof players);
+        game.match_sent = false;
+    }
+    if (!game.match_sent) game.match_sent = exchange_send_match(game.exchange, &game.match);
+}
+
+static int64_t realtime_ns(void) {
+    struct timespec now; /* the clock is read without a system call */
+    clock_gettime(CLOCK_REALTIME, &now);
+    return (int64_t)now.tv_sec * 1000000000 + now.tv_nsec;
+}
+
+void game_run_frame(void) {
+    if (!game.in_map) return;
+    const double now = engine_time();
+    read_settings(now);
+    if (!game.match.settings.enabled && game.worker == NULL) return;
+    if (!has_worker()) return;
+    send_match();
+    if (!game.match.settings.enabled || !game.match_sent) return;
+    players_damage(&game.entities, game_add_event);
+    /* A tenth of a frame early is still in time: the engine's clock is coarse after hours. */
+    const double interval = 0.9 / (double)game.match.settings.max_rate_hz;
+    if (game.previous_frame_at >= 0.0 && now < game.previous_frame_at + interval) return;
+    game.frame.frame_time = (int64_t)(now * 1e9);
+    game.frame.source_time = realtime_ns();
+    players_sample(&game.entities, now, &game.frame);
+    game.previous_frame_at = now;
+    if (exchange_send_frame(game.exchange, &game.frame)) {
+        game.frame.event_count = 0;
+    } else {
+        ++game.dropped_frames; /* its events go with the next frame */
+    }
+}
+
+void game_end_map(void) {
+    game.in_map = false;
+    game.entities = (struct entity_list){NULL, 0, 0};
+    if (game.exchange != NULL) exchange_send_end(game.exchange);
+}
+
+uint32_t game_player_id(const struct entity* entity) {
+    return players_id(&game.entities, entity);
+}
+
+void game_add_event(const struct game_event* event) {
+    if (!game.in_map || !game.match.settings.enabled) return;
+    if (game.frame.event_count == max_events) {
+        ++game.dropped_events;
+        return;
+    }
+    game.frame.events[game.frame.event_count++] = *event;
+}
+
+static void print_line(const char* name, const char* value) {
+    char line[256];
+    snprintf(line, sizeof line, "director %s: %s\n", name, value);
+    engine_print(line);
+}
+
+static void print_number(const char* name, uint64_t value) {
+    char text[24];
+    snprintf(text, sizeof text, "%" PRIu64, value);
+    print_line(name, text);
+}
+
+void game_print_status(void) {
+    struct worker_status status = {0};
+    if (game.worker != NULL) status = worker_read_status(game.worker);
+    print_line("match", game.match.settings.match);
+    print_line("map", game.in_map ? game.match.map : "none");
+    print_line("state", !game.match.settings.enabled ? "disabled"
+                        : status.error[0] != '\0'    ? status.error
+                        : status.open                ? "publishing"
+                                                     : "waiting for a map");
+    print_number("directors", status.directors);
+    print_number("frames published", status.published_frames);
+    print_number("frames dropped", game.dropped_frames);
+    print_number("events published", status.published_events);
+    print_number("events dropped", game.dropped_events + status.dropped_events);
+}
+
+void game_close(void) {
+    game.in_map = false;
+    if (game.worker != NULL) worker_stop(game.worker);
+    if (game.exchange != NULL) exchange_destroy(game.exchange);
+    game.worker = NULL;
+    game.exchange = NULL;
+}

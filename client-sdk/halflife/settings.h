@@ -1,0 +1,12 @@
+/* The plugin's cvars. On the game's thread. */
+#ifndef CAMERA_DIRECTOR_HALFLIFE_SETTINGS_H
+#define CAMERA_DIRECTOR_HALFLIFE_SETTINGS_H
+
+#include "frame.h"
+
+/* Registers the cvars with their defaults. Once, when the plugin is attached. */
+void settings_register(void);
+/* The present values, with those out of range replaced by their defaults. */
+struct settings settings_read(void);
+
+#endif

@@ -1,0 +1,26 @@
+/*
+ * The thread that talks to the directors through the client library: opens the match, begins an epoch with
+ * every map, publishes poses and events.
+ */
+#ifndef CAMERA_DIRECTOR_HALFLIFE_WORKER_H
+#define CAMERA_DIRECTOR_HALFLIFE_WORKER_H
+
+#include "exchange.h"
+
+struct worker;
+
+struct worker_status {
+    bool open; /* a match is announced */
+    uint32_t directors;
+    uint64_t published_frames, published_events, dropped_events;
+    char error[192]; /* why nothing is published; "" = all is well */
+};
+
+/* `exchange` must outlive the worker. Null when there is no memory or no thread. */
+struct worker* worker_start(struct exchange* exchange);
+/* Ends the match and the thread. Takes some milliseconds. */
+void worker_stop(struct worker* worker);
+/* From any thread; waits for the worker to copy at most. */
+struct worker_status worker_read_status(struct worker* worker);
+
+#endif
