@@ -12,9 +12,15 @@ loader=$root/lib/i386-linux-gnu/ld-linux.so.2
 
 # A compiler cache may change the paths from which CMake learns the system's include folders.
 unset CMAKE_C_COMPILER_LAUNCHER CMAKE_CXX_COMPILER_LAUNCHER
-"$cmake" -G "$generator" -S "$sources" -B "$build" -DCMAKE_BUILD_TYPE=Release -DCAMERA_DIRECTOR_SERVER=OFF \
-    -DCMAKE_TOOLCHAIN_FILE="$sources/client-sdk/cmake/i386.cmake" -DCMAKE_SYSROOT="$root" >"$build.log" 2>&1 &&
-    "$cmake" --build "$build" >>"$build.log" 2>&1 || { cat "$build.log"; exit 1; }
+build_library() {
+    "$cmake" -G "$generator" -S "$sources" -B "$build" -DCMAKE_BUILD_TYPE=Release -DCAMERA_DIRECTOR_SERVER=OFF \
+        -DCMAKE_TOOLCHAIN_FILE="$sources/client-sdk/cmake/i386.cmake" -DCMAKE_SYSROOT="$root" &&
+        "$cmake" --build "$build"
+}
+if ! build_library >"$build.log" 2>&1; then
+    cat "$build.log"
+    exit 1
+fi
 
 libraries=$build/lib:$root/lib/i386-linux-gnu:$root/usr/lib/i386-linux-gnu
 compile=(clang-14 --target=i686-linux-gnu --sysroot="$root" -std=gnu11 -Wall -Wextra -Werror)
