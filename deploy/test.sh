@@ -2,7 +2,7 @@
 # Installs what is missing, builds, and runs every test that a change must pass: formatting, the release build with
 # its unit and integration tests and a short soak, the unit tests under the address and undefined-behaviour sanitizers.
 #     test.sh [--all]
-# --all: also the thread sanitizer, clang-tidy, and every fuzzer for a minute
+# --all: also the thread sanitizer, clang-tidy, every fuzzer for a minute, and the client library on i386
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -57,6 +57,7 @@ step "Packages"
 groups=(build map test)
 $all && groups+=(lint)
 deploy/install-packages.sh "${groups[@]}"
+! $all || deploy/i386-packages.sh build/i386-root
 
 step "Formatting"
 find client-sdk server tests -name '*.[ch]pp' -print0 -o -name '*.[ch]' -print0 |
