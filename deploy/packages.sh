@@ -1,4 +1,4 @@
-# The one list of Debian 12 packages, in groups. Sourced by install-packages.sh.
+# The one list of Debian 12 packages, in groups. Sourced by install-packages.sh and i386-packages.sh.
 
 # For building and running.
 build_packages=(
