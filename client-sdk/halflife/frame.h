@@ -10,9 +10,8 @@
 
 enum { max_players = 32, max_events = 64 };
 
-struct settings {
-    uint8_t enabled;
-    uint32_t domain;
+struct settings { /* without padding: compared as bytes */
+    uint32_t enabled, domain;
     float max_rate_hz;
     char match[64], network_interface[64], directors[256];
 };

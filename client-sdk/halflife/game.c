@@ -20,8 +20,8 @@ static struct {
     struct entity_list entities;
     struct match_state match;
     bool match_sent;
-    double settings_read_at, previous_frame_at; /* s of game time, less than 0: not yet in this map */
-    struct server_frame frame;                  /* collects the events of the next frame */
+    double settings_read_at, frame_due_at; /* s of game time; less than 0: not yet in this map */
+    struct server_frame frame;             /* collects the events of the next frame */
     uint64_t dropped_frames, dropped_events;
 } game;
 
@@ -33,7 +33,7 @@ void game_begin_map(struct entity* entities, int count, int max_clients,
     snprintf(game.match.map, sizeof game.match.map, "%s", engine_map_name());
     game.match_sent = false;
     game.settings_read_at = -1.0;
-    game.previous_frame_at = -1.0;
+    game.frame_due_at = -1.0;
     game.frame.event_count = 0;
     players_reset();
     messages_reset(find_message);
@@ -65,6 +65,16 @@ static void send_match(void) {
     if (!game.match_sent) game.match_sent = exchange_send_match(game.exchange, &game.match);
 }
 
+/* Whether the greatest rate allows a frame now. */
+static bool frame_is_due(double now) {
+    const double tolerance = 0.0005; /* of a server whose frames come at exactly this rate */
+    if (now < game.frame_due_at - tolerance) return false;
+    const double interval = 1.0 / (double)game.match.settings.max_rate_hz;
+    const double next = game.frame_due_at + interval;
+    game.frame_due_at = next > now ? next : now + interval;
+    return true;
+}
+
 static int64_t realtime_ns(void) {
     struct timespec now; /* the clock is read without a system call */
     clock_gettime(CLOCK_REALTIME, &now);
@@ -80,17 +90,15 @@ void game_run_frame(void) {
     send_match();
     if (!game.match.settings.enabled || !game.match_sent) return;
     players_damage(&game.entities, game_add_event);
-    /* A tenth of a frame early is still in time: the engine's clock is coarse after hours. */
-    const double interval = 0.9 / (double)game.match.settings.max_rate_hz;
-    if (game.previous_frame_at >= 0.0 && now < game.previous_frame_at + interval) return;
+    if (!frame_is_due(now)) return;
     game.frame.frame_time = (int64_t)(now * 1e9);
     game.frame.source_time = realtime_ns();
     players_sample(&game.entities, now, &game.frame);
-    game.previous_frame_at = now;
     if (exchange_send_frame(game.exchange, &game.frame)) {
         game.frame.event_count = 0;
     } else {
         ++game.dropped_frames; /* its events go with the next frame */
+        players_forget_poses();
     }
 }
 

@@ -16,8 +16,12 @@ struct previous_pose {
 static struct previous_pose previous_poses[max_players];
 static float previous_health[max_players]; /* 0: not in the game, or dead */
 
-void players_reset(void) {
+void players_forget_poses(void) {
     memset(previous_poses, 0, sizeof previous_poses);
+}
+
+void players_reset(void) {
+    players_forget_poses();
     memset(previous_health, 0, sizeof previous_health);
 }
 

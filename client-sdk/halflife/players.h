@@ -17,7 +17,8 @@ struct entity_list {
 /* The id of the player whose entity this is; CDIR_NO_PLAYER: it is none, or lies outside the list. */
 uint32_t players_id(const struct entity_list* list, const struct entity* entity);
 
-/* Forgets the previous frame. */
+/* Forgets the previous frame: its poses, and with reset also its health. */
+void players_forget_poses(void);
 void players_reset(void);
 
 /* Writes who is in the game, by id less 1. */

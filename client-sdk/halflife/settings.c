@@ -37,8 +37,8 @@ static void copy_text(char* to, size_t size, enum cvar_number from) {
 
 struct settings settings_read(void) {
     struct settings settings;
-    memset(&settings, 0, sizeof settings); /* settings are compared as bytes */
-    settings.enabled = registered[enable]->value != 0.0f;
+    memset(&settings, 0, sizeof settings);
+    settings.enabled = registered[enable]->value != 0.0f ? 1u : 0u;
     const float number = registered[domain]->value;
     settings.domain = number >= 0.0f && number <= 230.0f ? (uint32_t)number : 0u;
     const float rate = registered[max_rate]->value;

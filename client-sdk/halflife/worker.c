@@ -178,6 +178,7 @@ static void publish_poses(struct worker* worker, const struct server_frame* from
     if (cdir_match_publish_poses(worker->match, &frame) < 0) {
         set_error(worker, cdir_last_error());
     } else {
+        set_error(worker, "");
         count(worker, &worker->status.published_frames);
     }
 }

@@ -134,6 +134,8 @@ TEST_F(HalfLifePlayers, TeleportsSpawnsSetViewsAndArrivalsAreDiscontinuous) {
     sample();
     entities[3].game_data = this;
     EXPECT_TRUE(discontinuous(3));
+    players_forget_poses();
+    EXPECT_TRUE(discontinuous(2)) << "after a lost frame";
 }
 
 TEST_F(HalfLifePlayers, DamageIsLostHealthByWhoCausedIt) {
