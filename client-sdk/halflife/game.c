@@ -25,6 +25,13 @@ static struct {
     uint64_t dropped_frames, dropped_events;
 } game;
 
+static bool has_worker(void) {
+    if (game.worker != NULL) return true;
+    if (game.exchange == NULL) game.exchange = exchange_create();
+    if (game.exchange != NULL) game.worker = worker_start(game.exchange);
+    return game.worker != NULL;
+}
+
 void game_begin_map(struct entity* entities, int count, int max_clients,
                     int (*find_message)(const char* name)) {
     game.in_map = true;
@@ -37,6 +44,8 @@ void game_begin_map(struct entity* entities, int count, int max_clients,
     game.frame.event_count = 0;
     players_reset();
     messages_reset(find_message);
+    /* Now, because a frame must not wait for memory and a thread. */
+    if (settings_read().enabled) (void)has_worker();
 }
 
 static void read_settings(double now) {
@@ -46,13 +55,6 @@ static void read_settings(double now) {
     if (memcmp(&settings, &game.match.settings, sizeof settings) == 0) return;
     game.match.settings = settings;
     game.match_sent = false;
-}
-
-static bool has_worker(void) {
-    if (game.worker != NULL) return true;
-    if (game.exchange == NULL) game.exchange = exchange_create();
-    if (game.exchange != NULL) game.worker = worker_start(game.exchange);
-    return game.worker != NULL;
 }
 
 static void send_match(void) {
