@@ -143,23 +143,18 @@ TEST(Checks, KindsOfEventsAreThoseOfTheHeader) {
     EXPECT_NE(refusal(event), "");
 }
 
-TEST(Checks, DetailOfAnEventIsUtf8WithoutControlCharacters) {
+TEST(Checks, DetailOfAnEventIsShortAndWithoutControlCharacters) {
     const auto with = [](const std::string& detail) {
         cdir_match_event event = cdir_match_event_default();
         detail.copy(event.detail, sizeof event.detail);
         return event;
     };
-    for (const char* right : {"", "MOD_ROCKET", "\xc2\x80", "\xdf\xbf", "\xe0\xa0\x80", "\xed\x9f\xbf",
-                              "\xee\x80\x80", "\xef\xbf\xbf", "\xf0\x90\x80\x80", "\xf4\x8f\xbf\xbf"})
+    for (const std::string& right : {std::string(), std::string("MOD_ROCKET"), std::string(31, 'x')})
         EXPECT_EQ(refusal(with(right)), "") << right;
-    EXPECT_EQ(refusal(with(std::string(31, 'x'))), "");
     EXPECT_EQ(refusal(with(std::string(32, 'x'))),
               "an event's detail must have 0 to 31 bytes before its zero byte");
-    for (const char* wrong : {"\x80", "a\xbf", "\xc0\x80", "\xc1\xbf", "\xc3", "\xc3(", "\xe0\x9f\xbf",
-                              "\xe2\x82", "\xed\xa0\x80", "\xf0\x8f\xbf\xbf", "\xf4\x90\x80\x80",
-                              "\xf8\x88\x80\x80\x80", "\xff", "a\nb", "a\x7f"})
-        EXPECT_EQ(refusal(with(wrong)), "an event's detail must be UTF-8 without control characters")
-            << wrong;
+    for (const char* wrong : {"a\nb", "a\x7f"})
+        EXPECT_EQ(refusal(with(wrong)), "an event's detail must not contain control characters") << wrong;
 }
 
 }  // namespace
