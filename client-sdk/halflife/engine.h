@@ -41,10 +41,9 @@ enum game_call {
     game_call_count = 50
 };
 
-/* Places in Metamod's tables. */
+/* Places in Metamod's table of services, and in that of the functions that a plugin follows. */
 enum metamod_call {
-    metamod_log_message = 1, /* void (plugin_info*, const char* format, ...) */
-    metamod_message_id = 8   /* int (plugin_info*, const char* name, int* size); 0 = no such message */
+    metamod_message_id = 8 /* int (plugin_info*, const char* name, int* size); 0 = no such message */
 };
 enum plugin_call { plugin_game_post = 3, plugin_engine_post = 7, plugin_call_count = 8 };
 
@@ -137,8 +136,7 @@ struct entity_variables {
 /* Values of flags. */
 enum {
     entity_client = 1 << 3,
-    entity_fake_client = 1 << 13, /* a bot */
-    entity_proxy = 1 << 20,       /* a relay for spectators */
+    entity_proxy = 1 << 20, /* a relay for spectators */
     entity_spectator = 1 << 26
 };
 
