@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: GPL-2.0-or-later */
+/*
+ * What the proxy knows and its parts may ask for. On the game's thread.
+ */
+#ifndef CAMERA_DIRECTOR_OPENARENA_PROXY_H
+#define CAMERA_DIRECTOR_OPENARENA_PROXY_H
+
+#include <stdint.h>
+
+#include "frame.h"
+#include "settings.h"
+
+/* Since the module was loaded, except for the cost. */
+struct module_counters {
+    uint64_t frames;  /* server frames sampled */
+    uint64_t dropped; /* of them, not handed to the worker: it was too far behind */
+    uint64_t events;  /* events seen */
+    uint64_t calls;   /* server frames in the cost */
+    int64_t total_ns; /* this module's own time in them, without the game's */
+    int64_t max_ns;   /* the longest of them */
+};
+
+const struct module_counters* module_counters(void);
+const struct settings* module_settings(void);
+/* The newest report of this life, or null. Valid until vmMain() returns. */
+const struct director_report* module_report(void);
+/* The cvar mapname at the start of this life. */
+const char* module_map(void);
+uint32_t module_life(void);
+
+#endif
