@@ -71,6 +71,10 @@ void engine_cvar_register(const char* name, const char* value) {
     call_engine(ENGINE_CVAR_REGISTER, (intptr_t)NULL, (intptr_t)name, (intptr_t)value, (intptr_t)0);
 }
 
+void engine_cvar_set(const char* name, const char* value) {
+    call_engine(ENGINE_CVAR_SET, (intptr_t)name, (intptr_t)value);
+}
+
 int engine_cvar_integer(const char* name) {
     return (int)call_engine(ENGINE_CVAR_INTEGER, (intptr_t)name);
 }
@@ -99,4 +103,11 @@ void engine_configstring(int number, char* text, size_t size) {
     text[0] = '\0';
     call_engine(ENGINE_GET_CONFIGSTRING, (intptr_t)number, (intptr_t)text, (intptr_t)size);
     text[size - 1] = '\0';
+}
+
+void engine_user_angles(int slot, int32_t angles[3]) {
+    enum { user_command_size = 24, user_command_angles = 4 };
+    uint8_t command[user_command_size] = {0};
+    call_engine(ENGINE_GET_USER_COMMAND, (intptr_t)slot, (intptr_t)command);
+    memcpy(angles, command + user_command_angles, 3 * sizeof *angles);
 }

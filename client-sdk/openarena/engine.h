@@ -20,6 +20,7 @@ enum {
     ENGINE_PRINT = 0,
     ENGINE_ERROR = 1,
     ENGINE_CVAR_REGISTER = 3,
+    ENGINE_CVAR_SET = 5,
     ENGINE_CVAR_INTEGER = 6,
     ENGINE_CVAR_STRING = 7,
     ENGINE_ARGC = 8,
@@ -27,7 +28,8 @@ enum {
     ENGINE_LOCATE_GAME_DATA = 15,
     ENGINE_SEND_SERVER_COMMAND = 17,
     ENGINE_SET_CONFIGSTRING = 18,
-    ENGINE_GET_CONFIGSTRING = 19
+    ENGINE_GET_CONFIGSTRING = 19,
+    ENGINE_GET_USER_COMMAND = 36
 };
 
 /* Calls of the engine to the game: vmMain()'s first argument. */
@@ -61,6 +63,7 @@ enum {
     PS_PM_FLAGS = 12,
     PS_ORIGIN = 20,
     PS_VELOCITY = 32,
+    PS_DELTA_ANGLES = 56, /* int[3] */
     PS_GROUND_ENTITY = 68,
     PS_EFLAGS = 104,
     PS_CLIENT_NUMBER = 140,
@@ -162,6 +165,7 @@ void engine_print(const char* format, ...) __attribute__((format(printf, 1, 2)))
 void engine_error(const char* format, ...) __attribute__((format(printf, 1, 2)));
 
 void engine_cvar_register(const char* name, const char* value);
+void engine_cvar_set(const char* name, const char* value);
 int engine_cvar_integer(const char* name);
 void engine_cvar_string(const char* name, char* text, size_t size);
 
@@ -172,5 +176,8 @@ void engine_argument(int index, char* text, size_t size);
 /* Sends a command such as `print "text\n"` to one client, or to all with slot -1. */
 void engine_send_command(int slot, const char* command);
 void engine_configstring(int number, char* text, size_t size);
+
+/* The view angles of the newest command that a client has sent: pitch, yaw, roll, 65536 per turn. */
+void engine_user_angles(int slot, int32_t angles[3]);
 
 #endif

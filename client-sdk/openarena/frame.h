@@ -18,6 +18,8 @@ enum {
     history_length = 64
 };
 
+enum { CDIR_EVENT_ITEM = 7, CDIR_EVENT_ROUND = 8 }; /* until the wire has them */
+
 enum { team_free = 0, team_red = 1, team_blue = 2, team_spectator = 3 };
 
 struct player_pose {
@@ -102,9 +104,10 @@ struct director_report {
     uint32_t directors; /* that receive the match's poses now */
     uint64_t epoch;     /* of the match; 0 = not published */
     uint64_t published_frames, published_events, failures;
-    uint64_t skipped_frames; /* never published: the worker was late */
-    int64_t recorded_rows;   /* of the recording in progress; -1 = none */
-    char error[160];         /* why nothing is published or recorded; "" = all is well */
+    uint64_t skipped_frames;   /* not published: the worker was late, or could not reach the network */
+    int64_t recorded_rows;     /* of the recording in progress; -1 = none */
+    char error[160];           /* why nothing is published; "" = all is well */
+    char recording_error[160]; /* why nothing is recorded */
     struct viewer_camera cameras[max_slots];
     struct viewer_shot shots[max_slots];
 };

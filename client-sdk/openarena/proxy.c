@@ -10,18 +10,36 @@
 
 #include "commands.h"
 #include "engine.h"
+#include "events.h"
+#include "exchange.h"
 #include "game.h"
+#include "movers.h"
+#include "poses.h"
 #include "roster.h"
 #include "viewers.h"
+#include "worker.h"
 
 #define EXPORT __attribute__((visibility("default")))
 
+enum { settings_period_ms = 1000 };
+
 static engine_call call_engine;
+static bool passive; /* another copy of this module is at work in this process: this one only forwards */
+static uint32_t life;
+static char map_name[64];
 static struct settings settings;
 static struct module_counters counters;
 static struct frame_history history;
-static uint32_t life;
-static char map_name[64];
+
+/* The worker and what it has been sent. */
+static struct exchange* exchange; /* null until director_enable is set for the first time */
+static bool match_sent;
+static uint32_t sent_roster;
+static int settings_time; /* level time at which the settings were read */
+
+/* Time in the real game, within the call of the engine in progress. */
+static int call_depth;
+static int64_t game_ns, own_ns;
 
 const struct module_counters* module_counters(void) {
     return &counters;
@@ -32,7 +50,9 @@ const struct settings* module_settings(void) {
 }
 
 const struct director_report* module_report(void) {
-    return NULL;
+    if (exchange == NULL || !settings.enable) return NULL;
+    const struct director_report* report = exchange_newest_report(exchange);
+    return report != NULL && report->life == life ? report : NULL;
 }
 
 const char* module_map(void) {
@@ -41,6 +61,20 @@ const char* module_map(void) {
 
 uint32_t module_life(void) {
     return life;
+}
+
+static int64_t clock_ns(clockid_t clock) {
+    struct timespec time;
+    clock_gettime(clock, &time);
+    return (int64_t)time.tv_sec * 1000000000 + time.tv_nsec;
+}
+
+/* ---------------------------------------------------------------------------------------- the game */
+
+static void take_configstring(int number, const char* text) {
+    roster_take_configstring(number, text);
+    events_take_configstring(number, text);
+    viewers_take_configstring(number);
 }
 
 /* What the real game calls as its engine. */
@@ -54,63 +88,140 @@ static intptr_t answer_game(intptr_t number, ...) {
     va_end(arguments);
     if (game_answer_argument(number, a, &result)) return result;
     if (number == ENGINE_LOCATE_GAME_DATA) engine_locate(a);
-    if (number == ENGINE_SET_CONFIGSTRING) roster_take_configstring((int)a[0], (const char*)a[1]);
+    if (number == ENGINE_SET_CONFIGSTRING) take_configstring((int)a[0], (const char*)a[1]);
     return call_engine(number, a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], a[8], a[9], a[10], a[11],
                        a[12], a[13], a[14]);
 }
 
-static int64_t clock_ns(clockid_t clock) {
-    struct timespec time;
-    clock_gettime(clock, &time);
-    return (int64_t)time.tv_sec * 1000000000 + time.tv_nsec;
+/* Calls the game; a call within a call of the game counts as the game's time. */
+static intptr_t forward(int command, const int arguments[game_call_arguments]) {
+    if (call_depth > 1) return game_call(command, arguments);
+    const int64_t start = clock_ns(CLOCK_MONOTONIC);
+    const intptr_t result = game_call(command, arguments);
+    game_ns += clock_ns(CLOCK_MONOTONIC) - start;
+    return result;
+}
+
+/* ---------------------------------------------------------------------------------------- the worker */
+
+static void start_worker(void) {
+    if (exchange != NULL || !settings.enable) return;
+    exchange = exchange_create();
+    if (exchange == NULL || !worker_start(exchange)) {
+        engine_print("camera director: no thread could be started, poses are not published\n");
+        exchange_destroy(exchange);
+        exchange = NULL;
+    }
+}
+
+static void send_match(void) {
+    struct match_state match;
+    const int rate = engine_cvar_integer("sv_fps");
+    match.life = life;
+    match.rate_hz = rate > 0 ? (float)rate : 20.0f;
+    memcpy(match.map, map_name, sizeof match.map);
+    match.settings = settings;
+    for (int slot = 0; slot < max_slots; ++slot) {
+        match.players[slot] = *roster_entry(slot);
+    }
+    match_sent = exchange_send_match(exchange, &match);
+    sent_roster = roster_version();
+}
+
+static void read_settings(int level_time) {
+    if (level_time >= settings_time && level_time - settings_time < settings_period_ms) return;
+    settings_time = level_time;
+    if (!settings_read(&settings)) return;
+    match_sent = false;
+    movers_reset(); /* a recording that begins now has every mover */
+    start_worker();
+}
+
+static void hand_over(const struct server_frame* frame) {
+    if (exchange == NULL) return;
+    if (!match_sent || sent_roster != roster_version()) send_match();
+    if (!settings.enable) return;
+    if (!match_sent || !exchange_send_frame(exchange, frame)) ++counters.dropped;
+}
+
+/* ------------------------------------------------------------------------------- the engine's calls */
+
+/* Another copy, for instance one that stands where the real game is expected, would publish the match twice.
+ * The engine's cvars are what all copies share. */
+static bool claim_process(void) {
+    static const char name[] = "director_module";
+    char mine[32], other[32];
+    snprintf(mine, sizeof mine, "%p", (void*)&life);
+    engine_cvar_register(name, "");
+    engine_cvar_string(name, other, sizeof other);
+    if (other[0] != '\0' && strcmp(other, mine) != 0) return false;
+    engine_cvar_set(name, mine);
+    return true;
 }
 
 static intptr_t initialise(const int arguments[game_call_arguments]) {
-    char reason[700];
-    ++life;
-    history.count = 0;
+    char reason[1000];
+    passive = !claim_process();
+    if (passive) engine_print("camera director: the module is loaded twice, this copy only forwards\n");
     engine_forget_game_data();
-    roster_reset();
-    viewers_reset();
-    settings_register();
-    settings_read(&settings);
-    engine_cvar_string("mapname", map_name, sizeof map_name);
     if (!game_load(answer_game, reason, sizeof reason)) {
         engine_error("camera director: %s\n", reason);
         return 0;
     }
-    return game_call(GAME_INIT, arguments);
-}
-
-static intptr_t shut_down(const int arguments[game_call_arguments]) {
-    const intptr_t result = game_call(GAME_SHUTDOWN, arguments);
-    game_unload();
-    engine_forget_game_data();
+    if (passive) return forward(GAME_INIT, arguments);
+    ++life;
+    history.count = 0;
+    counters.timed_frames = 0;
+    counters.total_ns = counters.max_ns = 0;
+    match_sent = false;
+    settings_register();
+    (void)settings_read(&settings);
+    settings_time = arguments[0];
+    engine_cvar_string("mapname", map_name, sizeof map_name);
+    roster_reset();
+    events_reset(events_game_kind(engine_cvar_integer("g_gametype")));
+    movers_reset();
+    viewers_reset();
+    start_worker();
+    const intptr_t result = forward(GAME_INIT, arguments);
+    if (exchange != NULL) send_match();
     return result;
 }
 
-static void sample_frame(int level_time) {
-    struct server_frame* frame = &history.frames[history.count % history_length];
+static intptr_t shut_down(const int arguments[game_call_arguments]) {
+    const intptr_t result = forward(GAME_SHUTDOWN, arguments);
+    game_unload();
+    engine_forget_game_data();
+    if (!passive) {
+        if (exchange != NULL) (void)exchange_send_end(exchange);
+        engine_cvar_set("director_module", "");
+    }
+    return result;
+}
+
+static void sample_frame(struct server_frame* frame, int level_time) {
     memset(frame, 0, offsetof(struct server_frame, events));
     frame->life = life;
     frame->level_time = level_time;
     frame->source_time = clock_ns(CLOCK_REALTIME);
+    poses_sample(frame->players);
+    events_sample(frame);
+    movers_sample(frame);
     viewers_fill_requests(frame->viewers);
-    ++history.count;
+    counters.events += frame->event_count;
     ++counters.frames;
 }
 
-static intptr_t run_frame(const int arguments[game_call_arguments], int64_t start) {
-    const int64_t game_start = clock_ns(CLOCK_MONOTONIC);
-    const intptr_t result = game_call(GAME_RUN_FRAME, arguments);
-    const int64_t game_end = clock_ns(CLOCK_MONOTONIC);
+static intptr_t run_frame(const int arguments[game_call_arguments]) {
+    const int level_time = arguments[0];
+    const intptr_t result = forward(GAME_RUN_FRAME, arguments);
+    read_settings(level_time);
     if (engine_player_state(0) == NULL) return result;
-    sample_frame(arguments[0]);
+    struct server_frame* frame = &history.frames[history.count % history_length];
+    sample_frame(frame, level_time);
+    ++history.count;
+    hand_over(frame);
     viewers_apply(module_report(), &history);
-    const int64_t cost = clock_ns(CLOCK_MONOTONIC) - game_end + game_start - start;
-    ++counters.calls;
-    counters.total_ns += cost;
-    if (cost > counters.max_ns) counters.max_ns = cost;
     return result;
 }
 
@@ -118,32 +229,58 @@ static bool is_slot(int number) {
     return number >= 0 && number < max_slots;
 }
 
-EXPORT void dllEntry(engine_call call) {
-    /* No call to the engine is allowed before GAME_INIT. */
-    call_engine = call;
-    engine_attach(call);
-}
-
-EXPORT intptr_t vmMain(int command, int a0, int a1, int a2, int a3, int a4, int a5, int a6, int a7, int a8,
-                       int a9, int a10, int a11) {
-    const int64_t start = clock_ns(CLOCK_MONOTONIC);
-    const int arguments[game_call_arguments] = {a0, a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11};
-    viewers_restore();
+static intptr_t dispatch(int command, const int arguments[game_call_arguments]) {
+    const int slot = arguments[0];
+    intptr_t result;
     switch (command) {
         case GAME_INIT:
             return initialise(arguments);
         case GAME_SHUTDOWN:
             return shut_down(arguments);
         case GAME_RUN_FRAME:
-            return run_frame(arguments, start);
+            return passive ? forward(command, arguments) : run_frame(arguments);
         case GAME_CONSOLE_COMMAND:
-            return commands_console() ? 1 : game_call(command, arguments);
+            return !passive && commands_console() ? 1 : forward(command, arguments);
         case GAME_CLIENT_COMMAND:
-            return is_slot(a0) && commands_client(a0) ? 0 : game_call(command, arguments);
+            return !passive && is_slot(slot) && commands_client(slot) ? 0 : forward(command, arguments);
+        case GAME_CLIENT_CONNECT:
+            if (!passive && is_slot(slot)) viewers_connect(slot, arguments[1] != 0);
+            return forward(command, arguments);
         case GAME_CLIENT_DISCONNECT:
-            if (is_slot(a0)) viewers_disconnect(a0);
-            return game_call(command, arguments);
+            result = forward(command, arguments);
+            if (!passive && is_slot(slot)) viewers_disconnect(slot);
+            return result;
         default:
-            return game_call(command, arguments);
+            return forward(command, arguments);
     }
+}
+
+static void count_time(int command, int64_t duration) {
+    own_ns += duration - game_ns;
+    game_ns = 0;
+    if (command == GAME_INIT || command == GAME_SHUTDOWN) own_ns = 0;
+    if (command != GAME_RUN_FRAME) return;
+    ++counters.timed_frames;
+    counters.total_ns += own_ns;
+    if (own_ns > counters.max_ns) counters.max_ns = own_ns;
+    own_ns = 0;
+}
+
+EXPORT void dllEntry(engine_call call) {
+    /* No call to the engine is allowed before GAME_INIT. */
+    call_engine = call;
+    engine_attach(call);
+    call_depth = 0;
+}
+
+EXPORT intptr_t vmMain(int command, int a0, int a1, int a2, int a3, int a4, int a5, int a6, int a7, int a8,
+                       int a9, int a10, int a11) {
+    const int arguments[game_call_arguments] = {a0, a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11};
+    const int64_t start = clock_ns(CLOCK_MONOTONIC);
+    ++call_depth;
+    viewers_suspend();
+    const intptr_t result = dispatch(command, arguments);
+    viewers_resume();
+    if (--call_depth == 0) count_time(command, clock_ns(CLOCK_MONOTONIC) - start);
+    return result;
 }

@@ -10,14 +10,14 @@
 #include "frame.h"
 #include "settings.h"
 
-/* Since the module was loaded, except for the cost. */
 struct module_counters {
-    uint64_t frames;  /* server frames sampled */
+    uint64_t frames;  /* server frames sampled, since the module was loaded */
     uint64_t dropped; /* of them, not handed to the worker: it was too far behind */
-    uint64_t events;  /* events seen */
-    uint64_t calls;   /* server frames in the cost */
-    int64_t total_ns; /* this module's own time in them, without the game's */
-    int64_t max_ns;   /* the longest of them */
+    uint64_t events;  /* in these frames */
+    /* The module's own time on the game's thread, without the game's, in this life. */
+    uint64_t timed_frames;
+    int64_t total_ns;
+    int64_t max_ns; /* of one frame */
 };
 
 const struct module_counters* module_counters(void);

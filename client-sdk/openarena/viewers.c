@@ -5,7 +5,18 @@
 
 void viewers_reset(void) {}
 
-void viewers_restore(void) {}
+void viewers_suspend(void) {}
+
+void viewers_resume(void) {}
+
+void viewers_connect(int slot, bool first_time) {
+    (void)slot;
+    (void)first_time;
+}
+
+void viewers_take_configstring(int number) {
+    (void)number;
+}
 
 void viewers_disconnect(int slot) {
     (void)slot;

@@ -1,0 +1,69 @@
+/* SPDX-License-Identifier: GPL-2.0-or-later */
+/*
+ * Two bounded rings between the game's thread and the worker, each with one writer and one reader: messages
+ * to the worker, reports to the game. No call waits, locks, allocates or enters the kernel, except for create
+ * and destroy.
+ */
+#ifndef CAMERA_DIRECTOR_OPENARENA_EXCHANGE_H
+#define CAMERA_DIRECTOR_OPENARENA_EXCHANGE_H
+
+#include "frame.h"
+#include "roster.h"
+#include "settings.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum { message_capacity = 64, report_capacity = 8 };
+
+/* Of one life: sent before its first frame, and again whenever something of it changes. */
+struct match_state {
+    uint32_t life;
+    float rate_hz; /* server frames per second that the server intends */
+    char map[64];
+    struct settings settings;
+    struct roster_entry players[max_slots];
+};
+
+enum message_kind {
+    message_match,
+    message_frame,
+    message_end /* of the life: no frame follows */
+};
+
+struct message {
+    enum message_kind kind;
+    union {
+        struct match_state match;
+        struct server_frame frame;
+    };
+};
+
+struct exchange;
+
+/* Null when memory is short. */
+struct exchange* exchange_create(void);
+void exchange_destroy(struct exchange* exchange);
+
+/* On the game's thread. Sends a copy; returns false when the ring is full. Frames leave some room to the
+ * other messages. */
+bool exchange_send_match(struct exchange* exchange, const struct match_state* match);
+bool exchange_send_frame(struct exchange* exchange, const struct server_frame* frame);
+bool exchange_send_end(struct exchange* exchange);
+/* The newest report or null. It stays valid until the next call. */
+const struct director_report* exchange_newest_report(struct exchange* exchange);
+
+/* On the worker. The oldest message that has not been released, or null. */
+const struct message* exchange_next_message(struct exchange* exchange);
+void exchange_release_message(struct exchange* exchange);
+/* Messages that wait. */
+uint32_t exchange_backlog(const struct exchange* exchange);
+/* Sends a copy; returns false when the ring is full. */
+bool exchange_send_report(struct exchange* exchange, const struct director_report* report);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

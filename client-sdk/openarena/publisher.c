@@ -1,0 +1,161 @@
+/* SPDX-License-Identifier: GPL-2.0-or-later */
+#define _POSIX_C_SOURCE 200809L
+#include "publisher.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+
+#include "poses.h"
+
+static const int64_t ns_per_ms = 1000000;
+
+static bool connects_alike(const struct settings* a, const struct settings* b) {
+    return a->domain == b->domain && strcmp(a->match, b->match) == 0 &&
+           strcmp(a->interface, b->interface) == 0 && strcmp(a->directors, b->directors) == 0;
+}
+
+/* Greater than before, also than those of earlier processes. */
+static uint64_t next_epoch(uint64_t previous) {
+    struct timespec now;
+    clock_gettime(CLOCK_REALTIME, &now);
+    const uint64_t microseconds = (uint64_t)now.tv_sec * 1000000u + (uint64_t)now.tv_nsec / 1000u;
+    return microseconds > previous ? microseconds : previous + 1;
+}
+
+static uint32_t list_players(cdir_player players[max_slots], const struct match_state* state) {
+    uint32_t count = 0;
+    for (uint32_t slot = 0; slot < max_slots; ++slot) {
+        const struct roster_entry* entry = &state->players[slot];
+        if (!entry->in_use) continue;
+        cdir_player* player = &players[count++];
+        memset(player, 0, sizeof *player);
+        player->id = slot;
+        player->team = entry->team;
+        snprintf(player->name, sizeof player->name, "%s", entry->name);
+    }
+    return count;
+}
+
+static cdir_match_info describe(const struct match_state* state, uint64_t epoch) {
+    cdir_match_info info = cdir_match_info_default();
+    info.rate_hz = state->rate_hz;
+    info.epoch = epoch;
+    snprintf(info.match_id, sizeof info.match_id, "%s", state->settings.match);
+    snprintf(info.map_name, sizeof info.map_name, "%s", state->map);
+    return info;
+}
+
+static bool open_match(struct publisher* publisher, const struct match_state* state) {
+    const struct settings* settings = &state->settings;
+    cdir_context_options options = cdir_context_options_default();
+    options.domain = settings->domain;
+    options.network_interface = settings->interface;
+    options.directors = settings->directors;
+    if (cdir_context_open(&options, &publisher->context) < 0) return false;
+    cdir_player players[max_slots];
+    const uint32_t count = list_players(players, state);
+    publisher->epoch = next_epoch(publisher->epoch);
+    const cdir_match_info info = describe(state, publisher->epoch);
+    publisher->open = cdir_match_open(publisher->context, &info, players, count, &publisher->match) >= 0;
+    if (!publisher->open) (void)cdir_context_close(publisher->context);
+    return publisher->open;
+}
+
+static bool announce(struct publisher* publisher, const struct match_state* state) {
+    if (publisher->open && !connects_alike(&state->settings, &publisher->state.settings)) {
+        publisher_close(publisher);
+    }
+    if (!publisher->open) return open_match(publisher, state);
+    cdir_player players[max_slots];
+    const uint32_t count = list_players(players, state);
+    if (state->life == publisher->state.life) {
+        const cdir_match_info info = describe(state, publisher->epoch);
+        return cdir_match_update(publisher->match, &info, players, count) >= 0;
+    }
+    publisher->epoch = next_epoch(publisher->epoch);
+    const cdir_match_info info = describe(state, publisher->epoch);
+    return cdir_match_restart(publisher->match, &info, players, count) >= 0;
+}
+
+bool publisher_announce(struct publisher* publisher, const struct match_state* state) {
+    if (!announce(publisher, state)) {
+        publisher_close(publisher);
+        return false;
+    }
+    publisher->state = *state;
+    return true;
+}
+
+static bool send_poses(struct publisher* publisher, const struct server_frame* frame) {
+    uint32_t ids[max_slots], flags[max_slots], count = 0;
+    float eyes[3 * max_slots], orientations[4 * max_slots], velocities[3 * max_slots];
+    for (uint32_t slot = 0; slot < max_slots; ++slot) {
+        const struct player_pose* pose = &frame->players[slot];
+        if (!pose->in_game) continue;
+        const bool jumped =
+            publisher->last_life != frame->life || pose_jumped(&publisher->last_poses[slot], pose);
+        ids[count] = slot;
+        flags[count] = (pose->alive ? CDIR_POSE_ALIVE : 0u) | (pose->spectator ? CDIR_POSE_SPECTATOR : 0u) |
+                       (jumped ? CDIR_POSE_DISCONTINUITY : 0u);
+        pose_eye(eyes + 3 * count, pose);
+        pose_orientation(orientations + 4 * count, pose->angles);
+        memcpy(velocities + 3 * count, pose->velocity, sizeof pose->velocity);
+        ++count;
+    }
+    publisher->last_life = frame->life;
+    memcpy(publisher->last_poses, frame->players, sizeof publisher->last_poses);
+    cdir_pose_frame poses = cdir_pose_frame_default();
+    poses.frame_time = frame->level_time * ns_per_ms;
+    poses.source_time = frame->source_time;
+    poses.player_count = count;
+    poses.player_id = ids;
+    poses.eye = eyes;
+    poses.orientation = orientations;
+    poses.velocity = velocities;
+    poses.flags = flags;
+    return cdir_match_publish_poses(publisher->match, &poses) >= 0;
+}
+
+static uint32_t player_id(uint8_t slot) {
+    return slot == no_slot ? CDIR_NO_PLAYER : slot;
+}
+
+/* An event that cannot be sent is lost: the next ones matter more. */
+static void send_event(struct publisher* publisher, int32_t level_time, const struct game_event* event) {
+    cdir_match_event sent = cdir_match_event_default();
+    sent.kind = event->kind;
+    sent.frame_time = level_time * ns_per_ms;
+    sent.actor = player_id(event->actor);
+    sent.subject = player_id(event->subject);
+    sent.value = event->value;
+    if (cdir_match_publish_event(publisher->match, &sent) >= 0) {
+        ++publisher->events;
+    } else {
+        ++publisher->failures;
+    }
+}
+
+bool publisher_send(struct publisher* publisher, const struct server_frame* frame) {
+    if (!send_poses(publisher, frame)) {
+        ++publisher->failures;
+        publisher_close(publisher);
+        return false;
+    }
+    ++publisher->frames;
+    for (uint32_t i = 0; i < frame->event_count; ++i) {
+        send_event(publisher, frame->level_time, &frame->events[i]);
+    }
+    return true;
+}
+
+uint32_t publisher_directors(const struct publisher* publisher) {
+    uint32_t count = 0;
+    if (publisher->open && cdir_match_director_count(publisher->match, &count) < 0) return 0;
+    return count;
+}
+
+void publisher_close(struct publisher* publisher) {
+    if (publisher->open) (void)cdir_context_close(publisher->context);
+    publisher->open = false;
+}

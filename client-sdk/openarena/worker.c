@@ -1,0 +1,283 @@
+/* SPDX-License-Identifier: GPL-2.0-or-later */
+#define _POSIX_C_SOURCE 200809L
+#include "worker.h"
+
+#include <pthread.h>
+#include <signal.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "publisher.h"
+#include "recording.h"
+#include "shots.h"
+
+static const int64_t ns_per_s = 1000000000, ns_per_ms = 1000000;
+static const int64_t poll_ns = 250000;       /* while something is expected */
+static const int64_t early_ns = 500000;      /* before the next frame is due */
+static const int64_t idle_ns = 10000000;     /* longest sleep */
+static const int64_t retry_ns = 1000000000;  /* after a failure */
+static const int64_t linger_ns = 5000000000; /* after a life's end, until the match is closed */
+enum { max_backlog = 8 /* frames; older ones are not worth sending */ };
+
+static struct {
+    pthread_t thread;
+    atomic_bool stop;
+    struct exchange* exchange;
+
+    bool has_match; /* `match` is of a life that runs */
+    struct match_state match;
+    struct publisher publisher;
+    struct shots shots;
+    struct recording* recording;
+    bool recording_failed; /* in this life and with this prefix */
+    struct director_report report;
+    bool report_changed;
+
+    int64_t now;           /* CLOCK_MONOTONIC */
+    int64_t retry_time;    /* not before: open the match */
+    int64_t end_time;      /* of the last life */
+    int64_t check_time;    /* of the next look at what changes seldom */
+    int64_t frame_arrival; /* of the newest frame */
+    int64_t frame_period;
+    int32_t level_time; /* of the newest frame */
+} worker;
+
+static int64_t monotonic_ns(void) {
+    struct timespec time;
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return (int64_t)time.tv_sec * ns_per_s + time.tv_nsec;
+}
+
+static void sleep_ns(int64_t duration) {
+    const struct timespec time = {duration / ns_per_s, duration % ns_per_s};
+    nanosleep(&time, NULL);
+}
+
+/* On standard error, which a dedicated server shows on its console: the engine may only be called on the
+ * game's thread. */
+static void log_line(const char* text) {
+    fprintf(stderr, "camera director: %s\n", text);
+}
+
+enum { error_size = sizeof worker.report.error };
+
+static void set_error(char error[error_size], const char* text) {
+    if (strcmp(error, text) == 0) return;
+    snprintf(error, error_size, "%s", text);
+    worker.report_changed = true;
+    if (text[0] != '\0') log_line(error);
+}
+
+/* ---------------------------------------------------------------------------------------- the match */
+
+static void end_worker(void);
+
+/* Exit handlers run last to first: this one is registered after the client library's, so that the thread has
+ * ended before that closes all contexts. */
+static void end_before_contexts(void) {
+    static bool registered;
+    if (!registered) (void)atexit(end_worker);
+    registered = true;
+}
+
+static void disconnect(void) {
+    shots_close(&worker.shots);
+    publisher_close(&worker.publisher);
+    worker.report.epoch = 0;
+    worker.report_changed = true;
+}
+
+static void fail(void) {
+    char text[error_size];
+    snprintf(text, sizeof text, "%s", cdir_last_error());
+    disconnect();
+    set_error(worker.report.error, text);
+    worker.retry_time = worker.now + retry_ns;
+}
+
+static void announce(void) {
+    if (!worker.match.settings.enable) {
+        disconnect();
+        return;
+    }
+    if (worker.now < worker.retry_time) return;
+    /* Where the match must be reached otherwise, its observers go with the old context. */
+    const uint64_t context = worker.publisher.context.id;
+    if (!publisher_announce(&worker.publisher, &worker.match)) {
+        fail();
+        return;
+    }
+    if (worker.publisher.context.id != context) shots_close(&worker.shots);
+    end_before_contexts();
+    worker.report.epoch = worker.publisher.epoch;
+    worker.retry_time = 0;
+    set_error(worker.report.error, "");
+}
+
+static void send_frame(const struct server_frame* frame) {
+    if (worker.retry_time != 0 && worker.now >= worker.retry_time) announce();
+    if (!worker.publisher.open || exchange_backlog(worker.exchange) > max_backlog) {
+        ++worker.report.skipped_frames;
+    } else if (!publisher_send(&worker.publisher, frame)) {
+        fail();
+    } else {
+        shots_request(&worker.shots, worker.publisher.context, worker.match.settings.match, frame->viewers);
+    }
+}
+
+/* ------------------------------------------------------------------------------------ the recording */
+
+static void close_recording(void) {
+    char reason[error_size];
+    if (worker.recording == NULL) return;
+    if (!recording_close(worker.recording, reason, sizeof reason))
+        set_error(worker.report.recording_error, reason);
+    worker.recording = NULL;
+}
+
+static void record_frame(const struct server_frame* frame) {
+    char reason[error_size];
+    const struct settings* settings = &worker.match.settings;
+    if (!settings->enable || settings->record[0] == '\0' || worker.recording_failed) return;
+    if (worker.recording == NULL) {
+        worker.recording =
+            recording_open(settings->record, worker.match.map, time(NULL), reason, sizeof reason);
+        if (worker.recording == NULL) {
+            worker.recording_failed = true;
+            set_error(worker.report.recording_error, reason);
+            return;
+        }
+        recording_set_players(worker.recording, worker.match.players);
+    }
+    if (recording_add_frame(worker.recording, frame)) return;
+    worker.recording_failed = true;
+    close_recording();
+}
+
+/* ------------------------------------------------------------------------------------- the messages */
+
+static void take_match(const struct match_state* match) {
+    const bool new_life = !worker.has_match || worker.match.life != match->life;
+    const bool new_target = strcmp(worker.match.settings.record, match->settings.record) != 0 ||
+                            worker.match.settings.enable != match->settings.enable;
+    if (new_life || new_target) {
+        close_recording();
+        worker.recording_failed = false;
+        set_error(worker.report.recording_error, "");
+    }
+    if (new_life) {
+        memset(worker.report.cameras, 0, sizeof worker.report.cameras);
+        worker.report.life = match->life;
+        worker.report_changed = true;
+    }
+    if (!match->settings.enable) set_error(worker.report.error, "");
+    worker.match = *match;
+    worker.has_match = true;
+    if (worker.recording != NULL) recording_set_players(worker.recording, match->players);
+    announce();
+}
+
+static void take_frame(const struct server_frame* frame) {
+    if (!worker.has_match || frame->life != worker.match.life) return;
+    const int64_t period = (int64_t)(frame->level_time - worker.level_time) * ns_per_ms;
+    worker.frame_period = period > 0 && period < ns_per_s / 5 ? period : ns_per_s / 60;
+    worker.frame_arrival = worker.now;
+    worker.level_time = frame->level_time;
+    send_frame(frame);
+    record_frame(frame);
+}
+
+static void take_messages(void) {
+    const struct message* message;
+    while (!atomic_load(&worker.stop) && (message = exchange_next_message(worker.exchange)) != NULL) {
+        worker.now = monotonic_ns();
+        switch (message->kind) {
+            case message_match:
+                take_match(&message->match);
+                break;
+            case message_frame:
+                take_frame(&message->frame);
+                break;
+            case message_end:
+                close_recording();
+                worker.has_match = false;
+                worker.end_time = worker.now;
+                break;
+        }
+        exchange_release_message(worker.exchange);
+    }
+}
+
+/* ----------------------------------------------------------------------------------------- the loop */
+
+static void check_directors(void) {
+    const uint32_t directors = publisher_directors(&worker.publisher);
+    if ((directors == 0) != (worker.report.directors == 0)) {
+        log_line(directors == 0 ? "no director receives the match" : "a director receives the match");
+    }
+    worker.report.directors = directors;
+    worker.report.recorded_rows = worker.recording == NULL ? -1 : recording_rows(worker.recording);
+    worker.report.published_frames = worker.publisher.frames;
+    worker.report.published_events = worker.publisher.events;
+    worker.report.failures = worker.publisher.failures;
+    worker.report_changed = true;
+}
+
+static void check_match(void) {
+    if (!worker.has_match && worker.publisher.open && worker.now - worker.end_time > linger_ns) disconnect();
+    if (worker.now < worker.check_time) return;
+    worker.check_time = worker.now + ns_per_s;
+    check_directors();
+}
+
+static int64_t sleep_time(void) {
+    if (!worker.has_match) return idle_ns;
+    const int64_t age = worker.now - worker.frame_arrival, due = worker.frame_period - early_ns;
+    if (age > 4 * worker.frame_period) return 4 * poll_ns; /* no frames: the server hangs */
+    /* A director answers within some milliseconds, or late. */
+    const bool expects_cameras =
+        age < worker.frame_period / 2 && shots_behind(&worker.shots, &worker.report, worker.level_time) > 0;
+    if (age >= due || expects_cameras) return poll_ns;
+    return due - age < idle_ns ? due - age : idle_ns;
+}
+
+static void* run(void* unused) {
+    (void)unused;
+    while (!atomic_load(&worker.stop)) {
+        worker.now = monotonic_ns();
+        take_messages();
+        if (shots_poll(&worker.shots, worker.publisher.epoch, &worker.report)) worker.report_changed = true;
+        check_match();
+        if (worker.report_changed && exchange_send_report(worker.exchange, &worker.report)) {
+            worker.report_changed = false;
+        }
+        worker.now = monotonic_ns();
+        sleep_ns(sleep_time());
+    }
+    close_recording();
+    disconnect();
+    return NULL;
+}
+
+static void end_worker(void) {
+    if (!atomic_exchange(&worker.stop, true)) pthread_join(worker.thread, NULL);
+}
+
+bool worker_start(struct exchange* exchange) {
+    worker.exchange = exchange;
+    worker.report.recorded_rows = -1;
+    for (int slot = 0; slot < max_slots; ++slot) {
+        worker.report.shots[slot].state = CDIR_SHOT_NOT_REQUESTED;
+    }
+    /* Signals are the server's: none is delivered to this thread and those that it starts. */
+    sigset_t all, before;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before);
+    const bool started = pthread_create(&worker.thread, NULL, run, NULL) == 0;
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    if (started) (void)atexit(end_worker); /* for a worker that never reached the network */
+    return started;
+}
