@@ -12,6 +12,10 @@
 #include <stdint.h>
 #include <string.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 typedef intptr_t (*engine_call)(intptr_t number, ...);
 enum { engine_call_arguments = 15, game_call_arguments = 12 };
 
@@ -179,5 +183,9 @@ void engine_configstring(int number, char* text, size_t size);
 
 /* The view angles of the newest command that a client has sent: pitch, yaw, roll, 65536 per turn. */
 void engine_user_angles(int slot, int32_t angles[3]);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -11,6 +11,10 @@
 
 #include "engine.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 typedef intptr_t (*game_main)(int, int, int, int, int, int, int, int, int, int, int, int, int);
 
 /* Loads the module that the cvar director_game names, otherwise the one of the running game (fs_game) below
@@ -29,5 +33,9 @@ intptr_t game_call(int command, const int arguments[game_call_arguments]);
 void game_client_command(int slot, const char* const* words, int count);
 /* While such a command is executed: the game asks its engine for the words. Returns false when none is. */
 bool game_answer_argument(intptr_t number, const intptr_t arguments[engine_call_arguments], intptr_t* result);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

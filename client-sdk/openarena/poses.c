@@ -37,7 +37,7 @@ struct player_pose pose_of(const uint8_t* player_state, const struct roster_entr
 
 void poses_sample(struct player_pose poses[max_slots]) {
     for (int slot = 0; slot < max_slots; ++slot) {
-        const struct roster_entry* entry = roster_entry(slot);
+        const struct roster_entry* entry = roster_at(slot);
         if (!entry->in_use) {
             memset(&poses[slot], 0, sizeof poses[slot]);
             continue;

@@ -28,7 +28,7 @@ static bool passive; /* another copy of this module is at work in this process: 
 static uint32_t life;
 static char map_name[64];
 static struct settings settings;
-static struct module_counters counters;
+static struct proxy_counters counters;
 static struct frame_history history;
 
 /* The worker and what it has been sent. */
@@ -41,7 +41,7 @@ static int settings_time; /* level time at which the settings were read */
 static int call_depth;
 static int64_t game_ns, own_ns;
 
-const struct module_counters* module_counters(void) {
+const struct proxy_counters* module_counters(void) {
     return &counters;
 }
 
@@ -122,7 +122,7 @@ static void send_match(void) {
     memcpy(match.map, map_name, sizeof match.map);
     match.settings = settings;
     for (int slot = 0; slot < max_slots; ++slot) {
-        match.players[slot] = *roster_entry(slot);
+        match.players[slot] = *roster_at(slot);
     }
     match_sent = exchange_send_match(exchange, &match);
     sent_roster = roster_version();

@@ -10,7 +10,11 @@
 #include "frame.h"
 #include "settings.h"
 
-struct module_counters {
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+struct proxy_counters {
     uint64_t frames;  /* server frames sampled, since the module was loaded */
     uint64_t dropped; /* of them, not handed to the worker: it was too far behind */
     uint64_t events;  /* in these frames */
@@ -20,12 +24,16 @@ struct module_counters {
     int64_t max_ns; /* of one frame */
 };
 
-const struct module_counters* module_counters(void);
+const struct proxy_counters* module_counters(void);
 const struct settings* module_settings(void);
 /* The newest report of this life, or null. Valid until vmMain() returns. */
 const struct director_report* module_report(void);
 /* The cvar mapname at the start of this life. */
 const char* module_map(void);
 uint32_t module_life(void);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

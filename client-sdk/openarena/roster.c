@@ -24,7 +24,7 @@ void roster_take_configstring(int number, const char* text) {
     ++version;
 }
 
-const struct roster_entry* roster_entry(int slot) {
+const struct roster_entry* roster_at(int slot) {
     return &entries[slot];
 }
 

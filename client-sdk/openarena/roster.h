@@ -6,6 +6,10 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 struct roster_entry {
     uint8_t in_use;
     uint8_t team;  /* team_ value that the player has chosen: a follower's own, not that of the followed */
@@ -16,11 +20,15 @@ void roster_reset(void);
 /* Takes a configstring that the game sets; null = "". Ignores those of no player. */
 void roster_take_configstring(int number, const char* text);
 /* slot < max_slots. */
-const struct roster_entry* roster_entry(int slot);
+const struct roster_entry* roster_at(int slot);
 /* Changes whenever an entry does. */
 uint32_t roster_version(void);
 
 /* Of a player's configstring. */
 struct roster_entry roster_parse(const char* configstring);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -6,6 +6,10 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 struct settings {
     uint8_t enable;      /* director_enable: poses are published */
     uint8_t spectate;    /* director_spectate: spectators get the director's camera */
@@ -20,5 +24,9 @@ struct settings {
 void settings_register(void);
 /* Reads the cvars. Returns true when a value differs from what `settings` holds. */
 bool settings_read(struct settings* settings);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -1,0 +1,127 @@
+#include "poses.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "engine.h"
+
+namespace camdir::openarena {
+namespace {
+
+constexpr double radian = std::numbers::pi / 180.0;
+
+class OpenArenaPose : public testing::Test {
+  protected:
+    OpenArenaPose() {
+        entry.in_use = 1;
+        write_int(state.data(), PS_PERSISTANT + 4 * PERSISTANT_SPAWN_COUNT, 1);
+        write_int(state.data(), PS_STATS, 70);
+        write_int(state.data(), PS_VIEW_HEIGHT, 26);
+        const float origin[3] = {1.0F, 2.0F, 3.0F}, velocity[3] = {4.0F, 5.0F, 6.0F};
+        write_vector(state.data(), PS_ORIGIN, origin);
+        write_vector(state.data(), PS_VELOCITY, velocity);
+    }
+
+    player_pose pose() { return pose_of(state.data(), &entry, true); }
+
+    std::vector<std::uint8_t> state = std::vector<std::uint8_t>(player_state_size);
+    roster_entry entry{};
+};
+
+TEST_F(OpenArenaPose, ReadsAPlayer) {
+    const player_pose read = pose();
+    EXPECT_TRUE(read.in_game && read.bot && read.alive);
+    EXPECT_FALSE(read.spectator);
+    EXPECT_EQ(read.health, 70);
+    float eye[3];
+    pose_eye(eye, &read);
+    EXPECT_EQ(eye[0], 1.0F);
+    EXPECT_EQ(eye[2], 29.0F);
+    EXPECT_EQ(read.velocity[1], 5.0F);
+}
+
+TEST_F(OpenArenaPose, ASlotWithoutNameOrSpawnIsNotInTheGame) {
+    entry.in_use = 0;
+    EXPECT_FALSE(pose().in_game);
+    entry.in_use = 1;
+    write_int(state.data(), PS_PERSISTANT + 4 * PERSISTANT_SPAWN_COUNT, 0);
+    EXPECT_FALSE(pose().in_game);
+}
+
+TEST_F(OpenArenaPose, TheDeadAreNotAlive) {
+    write_int(state.data(), PS_PM_TYPE, PM_DEAD);
+    EXPECT_FALSE(pose().alive);
+    EXPECT_FALSE(pose().spectator);
+}
+
+// A follower's state is a copy of the followed player's: only the roster and the flag tell.
+TEST_F(OpenArenaPose, SpectatorsFollowersAndTheIntermissionHaveNoBody) {
+    entry.team = team_spectator;
+    EXPECT_TRUE(pose().spectator);
+    entry.team = team_red;
+    EXPECT_FALSE(pose().spectator);
+    write_int(state.data(), PS_PM_FLAGS, PM_FLAG_FOLLOW);
+    EXPECT_TRUE(pose().spectator);
+    write_int(state.data(), PS_PM_FLAGS, 0);
+    for (const int type : {PM_SPECTATOR, PM_INTERMISSION}) {
+        write_int(state.data(), PS_PM_TYPE, type);
+        EXPECT_TRUE(pose().spectator);
+        EXPECT_FALSE(pose().alive);
+    }
+}
+
+TEST_F(OpenArenaPose, NumbersThatAreNotFiniteTakeThePlayerOut) {
+    for (const float bad :
+         {std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()}) {
+        const float vector[3] = {0.0F, bad, 0.0F};
+        write_vector(state.data(), PS_VIEW_ANGLES, vector);
+        EXPECT_FALSE(pose().in_game);
+    }
+}
+
+TEST_F(OpenArenaPose, JumpsAtRespawnTeleportAndJoining) {
+    const player_pose before = pose();
+    EXPECT_FALSE(pose_jumped(&before, &before));
+    write_int(state.data(), PS_EFLAGS, EFLAG_TELEPORT);
+    player_pose now = pose();
+    EXPECT_TRUE(pose_jumped(&before, &now));
+    const player_pose absent{};
+    EXPECT_TRUE(pose_jumped(&absent, &before));
+    now = before;
+    now.spectator = 1;
+    EXPECT_TRUE(pose_jumped(&now, &before));
+}
+
+TEST(OpenArenaOrientation, IsYawThenPitchThenRoll) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> degrees(-720.0F, 720.0F);
+    for (int i = 0; i < 1000; ++i) {
+        const float angles[3] = {degrees(random), degrees(random), degrees(random)};
+        float q[4];
+        pose_orientation(q, angles);
+        const Eigen::Quaterniond expected = Eigen::AngleAxisd(angles[1] * radian, Eigen::Vector3d::UnitZ()) *
+                                            Eigen::AngleAxisd(angles[0] * radian, Eigen::Vector3d::UnitY()) *
+                                            Eigen::AngleAxisd(angles[2] * radian, Eigen::Vector3d::UnitX());
+        const Eigen::Quaterniond found(q[3], q[0], q[1], q[2]);
+        EXPECT_NEAR(found.norm(), 1.0, 1e-6);
+        EXPECT_LT(found.angularDistance(expected), 1e-3);
+    }
+}
+
+// Positive pitch looks down.
+TEST(OpenArenaOrientation, PitchOf90LooksDown) {
+    const float angles[3] = {90.0F, 45.0F, 0.0F};
+    float q[4];
+    pose_orientation(q, angles);
+    const Eigen::Vector3f forward = Eigen::Quaternionf(q[3], q[0], q[1], q[2]) * Eigen::Vector3f::UnitX();
+    EXPECT_NEAR(forward.z(), -1.0F, 1e-6F);
+}
+
+}  // namespace
+}  // namespace camdir::openarena

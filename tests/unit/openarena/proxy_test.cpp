@@ -1,0 +1,200 @@
+// The module as an engine sees it.
+#include "proxy.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include "engine.h"
+#include "fake_engine.hpp"
+#include "game.h"
+#include "roster.h"
+#include "support/eventually.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace camdir::openarena {
+namespace {
+
+using test::FakeEngine;
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+TEST(OpenArenaProxy, ForwardsEveryCallWithItsArguments) {
+    FakeEngine engine;
+    engine.start_map("oa_dm1");
+    EXPECT_EQ(FakeEngine::call(GAME_CLIENT_THINK, 3, 77), 1000 * GAME_CLIENT_THINK + 77);
+    EXPECT_EQ(FakeEngine::call(10, 3, 78), 10'078);
+    engine.command = {"say", "hello"};
+    FakeEngine::call(GAME_CLIENT_COMMAND, 4);
+    EXPECT_THAT(engine.prints, ElementsAre("client 4: say hello"));
+    EXPECT_EQ(engine.configstrings[CONFIGSTRING_PLAYERS], "n\\Bot0\\t\\0\\model\\sarge");
+}
+
+TEST(OpenArenaProxy, SamplesEveryFrame) {
+    FakeEngine engine;
+    engine.start_map("oa_dm1");
+    const std::uint64_t before = module_counters()->frames;
+    engine.run_frames(100);
+    EXPECT_EQ(module_counters()->frames, before + 100);
+    EXPECT_EQ(module_counters()->timed_frames, 100U);
+    EXPECT_STREQ(module_map(), "oa_dm1");
+}
+
+TEST(OpenArenaProxy, CommandsOfItsOwnReachTheGameAlone) {
+    FakeEngine engine;
+    engine.start_map("oa_dm1");
+    engine.command = {"say", "hello"};
+    const char* const words[] = {"follow", "3"};
+    game_client_command(9, words, 2);
+    FakeEngine::call(GAME_CLIENT_COMMAND, 4);
+    EXPECT_THAT(engine.prints, ElementsAre("client 9: follow 3", "client 4: say hello"));
+}
+
+TEST(OpenArenaProxy, AClientThatIsDroppedWithinAFrameLeaves) {
+    FakeEngine engine;
+    engine.start_map("oa_dm1");
+    engine.run_frames(1);
+    EXPECT_TRUE(roster_at(3)->in_use);
+    engine.cvars["fake_drop"] = "3";
+    engine.run_frames(2);
+    EXPECT_FALSE(roster_at(3)->in_use);
+    EXPECT_TRUE(roster_at(4)->in_use);
+}
+
+TEST(OpenArenaProxy, AHundredMapsLeaveNothingBehind) {
+    const auto descriptors = [] {
+        const std::filesystem::directory_iterator all("/proc/self/fd");
+        return std::distance(begin(all), end(all));
+    };
+    FakeEngine engine;
+    engine.start_map("oa_dm1");
+    engine.run_frames(2);
+    const auto open_before = descriptors();
+    const std::uint32_t life = module_life();
+    for (int i = 0; i < 100; ++i) {
+        engine.start_map(i % 2 == 0 ? "oa_dm2" : "oa_dm1");
+        engine.run_frames(3);
+    }
+    EXPECT_EQ(module_life(), life + 100);
+    EXPECT_EQ(descriptors(), open_before);
+    EXPECT_THAT(engine.errors, IsEmpty());
+}
+
+class OpenArenaRefusal : public testing::Test {
+  protected:
+    // Starts a map, and ends it as an engine does after an error.
+    std::string refusal() {
+        engine.errors.clear();
+        engine.start_map("oa_dm1");
+        EXPECT_FALSE(game_is_loaded());
+        engine.run_frames(1);
+        engine.end_map();
+        return engine.errors.empty() ? "no error" : engine.errors.front();
+    }
+
+    FakeEngine engine;
+    test::TemporaryFolder folder;
+};
+
+TEST_F(OpenArenaRefusal, AMissingGameModuleIsNamedWithWhatToDo) {
+    engine.cvars["director_game"] = "/nonexistent/qagamex86_64.so";
+    EXPECT_THAT(refusal(), AllOf(HasSubstr("/nonexistent/qagamex86_64.so"), HasSubstr("set director_game")));
+}
+
+TEST_F(OpenArenaRefusal, AGameInQvmIsRefused) {
+    engine.cvars["director_game"] = "/usr/share/vm/qagame.qvm";
+    EXPECT_THAT(refusal(), AllOf(HasSubstr("QVM"), HasSubstr("set director_game")));
+}
+
+TEST_F(OpenArenaRefusal, AModWithoutANativeModuleIsNotReplacedByTheBaseGame) {
+    engine.cvars["director_game"] = "";
+    engine.cvars["fs_basepath"] = folder.path();
+    engine.cvars["fs_game"] = "mymod";
+    EXPECT_THAT(refusal(), AllOf(HasSubstr("'mymod'"), HasSubstr("QVM"), HasSubstr("set director_game")));
+}
+
+TEST_F(OpenArenaRefusal, ALibraryThatIsNoGameIsRefused) {
+    engine.cvars["director_game"] = "libm.so.6";
+    EXPECT_THAT(refusal(), HasSubstr("is no game module"));
+    const auto junk = folder / "junk.so";
+    std::ofstream(junk) << "junk";
+    engine.cvars["director_game"] = junk;
+    EXPECT_THAT(refusal(), HasSubstr("junk.so"));
+}
+
+TEST_F(OpenArenaRefusal, ThisModuleItselfIsRefused) {
+    engine.cvars["director_game"] = "/proc/self/exe";
+    EXPECT_THAT(refusal(), HasSubstr("this module itself"));
+}
+
+TEST_F(OpenArenaRefusal, TheNextMapMayBeRightAgain) {
+    const std::string game = engine.cvars["director_game"];
+    engine.cvars["director_game"] = "/nonexistent";
+    (void)refusal();
+    engine.cvars["director_game"] = game;
+    engine.start_map("oa_dm1");
+    EXPECT_TRUE(game_is_loaded());
+}
+
+TEST(OpenArenaProxy, TheGameOfTheBasePathIsFound) {
+    test::TemporaryFolder base;
+    FakeEngine engine;
+    std::filesystem::create_directory(base / "mymod");
+    std::filesystem::copy_file(engine.cvars["director_game"], base / "mymod/qagamex86_64.so");
+    engine.cvars["director_game"] = "";
+    engine.cvars["fs_basepath"] = base.path();
+    engine.cvars["fs_game"] = "mymod";
+    engine.start_map("oa_dm1");
+    EXPECT_EQ(game_path(), base / "mymod/qagamex86_64.so");
+}
+
+// A second copy in the same process leaves all to the first.
+TEST(OpenArenaProxy, ASecondCopyOnlyForwards) {
+    FakeEngine engine;
+    engine.cvars["director_module"] = "another";
+    const std::uint64_t before = module_counters()->frames;
+    engine.start_map("oa_dm1");
+    engine.run_frames(5);
+    EXPECT_EQ(module_counters()->frames, before);
+    EXPECT_EQ(FakeEngine::call(GAME_CLIENT_THINK, 0, 5), 1000 * GAME_CLIENT_THINK + 5);
+    EXPECT_THAT(engine.prints, ElementsAre(HasSubstr("loaded twice")));
+    engine.end_map();
+    EXPECT_EQ(engine.cvars["director_module"], "another");
+    engine.cvars["director_module"] = "";
+}
+
+// No network interface of that name: the reason is told, the game goes on and is recorded.
+TEST(OpenArenaProxy, RecordsWithoutANetwork) {
+    test::TemporaryFolder folder;
+    FakeEngine engine;
+    engine.cvars["director_enable"] = "1";
+    engine.cvars["director_interface"] = "no-such-interface";
+    engine.cvars["director_record"] = (folder / "m").string();
+    engine.start_map("oa_dm1");
+    const auto frames_are_recorded = [&] {
+        engine.run_frames(1);
+        const director_report* report = module_report();
+        return report != nullptr && report->error[0] != '\0' && report->recorded_rows > 0;
+    };
+    ASSERT_TRUE(test::eventually(frames_are_recorded));
+    EXPECT_EQ(module_report()->epoch, 0U);
+    EXPECT_EQ(module_report()->directors, 0U);
+    engine.end_map();
+    EXPECT_TRUE(test::eventually([&] {
+        int complete = 0;
+        for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+            if (entry.path().extension() != ".part") ++complete;
+        }
+        return complete == 4;
+    }));
+    engine.cvars["director_enable"] = "0";
+}
+
+}  // namespace
+}  // namespace camdir::openarena
