@@ -18,8 +18,6 @@ enum {
     history_length = 64
 };
 
-enum { CDIR_EVENT_ITEM = 7, CDIR_EVENT_ROUND = 8 }; /* until the wire has them */
-
 enum { team_free = 0, team_red = 1, team_blue = 2, team_spectator = 3 };
 
 struct player_pose {

@@ -129,6 +129,7 @@ static void send_event(struct publisher* publisher, int32_t level_time, const st
     sent.actor = player_id(event->actor);
     sent.subject = player_id(event->subject);
     sent.value = event->value;
+    snprintf(sent.detail, sizeof sent.detail, "%s", event->detail);
     if (cdir_match_publish_event(publisher->match, &sent) >= 0) {
         ++publisher->events;
     } else {
