@@ -15,7 +15,8 @@
 extern "C" {
 #endif
 
-enum { message_capacity = 64, report_capacity = 8 };
+/* After a map has been loaded the server makes up for the time with many frames at once. */
+enum { message_capacity = 256, report_capacity = 8 };
 
 /* Of one life: sent before its first frame, and again whenever something of it changes. */
 struct match_state {
