@@ -1,11 +1,267 @@
 /* SPDX-License-Identifier: GPL-2.0-or-later */
+#define _POSIX_C_SOURCE 200809L
 #include "commands.h"
 
+#include <ctype.h>
+#include <inttypes.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "engine.h"
+#include "proxy.h"
+#include "roster.h"
+#include "viewers.h"
+
+enum { word_limit = 5, on_console = -1 };
+
+static const char usage[] = "director auto | off | profile NAME | status";
+static const char console_usage[] = "director status | auto SLOT | off SLOT | profile NAME SLOT";
+
+/* A command's words, the first one is "director". */
+struct words {
+    int count;
+    char words[word_limit][40];
+};
+
+/* ----------------------------------------------------------------------------------------------------
+ * answers */
+
+/* Without what would end the text in the engine's command or upset a terminal. */
+static void make_printable(char* text) {
+    for (; *text != '\0'; ++text) {
+        const unsigned char c = (unsigned char)*text;
+        if (c == '"') *text = '\'';
+        if (c < ' ' || c == 127) *text = ' ';
+    }
+}
+
+/* One line to a client or to the console. */
+static void answer(int slot, const char* format, ...) __attribute__((format(printf, 2, 3)));
+static void answer(int slot, const char* format, ...) {
+    char line[400], command[420];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(line, sizeof line, format, arguments);
+    va_end(arguments);
+    make_printable(line);
+    if (slot == on_console) {
+        engine_print("%s\n", line);
+        return;
+    }
+    snprintf(command, sizeof command, "print \"%s\n\"\n", line);
+    engine_send_command(slot, command);
+}
+
+/* -----------------------------------------------------------------------------------------------------
+ * status */
+
+static const char* choice_name(enum viewer_choice choice) {
+    static const char* const names[] = {
+        [choice_auto] = "auto", [choice_follow] = "follow", [choice_off] = "off"};
+    return names[choice];
+}
+
+static const char* shot_state_name(uint32_t state) {
+    switch (state) {
+        case CDIR_SHOT_REFUSED:
+            return "refused";
+        case CDIR_SHOT_ACCEPTED:
+            return "accepted";
+        case CDIR_SHOT_WAITING_FOR_MAP:
+            return "waiting for the map";
+        case CDIR_SHOT_WAITING_FOR_PLAYER:
+            return "waiting for a player";
+        case CDIR_SHOT_NOT_REQUESTED:
+            return "not requested yet";
+        default:
+            return "unanswered";
+    }
+}
+
+static const char* view_name(const struct viewer_status* viewer) {
+    if (viewer->camera) return "the director's camera";
+    return viewer->target == no_slot ? "free flight" : "the game's own view";
+}
+
+static void describe_viewer(int to, int slot, const struct viewer_status* viewer) {
+    const struct director_report* const report = module_report();
+    const char* const target = viewer->target < max_slots ? roster_at(viewer->target)->name : "nobody";
+    char age[40] = "", shot[200] = "";
+    if (viewer->camera) snprintf(age, sizeof age, ", %" PRId32 " ms old", viewer->camera_age);
+    if (viewer->requests && report != NULL) {
+        const struct viewer_shot* const answered = &report->shots[slot];
+        snprintf(shot, sizeof shot, ", shot %s%s%s", shot_state_name(answered->state),
+                 answered->reason[0] != '\0' ? ": " : "", answered->reason);
+    }
+    answer(to, "viewer %d %s: %s, profile %s, sees %s of %s%s%s", slot, roster_at(slot)->name,
+           choice_name(viewer->choice), viewer->profile[0] != '\0' ? viewer->profile : "of the director",
+           view_name(viewer), target, age, shot);
+}
+
+static void describe_match(void) {
+    const struct settings* const settings = module_settings();
+    const struct director_report* const report = module_report();
+    answer(on_console, "match %s, DDS domain %" PRIu32 ", interface %s, directors at %s", settings->match,
+           settings->domain, settings->interface, settings->directors);
+    answer(on_console, "map %s, life %" PRIu32, module_map(), module_life());
+    if (!settings->enable) answer(on_console, "director_enable is 0: nothing is published");
+    if (!settings->spectate)
+        answer(on_console, "director_spectate is 0: spectators see the game's own views");
+    if (report == NULL) {
+        answer(on_console, "not connected yet");
+        return;
+    }
+    answer(on_console, "epoch %" PRIu64 ", directors connected %" PRIu32, report->epoch, report->directors);
+    if (report->error[0] != '\0') answer(on_console, "error: %s", report->error);
+    answer(on_console,
+           "published %" PRIu64 " frames, %" PRIu64 " events; skipped %" PRIu64 " frames, failed %" PRIu64,
+           report->published_frames, report->published_events, report->skipped_frames, report->failures);
+    if (report->recorded_rows >= 0) answer(on_console, "recorded %" PRId64 " rows", report->recorded_rows);
+}
+
+static void describe_module(void) {
+    const struct proxy_counters* const module = module_counters();
+    const struct view_counters* const views = viewers_counters();
+    const double mean =
+        module->timed_frames > 0 ? (double)module->total_ns / 1e3 / (double)module->timed_frames : 0;
+    answer(on_console, "sampled %" PRIu64 " frames, %" PRIu64 " events; dropped %" PRIu64 " frames",
+           module->frames, module->events, module->dropped);
+    answer(on_console, "shown %" PRIu64 " camera frames, %" PRIu64 " cuts, %" PRIu64 " fallbacks",
+           views->camera_frames, views->cuts, views->fallbacks);
+    answer(on_console, "the game's thread spends %.1f us a frame here, at most %.1f us", mean,
+           (double)module->max_ns / 1e3);
+}
+
+static void print_status(void) {
+    describe_match();
+    for (int slot = 0; slot < max_slots; ++slot) {
+        struct viewer_status viewer;
+        if (viewers_status(slot, &viewer)) describe_viewer(on_console, slot, &viewer);
+    }
+    describe_module();
+}
+
+static void show_own_status(int slot) {
+    struct viewer_status viewer;
+    if (viewers_status(slot, &viewer)) {
+        describe_viewer(slot, slot, &viewer);
+    } else {
+        answer(slot, "director: its camera is for spectators");
+    }
+}
+
+/* -------------------------------------------------------------------------------------------------- the
+ * choice */
+
+static bool is_profile_name(const char* name) {
+    for (; *name != '\0'; ++name) {
+        if (!isalnum((unsigned char)*name) && strchr("-_.", *name) == NULL) return false;
+    }
+    return true;
+}
+
+/* Executes `words` for a slot and answers to `to`. Returns false when they are no choice. */
+static bool choose(int to, int slot, const struct words* words, int count) {
+    const char* const what = words->words[1];
+    if (strcmp(what, "auto") == 0 && count == 2) {
+        viewers_choose(slot, choice_auto);
+        answer(to, "director: chooses the player");
+    } else if (strcmp(what, "off") == 0 && count == 2) {
+        viewers_choose(slot, choice_off);
+        answer(to, "director: off");
+    } else if (strcmp(what, "profile") == 0 && (count == 2 || count == 3)) {
+        const char* const name = count == 3 ? words->words[2] : "";
+        if (strlen(name) >= sizeof((struct viewer_request*)0)->profile || !is_profile_name(name)) {
+            answer(to, "director: a profile's name has at most 31 letters, digits and -_.");
+            return true;
+        }
+        viewers_choose_profile(slot, name);
+        answer(to, "director: profile %s", name[0] != '\0' ? name : "of the server");
+    } else {
+        return false;
+    }
+    if (!module_settings()->spectate)
+        answer(to, "director: switched off on this server (director_spectate 0)");
+    return true;
+}
+
+/* ----------------------------------------------------------------------------------------------- where it
+ * comes from */
+
+static int slot_of(const char* text) {
+    char* end = NULL;
+    const long slot = strtol(text, &end, 10);
+    return end != text && *end == '\0' && slot >= 0 && slot < max_slots ? (int)slot : -1;
+}
+
 bool commands_console(void) {
-    return false;
+    struct words words = {0};
+    struct viewer_status viewer;
+    words.count = engine_argument_count();
+    for (int i = 0; i < word_limit && i < words.count; ++i) {
+        engine_argument(i, words.words[i], sizeof words.words[i]);
+    }
+    if (strcmp(words.words[0], "director") != 0) return false;
+    if (words.count == 1 || (words.count == 2 && strcmp(words.words[1], "status") == 0)) {
+        print_status();
+        return true;
+    }
+    const int last = words.count - 1;
+    const int slot = last < word_limit ? slot_of(words.words[last]) : -1;
+    if (words.count < 3 || slot < 0) {
+        answer(on_console, "usage: %s", console_usage);
+    } else if (!viewers_status(slot, &viewer)) {
+        answer(on_console, "director: slot %d is no human spectator", slot);
+    } else if (!choose(on_console, slot, &words, last)) {
+        answer(on_console, "usage: %s", console_usage);
+    }
+    return true;
+}
+
+/* Splits a line of chat, which is one argument or several, at its blanks. */
+static struct words split(int first_argument) {
+    struct words words = {0};
+    char text[160];
+    const int count = engine_argument_count();
+    for (int i = first_argument; i < count && i < first_argument + word_limit; ++i) {
+        char* state = NULL;
+        engine_argument(i, text, sizeof text);
+        for (const char* word = strtok_r(text, " \t", &state); word != NULL && words.count < word_limit;
+             word = strtok_r(NULL, " \t", &state)) {
+            snprintf(words.words[words.count++], sizeof words.words[0], "%s", word);
+        }
+    }
+    return words;
+}
+
+static bool is_one_of(const char* word, const char* const* list) {
+    while (*list != NULL && strcmp(word, *list) != 0) {
+        ++list;
+    }
+    return *list != NULL;
 }
 
 bool commands_client(int slot) {
-    (void)slot;
-    return false;
+    static const char* const chat[] = {"say", "say_team", NULL};
+    static const char* const follow[] = {"follow", "follownext", "followprev", NULL};
+    struct viewer_status viewer;
+    char name[40];
+    engine_argument(0, name, sizeof name);
+    /* The player that the director shows may be chosen, too. */
+    if (is_one_of(name, follow) && viewers_status(slot, &viewer) && viewer.choice == choice_auto) {
+        viewers_choose(slot, choice_follow);
+        return false;
+    }
+    const bool chats = is_one_of(name, chat);
+    if (!chats && strcmp(name, "director") != 0) return false;
+    const struct words words = split(chats ? 1 : 0);
+    if (chats && strcmp(words.words[0], "!director") != 0) return false;
+    if (words.count < 2 || (words.count == 2 && strcmp(words.words[1], "status") == 0)) {
+        show_own_status(slot);
+    } else if (!choose(slot, slot, &words, words.count)) {
+        answer(slot, "usage: %s", usage);
+    }
+    return true;
 }

@@ -67,7 +67,7 @@ enum {
     PS_PM_FLAGS = 12,
     PS_ORIGIN = 20,
     PS_VELOCITY = 32,
-    PS_DELTA_ANGLES = 56, /* int[3] */
+    PS_DELTA_ANGLES = 56, /* int[3]: view angles less the user command's, 65536 per turn */
     PS_GROUND_ENTITY = 68,
     PS_EFLAGS = 104,
     PS_CLIENT_NUMBER = 140,
@@ -88,7 +88,7 @@ enum { PM_NORMAL = 0, PM_SPECTATOR = 2, PM_DEAD = 3, PM_INTERMISSION = 5 };
 /* Bits of PS_PM_FLAGS and PS_EFLAGS. */
 enum { PM_FLAG_FOLLOW = 4096, EFLAG_TELEPORT = 4 };
 /* Indices into PS_STATS. */
-enum { STAT_HEALTH = 0, STAT_ARMOR = 4 };
+enum { STAT_HEALTH = 0, STAT_ARMOR = 4, STAT_MAX_HEALTH = 6 };
 /* Indices into PS_PERSISTANT. */
 enum {
     PERSISTANT_SCORE = 0,

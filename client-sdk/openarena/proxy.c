@@ -244,7 +244,7 @@ static intptr_t dispatch(int command, const int arguments[game_call_arguments]) 
         case GAME_CLIENT_COMMAND:
             return !passive && is_slot(slot) && commands_client(slot) ? 0 : forward(command, arguments);
         case GAME_CLIENT_CONNECT:
-            if (!passive && is_slot(slot)) viewers_connect(slot, arguments[1] != 0);
+            if (!passive && is_slot(slot)) viewers_connect(slot, arguments[1] != 0, arguments[2] != 0);
             return forward(command, arguments);
         case GAME_CLIENT_DISCONNECT:
             result = forward(command, arguments);
