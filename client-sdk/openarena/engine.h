@@ -88,7 +88,7 @@ enum { PM_NORMAL = 0, PM_SPECTATOR = 2, PM_DEAD = 3, PM_INTERMISSION = 5 };
 /* Bits of PS_PM_FLAGS and PS_EFLAGS. */
 enum { PM_FLAG_FOLLOW = 4096, EFLAG_TELEPORT = 4 };
 /* Indices into PS_STATS. */
-enum { STAT_HEALTH = 0, STAT_ARMOR = 4, STAT_MAX_HEALTH = 6 };
+enum { STAT_HEALTH = 0, STAT_ARMOR = 4, STAT_MAX_HEALTH = 7 };
 /* Indices into PS_PERSISTANT. */
 enum {
     PERSISTANT_SCORE = 0,

@@ -77,7 +77,7 @@ TEST(OpenArenaOverlay, ShowsTheView) {
     set(140, slot);
     write_vector(expected.data(), 152, somewhere.angles);
     set(184, 100);
-    set(208, 100);
+    set(212, 100);
     set(260, 3);
     set(264, 1);
     set(452, 48);
