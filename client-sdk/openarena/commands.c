@@ -25,8 +25,7 @@ struct words {
     char words[word_limit][40];
 };
 
-/* ----------------------------------------------------------------------------------------------------
- * answers */
+/* -------------------------------------------------------------------------------------------- answers */
 
 /* Without what would end the text in the engine's command or upset a terminal. */
 static void make_printable(char* text) {
@@ -54,8 +53,7 @@ static void answer(int slot, const char* format, ...) {
     engine_send_command(slot, command);
 }
 
-/* -----------------------------------------------------------------------------------------------------
- * status */
+/* --------------------------------------------------------------------------------------------- status */
 
 static const char* choice_name(enum viewer_choice choice) {
     static const char* const names[] = {
@@ -152,8 +150,7 @@ static void show_own_status(int slot) {
     }
 }
 
-/* -------------------------------------------------------------------------------------------------- the
- * choice */
+/* ----------------------------------------------------------------------------------------- the choice */
 
 static bool is_profile_name(const char* name) {
     for (; *name != '\0'; ++name) {
@@ -187,8 +184,7 @@ static bool choose(int to, int slot, const struct words* words, int count) {
     return true;
 }
 
-/* ----------------------------------------------------------------------------------------------- where it
- * comes from */
+/* -------------------------------------------------------------------------------- where it comes from */
 
 static int slot_of(const char* text) {
     char* end = NULL;

@@ -69,7 +69,7 @@ static int64_t clock_ns(clockid_t clock) {
     return (int64_t)time.tv_sec * 1000000000 + time.tv_nsec;
 }
 
-/* ---------------------------------------------------------------------------------------- the game */
+/* ------------------------------------------------------------------------------------------- the game */
 
 static void take_configstring(int number, const char* text) {
     roster_take_configstring(number, text);
@@ -102,7 +102,7 @@ static intptr_t forward(int command, const int arguments[game_call_arguments]) {
     return result;
 }
 
-/* ---------------------------------------------------------------------------------------- the worker */
+/* ----------------------------------------------------------------------------------------- the worker */
 
 static void start_worker(void) {
     if (exchange != NULL || !settings.enable) return;
@@ -144,7 +144,7 @@ static void hand_over(const struct server_frame* frame) {
     if (!match_sent || !exchange_send_frame(exchange, frame)) ++counters.dropped;
 }
 
-/* ------------------------------------------------------------------------------- the engine's calls */
+/* --------------------------------------------------------------------------------- the engine's calls */
 
 /* Another copy, for instance one that stands where the real game is expected, would publish the match twice.
  * The engine's cvars are what all copies share. */

@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+static const int64_t ns_per_ms = 1000000;
+
 static void close_shot(struct shot* shot) {
     if (shot->open) (void)cdir_observer_close(shot->observer);
     memset(shot, 0, sizeof *shot);
@@ -45,7 +47,7 @@ static struct viewer_camera camera_of(const cdir_view* view) {
     camera.live = 1;
     camera.target = view->camera.target < max_slots ? (uint8_t)view->camera.target : no_slot;
     camera.segment = view->segment;
-    camera.level_time = (int32_t)(view->frame_time / 1000000);
+    camera.level_time = (int32_t)(view->frame_time / ns_per_ms);
     camera.flags = view->camera.flags;
     memcpy(camera.position, view->camera.position, sizeof camera.position);
     memcpy(camera.orientation, view->camera.orientation, sizeof camera.orientation);
@@ -69,7 +71,9 @@ static void poll_shot(struct shot* shot, uint64_t epoch, struct viewer_camera* c
     answer->state = status.state;
     snprintf(answer->reason, sizeof answer->reason, "%.*s", (int)sizeof answer->reason - 1, status.reason);
     if (status.state != CDIR_SHOT_ACCEPTED || status.epoch != epoch) return;
-    if (cdir_observer_newest_camera(shot->observer, &view) == CDIR_OK) *camera = camera_of(&view);
+    if (cdir_observer_newest_camera(shot->observer, &view) != CDIR_OK) return;
+    if (view.frame_time < 0 || view.frame_time / ns_per_ms > INT32_MAX) return; /* no time of this server */
+    *camera = camera_of(&view);
 }
 
 bool shots_poll(struct shots* shots, uint64_t epoch, struct director_report* report) {

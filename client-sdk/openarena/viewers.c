@@ -53,8 +53,7 @@ const struct view_counters* viewers_counters(void) {
     return &counters;
 }
 
-/* ------------------------------------------------------------------------------ inside and outside the game
- */
+/* ------------------------------------------------------------------------ inside and outside the game */
 
 /* Removes the lowest slot from a set. */
 static int take_slot(uint64_t* slots) {
@@ -81,8 +80,7 @@ void viewers_resume(void) {
     }
 }
 
-/* ---------------------------------------------------------------------------------------------- life and
- * death */
+/* ------------------------------------------------------------------------------------- life and death */
 
 static void forget_view(struct viewer* viewer) {
     viewer->spectating = false;
@@ -132,8 +130,7 @@ void viewers_take_configstring(int number) {
     }
 }
 
-/* ------------------------------------------------------------------------------------------- the viewer's
- * choice */
+/* -------------------------------------------------------------------------------- the viewer's choice */
 
 bool viewers_choose(int slot, enum viewer_choice choice) {
     if (!viewers[slot].human) return false;
@@ -230,8 +227,7 @@ void viewers_fill_requests(struct viewer_request requests[max_slots]) {
     }
 }
 
-/* ------------------------------------------------------------------------------------------ the game's own
- * view */
+/* -------------------------------------------------------------------------------- the game's own view */
 
 static void ask_to_follow(struct viewer* viewer, int slot, uint8_t target) {
     const bool asked = viewer->asked == target && viewer->level_time - viewer->ask_time < follow_interval;
@@ -280,8 +276,7 @@ static void keep_place(struct viewer* viewer, int slot, uint8_t* state, bool cam
     viewer->away = false;
 }
 
-/* ------------------------------------------------------------------------------------------ the director's
- * camera */
+/* ------------------------------------------------------------------------------ the director's camera */
 
 static const struct player_pose* pose_at(const struct frame_history* history, int32_t level_time,
                                          uint8_t slot) {

@@ -71,7 +71,7 @@ static void set_error(char error[error_size], const char* text) {
     if (text[0] != '\0') log_line(error);
 }
 
-/* ---------------------------------------------------------------------------------------- the match */
+/* ------------------------------------------------------------------------------------------ the match */
 
 static void end_worker(void);
 
@@ -128,7 +128,7 @@ static void send_frame(const struct server_frame* frame) {
     }
 }
 
-/* ------------------------------------------------------------------------------------ the recording */
+/* -------------------------------------------------------------------------------------- the recording */
 
 static void close_recording(void) {
     char reason[error_size];
@@ -157,7 +157,7 @@ static void record_frame(const struct server_frame* frame) {
     close_recording();
 }
 
-/* ------------------------------------------------------------------------------------- the messages */
+/* --------------------------------------------------------------------------------------- the messages */
 
 static void take_match(const struct match_state* match) {
     const bool new_life = !worker.has_match || worker.match.life != match->life;
@@ -211,7 +211,7 @@ static void take_messages(void) {
     }
 }
 
-/* ----------------------------------------------------------------------------------------- the loop */
+/* ------------------------------------------------------------------------------------------- the loop */
 
 static void check_directors(void) {
     const uint32_t directors = publisher_directors(&worker.publisher);
