@@ -87,6 +87,7 @@ static void disconnect(void) {
     shots_close(&worker.shots);
     publisher_close(&worker.publisher);
     worker.report.epoch = 0;
+    worker.report.directors = 0;
     worker.report_changed = true;
 }
 
@@ -214,11 +215,15 @@ static void take_messages(void) {
 /* ------------------------------------------------------------------------------------------- the loop */
 
 static void check_directors(void) {
-    const uint32_t directors = publisher_directors(&worker.publisher);
-    if ((directors == 0) != (worker.report.directors == 0)) {
-        log_line(directors == 0 ? "no director receives the match" : "a director receives the match");
-    }
+    const uint32_t directors = publisher_directors(&worker.publisher), before = worker.report.directors;
     worker.report.directors = directors;
+    if (directors > 0 && before == 0) log_line("a director receives the match");
+    if (directors == 0 && before > 0) {
+        log_line("no director receives the match");
+        /* One that only hung takes up a lost connection after a minute, but a new one at once. */
+        disconnect();
+        if (worker.has_match) announce();
+    }
     worker.report.recorded_rows = worker.recording == NULL ? -1 : recording_rows(worker.recording);
     worker.report.published_frames = worker.publisher.frames;
     worker.report.published_events = worker.publisher.events;
