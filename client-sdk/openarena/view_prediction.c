@@ -7,6 +7,9 @@ static const double degrees = 57.295779513082321;
 static const double max_pitch = 89.0;     /* beyond it the picture would turn over */
 static const double min_eye_distance = 4; /* closer, the direction of the eye means nothing */
 static const double max_move = 1000;
+/* ms. A longer one errs no less, where a camera follows a player round corners, and makes its path rougher.
+ */
+static const double max_extrapolation = 25;
 
 static double wrapped(double angle) {
     return angle - 360.0 * floor((angle + 180.0) / 360.0);
@@ -37,11 +40,12 @@ struct view view_of_camera(const struct viewer_camera* camera) {
     return view;
 }
 
-/* How many times the step from the previous to the newest camera the camera has gone on since. */
+/* For how many times the step from the previous to the newest camera the camera is moved on. */
 static double steps_since(const struct camera_motion* motion, int32_t level_time) {
     if (motion->count < 2 || (motion->newest.flags & CDIR_CAMERA_HELD) != 0) return 0;
     const double step = (double)motion->newest.level_time - motion->previous.level_time;
-    return fmax(0, ((double)level_time - motion->newest.level_time) / step);
+    const double since = (double)level_time - motion->newest.level_time;
+    return fmax(0, fmin(max_extrapolation, since)) / step;
 }
 
 static void keep_moving(struct view* view, const struct camera_motion* motion, double steps) {

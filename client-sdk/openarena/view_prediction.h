@@ -29,11 +29,11 @@ struct camera_motion {
 bool camera_motion_take(struct camera_motion* motion, const struct viewer_camera* camera);
 
 /* The view of motion->newest, count > 0, at a later level time.
- * It keeps moving at the velocity between the two cameras, but by no more than the newest one's clearance
- * less one unit, within which there is no obstacle. Then it is turned so that the target's eye keeps its
- * place in the picture; then and now are the target's poses at the camera's time and at level_time. Where
- * either is null or the target died or jumped in between, the camera keeps turning as it did. A camera that
- * is held stands. */
+ * It keeps moving at the velocity between the two cameras, for at most 25 ms, and by no more than the newest
+ * one's clearance less one unit, within which there is no obstacle. Then it is turned so that the target's
+ * eye keeps its place in the picture; then and now are the target's poses at the camera's time and at
+ * level_time. Where either is null or the target died or jumped in between, the camera keeps turning as it
+ * did. A camera that is held stands. */
 struct view predict_view(const struct camera_motion* motion, int32_t level_time,
                          const struct player_pose* then, const struct player_pose* now);
 

@@ -102,7 +102,8 @@ TEST_F(OpenArenaViewers, AViewerWhoJoinsATeamIsAPlayerAtOnce) {
 
 TEST_F(OpenArenaViewers, TheCameraIsPredictedFromItsTwoNewestFrames) {
     watch(anna, 1, 3);
-    EXPECT_THAT(shown_position(), ElementsAre(20, 0, 50)) << "15 of the previous frame and 5 a frame";
+    EXPECT_THAT(shown_position(), ElementsAre(17.5F, 0, 50))
+        << "15 of the frame before, and half a step of 5";
 }
 
 TEST_F(OpenArenaViewers, TheTeleportBitTogglesExactlyAtSegments) {
