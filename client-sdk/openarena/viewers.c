@@ -24,13 +24,11 @@ struct place {
 };
 
 struct viewer {
-    bool human;
     enum viewer_choice choice;
     char profile[32];
     struct shown_name name;
 
     /* Of the present time as a spectator. */
-    bool spectating;
     uint8_t followed; /* by the game's own view, no_slot = it flies freely */
     uint8_t asked;    /* the player that the game was asked to follow last */
     int32_t ask_time;
@@ -47,15 +45,27 @@ struct viewer {
 static struct viewer viewers[max_slots];
 static struct view_counters counters;
 static int call_depth;
-static uint64_t overlay_slots; /* bits of those whose overlay is not overlay_none */
+/* Sets of slots, as bits: most slots are empty, and looking at each costs more than everything else here. */
+static uint64_t human_slots;   /* clients that are no bots */
+static uint64_t viewer_slots;  /* of them, those that spectate */
+static uint64_t overlay_slots; /* of them, those whose overlay is not overlay_none */
 
 const struct view_counters* viewers_counters(void) {
     return &counters;
 }
 
-/* ------------------------------------------------------------------------ inside and outside the game */
+/* ------------------------------------------------------------------------- inside and outside the game */
 
-/* Removes the lowest slot from a set. */
+static bool contains(uint64_t slots, int slot) {
+    return (slots >> slot & 1) != 0;
+}
+
+static void put(uint64_t* slots, int slot, bool member) {
+    const uint64_t bit = UINT64_C(1) << slot;
+    *slots = member ? *slots | bit : *slots & ~bit;
+}
+
+/* Removes the lowest slot from a set that is not empty. */
 static int take_slot(uint64_t* slots) {
     const int slot = __builtin_ctzll(*slots);
     *slots &= *slots - 1;
@@ -80,10 +90,12 @@ void viewers_resume(void) {
     }
 }
 
-/* ------------------------------------------------------------------------------------- life and death */
+/* -------------------------------------------------------------------------------------- life and death */
 
-static void forget_view(struct viewer* viewer) {
-    viewer->spectating = false;
+static void forget_view(int slot) {
+    struct viewer* const viewer = &viewers[slot];
+    put(&viewer_slots, slot, false);
+    put(&overlay_slots, slot, false);
     viewer->followed = viewer->asked = no_slot;
     viewer->away = viewer->has_place = viewer->requested = false;
     memset(&viewer->motion, 0, sizeof viewer->motion);
@@ -94,8 +106,8 @@ static void forget_viewer(int slot) {
     struct viewer* const viewer = &viewers[slot];
     memset(viewer, 0, sizeof *viewer);
     viewer->name = shown_name_own();
-    forget_view(viewer);
-    overlay_slots &= ~(UINT64_C(1) << slot);
+    forget_view(slot);
+    put(&human_slots, slot, false);
 }
 
 void viewers_reset(void) {
@@ -104,17 +116,16 @@ void viewers_reset(void) {
         const uint8_t name = viewer->name.slot;
         viewer->name = shown_name_own();
         /* A restart on the same map does not send the names again. */
-        if (viewer->human && name != no_slot) viewer->name.slot = name_unsure;
-        viewer->human = false; /* until the game has it connect again */
-        forget_view(viewer);
+        if (contains(human_slots, slot) && name != no_slot) viewer->name.slot = name_unsure;
+        forget_view(slot);
     }
-    overlay_slots = 0;
-    call_depth = 1; /* a game that ended by an error never returned from its calls */
+    human_slots = 0; /* until the game has them connect again */
+    call_depth = 1;  /* a game that ended by an error never returned from its calls */
 }
 
 void viewers_connect(int slot, bool first_time, bool bot) {
     if (first_time || bot) forget_viewer(slot);
-    viewers[slot].human = !bot;
+    put(&human_slots, slot, !bot);
 }
 
 void viewers_disconnect(int slot) {
@@ -124,22 +135,22 @@ void viewers_disconnect(int slot) {
 void viewers_take_configstring(int number) {
     const int player = number - CONFIGSTRING_PLAYERS;
     if (player < 0 || player >= max_slots) return;
-    for (int slot = 0; slot < max_slots; ++slot) {
-        if (viewers[slot].spectating)
-            shown_name_take_configstring(&viewers[slot].name, slot, (uint8_t)player);
+    for (uint64_t slots = viewer_slots; slots != 0;) {
+        const int slot = take_slot(&slots);
+        shown_name_take_configstring(&viewers[slot].name, slot, (uint8_t)player);
     }
 }
 
-/* -------------------------------------------------------------------------------- the viewer's choice */
+/* --------------------------------------------------------------------------------- the viewer's choice */
 
 bool viewers_choose(int slot, enum viewer_choice choice) {
-    if (!viewers[slot].human) return false;
+    if (!contains(human_slots, slot)) return false;
     viewers[slot].choice = choice;
     return true;
 }
 
 bool viewers_choose_profile(int slot, const char* profile) {
-    if (!viewers[slot].human) return false;
+    if (!contains(human_slots, slot)) return false;
     snprintf(viewers[slot].profile, sizeof viewers[slot].profile, "%s", profile);
     return true;
 }
@@ -182,9 +193,9 @@ static void take_in_follow(struct viewer* viewer, uint8_t followed) {
 
 static void take_in_spectator(struct viewer* viewer, int slot, const uint8_t* state) {
     const uint8_t followed = followed_by_game(slot, state);
-    if (!viewer->spectating || is_intermission(state)) {
+    if (!contains(viewer_slots, slot) || is_intermission(state)) {
         viewer->followed = viewer->asked = followed;
-        viewer->spectating = true;
+        put(&viewer_slots, slot, true);
     } else {
         take_in_follow(viewer, followed);
     }
@@ -197,9 +208,8 @@ static bool is_spectator(int slot, const uint8_t* state) {
 }
 
 static void stop_viewing(struct viewer* viewer, int slot) {
-    if (!viewer->spectating) return;
-    forget_view(viewer);
-    overlay_slots &= ~(UINT64_C(1) << slot);
+    if (!contains(viewer_slots, slot)) return;
+    forget_view(slot);
     viewer->name = shown_name_own(); /* with the team, the game has sent the name */
     if (viewer->choice == choice_follow) viewer->choice = choice_auto;
 }
@@ -209,14 +219,13 @@ static void fill_request(struct viewer_request* request, const struct viewer* vi
     request->active = 1;
     request->mode = follows ? viewer_follow : viewer_auto;
     request->target = follows ? viewer->followed : no_slot;
-    snprintf(request->profile, sizeof request->profile, "%s", profile_of(viewer));
+    memcpy(request->profile, profile_of(viewer), sizeof request->profile);
 }
 
 void viewers_fill_requests(struct viewer_request requests[max_slots]) {
-    memset(requests, 0, max_slots * sizeof *requests);
-    for (int slot = 0; slot < max_slots; ++slot) {
+    for (uint64_t slots = human_slots; slots != 0;) {
+        const int slot = take_slot(&slots);
         struct viewer* const viewer = &viewers[slot];
-        if (!viewer->human) continue;
         const uint8_t* const state = engine_player_state(slot);
         if (is_spectator(slot, state)) {
             take_in_spectator(viewer, slot, state);
@@ -227,7 +236,7 @@ void viewers_fill_requests(struct viewer_request requests[max_slots]) {
     }
 }
 
-/* -------------------------------------------------------------------------------- the game's own view */
+/* --------------------------------------------------------------------------------- the game's own view */
 
 static void ask_to_follow(struct viewer* viewer, int slot, uint8_t target) {
     const bool asked = viewer->asked == target && viewer->level_time - viewer->ask_time < follow_interval;
@@ -276,7 +285,7 @@ static void keep_place(struct viewer* viewer, int slot, uint8_t* state, bool cam
     viewer->away = false;
 }
 
-/* ------------------------------------------------------------------------------ the director's camera */
+/* ------------------------------------------------------------------------------- the director's camera */
 
 static const struct player_pose* pose_at(const struct frame_history* history, int32_t level_time,
                                          uint8_t slot) {
@@ -340,22 +349,22 @@ static void update_view(int slot, const struct viewer_camera* camera, const stru
     } else {
         show_own(viewer, slot, state);
     }
-    const uint64_t bit = UINT64_C(1) << slot;
-    overlay_slots = viewer->overlay.kind == overlay_none ? overlay_slots & ~bit : overlay_slots | bit;
+    put(&overlay_slots, slot, viewer->overlay.kind != overlay_none);
 }
 
 void viewers_apply(const struct director_report* report, const struct frame_history* history) {
     const struct server_frame* const now = frame_before(history, 0);
     if (now == NULL) return;
     const bool current = report != NULL && report->life == now->life;
-    for (int slot = 0; slot < max_slots; ++slot) {
-        if (viewers[slot].spectating) update_view(slot, current ? &report->cameras[slot] : NULL, history);
+    for (uint64_t slots = viewer_slots; slots != 0;) {
+        const int slot = take_slot(&slots);
+        update_view(slot, current ? &report->cameras[slot] : NULL, history);
     }
 }
 
 bool viewers_status(int slot, struct viewer_status* status) {
     const struct viewer* const viewer = &viewers[slot];
-    if (!viewer->spectating) return false;
+    if (!contains(viewer_slots, slot)) return false;
     status->choice = viewer->choice;
     snprintf(status->profile, sizeof status->profile, "%s", profile_of(viewer));
     status->requests = requests_shot(viewer);

@@ -31,7 +31,7 @@ void viewers_disconnect(int slot);
 void viewers_take_configstring(int number);
 
 /* After the game's frame: takes in what the game's own follow commands and buttons have done, and fills the
- * requests of the frame that is being sampled. */
+ * requests of the frame that is being sampled, which are zero before. */
 void viewers_fill_requests(struct viewer_request requests[max_slots]);
 /* Then: prepares what viewers_resume() shows. report: null before the first one of this life. */
 void viewers_apply(const struct director_report* report, const struct frame_history* history);
