@@ -8,7 +8,6 @@
 namespace camdir::openarena {
 namespace {
 
-using testing::ElementsAre;
 using testing::HasSubstr;
 
 constexpr int viewer = 4;
