@@ -106,8 +106,9 @@ TEST_P(RealMap, NothingIsSeenThroughAWallAndLittleIsMissed) {
     EXPECT_LE(missed, GetParam().missed * visible) << missed << " of " << visible;
 }
 
-INSTANTIATE_TEST_SUITE_P(Losses, RealMap, testing::ValuesIn(RealMap::meshes),
-                         [](const auto& info) { return info.param.loss == 0.0 ? "unreduced" : "reduced"; });
+INSTANTIATE_TEST_SUITE_P(Losses, RealMap, testing::ValuesIn(RealMap::meshes), [](const auto& tested) {
+    return tested.param.loss == 0.0 ? "unreduced" : "reduced";
+});
 
 }  // namespace
 }  // namespace camdir::freespace
