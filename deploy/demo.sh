@@ -3,22 +3,29 @@
 # 30 s of a recorded match of 8 players over DDS in a loop, and shows what 8 observers receive.
 #
 #     demo.sh [--seconds N] [--json FILE]
+#     demo.sh --openarena [--seconds N] [--video FILE]
 #
 # Runs until Ctrl-C, or for N seconds, and ends with a summary (--json also writes it to FILE). Exit code 1 when a
 # camera was in an obstacle, moved through one or jumped without declaring a cut, or when a camera frame was missing.
+#
+# --openarena: a live match of 8 bots on OpenArena's server instead, which spectators can join, for N seconds (30). It
+# ends with a video, by default build/demo/openarena.mp4: the director's camera beside the game's own chase camera,
+# both following one player; and with a contact sheet of it, FILE with .png in place of its suffix. Needs no display.
 set -euo pipefail
 caller=$PWD
 cd "$(dirname "$0")/.."
 
 usage() {
-    echo "demo.sh: $1; usage: demo.sh [--seconds N] [--json FILE]" >&2
+    echo "demo.sh: $1; usage: demo.sh [--seconds N] [--json FILE]" \
+        "or demo.sh --openarena [--seconds N] [--video FILE]" >&2
     exit 2
 }
-seconds=0 json=
+seconds=0 json='' openarena=false video=''
 while [ $# -gt 0 ]; do
     case "$1" in
         -h|--help) sed -n '2,/^set /s/^# \{0,1\}//p' deploy/demo.sh; exit 0 ;;
-        --seconds|--json) [ $# -ge 2 ] || usage "$1 needs a value" ;;
+        --openarena) openarena=true; shift; continue ;;
+        --seconds|--json|--video) [ $# -ge 2 ] || usage "$1 needs a value" ;;
         *) usage "unknown option '$1'" ;;
     esac
     case "$1" in
@@ -29,23 +36,38 @@ while [ $# -gt 0 ]; do
             json=$2
             [[ $json = /* ]] || json=$caller/$json
             [ -d "$(dirname "$json")" ] || usage "--json '$2': no folder $(dirname "$json")" ;;
+        --video)
+            video=$2
+            [[ $video = /* ]] || video=$caller/$video ;;
     esac
     shift 2
 done
+$openarena || [ -z "$video" ] || usage "--video needs --openarena"
+! $openarena || [ -z "$json" ] || usage "--json does not go with --openarena"
 
-step() { printf '\n== %s\n' "$1" >&2; }
-
-step "Packages"
-deploy/install-packages.sh build map
-
-step "Build (the first one takes some minutes)"
-cmake --preset release
-cmake --build --preset release --target camera-director pose-replay observer-probe
-
+source deploy/processes.sh
 bin=build/release/bin
 work=build/demo
 map=/usr/share/games/openarena/baseoa/pak1-maps.pk3:maps/oa_dm1.bsp
 mkdir -p "$work"
+groups=(build map) targets=(camera-director pose-replay observer-probe)
+if $openarena; then
+    source deploy/openarena/game.sh
+    source deploy/openarena/live.sh
+    video=${video:-$PWD/$work/openarena.mp4}
+    for output in "$video" "${video%.*}.png"; do check_output "$output"; done
+    groups+=(game) targets=(camera-director camera_director_openarena)
+    [ "$seconds" != 0 ] || seconds=30
+fi
+
+
+step "Packages"
+deploy/install-packages.sh "${groups[@]}"
+! $openarena || check_tools
+
+step "Build (the first one takes some minutes)"
+cmake --preset release
+cmake --build --preset release --target "${targets[@]}"
 
 # A DDS domain that no other demo, test or soak run uses: the lock lasts as long as this script.
 locks=${TMPDIR:-/tmp}/camera-director-test-domains
@@ -68,21 +90,24 @@ CONFIG
 step "Bake oa_dm1 (only when $work/oa_dm1.vfs is missing or out of date)"
 "$bin/camera-director" bake --config "$work/demo.json"
 
-started=()
-stop() {
-    for pid in "${started[@]}"; do kill -TERM "$pid" 2>/dev/null || true; done
-    for pid in "${started[@]}"; do wait "$pid" 2>/dev/null || true; done
-}
-trap stop EXIT
-# Ctrl-C reaches only the observers, which then print their summary; stop() ends the other programs.
-trap : INT
+trap 'end "${started[@]}"' EXIT
 trap 'exit 143' TERM
+run "$work/director.log" setsid "$bin/camera-director" serve --config "$work/demo.json"
 
-setsid "$bin/camera-director" serve --config "$work/demo.json" 2>"$work/director.log" 9>&- &
-started+=($!)
-setsid "$bin/pose-replay" deploy/demo/match.csv.gz --domain "$domain" --match-prefix demo --map-name oa_dm1 \
-    >"$work/replay.log" 2>&1 9>&- &
-started+=($!)
+if $openarena; then
+    trap 'exit 130' INT
+    work=$work/openarena
+    step "A live match of ${#bots[@]} bots, $seconds s"
+    start_match
+    how_to_connect
+    film_match "$seconds" "$video"
+    exit 0
+fi
+
+# Ctrl-C reaches only the observers, which then print their summary; end() ends the other programs.
+trap : INT
+run "$work/replay.log" setsid "$bin/pose-replay" deploy/demo/match.csv.gz --domain "$domain" --match-prefix demo \
+    --map-name oa_dm1
 
 step "Live: one row for each player, and the camera that follows them"
 cat >&2 <<LEGEND

@@ -49,6 +49,14 @@ const uint8_t* engine_entity(int number) {
     return game_data.entities + (size_t)number * game_data.entity_size;
 }
 
+uint8_t* engine_mutable_entity(int number) {
+    return game_data.entities + (size_t)number * game_data.entity_size;
+}
+
+void engine_link_entity(uint8_t* entity) {
+    call_engine(ENGINE_LINK_ENTITY, (intptr_t)entity);
+}
+
 void engine_print(const char* format, ...) {
     char text[1024];
     va_list arguments;
@@ -83,6 +91,11 @@ void engine_cvar_string(const char* name, char* text, size_t size) {
     text[0] = '\0';
     call_engine(ENGINE_CVAR_STRING, (intptr_t)name, (intptr_t)text, (intptr_t)size);
     text[size - 1] = '\0';
+}
+
+void engine_enter_command(const char* line) {
+    static const intptr_t now = 0;
+    call_engine(ENGINE_CONSOLE_COMMAND, now, (intptr_t)line);
 }
 
 int engine_argument_count(void) {

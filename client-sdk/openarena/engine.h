@@ -29,10 +29,12 @@ enum {
     ENGINE_CVAR_STRING = 7,
     ENGINE_ARGC = 8,
     ENGINE_ARGV = 9,
+    ENGINE_CONSOLE_COMMAND = 14,
     ENGINE_LOCATE_GAME_DATA = 15,
     ENGINE_SEND_SERVER_COMMAND = 17,
     ENGINE_SET_CONFIGSTRING = 18,
     ENGINE_GET_CONFIGSTRING = 19,
+    ENGINE_LINK_ENTITY = 30,
     ENGINE_GET_USER_COMMAND = 36
 };
 
@@ -47,7 +49,8 @@ enum {
     GAME_CLIENT_COMMAND = 6,
     GAME_CLIENT_THINK = 7,
     GAME_RUN_FRAME = 8, /* level time in ms */
-    GAME_CONSOLE_COMMAND = 9
+    GAME_CONSOLE_COMMAND = 9,
+    GAME_RUN_BOTS = 10
 };
 
 /* Configstrings. */
@@ -162,6 +165,9 @@ uint8_t* engine_player_state(int slot);
 int engine_entity_count(void);
 /* number < engine_entity_count(). */
 const uint8_t* engine_entity(int number);
+uint8_t* engine_mutable_entity(int number);
+/* Has the engine take up an entity's changed place. */
+void engine_link_entity(uint8_t* entity);
 
 /* Prints on the server's console. */
 void engine_print(const char* format, ...) __attribute__((format(printf, 1, 2)));
@@ -172,6 +178,10 @@ void engine_cvar_register(const char* name, const char* value);
 void engine_cvar_set(const char* name, const char* value);
 int engine_cvar_integer(const char* name);
 void engine_cvar_string(const char* name, char* text, size_t size);
+
+/* Has the server execute a line as if it had been entered on its console, at once: it calls vmMain() again.
+ */
+void engine_enter_command(const char* line);
 
 /* Of the command in progress, 0 = its name. Out of range: an empty string. */
 int engine_argument_count(void);

@@ -1,0 +1,169 @@
+# Sourced, after processes.sh: OpenArena's server and clients without a screen, and pictures of what clients record.
+# A server or client is a folder below $work: its console (a pipe, `in`), its messages (`log`), its files (`home`).
+
+server=/usr/games/openarena-server
+client=/usr/games/openarena
+bots=(sarge gargoyle penguin sergei kyonshi tony angelyss rai)
+frames_per_second=30
+size=640x360  # of a picture
+
+fail() {
+    echo "$(basename "$0"): $1" >&2
+    exit 1
+}
+
+# check_output FILE: refuses a file that cannot be written, before any work.
+check_output() {
+    local folder
+    folder=$(dirname "$1")
+    [ -d "$folder" ] || fail "no folder $folder for $1"
+    [ ! -d "$1" ] || fail "$1 is a folder"
+    if [ -e "$1" ]; then [ -w "$1" ]; else [ -w "$folder" ]; fi || fail "$1 cannot be written"
+}
+
+check_tools() {
+    local tool
+    for tool in "$server" "$client" Xvfb ffmpeg; do
+        command -v "$tool" >/dev/null || fail "$tool is missing: deploy/install-packages.sh game"
+    done
+}
+
+# console NAME LINE: enters a line on the console of a server or client.
+console() { printf '%s\n' "$2" 1<>"$work/$1/in"; }
+
+# await SECONDS NAME PATTERN: until the log of NAME has a line with PATTERN. Fails when its program ends before.
+await() {
+    local i log=$work/$2/log pid
+    pid=$(<"$work/$2/pid")
+    for ((i = 0; i < 10 * $1; ++i)); do
+        ! grep -q -a -e "$3" "$log" || return 0
+        kill -0 "$pid" 2>/dev/null || break
+        sleep 0.1
+    done
+    grep -q -a -e "$3" "$log" && return 0
+    tail -n 5 "$log" >&2
+    fail "$2: no '$3' in $log${4:+; $4}"
+}
+
+# start NAME COMMAND...: with a console.
+start() {
+    local folder=$work/$1
+    mkdir -p "$folder"
+    rm -f "$folder/in" "$folder/log"
+    mkfifo "$folder/in"
+    # Open for reading and writing: a console that nobody writes to stays open.
+    run "$folder/log" "${@:2}" 0<>"$folder/in"
+    echo $! >"$folder/pid"
+}
+
+# start_server NAME MODULE RATE [SETTING VALUE]...: on loopback, at the first free port from 27960 on, which is then in
+# $port. It has no map yet: `console NAME "map MAP"`.
+start_server() {
+    local folder=$work/$1/home/baseoa
+    mkdir -p "$folder"
+    cp "$2" "$folder/qagamex86_64.so"
+    printf 'set %s "%s"\n' sv_master1 '' sv_master2 '' sv_master3 '' sv_master4 '' sv_master5 '' \
+        sv_maxclients 64 sv_maxRate 0 sv_lanForceRate 1 bot_enable 1 bot_nochat 1 bot_minplayers 0 \
+        g_gametype 0 fraglimit 0 timelimit 0 g_doWarmup 0 g_inactivity 0 g_log '' "${@:4}" >"$folder/server.cfg"
+    start "$1" "$server" +set fs_homepath "$work/$1/home" +set dedicated 1 +set net_enabled 1 +set net_ip 127.0.0.1 \
+        +set net_port 27960 +set vm_game 0 +set ttycon 0 +set com_hunkMegs 256 +set sv_fps "$3" +exec server.cfg
+    await 60 "$1" "Opening IP socket: 127.0.0.1:"
+    port=$(sed -n 's/^Opening IP socket: 127.0.0.1:\([0-9]*\).*/\1/p' "$work/$1/log" | tail -n 1)
+}
+
+# start_display NAME SIZE: a display in memory, in $DISPLAY.
+start_display() {
+    local folder=$work/$1
+    mkdir -p "$folder"
+    : >"$folder/display"
+    run "$folder/display.log" Xvfb -displayfd 3 -screen 0 "${2}x24" -nolisten tcp 3>"$folder/display"
+    echo $! >"$folder/display_pid"
+    for ((i = 0; i < 100; ++i)); do
+        [ ! -s "$folder/display" ] || break
+        kill -0 "$(<"$folder/display_pid")" 2>/dev/null || break
+        sleep 0.1
+    done
+    [ -s "$folder/display" ] || fail "no display: Xvfb says in $folder/display.log: $(tail -n 1 "$folder/display.log")"
+    DISPLAY=:$(<"$folder/display")
+    export DISPLAY
+}
+
+# start_client NAME SIZE COMMAND...: with a display of its own. COMMAND: +set NAME VALUE ... of the game.
+start_client() {
+    local name=$1 size=$2
+    shift 2
+    start_display "$name" "$size"
+    mkdir -p "$work/$name/home/baseoa/demos"
+    start "$name" env LIBGL_ALWAYS_SOFTWARE=1 LP_NUM_THREADS=1 MESA_SHADER_CACHE_DISABLE=true SDL_AUDIODRIVER=dummy \
+        "$client" +set fs_homepath "$work/$name/home" +set net_enabled 1 +set r_mode -1 +set r_fullscreen 0 \
+        +set r_customwidth "${size%x*}" +set r_customheight "${size#*x}" +set r_ignorehwgamma 1 \
+        +set cl_renderer opengl1 +set s_initsound 0 +set in_mouse 0 +set ttycon 0 +set com_introplayed 1 "$@"
+}
+
+# start_spectator NAME [COMMANDS]: joins the server at $port, spectates, executes COMMANDS and records all that it
+# receives. It draws next to nothing: its picture is drawn later from the recording.
+start_spectator() {
+    rm -f "$work/$1/home/baseoa/demos/"*
+    start_client "$1" 64x36 +set name "$1" +set snaps 125 +set rate 90000 +set r_picmip 8 +set r_vertexLight 1 \
+        +set com_maxfps 20 +set activeAction "team s; ${2:+$2; }record $1" +connect "127.0.0.1:$port"
+}
+
+# await_recording NAME: until it records.
+await_recording() {
+    await 120 "$1" 'recording to demos/'
+    sleep 1  # the server sends a complete frame first
+}
+
+# leave NAME TEXT: the spectator ends once it has received the server's message TEXT, and completes its recording.
+leave() {
+    await 120 "$1" "$2"
+    end "$(<"$work/$1/pid")"
+    end "$(<"$work/$1/display_pid")"
+}
+
+# draw_recording NAME [+set SETTING VALUE]...: plays what the spectator NAME has recorded as NAME and writes every frame
+# of it into $work/NAME-video/NAME.avi, however long that takes.
+draw_recording() {
+    local name=$1
+    mkdir -p "$work/$name-video/home/baseoa/demos"
+    rm -rf "$work/$name-video/home/baseoa/videos"
+    cp "$work/$name/home/baseoa/demos/$name".dm_* "$work/$name-video/home/baseoa/demos/"
+    start_client "$name-video" "$size" +set activeAction "video $name" +set nextdemo quit \
+        +set cl_aviFrameRate "$frames_per_second" +set cl_aviMotionJpeg 1 +set r_aviMotionJpegQuality 95 \
+        +set r_gamma 1.4 +set cg_draw2D 0 +set cg_fov 90 +set con_notifytime -1 +set com_blood 0 +set cg_stats 1 "${@:2}" +demo "$name"
+    wait "$(<"$work/$name-video/pid")" || true
+    end "$(<"$work/$name-video/display_pid")"
+    video=$work/$name-video/home/baseoa/videos/$name.avi
+    [ -s "$video" ] || fail "$name: no video was drawn, see $work/$name-video/log"
+}
+
+# frame_of NAME TEXT: number of the first video frame after the server's message TEXT.
+frame_of() {
+    grep -a -A 20 -e "$2" "$work/$1-video/log" | sed -n 's/^cg.clientFrame:\([0-9]*\).*/\1/p' | head -n 1 || true
+}
+
+# join_videos FILE BEGIN END NAME=LABEL...: the drawn recordings side by side, from the server's message BEGIN to its
+# message END, the same moments in all of them.
+join_videos() {
+    local file=$1 begin=$2 end=$3 inputs=() filter='' stack='' count=0 spectator first last
+    shift 3
+    for spectator in "$@"; do
+        local name=${spectator%%=*} label=${spectator#*=}
+        first=$(frame_of "$name" "$begin")
+        last=$(frame_of "$name" "$end")
+        [ -n "$first" ] && [ -n "$last" ] || fail "$name: its recording lacks '$begin' or '$end'"
+        inputs+=(-i "$work/$name-video/home/baseoa/videos/$name.avi")
+        filter+="[$count:v]trim=start_frame=$first:end_frame=$last,setpts=PTS-STARTPTS,"
+        filter+="drawtext=text='$label':x=10:y=10:fontsize=20:fontcolor=white:borderw=2[v$count];"
+        stack+="[v$count]"
+        count=$((count + 1))
+    done
+    if [ "$count" -gt 1 ]; then filter+="${stack}hstack=inputs=$count:shortest=1[all]"; else filter+="[v0]null[all]"; fi
+    ffmpeg -nostdin -v error -y "${inputs[@]}" -filter_complex "$filter" -map '[all]' -c:v libx264 -crf 23 -preset fast \
+        -pix_fmt yuv420p -movflags +faststart -f mp4 "$file"
+}
+
+# contact_sheet VIDEO FILE.png SECONDS: a picture every SECONDS.
+contact_sheet() {
+    ffmpeg -nostdin -v error -y -i "$1" -vf "fps=1/$3,scale=640:-2,tile=3x5:padding=4" -frames:v 1 -f image2 -c:v png "$2"
+}

@@ -1,0 +1,51 @@
+# Sourced by demo.sh --openarena, after processes.sh and game.sh: a live match of bots on OpenArena's server, and what a
+# spectator with the director's camera sees beside the game's own chase camera.
+
+# The player both cameras follow: the number of a bot.
+followed=2
+
+# start_match: a server with bots whose module talks to the director in $domain.
+start_match() {
+    local i
+    start_server server build/release/lib/openarena/qagamex86_64.so 20 director_domain "$domain" rconPassword ''
+    console server 'map oa_dm1'
+    await 120 server 'AAS initialized'
+    for i in "${!bots[@]}"; do
+        console server "addbot ${bots[i]} $((2 + i % 4))"
+        await 60 server "ClientBegin: $i"
+    done
+}
+
+how_to_connect() {
+    cat >&2 <<TEXT
+Watch it with your own client on this machine, while it runs (another terminal, with a screen):
+
+    /usr/games/openarena +connect 127.0.0.1:$port
+
+and choose "spectate". Attack and "use item" change the player, \`/director off\` and \`/director auto\` the camera.
+TEXT
+}
+
+# film_match SECONDS FILE: the match for so long, and its pictures: FILE, and FILE with .png in place of its suffix.
+film_match() {
+    local video=$2 sheet=${2%.*}.png spectator
+    start_spectator director "follow $followed"
+    start_spectator chase "director off; follow $followed"
+    for spectator in director chase; do await_recording "$spectator"; done
+    console server 'say demo begins'
+    sleep "$1"
+    console server 'director status'
+    console server 'say demo ends'
+    for spectator in director chase; do leave "$spectator" 'demo ends'; done
+    sed -n '/^director status/,$p' "$work/server/log" >&2
+    end "$(<"$work/server/pid")"
+
+    step "Drawing what the two spectators saw"
+    draw_recording director
+    draw_recording chase +set cg_thirdPerson 1
+    join_videos "$work/video.mp4" 'demo begins' 'demo ends' "director=camera director" "chase=the game's chase camera"
+    contact_sheet "$work/video.mp4" "$work/sheet.png" 2
+    mv "$work/video.mp4" "$video"
+    mv "$work/sheet.png" "$sheet"
+    echo "Video: $video ($(du -h --apparent-size "$video" | cut -f 1)). Contact sheet, a picture every 2 s: $sheet"
+}
