@@ -11,7 +11,8 @@
 #
 # The players are bodies at their recorded places, with their weapon where TRACE has a column `weapon` (the number of
 # the game). Not shown: shots and explosions, pickups, moving parts of the map such as doors and lifts, and sound.
-# Needs `install-packages.sh build game`, and takes about FIXME the time of the film.
+# Needs no display. The match is played once at its own speed; then every frame is drawn, however long that takes, so
+# that the film is smooth on any machine.
 set -euo pipefail
 caller=$PWD
 cd "$(dirname "$0")/.."
@@ -80,8 +81,8 @@ step "Playing the match, $((to / 1000 - from / 1000)) s"
 start_server server build/release/lib/openarena/film/qagamex86_64.so "$rate" film_trace "$trace" \
     film_cameras "$cameras" film_players "$players" film_from "$from" film_to "$to"
 console server "map $map"
-await 120 server 'film: '
-await 60 server 'film: ready'
+await 120 server "film: \|Can't find map"
+grep -q 'film: ready' "$work/server/log" || fail "$(grep -o "film: .*\|Can't find map.*" "$work/server/log" | head -n 1)"
 spectators=()
 for player in "${wanted[@]}"; do
     start_spectator "player$player"

@@ -49,7 +49,8 @@ await() {
 start() {
     local folder=$work/$1
     mkdir -p "$folder"
-    rm -f "$folder/in" "$folder/log"
+    rm -f "$folder/in"
+    : >"$folder/log"
     mkfifo "$folder/in"
     # Open for reading and writing: a console that nobody writes to stays open.
     run "$folder/log" "${@:2}" 0<>"$folder/in"
@@ -60,11 +61,11 @@ start() {
 # $port. It has no map yet: `console NAME "map MAP"`.
 start_server() {
     local folder=$work/$1/home/baseoa
-    mkdir -p "$folder"
-    cp "$2" "$folder/qagamex86_64.so"
+    install -D "$2" "$folder/qagamex86_64.so"
     printf 'set %s "%s"\n' sv_master1 '' sv_master2 '' sv_master3 '' sv_master4 '' sv_master5 '' \
         sv_maxclients 64 sv_maxRate 0 sv_lanForceRate 1 bot_enable 1 bot_nochat 1 bot_minplayers 0 \
-        g_gametype 0 fraglimit 0 timelimit 0 g_doWarmup 0 g_inactivity 0 g_log '' "${@:4}" >"$folder/server.cfg"
+        sv_floodProtect 0 g_gametype 0 fraglimit 0 timelimit 0 g_doWarmup 0 g_inactivity 0 g_log '' "${@:4}" \
+        >"$folder/server.cfg"
     start "$1" "$server" +set fs_homepath "$work/$1/home" +set dedicated 1 +set net_enabled 1 +set net_ip 127.0.0.1 \
         +set net_port 27960 +set vm_game 0 +set ttycon 0 +set com_hunkMegs 256 +set sv_fps "$3" +exec server.cfg
     await 60 "$1" "Opening IP socket: 127.0.0.1:"
@@ -130,7 +131,8 @@ draw_recording() {
     cp "$work/$name/home/baseoa/demos/$name".dm_* "$work/$name-video/home/baseoa/demos/"
     start_client "$name-video" "$size" +set activeAction "video $name" +set nextdemo quit \
         +set cl_aviFrameRate "$frames_per_second" +set cl_aviMotionJpeg 1 +set r_aviMotionJpegQuality 95 \
-        +set r_gamma 1.4 +set cg_draw2D 0 +set cg_fov 90 +set con_notifytime -1 +set com_blood 0 +set cg_stats 1 "${@:2}" +demo "$name"
+        +set r_gamma 1.4 +set cg_draw2D 0 +set cg_fov 90 +set con_notifytime -1 +set com_blood 0 +set cg_stats 1 \
+        "${@:2}" +demo "$name"
     wait "$(<"$work/$name-video/pid")" || true
     end "$(<"$work/$name-video/display_pid")"
     video=$work/$name-video/home/baseoa/videos/$name.avi
@@ -159,11 +161,12 @@ join_videos() {
         count=$((count + 1))
     done
     if [ "$count" -gt 1 ]; then filter+="${stack}hstack=inputs=$count:shortest=1[all]"; else filter+="[v0]null[all]"; fi
-    ffmpeg -nostdin -v error -y "${inputs[@]}" -filter_complex "$filter" -map '[all]' -c:v libx264 -crf 23 -preset fast \
-        -pix_fmt yuv420p -movflags +faststart -f mp4 "$file"
+    ffmpeg -nostdin -v error -y "${inputs[@]}" -filter_complex "$filter" -map '[all]' -c:v libx264 -crf 23 \
+        -preset fast -pix_fmt yuv420p -movflags +faststart -f mp4 "$file"
 }
 
 # contact_sheet VIDEO FILE.png SECONDS: a picture every SECONDS.
 contact_sheet() {
-    ffmpeg -nostdin -v error -y -i "$1" -vf "fps=1/$3,scale=640:-2,tile=3x5:padding=4" -frames:v 1 -f image2 -c:v png "$2"
+    ffmpeg -nostdin -v error -y -i "$1" -vf "fps=1/$3,scale=640:-2,tile=3x5:padding=4" -frames:v 1 -f image2 \
+        -c:v png "$2"
 }

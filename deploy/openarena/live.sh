@@ -29,15 +29,16 @@ TEXT
 # film_match SECONDS FILE: the match for so long, and its pictures: FILE, and FILE with .png in place of its suffix.
 film_match() {
     local video=$2 sheet=${2%.*}.png spectator
-    start_spectator director "follow $followed"
-    start_spectator chase "director off; follow $followed"
+    # A choice counts only once the server has made them spectators, some frames later.
+    start_spectator director "wait 20; follow $followed"
+    start_spectator chase "wait 20; director off; follow $followed"
     for spectator in director chase; do await_recording "$spectator"; done
     console server 'say demo begins'
     sleep "$1"
     console server 'director status'
     console server 'say demo ends'
     for spectator in director chase; do leave "$spectator" 'demo ends'; done
-    sed -n '/^director status/,$p' "$work/server/log" >&2
+    sed -n '/^match .*DDS domain/,/demo ends/{/demo ends/!p}' "$work/server/log" >&2
     end "$(<"$work/server/pid")"
 
     step "Drawing what the two spectators saw"

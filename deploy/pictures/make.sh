@@ -1,19 +1,24 @@
 #!/usr/bin/env bash
 # Draws the pictures of this folder again. Needs a release build and the package openarena-081-maps.
-#     make.sh [--trace FILE.csv.gz] [--clouds FOLDER]
+#     make.sh [--trace FILE.csv.gz] [--clouds FOLDER] [--video FILE.mp4 --second N]
 # --trace: the match on oa_dm1 that paths.png shows, by default the demo's. --clouds: where room_scan1.pcd and
 # scan_430.ply are; without it their pictures stay as they are.
+# --video: of `demo.sh --openarena`, for game.jpg: its picture at second N.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 director=$here/../../build/release/bin/camera-director
 map=/usr/share/games/openarena/baseoa/pak1-maps.pk3:maps/oa_dm1.bsp
 trace=$here/../demo/match.csv.gz
-clouds=
+clouds='' video='' second=0
 while [ $# -gt 0 ]; do
     case "$1 ${2:+value}" in
         "--trace value") trace=$2 ;;
         "--clouds value") clouds=$2 ;;
-        *) echo "usage: make.sh [--trace FILE.csv.gz] [--clouds FOLDER]" >&2; exit 2 ;;
+        "--video value") video=$2 ;;
+        "--second value") second=$2 ;;
+        *)
+            echo "usage: make.sh [--trace FILE.csv.gz] [--clouds FOLDER] [--video FILE.mp4 --second N]" >&2
+            exit 2 ;;
     esac
     shift 2
 done
@@ -44,4 +49,8 @@ if [ -n "$clouds" ]; then
     draw room_scan1 "$clouds/room_scan1.pcd" room_scan1 --view plan --cut 0
     bake scan_430 "$clouds/scan_430.ply" --seed 4.6,-2.2,3
     draw scan_430 "$clouds/scan_430.ply" scan_430 --view plan --cut 3
+fi
+
+if [ -n "$video" ]; then
+    ffmpeg -nostdin -v error -y -ss "$second" -i "$video" -frames:v 1 -q:v 4 "$here/game.jpg"
 fi

@@ -8,6 +8,10 @@
 #include "tracks.h"
 #include "view_prediction.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 struct recorded_pose {
     bool present; /* in the match at this time; all else is 0 otherwise */
     bool alive;
@@ -29,5 +33,9 @@ struct recorded_pose take_pose(const struct take* take, size_t index, double tim
 /* The camera of a player; the first one before its path begins. cut: the path has a cut in (before, time]. */
 struct view take_view(const struct take* take, const struct track* camera, double before, double time,
                       bool* cut);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

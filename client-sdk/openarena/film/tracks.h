@@ -6,6 +6,10 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 enum { max_tracks = 48, max_columns = 16 };
 /* The first two columns of every file. */
 enum { COLUMN_TIME = 0 /* ms, never decreasing for a player */, COLUMN_PLAYER = 1 };
@@ -46,5 +50,9 @@ struct span track_at(const struct tracks* tracks, const struct track* track, dou
 /* Whether a row with a value other than 0 in `column` lies in (from, to]. */
 bool track_marked(const struct tracks* tracks, const struct track* track, size_t column, double from,
                   double to);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif
