@@ -96,7 +96,8 @@ await $(((to - from) / 1000 + 60)) server 'film: end'
 for spectator in "${spectators[@]}"; do leave "${spectator%%=*}" 'film: end'; done
 
 step "Drawing"
-for spectator in "${spectators[@]}"; do draw_recording "${spectator%%=*}"; done
+for spectator in "${spectators[@]}"; do start_drawing "${spectator%%=*}"; done
+for spectator in "${spectators[@]}"; do finish_drawing "${spectator%%=*}"; done
 join_videos "$work/film.mp4" 'film: begin' 'film: end' "${spectators[@]}"
 mv "$work/film.mp4" "$file"
 echo "$file: $(du -h --apparent-size "$file" | cut -f 1)"

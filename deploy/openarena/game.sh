@@ -89,24 +89,24 @@ start_display() {
     export DISPLAY
 }
 
-# start_client NAME SIZE COMMAND...: with a display of its own. COMMAND: +set NAME VALUE ... of the game.
+# start_client NAME SIZE COMMAND ARGUMENT [SETTING VALUE]...: with a display of its own and nothing of earlier runs.
 start_client() {
-    local name=$1 size=$2
-    shift 2
-    start_display "$name" "$size"
-    mkdir -p "$work/$name/home/baseoa/demos"
-    start "$name" env LIBGL_ALWAYS_SOFTWARE=1 LP_NUM_THREADS=1 MESA_SHADER_CACHE_DISABLE=true SDL_AUDIODRIVER=dummy \
-        "$client" +set fs_homepath "$work/$name/home" +set net_enabled 1 +set r_mode -1 +set r_fullscreen 0 \
-        +set r_customwidth "${size%x*}" +set r_customheight "${size#*x}" +set r_ignorehwgamma 1 \
-        +set cl_renderer opengl1 +set s_initsound 0 +set in_mouse 0 +set ttycon 0 +set com_introplayed 1 "$@"
+    local folder=$work/$1/home/baseoa
+    mkdir -p "$folder"
+    start_display "$1" "$2"
+    # In a file, as at most 32 settings fit on a command line.
+    printf 'set %s "%s"\n' net_enabled 1 r_mode -1 r_fullscreen 0 r_customwidth "${2%x*}" r_customheight "${2#*x}" \
+        r_ignorehwgamma 1 cl_renderer opengl1 s_initsound 0 in_mouse 0 com_introplayed 1 "${@:5}" >"$folder/autoexec.cfg"
+    start "$1" env LIBGL_ALWAYS_SOFTWARE=1 LP_NUM_THREADS=1 MESA_SHADER_CACHE_DISABLE=true SDL_AUDIODRIVER=dummy \
+        "$client" +set fs_homepath "$work/$1/home" +set ttycon 0 "+$3" "$4"
 }
 
 # start_spectator NAME [COMMANDS]: joins the server at $port, spectates, executes COMMANDS and records all that it
 # receives. It draws next to nothing: its picture is drawn later from the recording.
 start_spectator() {
-    rm -f "$work/$1/home/baseoa/demos/"*
-    start_client "$1" 64x36 +set name "$1" +set snaps 125 +set rate 90000 +set r_picmip 8 +set r_vertexLight 1 \
-        +set com_maxfps 20 +set activeAction "team s; ${2:+$2; }record $1" +connect "127.0.0.1:$port"
+    rm -rf "${work:?}/$1"
+    start_client "$1" 64x36 connect "127.0.0.1:$port" name "$1" snaps 125 rate 90000 r_picmip 8 r_vertexLight 1 \
+        com_maxfps 20 activeAction "team s; ${2:+$2; }record $1"
 }
 
 # await_recording NAME: until it records.
@@ -122,21 +122,24 @@ leave() {
     end "$(<"$work/$1/display_pid")"
 }
 
-# draw_recording NAME [+set SETTING VALUE]...: plays what the spectator NAME has recorded as NAME and writes every frame
-# of it into $work/NAME-video/NAME.avi, however long that takes.
-draw_recording() {
-    local name=$1
-    mkdir -p "$work/$name-video/home/baseoa/demos"
-    rm -rf "$work/$name-video/home/baseoa/videos"
-    cp "$work/$name/home/baseoa/demos/$name".dm_* "$work/$name-video/home/baseoa/demos/"
-    start_client "$name-video" "$size" +set activeAction "video $name" +set nextdemo quit \
-        +set cl_aviFrameRate "$frames_per_second" +set cl_aviMotionJpeg 1 +set r_aviMotionJpegQuality 95 \
-        +set r_gamma 1.4 +set cg_draw2D 0 +set cg_fov 90 +set con_notifytime -1 +set com_blood 0 +set cg_stats 1 \
-        "${@:2}" +demo "$name"
-    wait "$(<"$work/$name-video/pid")" || true
-    end "$(<"$work/$name-video/display_pid")"
-    video=$work/$name-video/home/baseoa/videos/$name.avi
-    [ -s "$video" ] || fail "$name: no video was drawn, see $work/$name-video/log"
+# start_drawing NAME [SETTING VALUE]...: plays what the spectator NAME has recorded and writes every frame of it into a
+# video, however long that takes.
+start_drawing() {
+    local folder=$work/$1-video
+    rm -rf "${folder:?}"
+    mkdir -p "$folder/home/baseoa/demos"
+    cp "$work/$1/home/baseoa/demos/$1".dm_* "$folder/home/baseoa/demos/"
+    start_client "$1-video" "$size" demo "$1" activeAction "video $1" nextdemo quit \
+        cl_aviFrameRate "$frames_per_second" cl_aviMotionJpeg 1 r_aviMotionJpegQuality 95 r_gamma 1.4 cg_draw2D 0 \
+        cg_fov 90 con_notifytime -1 com_blood 0 cg_stats 1 "${@:2}"
+}
+
+# finish_drawing NAME: until its video is complete.
+finish_drawing() {
+    local folder=$work/$1-video
+    wait "$(<"$folder/pid")" || true
+    end "$(<"$folder/display_pid")"
+    [ -s "$folder/home/baseoa/videos/$1.avi" ] || fail "$1: no video was drawn, see $folder/log"
 }
 
 # frame_of NAME TEXT: number of the first video frame after the server's message TEXT.

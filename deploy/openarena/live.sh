@@ -29,22 +29,26 @@ TEXT
 # film_match SECONDS FILE: the match for so long, and its pictures: FILE, and FILE with .png in place of its suffix.
 film_match() {
     local video=$2 sheet=${2%.*}.png spectator
-    # A choice counts only once the server has made them spectators, some frames later.
+    # A choice counts only once the server has executed the previous one, some frames later.
     start_spectator director "wait 20; follow $followed"
-    start_spectator chase "wait 20; director off; follow $followed"
+    start_spectator chase "wait 20; director off; wait 20; follow $followed"
     for spectator in director chase; do await_recording "$spectator"; done
+    console server 'director status'
+    await 10 server ' director: follow, .*camera of'
+    await 10 server ' chase: off, .*view of'
     console server 'say demo begins'
     sleep "$1"
     console server 'director status'
     console server 'say demo ends'
     for spectator in director chase; do leave "$spectator" 'demo ends'; done
-    sed -n '/^match .*DDS domain/,/demo ends/{/demo ends/!p}' "$work/server/log" >&2
+    sed -n '/demo begins/,/demo ends/p' "$work/server/log" | sed -n '/^match .*DDS domain/,/game.s thread/p' >&2
     end "$(<"$work/server/pid")"
 
     step "Drawing what the two spectators saw"
-    draw_recording director
-    draw_recording chase +set cg_thirdPerson 1
-    join_videos "$work/video.mp4" 'demo begins' 'demo ends' "director=camera director" "chase=the game's chase camera"
+    start_drawing director
+    start_drawing chase cg_thirdPerson 1
+    for spectator in director chase; do finish_drawing "$spectator"; done
+    join_videos "$work/video.mp4" 'demo begins' 'demo ends' "director=camera director" "chase=chase camera of the game"
     contact_sheet "$work/video.mp4" "$work/sheet.png" 2
     mv "$work/video.mp4" "$video"
     mv "$work/sheet.png" "$sheet"
