@@ -82,7 +82,8 @@ start_server server build/release/lib/openarena/film/qagamex86_64.so "$rate" fil
     film_cameras "$cameras" film_players "$players" film_from "$from" film_to "$to"
 console server "map $map"
 await 120 server "film: \|Can't find map"
-grep -q 'film: ready' "$work/server/log" || fail "$(grep -o "film: .*\|Can't find map.*" "$work/server/log" | head -n 1)"
+grep -q 'film: ready' "$work/server/log" ||
+    fail "$(grep -o "film: .*\|Can't find map.*" "$work/server/log" | head -n 1)"
 spectators=()
 for player in "${wanted[@]}"; do
     start_spectator "player$player"

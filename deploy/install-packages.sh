@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Installs what is missing of the Debian 12 packages in the named groups: build (default), map, test, lint, or all.
+# Installs what is missing of the Debian 12 packages in the named groups: build (default), map, game, test, lint, or
+# all.
 # Needs root or sudo when something is missing. On any other system it prints what is missing and fails.
 #     install-packages.sh [GROUP ...]
 set -euo pipefail
@@ -12,10 +13,12 @@ for group in "${@:-build}"; do
         -h|--help) sed -n '2,/^set /s/^# \{0,1\}//p' install-packages.sh; exit 0 ;;
         build) wanted+=("${build_packages[@]}") ;;
         map) wanted+=("${map_packages[@]}") ;;
+        game) wanted+=("${game_packages[@]}") ;;
         test) wanted+=("${test_packages[@]}") ;;
         lint) wanted+=("${lint_packages[@]}") ;;
-        all) wanted+=("${build_packages[@]}" "${map_packages[@]}" "${test_packages[@]}" "${lint_packages[@]}") ;;
-        *) echo "install-packages.sh: unknown group '$group'; known: build map test lint all" >&2; exit 2 ;;
+        all)
+            wanted+=("${build_packages[@]}" "${map_packages[@]}" "${game_packages[@]}" "${test_packages[@]}" "${lint_packages[@]}") ;;
+        *) echo "install-packages.sh: unknown group '$group'; known: build map game test lint all" >&2; exit 2 ;;
     esac
 done
 

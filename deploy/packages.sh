@@ -18,6 +18,8 @@ build_packages=(
 )
 # The map of the demo.
 map_packages=(openarena-081-maps)
+# A real game: server and client, a display in memory with Mesa's software renderer, pictures and video.
+game_packages=(openarena-server openarena xvfb xauth libgl1-mesa-dri imagemagick ffmpeg)
 # What test.sh needs in addition.
 test_packages=(clang-format-14 openarena-088-data)
 # What test.sh --all needs in addition.

@@ -179,8 +179,7 @@ void engine_cvar_set(const char* name, const char* value);
 int engine_cvar_integer(const char* name);
 void engine_cvar_string(const char* name, char* text, size_t size);
 
-/* Has the server execute a line as if it had been entered on its console, at once: it calls vmMain() again.
- */
+/* Has the server execute a line of its console at once: it calls vmMain() again meanwhile. */
 void engine_enter_command(const char* line);
 
 /* Of the command in progress, 0 = its name. Out of range: an empty string. */

@@ -84,7 +84,7 @@ start_display() {
         kill -0 "$(<"$folder/display_pid")" 2>/dev/null || break
         sleep 0.1
     done
-    [ -s "$folder/display" ] || fail "no display: Xvfb says in $folder/display.log: $(tail -n 1 "$folder/display.log")"
+    [ -s "$folder/display" ] || fail "no display: $(tail -n 1 "$folder/display.log")"
     DISPLAY=:$(<"$folder/display")
     export DISPLAY
 }
@@ -96,7 +96,8 @@ start_client() {
     start_display "$1" "$2"
     # In a file, as at most 32 settings fit on a command line.
     printf 'set %s "%s"\n' net_enabled 1 r_mode -1 r_fullscreen 0 r_customwidth "${2%x*}" r_customheight "${2#*x}" \
-        r_ignorehwgamma 1 cl_renderer opengl1 s_initsound 0 in_mouse 0 com_introplayed 1 "${@:5}" >"$folder/autoexec.cfg"
+        r_ignorehwgamma 1 cl_renderer opengl1 s_initsound 0 in_mouse 0 com_introplayed 1 "${@:5}" \
+        >"$folder/autoexec.cfg"
     start "$1" env LIBGL_ALWAYS_SOFTWARE=1 LP_NUM_THREADS=1 MESA_SHADER_CACHE_DISABLE=true SDL_AUDIODRIVER=dummy \
         "$client" +set fs_homepath "$work/$1/home" +set ttycon 0 "+$3" "$4"
 }
