@@ -54,7 +54,7 @@ run_tests() {
 }
 
 step "Packages"
-groups=(build map test)
+groups=(build map game test)
 $all && groups+=(lint)
 deploy/install-packages.sh "${groups[@]}"
 ! $all || deploy/i386-packages.sh build/i386-root
