@@ -41,7 +41,7 @@ class LiveMatch : public testing::Test {
     // Logs of everyone, for failures.
     [[nodiscard]] std::string logs();
 
-    // The server never changed the state of any slot but the spectator's.
+    // The module changed no player's state in any frame, only spectators'.
     void expect_players_untouched();
 
     TestDomain domain_;
