@@ -29,9 +29,10 @@ std::uint64_t memory_of(double samples) {
 // when none up to max_d0 does.
 double coarser_d0(const SampleEstimate& estimate, double d0, double unit, double max_samples) {
     constexpr double step = 1.19;  // a quarter of an octave
-    for (double coarser = std::ceil(step * d0 / unit); coarser <= max_d0; coarser = std::ceil(step * coarser))
-        if (estimate.samples(coarser * unit) <= max_samples) return coarser;
-    return 0.0;
+    double coarser = std::ceil(step * d0 / unit);
+    while (coarser <= max_d0 && estimate.samples(coarser * unit) > max_samples)
+        coarser = std::ceil(step * coarser);
+    return coarser <= max_d0 ? coarser : 0.0;
 }
 
 std::string size_text(std::uint64_t bytes) {

@@ -169,7 +169,9 @@ class RowReader {
         for (const Property& property : element.properties) {
             const auto length = property.type ? 1.0 : next(property.count_type);
             if (!length || !(*length >= 0.0)) return std::nullopt;
-            for (double i = 0.0; i < *length; ++i) {
+            constexpr double max_count = 1e18;  // more than any file has
+            const auto count = static_cast<std::uint64_t>(std::min(*length, max_count));
+            for (std::uint64_t i = 0; i < count; ++i) {
                 const auto number = next(property.type.value_or(property.item_type));
                 if (!number) return std::nullopt;
                 if (&property == &wanted) numbers.push_back(*number);

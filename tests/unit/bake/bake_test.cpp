@@ -112,8 +112,8 @@ scene::Scene duct(double radius) {
 TEST(Bake, CoversADuctSlightlyWiderThanD0) {
     const Baked result = baked(duct(21.0), 16.0, Sampling::adaptive);
     const std::vector<Slab> slabs = slabs_of(result.contents);
-    for (double x = 20.0; x <= 380.0; x += 5.0)
-        EXPECT_TRUE(covered(slabs, {x, 0, 0})) << x;
+    for (int x = 20; x <= 380; x += 5)
+        EXPECT_TRUE(covered(slabs, {static_cast<double>(x), 0, 0})) << x;
 }
 
 // The room without its ceiling, in open space, as a mesh without volumes.

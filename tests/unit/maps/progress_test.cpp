@@ -34,12 +34,12 @@ std::vector<std::string> stages_of_bake(const scene::Scene& scene, double d0) {
 }
 
 // The points of a room's walls, floor and ceiling.
-scene::Scene room_cloud(double spacing) {
+scene::Scene room_cloud(int spacing) {
     scene::Scene cloud;
-    for (double x = 0.0; x <= 256.0; x += spacing)
-        for (double y = 0.0; y <= 192.0; y += spacing)
-            for (double z = 0.0; z <= 128.0; z += spacing)
-                if (x == 0.0 || x == 256.0 || y == 0.0 || y == 192.0 || z == 0.0 || z == 128.0)
+    for (int x = 0; x <= 256; x += spacing)
+        for (int y = 0; y <= 192; y += spacing)
+            for (int z = 0; z <= 128; z += spacing)
+                if (x == 0 || x == 256 || y == 0 || y == 192 || z == 0 || z == 128)
                     cloud.points.emplace_back(x, y, z);
     cloud.point_spacing = 1.25 * spacing;  // to the nearest 8
     cloud.metres_per_unit = scene::metres_of_nominal_unit;
@@ -62,7 +62,7 @@ TEST(StageWeights, NameTheStagesOfABake) {
 }
 
 TEST(StageWeights, NameTheStagesOfACloudsBake) {
-    scene::Scene cloud = room_cloud(16.0);
+    scene::Scene cloud = room_cloud(16);
     EXPECT_EQ(stages_of_bake(cloud, 0.0), names_of(cloud_stages()));
 }
 
