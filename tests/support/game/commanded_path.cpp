@@ -13,6 +13,11 @@ constexpr int longest_extrapolation = 50;  // ms
 constexpr double unit_of_a_turn = 40.0;    // map units: how much a radian counts beside an offset
 constexpr double negligible = 0.01;        // map units
 
+// What a client decides for the view that it is sent.
+bool is_interpolated(const witness_player& from, const witness_player& to) {
+    return ((from.view_flags ^ to.view_flags) & teleport_flag) == 0 && from.client_num == to.client_num;
+}
+
 Vec3d vector(const float* values) {
     return Eigen::Map<const Eigen::Vector3f>(values).cast<double>();
 }
@@ -92,10 +97,9 @@ CommandedPath::CommandedPath(const std::vector<witness_record>& records, int spe
     for (const witness_record& record : records) {
         if (record.kind == witness_starts) snapshots_.clear();
         if (record.kind != witness_ran_frame || !record.sent) continue;
-        const auto flags = [&](const witness_record& frame) {
-            return frame.players[spectator_].view_flags & teleport_flag;
-        };
-        const bool cut = snapshots_.empty() || flags(record) != flags(snapshots_.back().frame);
+        const witness_player& player = record.players[spectator_];
+        const bool cut =
+            snapshots_.empty() || !is_interpolated(snapshots_.back().frame.players[spectator_], player);
         snapshots_.push_back({record, cut});
     }
 }
