@@ -7,8 +7,8 @@
 #ifndef CAMERA_DIRECTOR_HALFLIFE_ENGINE_H
 #define CAMERA_DIRECTOR_HALFLIFE_ENGINE_H
 
-#include <stddef.h> /* NOLINT(modernize-deprecated-headers): C */
-#include <stdint.h> /* NOLINT(modernize-deprecated-headers): C */
+#include <stddef.h>
+#include <stdint.h>
 
 typedef void (*engine_function)(void);
 typedef int32_t engine_string; /* place in the engine's strings; 0 = "" */

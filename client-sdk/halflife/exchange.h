@@ -5,7 +5,7 @@
 #ifndef CAMERA_DIRECTOR_HALFLIFE_EXCHANGE_H
 #define CAMERA_DIRECTOR_HALFLIFE_EXCHANGE_H
 
-#include <stdbool.h> /* NOLINT(modernize-deprecated-headers): C */
+#include <stdbool.h>
 
 #include "frame.h"
 

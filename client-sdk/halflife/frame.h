@@ -6,7 +6,7 @@
 #define CAMERA_DIRECTOR_HALFLIFE_FRAME_H
 
 #include <camera_director/camera_director.h>
-#include <stdint.h> /* NOLINT(modernize-deprecated-headers): C */
+#include <stdint.h>
 
 enum { max_players = 32, max_events = 64 };
 

@@ -2,7 +2,7 @@
 #ifndef CAMERA_DIRECTOR_HALFLIFE_PLAYERS_H
 #define CAMERA_DIRECTOR_HALFLIFE_PLAYERS_H
 
-#include <stdbool.h> /* NOLINT(modernize-deprecated-headers): C */
+#include <stdbool.h>
 
 #include "engine.h"
 #include "frame.h"

@@ -48,7 +48,6 @@
 #ifndef CAMERA_DIRECTOR_CAMERA_DIRECTOR_H
 #define CAMERA_DIRECTOR_CAMERA_DIRECTOR_H
 
-/* NOLINTBEGIN(modernize-deprecated-headers,modernize-use-nullptr): C, although C++ reads it too. */
 #include <stddef.h>
 #include <stdint.h>
 
@@ -455,6 +454,5 @@ CDIR_API cdir_status cdir_observer_close(cdir_observer observer) CDIR_NOEXCEPT;
 #ifdef __cplusplus
 }
 #endif
-/* NOLINTEND(modernize-deprecated-headers,modernize-use-nullptr) */
 
 #endif

@@ -21,7 +21,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 std::string unpacked(const std::filesystem::path& path) {
-    const gzFile file = gzopen(path.c_str(), "rb");
+    gzFile file = gzopen(path.c_str(), "rb");
     std::string text(100'000, '\0');
     const int length = gzread(file, text.data(), static_cast<unsigned>(text.size()));
     gzclose(file);
