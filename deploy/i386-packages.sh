@@ -8,7 +8,7 @@ case "${1:-}" in
     "") echo "usage: i386-packages.sh FOLDER" >&2; exit 2 ;;
 esac
 source "$(dirname "$0")/packages.sh"
-folder=$1
+folder=$(realpath --canonicalize-missing "$1")  # apt takes relative paths for its own
 [ ! -e "$folder/complete" ] || exit 0
 command -v apt-get >/dev/null || { echo "i386-packages.sh: this needs Debian's apt-get" >&2; exit 1; }
 
