@@ -18,6 +18,7 @@ class ChildProcess {
     ChildProcess(const ChildProcess&) = delete;
     ChildProcess& operator=(const ChildProcess&) = delete;
 
+    [[nodiscard]] pid_t pid() const { return pid_; }
     void send_signal(int number) const;
     // Waits for the process to end. Returns the exit code, or minus the signal's number.
     int wait();

@@ -25,6 +25,7 @@ class ConsoleProcess {
 
     // What it has printed, errors included.
     [[nodiscard]] std::string output() const { return process_.output(); }
+    [[nodiscard]] pid_t pid() const { return process_.pid(); }
     [[nodiscard]] bool runs();
     // Ends it by its own `quit`. Returns the exit code, or minus the signal's number.
     int quit();

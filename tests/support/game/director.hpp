@@ -19,6 +19,7 @@ class GameDirector {
 
     void start();
     void kill();
+    [[nodiscard]] pid_t pid() const { return process_->pid(); }
     [[nodiscard]] bool ready() const;
     [[nodiscard]] std::string log() const { return process_->errors(); }
 
