@@ -75,8 +75,8 @@ void engine_error(const char* format, ...) {
     call_engine(ENGINE_ERROR, (intptr_t)text);
 }
 
-void engine_cvar_register(const char* name, const char* value) {
-    call_engine(ENGINE_CVAR_REGISTER, (intptr_t)NULL, (intptr_t)name, (intptr_t)value, (intptr_t)0);
+void engine_cvar_register(const char* name, const char* value, enum cvar_access access) {
+    call_engine(ENGINE_CVAR_REGISTER, (intptr_t)NULL, (intptr_t)name, (intptr_t)value, (intptr_t)access);
 }
 
 void engine_cvar_set(const char* name, const char* value) {

@@ -174,7 +174,11 @@ void engine_print(const char* format, ...) __attribute__((format(printf, 1, 2)))
 /* Ends the game with a message; the server program goes on without a map. Does not return to its caller. */
 void engine_error(const char* format, ...) __attribute__((format(printf, 1, 2)));
 
-void engine_cvar_register(const char* name, const char* value);
+enum cvar_access {
+    cvar_open = 0,
+    cvar_set_at_start = 16 /* no longer once it is registered, from no console */
+};
+void engine_cvar_register(const char* name, const char* value, enum cvar_access access);
 void engine_cvar_set(const char* name, const char* value);
 int engine_cvar_integer(const char* name);
 void engine_cvar_string(const char* name, char* text, size_t size);

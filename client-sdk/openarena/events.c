@@ -34,13 +34,13 @@ const char* means_name(int means) {
 
 enum game_kind events_game_kind(int game_type) {
     switch (game_type) {
-        case 8:  /* elimination */
-        case 9:  /* capture the flag with elimination */
-        case 10: /* last man standing */
+        case 8: /* elimination */
+        case 9: /* capture the flag with elimination */
             return game_with_rounds;
-        case 0: /* free for all */
-        case 1: /* duel */
-        case 2: /* single player */
+        case 0:  /* free for all */
+        case 1:  /* duel */
+        case 2:  /* single player */
+        case 10: /* last man standing: its scores are players', and do not tell its rounds */
             return game_of_players;
         default:
             return game_of_teams;

@@ -21,7 +21,6 @@ enum { message_capacity = 256, report_capacity = 8 };
 /* Of one life: sent before its first frame, and again whenever something of it changes. */
 struct match_state {
     uint32_t life;
-    float rate_hz; /* server frames per second that the server intends */
     char map[64];
     struct settings settings;
     struct roster_entry players[max_slots];

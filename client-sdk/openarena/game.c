@@ -116,6 +116,7 @@ const char* game_path(void) {
 void game_unload(void) {
     if (game.library != NULL) dlclose(game.library);
     memset(&game, 0, sizeof game);
+    memset(&command, 0, sizeof command); /* a game that ended by an error did not return from it */
 }
 
 intptr_t game_call(int number, const int arguments[game_call_arguments]) {

@@ -36,6 +36,9 @@ static struct exchange* exchange; /* null until director_enable is set for the f
 static bool match_sent;
 static uint32_t sent_roster;
 static int settings_time; /* level time at which the settings were read */
+/* Events of frames that the worker could not take. */
+static struct game_event undelivered[max_events];
+static uint32_t undelivered_count;
 
 /* Time in the real game, within the call of the engine in progress. */
 static int call_depth;
@@ -116,9 +119,7 @@ static void start_worker(void) {
 
 static void send_match(void) {
     struct match_state match;
-    const int rate = engine_cvar_integer("sv_fps");
     match.life = life;
-    match.rate_hz = rate > 0 ? (float)rate : 20.0f;
     memcpy(match.map, map_name, sizeof match.map);
     match.settings = settings;
     for (int slot = 0; slot < max_slots; ++slot) {
@@ -141,7 +142,14 @@ static void hand_over(const struct server_frame* frame) {
     if (exchange == NULL) return;
     if (!match_sent || sent_roster != roster_version()) send_match();
     if (!settings.enable) return;
-    if (!match_sent || !exchange_send_frame(exchange, frame)) ++counters.dropped;
+    if (match_sent && exchange_send_frame(exchange, frame)) {
+        undelivered_count = 0;
+        return;
+    }
+    ++counters.dropped;
+    undelivered_count = frame->event_count;
+    memcpy(undelivered, frame->events, frame->event_count * sizeof *undelivered);
+    movers_reset(); /* the next frame has all of them */
 }
 
 /* --------------------------------------------------------------------------------- the engine's calls */
@@ -152,7 +160,7 @@ static bool claim_process(void) {
     static const char name[] = "director_module";
     char mine[32], other[32];
     snprintf(mine, sizeof mine, "%p", (void*)&life);
-    engine_cvar_register(name, "");
+    engine_cvar_register(name, "", cvar_open);
     engine_cvar_string(name, other, sizeof other);
     if (other[0] != '\0' && strcmp(other, mine) != 0) return false;
     engine_cvar_set(name, mine);
@@ -171,6 +179,7 @@ static intptr_t initialise(const int arguments[game_call_arguments]) {
     if (passive) return forward(GAME_INIT, arguments);
     ++life;
     history.count = 0;
+    undelivered_count = 0;
     counters.timed_frames = 0;
     counters.total_ns = counters.max_ns = 0;
     match_sent = false;
@@ -205,10 +214,12 @@ static void sample_frame(struct server_frame* frame, int level_time) {
     frame->level_time = level_time;
     frame->source_time = clock_ns(CLOCK_REALTIME);
     poses_sample(frame->players);
+    frame->event_count = undelivered_count;
+    memcpy(frame->events, undelivered, undelivered_count * sizeof *undelivered);
     events_sample(frame);
     movers_sample(frame);
     viewers_fill_requests(frame->viewers);
-    counters.events += frame->event_count;
+    counters.events += frame->event_count - undelivered_count;
     ++counters.frames;
 }
 

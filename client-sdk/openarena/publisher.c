@@ -39,7 +39,7 @@ static uint32_t list_players(cdir_player players[max_slots], const struct match_
 
 static cdir_match_info describe(const struct match_state* state, uint64_t epoch) {
     cdir_match_info info = cdir_match_info_default();
-    info.rate_hz = state->rate_hz;
+    info.rate_hz = (float)state->settings.rate_hz;
     info.epoch = epoch;
     snprintf(info.match_id, sizeof info.match_id, "%s", state->settings.match);
     snprintf(info.map_name, sizeof info.map_name, "%s", state->map);
@@ -144,10 +144,14 @@ bool publisher_send(struct publisher* publisher, const struct server_frame* fram
         return false;
     }
     ++publisher->frames;
+    publisher_send_events(publisher, frame);
+    return true;
+}
+
+void publisher_send_events(struct publisher* publisher, const struct server_frame* frame) {
     for (uint32_t i = 0; i < frame->event_count; ++i) {
         send_event(publisher, frame->level_time, &frame->events[i]);
     }
-    return true;
 }
 
 uint32_t publisher_directors(const struct publisher* publisher) {

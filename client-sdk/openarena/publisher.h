@@ -23,6 +23,8 @@ struct publisher {
 bool publisher_announce(struct publisher* publisher, const struct match_state* state);
 /* The frame's poses and events. Must be open. Returns false as above. */
 bool publisher_send(struct publisher* publisher, const struct server_frame* frame);
+/* Its events alone. Must be open. */
+void publisher_send_events(struct publisher* publisher, const struct server_frame* frame);
 /* That receive the poses now. */
 uint32_t publisher_directors(const struct publisher* publisher);
 void publisher_close(struct publisher* publisher);

@@ -1,30 +1,52 @@
 /* SPDX-License-Identifier: GPL-2.0-or-later */
 #include "settings.h"
 
+#include <limits.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "engine.h"
 
-enum { max_domain = 230, default_port = 27960 };
+enum { default_port = 27960, default_rate_hz = 20 };
 
 static const struct {
     const char *name, *value;
+    enum cvar_access access;
 } cvars[] = {
-    {"director_enable", "1"},
-    {"director_match", ""},
-    {"director_domain", "0"},
-    {"director_interface", "lo"},
-    {"director_directors", "127.0.0.1"},
-    {"director_spectate", "1"},
-    {"director_profile", ""},
-    {"director_record", ""},
-    {"director_game", ""},
+    {"director_enable", "1", cvar_open},
+    {"director_match", "", cvar_open},
+    {"director_domain", "0", cvar_open},
+    {"director_interface", "lo", cvar_open},
+    {"director_directors", "127.0.0.1", cvar_open},
+    {"director_spectate", "1", cvar_open},
+    {"director_profile", "", cvar_open},
+    {"director_record", "", cvar_open},
+    {"director_game", "", cvar_set_at_start}, /* code: nothing for whoever has the remote console */
 };
 
 void settings_register(void) {
     for (size_t i = 0; i < sizeof cvars / sizeof *cvars; ++i) {
-        engine_cvar_register(cvars[i].name, cvars[i].value);
+        engine_cvar_register(cvars[i].name, cvars[i].value, cvars[i].access);
+    }
+}
+
+static uint32_t read_domain(void) {
+    char text[16], *end = NULL;
+    engine_cvar_string("director_domain", text, sizeof text);
+    const long domain = strtol(text, &end, 10);
+    return end != text && *end == '\0' && domain >= 0 && domain <= INT_MAX ? (uint32_t)domain : UINT32_MAX;
+}
+
+/* A value that does not fit is an error, not another value. */
+static void read_text(struct settings* settings, const char* name, char* text, size_t size) {
+    enum { longest = 256 }; /* of the engine's cvars */
+    char value[longest];
+    engine_cvar_string(name, value, sizeof value);
+    if (strlen(value) < size) {
+        memcpy(text, value, strlen(value));
+    } else {
+        snprintf(settings->error, sizeof settings->error, "%s is longer than %zu bytes", name, size - 1);
     }
 }
 
@@ -32,18 +54,19 @@ bool settings_read(struct settings* settings) {
     struct settings now;
     memset(&now, 0, sizeof now); /* compared as bytes */
     now.enable = engine_cvar_integer("director_enable") != 0;
-    now.spectate = engine_cvar_integer("director_spectate") != 0;
-    const int domain = engine_cvar_integer("director_domain");
-    now.domain = domain < 0 || domain > max_domain ? 0u : (uint32_t)domain;
-    engine_cvar_string("director_match", now.match, sizeof now.match);
+    now.spectate = now.enable && engine_cvar_integer("director_spectate") != 0;
+    now.domain = read_domain();
+    const int rate = engine_cvar_integer("sv_fps");
+    now.rate_hz = rate > 0 ? rate : default_rate_hz;
+    read_text(&now, "director_match", now.match, sizeof now.match);
     if (now.match[0] == '\0') {
         const int port = engine_cvar_integer("net_port");
         snprintf(now.match, sizeof now.match, "openarena-%d", port > 0 ? port : default_port);
     }
-    engine_cvar_string("director_interface", now.interface, sizeof now.interface);
-    engine_cvar_string("director_directors", now.directors, sizeof now.directors);
-    engine_cvar_string("director_profile", now.profile, sizeof now.profile);
-    engine_cvar_string("director_record", now.record, sizeof now.record);
+    read_text(&now, "director_interface", now.interface, sizeof now.interface);
+    read_text(&now, "director_directors", now.directors, sizeof now.directors);
+    read_text(&now, "director_profile", now.profile, sizeof now.profile);
+    read_text(&now, "director_record", now.record, sizeof now.record);
     if (memcmp(&now, settings, sizeof now) == 0) return false;
     *settings = now;
     return true;

@@ -12,13 +12,15 @@ extern "C" {
 
 struct settings {
     uint8_t enable;      /* director_enable: poses are published */
-    uint8_t spectate;    /* director_spectate: spectators get the director's camera */
-    uint32_t domain;     /* director_domain: DDS domain */
+    uint8_t spectate;    /* director_spectate, and enable: spectators get the director's camera */
+    uint32_t domain;     /* director_domain: DDS domain; UINT32_MAX when that is no number */
+    int32_t rate_hz;     /* sv_fps */
     char match[64];      /* director_match: match id */
     char interface[64];  /* director_interface: name or address of the network interface */
     char directors[256]; /* director_directors: addresses */
     char profile[32];    /* director_profile: of spectators who have chosen none */
     char record[256];    /* director_record: path prefix of recordings; "" = none */
+    char error[128];     /* what is wrong with them; "" = nothing */
 };
 
 void settings_register(void);

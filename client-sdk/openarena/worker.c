@@ -20,7 +20,7 @@ static const int64_t early_ns = 500000;      /* before the next frame is due */
 static const int64_t idle_ns = 10000000;     /* longest sleep */
 static const int64_t retry_ns = 1000000000;  /* after a failure */
 static const int64_t linger_ns = 5000000000; /* after a life's end, until the match is closed */
-enum { max_backlog = 8 /* frames; older ones are not worth sending */ };
+enum { max_backlog = 8 /* frames; the poses of older ones are not worth sending */ };
 
 static struct {
     pthread_t thread;
@@ -104,6 +104,12 @@ static void announce(void) {
         disconnect();
         return;
     }
+    if (worker.match.settings.error[0] != '\0') {
+        disconnect();
+        worker.retry_time = 0;
+        set_error(worker.report.error, worker.match.settings.error);
+        return;
+    }
     if (worker.now < worker.retry_time) return;
     /* Where the match must be reached otherwise, its observers go with the old context. */
     const uint64_t context = worker.publisher.context.id;
@@ -120,8 +126,11 @@ static void announce(void) {
 
 static void send_frame(const struct server_frame* frame) {
     if (worker.retry_time != 0 && worker.now >= worker.retry_time) announce();
-    if (!worker.publisher.open || exchange_backlog(worker.exchange) > max_backlog) {
+    if (!worker.publisher.open) {
         ++worker.report.skipped_frames;
+    } else if (exchange_backlog(worker.exchange) > max_backlog) {
+        ++worker.report.skipped_frames;
+        publisher_send_events(&worker.publisher, frame);
     } else if (!publisher_send(&worker.publisher, frame)) {
         fail();
     } else {

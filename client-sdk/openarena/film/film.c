@@ -65,7 +65,7 @@ static void read_take(void) {
     static const char* const names[] = {"film_trace", "film_cameras", "film_players", "film_from", "film_to"};
     char trace[512], cameras[512], reason[1000];
     for (size_t i = 0; i < sizeof names / sizeof *names; ++i)
-        engine_cvar_register(names[i], "");
+        engine_cvar_register(names[i], "", cvar_open);
     engine_cvar_string("film_trace", trace, sizeof trace);
     engine_cvar_string("film_cameras", cameras, sizeof cameras);
     take_close(&take);

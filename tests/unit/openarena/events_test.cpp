@@ -214,6 +214,7 @@ TEST_F(OpenArenaEvents, EliminationHasARoundForEachPoint) {
     EXPECT_EQ(events_game_kind(8), game_with_rounds);
     EXPECT_EQ(events_game_kind(4), game_of_teams);
     EXPECT_EQ(events_game_kind(0), game_of_players);
+    EXPECT_EQ(events_game_kind(10), game_of_players);  // scores rise within its rounds
     events_reset(game_with_rounds);
     enter(0);
     EXPECT_THAT(sample(), ElementsAre("8 ->- 1 begin"));

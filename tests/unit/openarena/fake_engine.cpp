@@ -86,6 +86,7 @@ __attribute__((no_sanitize("address"))) std::intptr_t FakeEngine::answer(std::in
             break;
         case ENGINE_CVAR_REGISTER:
             engine.cvars.emplace(text_at(a[1]), text_at(a[2]));
+            engine.cvar_flags[text_at(a[1])] = a[3];
             break;
         case ENGINE_CVAR_SET:
             engine.cvars[text_at(a[0])] = text_at(a[1]);

@@ -35,6 +35,7 @@ class FakeEngine {
     [[nodiscard]] std::uint8_t* entity(int number) const;
 
     std::map<std::string, std::string> cvars;
+    std::map<std::string, std::intptr_t> cvar_flags;  // as registered
     std::map<int, std::string> configstrings;
     std::vector<std::string> prints, errors;
     std::vector<std::string> command;  // in progress: its name and arguments

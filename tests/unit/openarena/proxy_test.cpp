@@ -7,6 +7,7 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <regex>
 #include <thread>
 
 #include "engine.h"
@@ -15,6 +16,7 @@
 #include "roster.h"
 #include "support/eventually.hpp"
 #include "support/temporary_folder.hpp"
+#include "unpacked.hpp"
 
 namespace camdir::openarena {
 namespace {
@@ -167,6 +169,46 @@ TEST(OpenArenaProxy, ASecondCopyOnlyForwards) {
     engine.end_map();
     EXPECT_EQ(engine.cvars["director_module"], "another");
     engine.cvars["director_module"] = "";
+}
+
+// The worker falls behind, while a game that never pauses kills a player in every frame.
+TEST(OpenArenaProxy, EventsOfAFrameThatWasDroppedGoWithTheNext) {
+    test::TemporaryFolder folder;
+    FakeEngine engine;
+    engine.cvars["director_enable"] = "1";
+    engine.cvars["director_interface"] = "no-such-interface";
+    engine.cvars["director_record"] = (folder / "m").string();
+    engine.start_map("oa_dm1");
+    const auto dropped = [] { return module_counters()->dropped; };
+    const std::uint64_t dropped_before = dropped();
+    std::ptrdiff_t kills = 0;
+    write_int(engine.entity(100), ENTITY_TYPE, ENTITY_TYPE_OBITUARY);
+    write_int(engine.entity(100), ENTITY_OTHER2, 1);
+    while (dropped() == dropped_before && kills < 1'000'000) {
+        write_int(engine.entity(100), ENTITY_EVENT_PARAMETER, static_cast<std::int32_t>(1 + kills % 2));
+        engine.run_frames(1);
+        ++kills;
+    }
+    ASSERT_GT(dropped(), dropped_before);
+    ASSERT_TRUE(test::eventually([&] {
+        const std::uint64_t before = dropped();
+        engine.run_frames(1);
+        return dropped() == before;
+    }));
+    engine.end_map();
+    std::ptrdiff_t recorded = 0;
+    EXPECT_TRUE(test::eventually([&] {
+        for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+            if (!entry.path().string().ends_with("-events.csv.gz")) continue;
+            const std::string text = test::unpacked(entry.path());
+            const std::regex kill(",kill,");
+            recorded = std::distance(std::sregex_iterator(text.begin(), text.end(), kill), {});
+            return true;
+        }
+        return false;
+    }));
+    EXPECT_EQ(recorded, kills);
+    engine.cvars["director_enable"] = "0";
 }
 
 // No network interface of that name: the reason is told, the game goes on and is recorded.

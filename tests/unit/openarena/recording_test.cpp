@@ -2,7 +2,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -11,23 +10,16 @@
 #include <vector>
 
 #include "support/temporary_folder.hpp"
+#include "unpacked.hpp"
 
 namespace camdir::openarena {
 namespace {
 
+using test::unpacked;
 using testing::ElementsAre;
 using testing::EndsWith;
 using testing::HasSubstr;
 using testing::IsEmpty;
-
-std::string unpacked(const std::filesystem::path& path) {
-    gzFile file = gzopen(path.c_str(), "rb");
-    std::string text(100'000, '\0');
-    const int length = gzread(file, text.data(), static_cast<unsigned>(text.size()));
-    gzclose(file);
-    text.resize(static_cast<std::size_t>(std::max(length, 0)));
-    return text;
-}
 
 class OpenArenaRecording : public testing::Test {
   protected:
