@@ -12,27 +12,12 @@
 
 #include "connection.h"
 
-static const char* state_name(uint32_t state) {
-    switch (state) {
-        case CDIR_SHOT_REFUSED:
-            return "refused";
-        case CDIR_SHOT_ACCEPTED:
-            return "accepted";
-        case CDIR_SHOT_WAITING_FOR_MAP:
-            return "waiting for the map";
-        case CDIR_SHOT_WAITING_FOR_PLAYER:
-            return "waiting for the player";
-        default:
-            return "no answer from a director";
-    }
-}
-
 /* Prints the director's answer when it has changed. */
 static void report_status(cdir_observer observer, uint32_t* last_state) {
     cdir_shot_status status = cdir_shot_status_default();
     check("reading the status", cdir_observer_shot_status(observer, &status));
     if (status.state != *last_state) {
-        fprintf(stderr, "shot: %s%s%s\n", state_name(status.state), status.reason[0] ? ": " : "",
+        fprintf(stderr, "shot: %s%s%s\n", cdir_shot_state_name(status.state), status.reason[0] ? ": " : "",
                 status.reason);
     }
     *last_state = status.state;

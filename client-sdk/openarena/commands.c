@@ -61,23 +61,6 @@ static const char* choice_name(enum viewer_choice choice) {
     return names[choice];
 }
 
-static const char* shot_state_name(uint32_t state) {
-    switch (state) {
-        case CDIR_SHOT_REFUSED:
-            return "refused";
-        case CDIR_SHOT_ACCEPTED:
-            return "accepted";
-        case CDIR_SHOT_WAITING_FOR_MAP:
-            return "waiting for the map";
-        case CDIR_SHOT_WAITING_FOR_PLAYER:
-            return "waiting for a player";
-        case CDIR_SHOT_NOT_REQUESTED:
-            return "not requested yet";
-        default:
-            return "unanswered";
-    }
-}
-
 static const char* view_name(const struct viewer_status* viewer) {
     if (viewer->camera) return "the director's camera";
     return viewer->target == no_slot ? "free flight" : "the game's own view";
@@ -90,7 +73,7 @@ static void describe_viewer(int to, int slot, const struct viewer_status* viewer
     if (viewer->camera) snprintf(age, sizeof age, ", %" PRId32 " ms old", viewer->camera_age);
     if (viewer->requests && report != NULL) {
         const struct viewer_shot* const answered = &report->shots[slot];
-        snprintf(shot, sizeof shot, ", shot %s%s%s", shot_state_name(answered->state),
+        snprintf(shot, sizeof shot, ", shot %s%s%s", cdir_shot_state_name(answered->state),
                  answered->reason[0] != '\0' ? ": " : "", answered->reason);
     }
     answer(to, "viewer %d %s: %s, profile %s, sees %s of %s%s%s", slot, roster_at(slot)->name,

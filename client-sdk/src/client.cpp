@@ -2,8 +2,10 @@
 #include <camera_director/camera_director.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <mutex>
+#include <numbers>
 
 #include "checks.hpp"
 #include "context.hpp"
@@ -82,6 +84,21 @@ std::span<const cdir_player> player_span(const cdir_player* players, std::uint32
     require(count <= CDIR_MAX_PLAYERS, "player_count is greater than CDIR_MAX_PLAYERS");
     require(count == 0 || players != nullptr, "players is null");
     return {players, count};
+}
+
+// About z by yaw, then about y by pitch, then about x by roll.
+void store_orientation(const float* pitch_yaw_roll, float* orientation) {
+    constexpr double half_degree = std::numbers::pi / 360.0;
+    const double pitch = pitch_yaw_roll[0] * half_degree;
+    const double yaw = pitch_yaw_roll[1] * half_degree;
+    const double roll = pitch_yaw_roll[2] * half_degree;
+    const double sp = std::sin(pitch), cp = std::cos(pitch);
+    const double sy = std::sin(yaw), cy = std::cos(yaw);
+    const double sr = std::sin(roll), cr = std::cos(roll);
+    orientation[0] = static_cast<float>(sr * cp * cy - cr * sp * sy);
+    orientation[1] = static_cast<float>(cr * sp * cy + sr * cp * sy);
+    orientation[2] = static_cast<float>(cr * cp * sy - sr * sp * cy);
+    orientation[3] = static_cast<float>(cr * cp * cy + sr * sp * sy);
 }
 
 cdir_status store(std::optional<cdir_view> found, cdir_view* view) {
@@ -189,6 +206,25 @@ cdir_status cdir_match_restart(cdir_match match, const cdir_match_info* info, co
     });
 }
 
+cdir_status cdir_match_epoch(cdir_match match, uint64_t* epoch) noexcept {
+    return guarded([&] {
+        require(epoch != nullptr, "epoch is null");
+        *epoch = find(match)->epoch();
+        return CDIR_OK;
+    });
+}
+
+cdir_status cdir_orientation_from_angles(const float* angles, float* orientation) noexcept {
+    return guarded([&] {
+        require(angles != nullptr, "angles is null");
+        require(orientation != nullptr, "orientation is null");
+        require(std::all_of(angles, angles + 3, [](float angle) { return std::isfinite(angle); }),
+                "an angle is not finite");
+        store_orientation(angles, orientation);
+        return CDIR_OK;
+    });
+}
+
 cdir_status cdir_match_publish_poses(cdir_match match, const cdir_pose_frame* frame) noexcept {
     return guarded([&] {
         check_struct("frame", frame);
@@ -288,6 +324,25 @@ cdir_status cdir_observer_shot_status(cdir_observer observer, cdir_shot_status* 
         *status = find(observer)->with_match([](const ReceivedMatch& match) { return match.shot_status(); });
         return CDIR_OK;
     });
+}
+
+const char* cdir_shot_state_name(uint32_t state) noexcept {
+    switch (state) {
+        case CDIR_SHOT_REFUSED:
+            return "refused";
+        case CDIR_SHOT_ACCEPTED:
+            return "accepted";
+        case CDIR_SHOT_WAITING_FOR_MAP:
+            return "waiting for the map";
+        case CDIR_SHOT_WAITING_FOR_PLAYER:
+            return "waiting for a player";
+        case CDIR_SHOT_NOT_REQUESTED:
+            return "not requested";
+        case CDIR_SHOT_UNANSWERED:
+            return "unanswered";
+        default:
+            return "unknown state";
+    }
 }
 
 cdir_status cdir_observer_newest_camera(cdir_observer observer, cdir_view* view) noexcept {

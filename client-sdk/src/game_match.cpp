@@ -17,10 +17,15 @@ std::int64_t realtime_ns() {
     return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
 }
 
-// By the system clock, so that it is greater than those of earlier processes. In microseconds, so that a
-// double can hold it.
+// By the system clock, so that it is greater than those of earlier processes; also greater than `previous`
+// and all earlier ones of this process, should the clock be set back. In microseconds, so that a double can
+// hold it.
 std::uint64_t choose_epoch(std::uint64_t previous) {
-    return std::max(static_cast<std::uint64_t>(realtime_ns() / 1000), previous + 1);
+    static std::mutex mutex;
+    static std::uint64_t last = 0;
+    const std::lock_guard lock(mutex);
+    last = std::max(static_cast<std::uint64_t>(realtime_ns() / 1000), last + 1);
+    return std::max(last, previous + 1);
 }
 
 // Lets a sequence use the caller's array for one write.
@@ -115,6 +120,11 @@ void GameMatch::announce(cdir_match_info& info, std::span<const cdir_player> pla
     borrow(sample.player_name, reinterpret_cast<const char(*)[64]>(columns.names.data()), players.size());
     borrow(sample.player_class, reinterpret_cast<const char(*)[32]>(columns.classes.data()), players.size());
     check_written("MatchInfo", dds_write(info_writer_.get(), &sample));
+}
+
+std::uint64_t GameMatch::epoch() const {
+    const std::lock_guard lock(mutex_);
+    return info_.epoch;
 }
 
 void GameMatch::publish(const cdir_pose_frame& frame) {

@@ -23,6 +23,7 @@ class GameMatch {
 
     void update(const cdir_match_info& info, std::span<const cdir_player> players);
     void restart(const cdir_match_info& info, std::span<const cdir_player> players);
+    [[nodiscard]] std::uint64_t epoch() const;
     void publish(const cdir_pose_frame& frame);
     void publish(const cdir_match_event& event);
     [[nodiscard]] std::uint32_t director_count() const;
@@ -31,7 +32,7 @@ class GameMatch {
     void announce(cdir_match_info& info, std::span<const cdir_player> players);
 
     std::shared_ptr<const Context> context_;
-    std::mutex mutex_;
+    mutable std::mutex mutex_;
     std::string match_id_;
     cdir_match_info info_;  // as last announced, with its epoch
     std::uint32_t next_frame_number_ = 0;

@@ -196,6 +196,9 @@ CDIR_API cdir_status cdir_match_update(cdir_match match, const cdir_match_info* 
 CDIR_API cdir_status cdir_match_restart(cdir_match match, const cdir_match_info* info,
                                         const cdir_player* players, uint32_t player_count) CDIR_NOEXCEPT;
 
+/* Stores the number of the match's present epoch, which a shot's status and camera frames carry, too. */
+CDIR_API cdir_status cdir_match_epoch(cdir_match match, uint64_t* epoch) CDIR_NOEXCEPT;
+
 enum {
     CDIR_POSE_ALIVE = 1,
     CDIR_POSE_DISCONTINUITY = 2, /* respawned or teleported since the previous frame */
@@ -219,6 +222,10 @@ static inline cdir_pose_frame cdir_pose_frame_default(void) {
     cdir_pose_frame frame = {sizeof(cdir_pose_frame), 0u, 0, 0, NULL, NULL, NULL, NULL, NULL};
     return frame;
 }
+
+/* Stores the view quaternion (4 numbers) of the view angles (3 numbers) of Quake, GoldSrc and Source: pitch
+ * (positive looks down), yaw and roll in degrees, finite. */
+CDIR_API cdir_status cdir_orientation_from_angles(const float* angles, float* orientation) CDIR_NOEXCEPT;
 
 /* Publishes one frame, best effort: a director that falls behind gets the newest. Never waits for a receiver.
  * Costs one system call per director; a game that cannot afford them in its frame calls this from a thread of
@@ -388,6 +395,9 @@ static inline cdir_shot_status cdir_shot_status_default(void) {
     cdir_shot_status status = {sizeof(cdir_shot_status), CDIR_SHOT_NOT_REQUESTED, 0u, 0u, 0u, {0}};
     return status;
 }
+
+/* The state in words, such as "waiting for the map"; "unknown state" for any other number. Never null. */
+CDIR_API const char* cdir_shot_state_name(uint32_t state) CDIR_NOEXCEPT;
 
 /* Stores the director's answer to the request. */
 CDIR_API cdir_status cdir_observer_shot_status(cdir_observer observer,

@@ -197,6 +197,12 @@ class Match {
         detail::check(cdir_match_restart(owner_.get(), &raw.info, raw.players.data(), raw.count()));
     }
 
+    [[nodiscard]] std::uint64_t epoch() const {
+        std::uint64_t epoch = 0;
+        detail::check(cdir_match_epoch(owner_.get(), &epoch));
+        return epoch;
+    }
+
     void publish(const PoseFrame& frame) {
         const std::size_t n = frame.player_id.size();
         if (frame.eye.size() != 3 * n || frame.orientation.size() != 4 * n || frame.flags.size() != n ||

@@ -53,6 +53,7 @@ class Calls : public testing::Test {
         return {
             {"match_update", [&] { return cdir_match_update(match_, &info_, nullptr, 0); }},
             {"match_restart", [&] { return cdir_match_restart(match_, &info_, nullptr, 0); }},
+            {"match_epoch", [&] { return cdir_match_epoch(match_, &epoch_); }},
             {"match_publish_poses", [&] { return cdir_match_publish_poses(match_, &poses_); }},
             {"match_publish_event", [&] { return cdir_match_publish_event(match_, &event_); }},
             {"match_director_count", [&] { return cdir_match_director_count(match_, &count_); }},
@@ -87,6 +88,7 @@ class Calls : public testing::Test {
     cdir_view view_ = cdir_view_default();
     cdir_observer_counters counters_ = cdir_observer_counters_default();
     std::uint32_t count_ = 0;
+    std::uint64_t epoch_ = 0;
     std::int64_t time_ = 0;
 };
 
@@ -152,6 +154,7 @@ TEST_F(Calls, NullPointersAreRefused) {
         {"match_update players", [&] { return cdir_match_update(match_, &info_, nullptr, 1); }},
         {"match_restart info", [&] { return cdir_match_restart(match_, nullptr, nullptr, 0); }},
         {"match_restart players", [&] { return cdir_match_restart(match_, &info_, nullptr, 1); }},
+        {"match_epoch", [&] { return cdir_match_epoch(match_, nullptr); }},
         {"publish_poses", [&] { return cdir_match_publish_poses(match_, nullptr); }},
         {"publish_poses arrays", [&] { return cdir_match_publish_poses(match_, &poses); }},
         {"publish_event", [&] { return cdir_match_publish_event(match_, nullptr); }},
@@ -322,11 +325,14 @@ TEST(Contexts, TooManyFileDescriptorsAreRefused) {
     EXPECT_EQ(cdir_context_close(context), CDIR_OK);
 }
 
-TEST(Library, StatusesHaveNamesAndTheVersionIsTheHeaders) {
+TEST(Library, StatusesAndStatesHaveNamesAndTheVersionIsTheHeaders) {
     EXPECT_EQ(cdir_abi_version(), CDIR_ABI_VERSION);
     EXPECT_STREQ(cdir_status_name(CDIR_OK), "CDIR_OK");
     EXPECT_STREQ(cdir_status_name(CDIR_INTERNAL), "CDIR_INTERNAL");
     EXPECT_STREQ(cdir_status_name(12345), "unknown status");
+    EXPECT_STREQ(cdir_shot_state_name(CDIR_SHOT_REFUSED), "refused");
+    EXPECT_STREQ(cdir_shot_state_name(CDIR_SHOT_UNANSWERED), "unanswered");
+    EXPECT_STREQ(cdir_shot_state_name(12345), "unknown state");
 }
 
 }  // namespace

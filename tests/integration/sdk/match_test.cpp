@@ -134,6 +134,7 @@ TEST_F(GameServer, UpdateKeepsTheEpochAndRestartBeginsAnother) {
     std::optional<ReceivedInfo> second;
     ASSERT_TRUE(eventually([&] { return (second = director.take_info()).has_value(); }));
     EXPECT_EQ(second->epoch, first->epoch);
+    EXPECT_EQ(match.epoch(), first->epoch);
     EXPECT_THAT(second->player_id, ElementsAre(7, 300, 8));
 
     changed.map_name = "oa_dm3";
@@ -142,6 +143,7 @@ TEST_F(GameServer, UpdateKeepsTheEpochAndRestartBeginsAnother) {
     std::optional<ReceivedInfo> third;
     ASSERT_TRUE(eventually([&] { return (third = director.take_info()).has_value(); }));
     EXPECT_GT(third->epoch, first->epoch);
+    EXPECT_EQ(match.epoch(), third->epoch);
     EXPECT_EQ(third->map_name, "oa_dm3");
 
     while (director.take_poses()) {
