@@ -3,9 +3,9 @@
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 
 #include "exchange.h"
+#include "game/thread.h"
 #include "messages.h"
 #include "players.h"
 #include "settings.h"
@@ -15,7 +15,7 @@ static const double settings_interval = 1.0; /* s of game time; server.cfg is re
 
 static struct {
     struct worker* worker; /* null until the plugin was enabled during a map */
-    struct exchange* exchange;
+    struct ring* exchange;
     bool in_map;
     struct entity_list entities;
     struct match_state match;
@@ -77,12 +77,6 @@ static bool frame_is_due(double now) {
     return true;
 }
 
-static int64_t realtime_ns(void) {
-    struct timespec now; /* the clock is read without a system call */
-    clock_gettime(CLOCK_REALTIME, &now);
-    return (int64_t)now.tv_sec * 1000000000 + now.tv_nsec;
-}
-
 void game_run_frame(void) {
     if (!game.in_map) return;
     const double now = engine_time();
@@ -94,7 +88,7 @@ void game_run_frame(void) {
     players_damage(&game.entities, game_add_event);
     if (!frame_is_due(now)) return;
     game.frame.frame_time = (int64_t)(now * 1e9);
-    game.frame.source_time = realtime_ns();
+    game.frame.source_time = clock_ns(CLOCK_REALTIME);
     players_sample(&game.entities, now, &game.frame);
     if (exchange_send_frame(game.exchange, &game.frame)) {
         game.frame.event_count = 0;
@@ -154,7 +148,7 @@ void game_print_status(void) {
 void game_close(void) {
     game.in_map = false;
     if (game.worker != NULL) worker_stop(game.worker);
-    if (game.exchange != NULL) exchange_destroy(game.exchange);
+    ring_destroy(game.exchange);
     game.worker = NULL;
     game.exchange = NULL;
 }

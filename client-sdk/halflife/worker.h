@@ -17,7 +17,7 @@ struct worker_status {
 };
 
 /* `exchange` must outlive the worker. Null when there is no memory or no thread. */
-struct worker* worker_start(struct exchange* exchange);
+struct worker* worker_start(struct ring* exchange);
 /* Ends the match and the thread. Takes some milliseconds. */
 void worker_stop(struct worker* worker);
 /* From any thread; waits for the worker to copy at most. */

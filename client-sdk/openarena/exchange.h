@@ -1,13 +1,10 @@
 /* SPDX-License-Identifier: GPL-2.0-or-later */
-/*
- * Two bounded rings between the game's thread and the worker, each with one writer and one reader: messages
- * to the worker, reports to the game. No call waits, locks, allocates or enters the kernel, except for create
- * and destroy.
- */
+/* Two rings between the game's thread and the worker: messages to the worker, reports to the game. */
 #ifndef CAMERA_DIRECTOR_OPENARENA_EXCHANGE_H
 #define CAMERA_DIRECTOR_OPENARENA_EXCHANGE_H
 
 #include "frame.h"
+#include "game/message_ring.h"
 #include "roster.h"
 #include "settings.h"
 
@@ -26,12 +23,6 @@ struct match_state {
     struct roster_entry players[max_slots];
 };
 
-enum message_kind {
-    message_match,
-    message_frame,
-    message_end /* of the life: no frame follows */
-};
-
 struct message {
     enum message_kind kind;
     union {
@@ -46,8 +37,7 @@ struct exchange;
 struct exchange* exchange_create(void);
 void exchange_destroy(struct exchange* exchange);
 
-/* On the game's thread. Sends a copy; returns false when the ring is full. Frames leave some room to the
- * other messages. */
+/* On the game's thread. Sends a copy; returns false when the ring is full. */
 bool exchange_send_match(struct exchange* exchange, const struct match_state* match);
 bool exchange_send_frame(struct exchange* exchange, const struct server_frame* frame);
 bool exchange_send_end(struct exchange* exchange);

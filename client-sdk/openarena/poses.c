@@ -52,19 +52,6 @@ void pose_eye(float eye[3], const struct player_pose* pose) {
     eye[2] += pose->viewheight;
 }
 
-/* About z by yaw, then about y by pitch, then about x by roll. */
-void pose_orientation(float orientation[4], const float angles[3]) {
-    const double half_radian_per_degree = 3.14159265358979323846 / 360.0;
-    const double pitch = angles[0] * half_radian_per_degree, yaw = angles[1] * half_radian_per_degree,
-                 roll = angles[2] * half_radian_per_degree;
-    const double sp = sin(pitch), cp = cos(pitch), sy = sin(yaw), cy = cos(yaw), sr = sin(roll),
-                 cr = cos(roll);
-    orientation[0] = (float)(sr * cp * cy - cr * sp * sy);
-    orientation[1] = (float)(cr * sp * cy + sr * cp * sy);
-    orientation[2] = (float)(cr * cp * sy - sr * sp * cy);
-    orientation[3] = (float)(cr * cp * cy + sr * sp * sy);
-}
-
 bool pose_jumped(const struct player_pose* before, const struct player_pose* now) {
     return !before->in_game || before->spectator != now->spectator ||
            before->teleport_bit != now->teleport_bit;

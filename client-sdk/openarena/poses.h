@@ -18,10 +18,9 @@ void poses_sample(struct player_pose poses[max_slots]);
 /* Of one playerState_t. Poses with numbers that are not finite count as not in the game. */
 struct player_pose pose_of(const uint8_t* player_state, const struct roster_entry* entry, bool bot);
 
-/* For the director: the eye's position, the quaternion x y z w of the view angles (length 1), and whether the
- * player jumped between two frames: appeared, respawned, teleported. */
+/* For the director: the eye's position, and whether the player jumped between two frames: appeared,
+ * respawned, teleported. */
 void pose_eye(float eye[3], const struct player_pose* pose);
-void pose_orientation(float orientation[4], const float angles[3]);
 bool pose_jumped(const struct player_pose* before, const struct player_pose* now);
 
 #ifdef __cplusplus

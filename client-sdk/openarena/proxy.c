@@ -6,13 +6,13 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 
 #include "commands.h"
 #include "engine.h"
 #include "events.h"
 #include "exchange.h"
 #include "game.h"
+#include "game/thread.h"
 #include "movers.h"
 #include "poses.h"
 #include "roster.h"
@@ -64,12 +64,6 @@ const char* module_map(void) {
 
 uint32_t module_life(void) {
     return life;
-}
-
-static int64_t clock_ns(clockid_t clock) {
-    struct timespec time;
-    clock_gettime(clock, &time);
-    return (int64_t)time.tv_sec * 1000000000 + time.tv_nsec;
 }
 
 /* ------------------------------------------------------------------------------------------- the game */

@@ -1,27 +1,12 @@
 /* SPDX-License-Identifier: GPL-2.0-or-later */
-#define _POSIX_C_SOURCE 200809L
 #include "publisher.h"
 
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 
 #include "poses.h"
 
 static const int64_t ns_per_ms = 1000000;
-
-static bool connects_alike(const struct settings* a, const struct settings* b) {
-    return a->domain == b->domain && strcmp(a->match, b->match) == 0 &&
-           strcmp(a->interface, b->interface) == 0 && strcmp(a->directors, b->directors) == 0;
-}
-
-/* Greater than before, also than those of earlier processes. */
-static uint64_t next_epoch(uint64_t previous) {
-    struct timespec now;
-    clock_gettime(CLOCK_REALTIME, &now);
-    const uint64_t microseconds = (uint64_t)now.tv_sec * 1000000u + (uint64_t)now.tv_nsec / 1000u;
-    return microseconds > previous ? microseconds : previous + 1;
-}
 
 static uint32_t list_players(cdir_player players[max_slots], const struct match_state* state) {
     uint32_t count = 0;
@@ -37,54 +22,19 @@ static uint32_t list_players(cdir_player players[max_slots], const struct match_
     return count;
 }
 
-static cdir_match_info describe(const struct match_state* state, uint64_t epoch) {
-    cdir_match_info info = cdir_match_info_default();
-    info.rate_hz = (float)state->settings.rate_hz;
-    info.epoch = epoch;
-    snprintf(info.match_id, sizeof info.match_id, "%s", state->settings.match);
-    snprintf(info.map_name, sizeof info.map_name, "%s", state->map);
-    return info;
-}
-
-static bool open_match(struct publisher* publisher, const struct match_state* state) {
+bool publisher_announce(struct publisher* publisher, const struct match_state* state) {
     const struct settings* settings = &state->settings;
     cdir_context_options options = cdir_context_options_default();
     options.domain = settings->domain;
     options.network_interface = settings->interface;
     options.directors = settings->directors;
-    if (cdir_context_open(&options, &publisher->context) < 0) return false;
+    cdir_match_info info = cdir_match_info_default();
+    info.rate_hz = (float)settings->rate_hz;
+    snprintf(info.match_id, sizeof info.match_id, "%s", settings->match);
+    snprintf(info.map_name, sizeof info.map_name, "%s", state->map);
     cdir_player players[max_slots];
     const uint32_t count = list_players(players, state);
-    publisher->epoch = next_epoch(publisher->epoch);
-    const cdir_match_info info = describe(state, publisher->epoch);
-    publisher->open = cdir_match_open(publisher->context, &info, players, count, &publisher->match) >= 0;
-    if (!publisher->open) (void)cdir_context_close(publisher->context);
-    return publisher->open;
-}
-
-static bool announce(struct publisher* publisher, const struct match_state* state) {
-    if (publisher->open && !connects_alike(&state->settings, &publisher->state.settings)) {
-        publisher_close(publisher);
-    }
-    if (!publisher->open) return open_match(publisher, state);
-    cdir_player players[max_slots];
-    const uint32_t count = list_players(players, state);
-    if (state->life == publisher->state.life) {
-        const cdir_match_info info = describe(state, publisher->epoch);
-        return cdir_match_update(publisher->match, &info, players, count) >= 0;
-    }
-    publisher->epoch = next_epoch(publisher->epoch);
-    const cdir_match_info info = describe(state, publisher->epoch);
-    return cdir_match_restart(publisher->match, &info, players, count) >= 0;
-}
-
-bool publisher_announce(struct publisher* publisher, const struct match_state* state) {
-    if (!announce(publisher, state)) {
-        publisher_close(publisher);
-        return false;
-    }
-    publisher->state = *state;
-    return true;
+    return published_match_announce(&publisher->match, &options, state->life, &info, players, count);
 }
 
 static bool send_poses(struct publisher* publisher, const struct server_frame* frame) {
@@ -99,7 +49,7 @@ static bool send_poses(struct publisher* publisher, const struct server_frame* f
         flags[count] = (pose->alive ? CDIR_POSE_ALIVE : 0u) | (pose->spectator ? CDIR_POSE_SPECTATOR : 0u) |
                        (jumped ? CDIR_POSE_DISCONTINUITY : 0u);
         pose_eye(eyes + 3 * count, pose);
-        pose_orientation(orientations + 4 * count, pose->angles);
+        (void)cdir_orientation_from_angles(pose->angles, orientations + 4 * count);
         memcpy(velocities + 3 * count, pose->velocity, sizeof pose->velocity);
         ++count;
     }
@@ -114,7 +64,7 @@ static bool send_poses(struct publisher* publisher, const struct server_frame* f
     poses.orientation = orientations;
     poses.velocity = velocities;
     poses.flags = flags;
-    return cdir_match_publish_poses(publisher->match, &poses) >= 0;
+    return cdir_match_publish_poses(publisher->match.handle, &poses) >= 0;
 }
 
 static uint32_t player_id(uint8_t slot) {
@@ -130,7 +80,7 @@ static void send_event(struct publisher* publisher, int32_t level_time, const st
     sent.subject = player_id(event->subject);
     sent.value = event->value;
     snprintf(sent.detail, sizeof sent.detail, "%s", event->detail);
-    if (cdir_match_publish_event(publisher->match, &sent) >= 0) {
+    if (cdir_match_publish_event(publisher->match.handle, &sent) >= 0) {
         ++publisher->events;
     } else {
         ++publisher->failures;
@@ -140,7 +90,7 @@ static void send_event(struct publisher* publisher, int32_t level_time, const st
 bool publisher_send(struct publisher* publisher, const struct server_frame* frame) {
     if (!send_poses(publisher, frame)) {
         ++publisher->failures;
-        publisher_close(publisher);
+        published_match_close(&publisher->match);
         return false;
     }
     ++publisher->frames;
@@ -152,15 +102,4 @@ void publisher_send_events(struct publisher* publisher, const struct server_fram
     for (uint32_t i = 0; i < frame->event_count; ++i) {
         send_event(publisher, frame->level_time, &frame->events[i]);
     }
-}
-
-uint32_t publisher_directors(const struct publisher* publisher) {
-    uint32_t count = 0;
-    if (publisher->open && cdir_match_director_count(publisher->match, &count) < 0) return 0;
-    return count;
-}
-
-void publisher_close(struct publisher* publisher) {
-    if (publisher->open) (void)cdir_context_close(publisher->context);
-    publisher->open = false;
 }

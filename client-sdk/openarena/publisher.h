@@ -4,29 +4,22 @@
 #define CAMERA_DIRECTOR_OPENARENA_PUBLISHER_H
 
 #include "exchange.h"
+#include "game/published_match.h"
 
 /* All 0 = closed. */
 struct publisher {
-    bool open;
-    cdir_context context;
-    cdir_match match;
-    uint64_t epoch;
-    struct match_state state; /* as announced */
-    uint32_t last_life;       /* of the poses below */
+    struct published_match match;
+    uint32_t last_life; /* of the poses below */
     struct player_pose last_poses[max_slots];
     uint64_t frames, events, failures; /* since the module was loaded */
 };
 
-/* Announces a match, begins a new epoch where its life differs from before, or updates its players. Opens
- * what is not open yet, and anew where it must be reached otherwise. Returns false when that failed: it is
- * closed then, and cdir_last_error() says why. */
+/* As published_match_announce(). */
 bool publisher_announce(struct publisher* publisher, const struct match_state* state);
-/* The frame's poses and events. Must be open. Returns false as above. */
+/* The frame's poses and events. Must be open. Returns false when that failed: it is closed then, and
+ * cdir_last_error() says why. */
 bool publisher_send(struct publisher* publisher, const struct server_frame* frame);
 /* Its events alone. Must be open. */
 void publisher_send_events(struct publisher* publisher, const struct server_frame* frame);
-/* That receive the poses now. */
-uint32_t publisher_directors(const struct publisher* publisher);
-void publisher_close(struct publisher* publisher);
 
 #endif

@@ -2,14 +2,13 @@
 #define _POSIX_C_SOURCE 200809L
 #include "worker.h"
 
-#include <pthread.h>
-#include <signal.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
+#include "game/thread.h"
 #include "publisher.h"
 #include "recording.h"
 #include "shots.h"
@@ -45,12 +44,6 @@ static struct {
     int32_t level_time; /* of the newest frame */
 } worker;
 
-static int64_t monotonic_ns(void) {
-    struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return (int64_t)time.tv_sec * ns_per_s + time.tv_nsec;
-}
-
 static void sleep_ns(int64_t duration) {
     const struct timespec time = {duration / ns_per_s, duration % ns_per_s};
     nanosleep(&time, NULL);
@@ -85,7 +78,7 @@ static void end_before_contexts(void) {
 
 static void disconnect(void) {
     shots_close(&worker.shots);
-    publisher_close(&worker.publisher);
+    published_match_close(&worker.publisher.match);
     worker.report.epoch = 0;
     worker.report.directors = 0;
     worker.report_changed = true;
@@ -112,21 +105,21 @@ static void announce(void) {
     }
     if (worker.now < worker.retry_time) return;
     /* Where the match must be reached otherwise, its observers go with the old context. */
-    const uint64_t context = worker.publisher.context.id;
+    const uint64_t context = worker.publisher.match.context.id;
     if (!publisher_announce(&worker.publisher, &worker.match)) {
         fail();
         return;
     }
-    if (worker.publisher.context.id != context) shots_close(&worker.shots);
+    if (worker.publisher.match.context.id != context) shots_close(&worker.shots);
     end_before_contexts();
-    worker.report.epoch = worker.publisher.epoch;
+    worker.report.epoch = worker.publisher.match.epoch;
     worker.retry_time = 0;
     set_error(worker.report.error, "");
 }
 
 static void send_frame(const struct server_frame* frame) {
     if (worker.retry_time != 0 && worker.now >= worker.retry_time) announce();
-    if (!worker.publisher.open) {
+    if (!worker.publisher.match.open) {
         ++worker.report.skipped_frames;
     } else if (exchange_backlog(worker.exchange) > max_backlog) {
         ++worker.report.skipped_frames;
@@ -134,7 +127,8 @@ static void send_frame(const struct server_frame* frame) {
     } else if (!publisher_send(&worker.publisher, frame)) {
         fail();
     } else {
-        shots_request(&worker.shots, worker.publisher.context, worker.match.settings.match, frame->viewers);
+        shots_request(&worker.shots, worker.publisher.match.context, worker.match.settings.match,
+                      frame->viewers);
     }
 }
 
@@ -203,7 +197,7 @@ static void take_frame(const struct server_frame* frame) {
 static void take_messages(void) {
     const struct message* message;
     while (!atomic_load(&worker.stop) && (message = exchange_next_message(worker.exchange)) != NULL) {
-        worker.now = monotonic_ns();
+        worker.now = clock_ns(CLOCK_MONOTONIC);
         switch (message->kind) {
             case message_match:
                 take_match(&message->match);
@@ -224,7 +218,8 @@ static void take_messages(void) {
 /* ------------------------------------------------------------------------------------------- the loop */
 
 static void check_directors(void) {
-    const uint32_t directors = publisher_directors(&worker.publisher), before = worker.report.directors;
+    const uint32_t directors = published_match_directors(&worker.publisher.match),
+                   before = worker.report.directors;
     worker.report.directors = directors;
     if (directors > 0 && before == 0) log_line("a director receives the match");
     if (directors == 0 && before > 0) {
@@ -241,7 +236,8 @@ static void check_directors(void) {
 }
 
 static void check_match(void) {
-    if (!worker.has_match && worker.publisher.open && worker.now - worker.end_time > linger_ns) disconnect();
+    if (!worker.has_match && worker.publisher.match.open && worker.now - worker.end_time > linger_ns)
+        disconnect();
     if (worker.now < worker.check_time) return;
     worker.check_time = worker.now + ns_per_s;
     check_directors();
@@ -261,14 +257,15 @@ static int64_t sleep_time(void) {
 static void* run(void* unused) {
     (void)unused;
     while (!atomic_load(&worker.stop)) {
-        worker.now = monotonic_ns();
+        worker.now = clock_ns(CLOCK_MONOTONIC);
         take_messages();
-        if (shots_poll(&worker.shots, worker.publisher.epoch, &worker.report)) worker.report_changed = true;
+        if (shots_poll(&worker.shots, worker.publisher.match.epoch, &worker.report))
+            worker.report_changed = true;
         check_match();
         if (worker.report_changed && exchange_send_report(worker.exchange, &worker.report)) {
             worker.report_changed = false;
         }
-        worker.now = monotonic_ns();
+        worker.now = clock_ns(CLOCK_MONOTONIC);
         sleep_ns(sleep_time());
     }
     close_recording();
@@ -286,12 +283,7 @@ bool worker_start(struct exchange* exchange) {
     for (int slot = 0; slot < max_slots; ++slot) {
         worker.report.shots[slot].state = CDIR_SHOT_NOT_REQUESTED;
     }
-    /* Signals are the server's: none is delivered to this thread and those that it starts. */
-    sigset_t all, before;
-    sigfillset(&all);
-    pthread_sigmask(SIG_SETMASK, &all, &before);
-    const bool started = pthread_create(&worker.thread, NULL, run, NULL) == 0;
-    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    const bool started = thread_start(&worker.thread, run, NULL);
     if (started) (void)atexit(end_worker); /* for a worker that never reached the network */
     return started;
 }

@@ -2,19 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Geometry>
-#include <cmath>
 #include <limits>
-#include <numbers>
-#include <random>
 #include <vector>
 
 #include "engine.h"
 
 namespace camdir::openarena {
 namespace {
-
-constexpr double radian = std::numbers::pi / 180.0;
 
 class OpenArenaPose : public testing::Test {
   protected:
@@ -96,31 +90,6 @@ TEST_F(OpenArenaPose, JumpsAtRespawnTeleportAndJoining) {
     now = before;
     now.spectator = 1;
     EXPECT_TRUE(pose_jumped(&now, &before));
-}
-
-TEST(OpenArenaOrientation, IsYawThenPitchThenRoll) {
-    std::mt19937 random(3);
-    std::uniform_real_distribution<float> degrees(-720.0F, 720.0F);
-    for (int i = 0; i < 1000; ++i) {
-        const float angles[3] = {degrees(random), degrees(random), degrees(random)};
-        float q[4];
-        pose_orientation(q, angles);
-        const Eigen::Quaterniond expected = Eigen::AngleAxisd(angles[1] * radian, Eigen::Vector3d::UnitZ()) *
-                                            Eigen::AngleAxisd(angles[0] * radian, Eigen::Vector3d::UnitY()) *
-                                            Eigen::AngleAxisd(angles[2] * radian, Eigen::Vector3d::UnitX());
-        const Eigen::Quaterniond found(q[3], q[0], q[1], q[2]);
-        EXPECT_NEAR(found.norm(), 1.0, 1e-6);
-        EXPECT_LT(found.angularDistance(expected), 1e-3);
-    }
-}
-
-// Positive pitch looks down.
-TEST(OpenArenaOrientation, PitchOf90LooksDown) {
-    const float angles[3] = {90.0F, 45.0F, 0.0F};
-    float q[4];
-    pose_orientation(q, angles);
-    const Eigen::Vector3f forward = Eigen::Quaternionf(q[3], q[0], q[1], q[2]) * Eigen::Vector3f::UnitX();
-    EXPECT_NEAR(forward.z(), -1.0F, 1e-6F);
 }
 
 }  // namespace
