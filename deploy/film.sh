@@ -10,7 +10,9 @@
 # counted from its first pose (default: its first 30 s).
 #
 # The players are bodies at their recorded places, with their weapon where TRACE has a column `weapon` (the number of
-# the game). Not shown: shots and explosions, pickups, moving parts of the map such as doors and lifts, and sound.
+# the game), as recordings of the game module have. Doors, lifts and other moving parts of the map move as recorded
+# where the recording's `-movers.csv.gz` lies beside TRACE; otherwise they stay shut. Not shown: shots and explosions,
+# pickups, and sound.
 # Needs no display. The match is played once at its own speed; then every frame is drawn, however long that takes, so
 # that the film is smooth on any machine.
 set -euo pipefail
@@ -68,6 +70,8 @@ rate=$({ zcat -f "$trace" 2>/dev/null || true; } | awk -F, '
     NR == 2 { t = $c }
     NR > 2 && $c > t { if (!step || $c - t < step) step = $c - t; t = $c; if (++n == 100) exit }
     END { r = step > 0 ? int(1000 / step) : 20; print (r < 10 ? 10 : (r > 125 ? 125 : r)) }')
+movers=${trace%.csv.gz}-movers.csv.gz
+[[ $trace = *.csv.gz && -r $movers ]] || movers=''
 [ -n "$players" ] || players=$(awk -F, '
     NR == 1 { for (i = 1; i <= NF; ++i) if ($i == "player") c = i; if (!c) exit }
     NR == 2 { print $c; exit }' < <(zcat -f "$cameras"))
@@ -79,7 +83,7 @@ trap 'status=$?; end "${started[@]}"; [ $status -ne 0 ] || rm -rf "$work"' EXIT
 
 step "Playing the match, $((to / 1000 - from / 1000)) s"
 start_server server build/release/lib/openarena/film/qagamex86_64.so "$rate" film_trace "$trace" \
-    film_cameras "$cameras" film_players "$players" film_from "$from" film_to "$to"
+    film_cameras "$cameras" film_movers "$movers" film_players "$players" film_from "$from" film_to "$to"
 console server "map $map"
 await 120 server "film: \|Can't find map"
 grep -q 'film: ready' "$work/server/log" ||

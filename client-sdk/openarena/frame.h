@@ -27,6 +27,7 @@ struct player_pose {
     uint8_t alive;        /* never with spectator */
     uint8_t teleport_bit; /* toggles at every respawn and teleport */
     uint8_t team;         /* team_ value */
+    uint8_t weapon;       /* in hand, the game's number */
     int16_t viewheight;   /* of the eye above origin */
     int16_t health;
     float origin[3], velocity[3];

@@ -27,6 +27,7 @@ struct player_pose pose_of(const uint8_t* player_state, const struct roster_entr
     pose.alive = !pose.spectator && type != PM_DEAD && health > 0;
     pose.teleport_bit = (read_int(player_state, PS_EFLAGS) & EFLAG_TELEPORT) != 0;
     pose.team = entry->team;
+    pose.weapon = (uint8_t)read_int(player_state, PS_WEAPON);
     pose.viewheight = (int16_t)viewheight;
     pose.health = (int16_t)health;
     read_vector(pose.origin, player_state, PS_ORIGIN);

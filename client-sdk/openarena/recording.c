@@ -15,8 +15,8 @@ enum { path_size = 512, suffix_size = 32 };
 static const struct {
     const char *suffix, *header, *mode; /* T: plain text */
 } kinds[file_count] = {
-    {".csv.gz", "t_ms,player,x,y,z,pitch,yaw,roll,vx,vy,vz,viewheight,health,team,teleport_bit,alive\n",
-     "wb3"},
+    {".csv.gz",
+     "t_ms,player,x,y,z,pitch,yaw,roll,vx,vy,vz,viewheight,health,team,teleport_bit,alive,weapon\n", "wb3"},
     {"-events.csv.gz", "t_ms,kind,actor,subject,value\n", "wb3"},
     {"-movers.csv.gz", "t_ms,mover,x,y,z,pitch,yaw,roll\n", "wb3"},
     {"-players.csv", "player,name,team\n", "wbT"},
@@ -99,10 +99,11 @@ int64_t recording_rows(const struct recording* recording) {
 }
 
 int pose_row(char row[max_row], int64_t t_ms, int slot, const struct player_pose* pose) {
-    return snprintf(row, max_row, "%lld,%d,%.2f,%.2f,%.2f,%.2f,%.2f,%.2f,%.1f,%.1f,%.1f,%d,%d,%d,%d,%d\n",
+    return snprintf(row, max_row, "%lld,%d,%.2f,%.2f,%.2f,%.2f,%.2f,%.2f,%.1f,%.1f,%.1f,%d,%d,%d,%d,%d,%d\n",
                     (long long)t_ms, slot, pose->origin[0], pose->origin[1], pose->origin[2], pose->angles[0],
                     pose->angles[1], pose->angles[2], pose->velocity[0], pose->velocity[1], pose->velocity[2],
-                    pose->viewheight, pose->health, pose->team, pose->teleport_bit, pose->alive);
+                    pose->viewheight, pose->health, pose->team, pose->teleport_bit, pose->alive,
+                    pose->weapon);
 }
 
 int event_row(char row[max_row], int64_t t_ms, const struct game_event* event) {

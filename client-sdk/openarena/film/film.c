@@ -6,11 +6,12 @@
  *
  *     film_trace    the match: CSV, plain or .gz
  *     film_cameras  the camera paths: CSV, plain or .gz
+ *     film_movers   doors and lifts: CSV, plain or .gz, as a recording has it; "" = as the game has them
  *     film_players  the players filmed, "0,3": the first spectator gets the camera of the first of them ...
  *     film_from, film_to  ms since the match's first pose; to its end when film_to is 0
  *
  * Until `film start` on the server's console the match stands at its first moment. Clients and the console
- * are told "film: begin" and "film: end". Shots, items in use and moving parts of the map are not played.
+ * are told "film: begin" and "film: end". Shots and items in use are not played.
  */
 #include <math.h>
 #include <stdarg.h>
@@ -23,6 +24,7 @@
 #include "game.h"
 #include "overlay.h"
 #include "puppets.h"
+#include "scenery.h"
 #include "take.h"
 
 #define EXPORT __attribute__((visibility("default")))
@@ -62,14 +64,16 @@ static void read_players(void) {
 }
 
 static void read_take(void) {
-    static const char* const names[] = {"film_trace", "film_cameras", "film_players", "film_from", "film_to"};
-    char trace[512], cameras[512], reason[1000];
+    static const char* const names[] = {"film_trace",   "film_cameras", "film_movers",
+                                        "film_players", "film_from",    "film_to"};
+    char trace[512], cameras[512], movers[512], reason[1600];
     for (size_t i = 0; i < sizeof names / sizeof *names; ++i)
         engine_cvar_register(names[i], "", cvar_open);
     engine_cvar_string("film_trace", trace, sizeof trace);
     engine_cvar_string("film_cameras", cameras, sizeof cameras);
+    engine_cvar_string("film_movers", movers, sizeof movers);
     take_close(&take);
-    if (!take_open(&take, trace, cameras, reason, sizeof reason)) {
+    if (!take_open(&take, trace, cameras, movers, reason, sizeof reason)) {
         engine_error("film: %s\n", reason);
         return;
     }
@@ -132,6 +136,7 @@ static void run_frame(int32_t level_time) {
     if (engine_player_state(0) == NULL || take.poses.track_count == 0) return;
     const double time = advance(level_time);
     puppets_pose(&take, time);
+    scenery_pose(&take, time);
     show(level_time, time);
 }
 

@@ -6,6 +6,7 @@
 
 #include "engine.h"
 #include "frame.h"
+#include "trajectory.h"
 
 static const char* const models[] = {"sarge",   "gargoyle", "penguin",  "sergei",
                                      "kyonshi", "tony",     "angelyss", "rai"};
@@ -14,8 +15,6 @@ enum { model_count = sizeof models / sizeof *models };
 /* Fields of entityState_t that only a puppet needs. */
 enum {
     ENTITY_EFLAGS = 8,
-    ENTITY_POSITION = 12, /* trajectories */
-    ENTITY_ROTATION = 48,
     ENTITY_MOVEMENT_DIRECTION = 132,
     ENTITY_GROUND = 148,
     ENTITY_EVENT = 180,
@@ -24,8 +23,6 @@ enum {
     ENTITY_LEGS = 196,
     ENTITY_TORSO = 200
 };
-/* trajectory_t. */
-enum { TRAJECTORY_BASE = 12, TRAJECTORY_DELTA = 24, trajectory_interpolated = 1 };
 enum { type_player = 1, type_invisible = 10, EFLAG_DEAD = 1, no_ground = 1023, gibbed_health = -40 };
 /* Animations of a player's model. */
 enum {
@@ -82,12 +79,6 @@ static int legs_of(const struct recorded_pose* pose, int direction) {
         return crouched ? legs_idle_crouched : legs_idle;
     if (crouched) return legs_walk_crouched;
     return direction >= 3 && direction <= 5 ? legs_back : legs_run;
-}
-
-static void write_trajectory(uint8_t* entity, size_t offset, const float base[3], const float delta[3]) {
-    write_int(entity, offset, trajectory_interpolated);
-    write_vector(entity, offset + TRAJECTORY_BASE, base);
-    write_vector(entity, offset + TRAJECTORY_DELTA, delta);
 }
 
 static void write_pose(uint8_t* entity, const struct recorded_pose* pose) {

@@ -2,12 +2,16 @@
 #include "take.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 static const double degrees_per_radian = 57.29577951308232;
 
 /* A player without a row for this time has left, ms. */
 static const double longest_gap = 250.0;
+/* Movers have rows only while they move: one that follows after a longer time is where it moved to in its own
+ * frame, ms. */
+static const double longest_mover_step = 110.0;
 
 enum {
     POSE_X = 2,
@@ -38,19 +42,44 @@ static const struct column pose_columns[] = {
     {"weapon", false, 2 /* machine gun */},
 };
 
+enum { MOVER_X = 2, MOVER_PITCH = 5 };
+static const struct column mover_columns[] = {
+    {"t_ms", true, 0}, {"mover", true, 0}, {"x", true, 0},   {"y", true, 0},
+    {"z", true, 0},    {"pitch", true, 0}, {"yaw", true, 0}, {"roll", true, 0},
+};
+
 enum { CAMERA_X = 2, CAMERA_QW = 5, CAMERA_CUT = 9 };
 static const struct column camera_columns[] = {
     {"t_ms", true, 0}, {"player", true, 0}, {"x", true, 0},  {"y", true, 0},  {"z", true, 0},
     {"qw", true, 0},   {"qx", true, 0},     {"qy", true, 0}, {"qz", true, 0}, {"cut", true, 0},
 };
 
+enum { max_players = 48 };
 enum { pose_column_count = sizeof pose_columns / sizeof *pose_columns };
 enum { camera_column_count = sizeof camera_columns / sizeof *camera_columns };
+enum { mover_column_count = sizeof mover_columns / sizeof *mover_columns };
 
-bool take_open(struct take* take, const char* trace, const char* cameras, char* reason, size_t reason_size) {
+/* Tracks of players: some, but not more than there are places for them beside the spectators. */
+static bool read_players(struct tracks* tracks, const char* path, const struct column* columns,
+                         size_t column_count, char* reason, size_t reason_size) {
+    if (!tracks_read(tracks, path, columns, column_count, reason, reason_size)) return false;
+    if (tracks->track_count > 0 && tracks->track_count <= max_players) return true;
+    if (tracks->track_count == 0) {
+        snprintf(reason, reason_size, "%s has no rows", path);
+    } else {
+        snprintf(reason, reason_size, "%s has more than %d players", path, (int)max_players);
+    }
+    return false;
+}
+
+bool take_open(struct take* take, const char* trace, const char* cameras, const char* movers, char* reason,
+               size_t reason_size) {
     memset(take, 0, sizeof *take);
-    if (!tracks_read(&take->poses, trace, pose_columns, pose_column_count, reason, reason_size) ||
-        !tracks_read(&take->cameras, cameras, camera_columns, camera_column_count, reason, reason_size))
+    if (!read_players(&take->poses, trace, pose_columns, pose_column_count, reason, reason_size) ||
+        !read_players(&take->cameras, cameras, camera_columns, camera_column_count, reason, reason_size))
+        return false;
+    if (movers != NULL && movers[0] != '\0' &&
+        !tracks_read(&take->movers, movers, mover_columns, mover_column_count, reason, reason_size))
         return false;
     take->first = HUGE_VAL;
     take->last = -HUGE_VAL;
@@ -65,6 +94,7 @@ bool take_open(struct take* take, const char* trace, const char* cameras, char* 
 void take_close(struct take* take) {
     tracks_free(&take->poses);
     tracks_free(&take->cameras);
+    tracks_free(&take->movers);
 }
 
 static void interpolate(float vector[3], const struct span* span, size_t column) {
@@ -97,6 +127,18 @@ struct recorded_pose take_pose(const struct take* take, size_t index, double tim
     interpolate(pose.velocity, &span, POSE_VX);
     interpolate_angles(pose.angles, &span, POSE_PITCH);
     return pose;
+}
+
+bool take_mover(const struct take* take, int model, double time, struct mover_pose* pose) {
+    const struct track* const track = tracks_find(&take->movers, model);
+    if (track == NULL) return false;
+    struct span span = track_at(&take->movers, track, fmax(time, track->rows[COLUMN_TIME]));
+    if (span.after[COLUMN_TIME] - span.before[COLUMN_TIME] > longest_mover_step) span.fraction = 0.0;
+    memset(pose, 0, sizeof *pose);
+    pose->model = (int16_t)model;
+    interpolate(pose->origin, &span, MOVER_X);
+    interpolate_angles(pose->angles, &span, MOVER_PITCH);
+    return true;
 }
 
 /* v turned by the quaternion w x y z. */

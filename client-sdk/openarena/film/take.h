@@ -5,6 +5,7 @@
 
 #include <stdbool.h>
 
+#include "frame.h"
 #include "tracks.h"
 #include "view_prediction.h"
 
@@ -20,16 +21,20 @@ struct recorded_pose {
 };
 
 struct take {
-    struct tracks poses, cameras;
-    double first, last; /* times of the first and the last pose, ms */
+    struct tracks poses, cameras, movers; /* movers: none where there is no file of them */
+    double first, last;                   /* times of the first and the last pose, ms */
 };
 
-/* Returns false and stores what is wrong in reason. take_close() afterwards in both cases. */
-bool take_open(struct take* take, const char* trace, const char* cameras, char* reason, size_t reason_size);
+/* movers: null or "" = none. Returns false and stores what is wrong in reason. take_close() afterwards in
+ * both cases. */
+bool take_open(struct take* take, const char* trace, const char* cameras, const char* movers, char* reason,
+               size_t reason_size);
 void take_close(struct take* take);
 
 /* index < poses.track_count. */
 struct recorded_pose take_pose(const struct take* take, size_t index, double time);
+/* Of an inline brush model. Returns false when it is not in the file. */
+bool take_mover(const struct take* take, int model, double time, struct mover_pose* pose);
 /* The camera of a player; the first one before its path begins. cut: the path has a cut in (before, time]. */
 struct view take_view(const struct take* take, const struct track* camera, double before, double time,
                       bool* cut);

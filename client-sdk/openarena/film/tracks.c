@@ -7,7 +7,7 @@
 #include <string.h>
 #include <zlib.h>
 
-enum { max_line = 1024, max_fields = 64, largest_player = 999999 };
+enum { max_line = 1024, max_fields = 64, largest_number = 999999 };
 
 static const size_t max_rows = 4000000; /* of a player: 18 hours at 60 Hz */
 
@@ -65,18 +65,18 @@ static double time_of(const struct tracks* tracks, const struct track* track, si
     return track->rows[row * tracks->column_count + COLUMN_TIME];
 }
 
-static bool take_row(struct tracks* tracks, const double values[max_columns], const struct source* source,
-                     char* reason, size_t reason_size) {
-    const double player = values[COLUMN_PLAYER];
-    if (player < 0 || player > largest_player || player != floor(player))
-        return fail(source, reason, reason_size, "expected a player's number in column", "player");
-    struct track* const track = find_or_add(tracks, (int)player);
+static bool take_row(struct tracks* tracks, const double values[max_columns], const char* owner,
+                     const struct source* source, char* reason, size_t reason_size) {
+    const double number = values[COLUMN_PLAYER];
+    if (number < 0 || number > largest_number || number != floor(number))
+        return fail(source, reason, reason_size, "expected a whole number from 0 on in column", owner);
+    struct track* const track = find_or_add(tracks, (int)number);
     if (track == NULL)
-        return fail(source, reason, reason_size, "more players than can be shown in", "player");
+        return fail(source, reason, reason_size, "more different ones than can be shown in column", owner);
     if (track->row_count > 0 && values[COLUMN_TIME] < time_of(tracks, track, track->row_count - 1))
-        return fail(source, reason, reason_size, "a time before the player's previous one in", "t_ms");
+        return fail(source, reason, reason_size, "a time before the previous one of the same", owner);
     double* const row = add_row(tracks, track);
-    if (row == NULL) return fail(source, reason, reason_size, "no memory for more rows of a", "player");
+    if (row == NULL) return fail(source, reason, reason_size, "no memory for more rows of a", owner);
     memcpy(row, values, tracks->column_count * sizeof *row);
     return true;
 }
@@ -120,7 +120,7 @@ static bool read_rows(gzFile file, struct tracks* tracks, const struct column* c
             if (end == NULL || end == fields[places[i]] || *end != '\0' || !isfinite(values[i]))
                 return fail(source, reason, reason_size, "expected a number in column", columns[i].name);
         }
-        if (!take_row(tracks, values, source, reason, reason_size)) return false;
+        if (!take_row(tracks, values, columns[COLUMN_PLAYER].name, source, reason, reason_size)) return false;
     }
     return true;
 }
@@ -137,7 +137,6 @@ bool tracks_read(struct tracks* tracks, const char* path, const struct column* c
     }
     bool read = read_rows(file, tracks, columns, &source, reason, reason_size);
     if (gzclose(file) != Z_OK && read) read = fail(&source, reason, reason_size, "damaged or cut off:", path);
-    if (read && tracks->track_count == 0) read = fail(&source, reason, reason_size, "no rows in", path);
     return read;
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-2.0-or-later */
-/* A CSV file (plain or .gz) of values over time, sorted into one track for each player. */
+/* A CSV file (plain or .gz) of values over time, sorted into one track for each player or mover. */
 #ifndef CAMERA_DIRECTOR_OPENARENA_FILM_TRACKS_H
 #define CAMERA_DIRECTOR_OPENARENA_FILM_TRACKS_H
 
@@ -10,9 +10,9 @@
 extern "C" {
 #endif
 
-enum { max_tracks = 48, max_columns = 16 };
+enum { max_tracks = 256, max_columns = 16 };
 /* The first two columns of every file. */
-enum { COLUMN_TIME = 0 /* ms, never decreasing for a player */, COLUMN_PLAYER = 1 };
+enum { COLUMN_TIME = 0 /* ms, never decreasing within a track */, COLUMN_PLAYER = 1 /* or mover */ };
 
 struct column {
     const char* name; /* in the header, where columns come in any order and others are ignored */
@@ -38,7 +38,8 @@ struct span {
     double fraction; /* 0 at before, 1 at after */
 };
 
-/* Returns false and stores what is wrong, and where, in reason. Numbers are finite. tracks_free() afterwards
+/* Returns false and stores what is wrong, and where, in reason. A file without rows gives no tracks. Numbers
+ * are finite. tracks_free() afterwards
  * in both cases. */
 bool tracks_read(struct tracks* tracks, const char* path, const struct column* columns, size_t column_count,
                  char* reason, size_t reason_size);

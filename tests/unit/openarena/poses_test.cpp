@@ -17,6 +17,7 @@ class OpenArenaPose : public testing::Test {
         write_int(state.data(), PS_PERSISTANT + 4 * PERSISTANT_SPAWN_COUNT, 1);
         write_int(state.data(), PS_STATS, 70);
         write_int(state.data(), PS_VIEW_HEIGHT, 26);
+        write_int(state.data(), PS_WEAPON, 5);
         const float origin[3] = {1.0F, 2.0F, 3.0F}, velocity[3] = {4.0F, 5.0F, 6.0F};
         write_vector(state.data(), PS_ORIGIN, origin);
         write_vector(state.data(), PS_VELOCITY, velocity);
@@ -33,6 +34,7 @@ TEST_F(OpenArenaPose, ReadsAPlayer) {
     EXPECT_TRUE(read.in_game && read.bot && read.alive);
     EXPECT_FALSE(read.spectator);
     EXPECT_EQ(read.health, 70);
+    EXPECT_EQ(read.weapon, 5);
     float eye[3];
     pose_eye(eye, &read);
     EXPECT_EQ(eye[0], 1.0F);

@@ -29,6 +29,7 @@ class OpenArenaRecording : public testing::Test {
         pose.in_game = pose.alive = pose.teleport_bit = 1;
         pose.team = team_red;
         pose.health = 90;
+        pose.weapon = 5;
         pose.viewheight = 26;
         pose.origin[0] = 1.25F;
         pose.angles[1] = -90.0F;
@@ -85,9 +86,9 @@ TEST_F(OpenArenaRecording, WritesWhatEvaluateReads) {
     EXPECT_EQ(files().size(), 4U);
     EXPECT_THAT(files()[3], testing::MatchesRegex("m-oa_dm1-2001090[89]-[0-9]{6}.csv.gz"));
     EXPECT_EQ(unpacked(folder / files()[3]),
-              "t_ms,player,x,y,z,pitch,yaw,roll,vx,vy,vz,viewheight,health,team,teleport_bit,alive\n"
-              "0,2,1.25,0.00,0.00,0.00,-90.00,0.00,0.0,0.0,-3.5,26,90,1,1,1\n"
-              "50,2,1.25,0.00,0.00,0.00,-90.00,0.00,0.0,0.0,-3.5,26,90,1,1,1\n");
+              "t_ms,player,x,y,z,pitch,yaw,roll,vx,vy,vz,viewheight,health,team,teleport_bit,alive,weapon\n"
+              "0,2,1.25,0.00,0.00,0.00,-90.00,0.00,0.0,0.0,-3.5,26,90,1,1,1,5\n"
+              "50,2,1.25,0.00,0.00,0.00,-90.00,0.00,0.0,0.0,-3.5,26,90,1,1,1,5\n");
     EXPECT_EQ(
         content("-events.csv.gz"),
         "t_ms,kind,actor,subject,value\n0,kill,1,2,MOD_ROCKET\n0,death,,2,MOD_FALLING\n0,damage,1,2,40\n");

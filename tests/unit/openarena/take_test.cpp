@@ -8,9 +8,13 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <cstdint>
 #include <fstream>
 #include <string>
+#include <vector>
 
+#include "engine.h"
+#include "film/scenery.h"
 #include "support/temporary_folder.hpp"
 
 namespace camdir::openarena {
@@ -20,17 +24,19 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 const std::string trace_header = "t_ms,player,x,y,z,pitch,yaw,vx,vy,vz,viewheight,teleport_bit,alive\n";
+const std::string mover_header = "t_ms,mover,x,y,z,pitch,yaw,roll\n";
 const std::string camera_header = "t_ms,player,x,y,z,qw,qx,qy,qz,cut\n";
 
 // Opens what is written into two files.
 class Files {
   public:
-    Files(const std::string& trace, const std::string& cameras) {
+    Files(const std::string& trace, const std::string& cameras, const std::string& movers = "") {
         std::ofstream(folder_ / "trace.csv") << trace;
         std::ofstream(folder_ / "cameras.csv") << cameras;
         std::array<char, 1000> text{};
+        if (!movers.empty()) std::ofstream(folder_ / "movers.csv") << movers;
         opened = take_open(&content, (folder_ / "trace.csv").c_str(), (folder_ / "cameras.csv").c_str(),
-                           text.data(), text.size());
+                           movers.empty() ? "" : (folder_ / "movers.csv").c_str(), text.data(), text.size());
         reason = text.data();
     }
     ~Files() { take_close(&content); }
@@ -101,6 +107,111 @@ TEST(Take, ErrorsNameTheFileTheLineAndTheColumn) {
     EXPECT_THAT(
         Files(trace_header + "9,4,0,0,0,0,0,0,0,0,26,0,1\n8,4,0,0,0,0,0,0,0,0,26,0,1\n", camera).reason,
         HasSubstr("line 3: a time before"));
+    const std::string trace = trace_header + "0,4,0,0,0,0,0,0,0,0,26,0,1\n";
+    EXPECT_THAT(Files(trace, camera, mover_header + "0,-1,0,0,0,0,0,0\n").reason,
+                HasSubstr("movers.csv, line 2: expected a whole number from 0 on in column 'mover'"));
+    EXPECT_THAT(Files(trace, camera, "t_ms,mover\n").reason, HasSubstr("lacks the column 'x'"));
+    std::string crowd = trace_header;
+    for (int player = 0; player < 49; ++player)
+        crowd += "0," + std::to_string(player) + ",0,0,0,0,0,0,0,0,26,0,1\n";
+    EXPECT_THAT(Files(crowd, camera).reason, HasSubstr("trace.csv has more than 48 players"));
+}
+
+// A lift that stands until 1000, goes up for two frames, and stands again until 5000.
+const std::string lift = mover_header +
+                         "0,7,0,0,10,0,0,0\n1000,7,0,0,20,0,350,0\n1050,7,0,0,30,0,10,0\n"
+                         "5000,7,0,0,20,0,10,0\n";
+
+TEST(Take, MoversStandUntilTheyMoveAndAreInterpolatedThen) {
+    const std::string camera = camera_header + "0,4,0,0,0,1,0,0,0,0\n";
+    const Files files(trace_header + "0,4,0,0,0,0,0,0,0,0,26,0,1\n", camera, lift);
+    ASSERT_TRUE(files.opened) << files.reason;
+    const auto pose = [&](double time) {
+        mover_pose result{};
+        EXPECT_TRUE(take_mover(&files.content, 7, time, &result));
+        EXPECT_EQ(result.model, 7);
+        return result;
+    };
+    EXPECT_EQ(pose(-50).origin[2], 10);
+    EXPECT_EQ(pose(999).origin[2], 10);
+    EXPECT_EQ(pose(1025).origin[2], 25);
+    EXPECT_EQ(pose(1025).angles[1], 360) << "the short way round";
+    EXPECT_EQ(pose(4900).origin[2], 30);
+    EXPECT_EQ(pose(9000).origin[2], 20);
+    mover_pose none{};
+    EXPECT_FALSE(take_mover(&files.content, 8, 0, &none));
+}
+
+TEST(Take, AMapNeedsNoMovers) {
+    const std::string camera = camera_header + "0,4,0,0,0,1,0,0,0,0\n";
+    const Files files(trace_header + "0,4,0,0,0,0,0,0,0,0,26,0,1\n", camera, mover_header);
+    EXPECT_TRUE(files.opened) << files.reason;
+    mover_pose none{};
+    EXPECT_FALSE(take_mover(&files.content, 1, 0, &none));
+}
+
+int linked = 0;
+
+std::intptr_t count_links(std::intptr_t number, ...) {
+    linked += number == ENGINE_LINK_ENTITY ? 1 : 0;
+    return 0;
+}
+
+// The game's entities as the film module finds them.
+class Scenery : public testing::Test {
+  protected:
+    static constexpr int entity_count = 80, size = entity_shared_size;
+
+    Scenery() {
+        linked = 0;
+        engine_attach(count_links);
+        const std::array<std::intptr_t, engine_call_arguments> data = {
+            reinterpret_cast<std::intptr_t>(entities.data()), entity_count, size,
+            reinterpret_cast<std::intptr_t>(clients.data()), player_state_size};
+        engine_locate(data.data());
+        for (int number = 0; number < entity_count; ++number) {
+            write_int(entity(number), ENTITY_IN_USE, 1);
+            write_int(entity(number), ENTITY_TYPE, ENTITY_TYPE_MOVER);
+            write_int(entity(number), ENTITY_BRUSH_MODEL, 1);
+        }
+        write_int(entity(66), ENTITY_MODEL_INDEX, 7);
+    }
+    ~Scenery() override { engine_forget_game_data(); }
+
+    std::uint8_t* entity(int number) { return entities.data() + static_cast<std::ptrdiff_t>(number) * size; }
+
+    std::vector<std::uint8_t> entities =
+        std::vector<std::uint8_t>(static_cast<std::size_t>(entity_count) * size);
+    std::vector<std::uint8_t> clients = std::vector<std::uint8_t>(64 * player_state_size);
+    Files files{trace_header + "0,4,0,0,0,0,0,0,0,0,26,0,1\n", camera_header + "0,4,0,0,0,1,0,0,0,0\n", lift};
+};
+
+TEST_F(Scenery, TheModelOfTheRecordedNumberIsMovedAndNothingElse) {
+    auto expected = entities;
+    scenery_pose(&files.content, 1025);
+    EXPECT_EQ(linked, 1);
+    std::uint8_t* const mover = expected.data() + 66 * size;
+    const float origin[3] = {0, 0, 25}, angles[3] = {0, 360, 0};
+    write_int(mover, 12, 1);  // position: interpolated between snapshots, base
+    write_vector(mover, 24, origin);
+    write_int(mover, 48, 1);  // rotation
+    write_vector(mover, 60, angles);
+    write_vector(mover, ENTITY_ORIGIN, origin);
+    write_vector(mover, ENTITY_ANGLES, angles);
+    EXPECT_EQ(entities, expected);
+}
+
+TEST_F(Scenery, OtherEntitiesOfThatNumberAreLeftAlone) {
+    for (const std::size_t field :
+         {std::size_t{ENTITY_IN_USE}, std::size_t{ENTITY_TYPE}, std::size_t{ENTITY_BRUSH_MODEL}}) {
+        const int before = read_int(entity(66), field);
+        write_int(entity(66), field, 0);
+        const auto expected = entities;
+        scenery_pose(&files.content, 1025);
+        EXPECT_EQ(entities, expected);
+        write_int(entity(66), field, before);
+    }
+    EXPECT_EQ(linked, 0);
 }
 
 RC_GTEST_PROP(Take, ViewsHaveTheOrientationOfTheFile, ()) {
