@@ -4,10 +4,10 @@
 
 #include <ctype.h>
 #include <inttypes.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "engine.h"
 #include "proxy.h"
@@ -24,34 +24,6 @@ struct words {
     int count;
     char words[word_limit][40];
 };
-
-/* -------------------------------------------------------------------------------------------- answers */
-
-/* Without what would end the text in the engine's command or upset a terminal. */
-static void make_printable(char* text) {
-    for (; *text != '\0'; ++text) {
-        const unsigned char c = (unsigned char)*text;
-        if (c == '"') *text = '\'';
-        if (c < ' ' || c == 127) *text = ' ';
-    }
-}
-
-/* One line to a client or to the console. */
-static void answer(int slot, const char* format, ...) __attribute__((format(printf, 2, 3)));
-static void answer(int slot, const char* format, ...) {
-    char line[400], command[420];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(line, sizeof line, format, arguments);
-    va_end(arguments);
-    make_printable(line);
-    if (slot == on_console) {
-        engine_print("%s\n", line);
-        return;
-    }
-    snprintf(command, sizeof command, "print \"%s\n\"\n", line);
-    engine_send_command(slot, command);
-}
 
 /* --------------------------------------------------------------------------------------------- status */
 
@@ -76,30 +48,34 @@ static void describe_viewer(int to, int slot, const struct viewer_status* viewer
         snprintf(shot, sizeof shot, ", shot %s%s%s", cdir_shot_state_name(answered->state),
                  answered->reason[0] != '\0' ? ": " : "", answered->reason);
     }
-    answer(to, "viewer %d %s: %s, profile %s, sees %s of %s%s%s", slot, roster_at(slot)->name,
-           choice_name(viewer->choice), viewer->profile[0] != '\0' ? viewer->profile : "of the director",
-           view_name(viewer), target, age, shot);
+    engine_print_line(to, "viewer %d %s: %s, profile %s, sees %s of %s%s%s", slot, roster_at(slot)->name,
+                      choice_name(viewer->choice),
+                      viewer->profile[0] != '\0' ? viewer->profile : "of the director", view_name(viewer),
+                      target, age, shot);
 }
 
 static void describe_match(void) {
     const struct settings* const settings = module_settings();
     const struct director_report* const report = module_report();
-    answer(on_console, "match %s, DDS domain %" PRIu32 ", interface %s, directors at %s", settings->match,
-           settings->domain, settings->interface, settings->directors);
-    answer(on_console, "map %s, life %" PRIu32, module_map(), module_life());
-    if (!settings->enable) answer(on_console, "director_enable is 0: nothing is published");
+    engine_print_line(on_console, "match %s, DDS domain %" PRIu32 ", interface %s, directors at %s",
+                      settings->match, settings->domain, settings->interface, settings->directors);
+    engine_print_line(on_console, "map %s, life %" PRIu32, module_map(), module_life());
+    if (!settings->enable) engine_print_line(on_console, "director_enable is 0: nothing is published");
     if (!settings->spectate)
-        answer(on_console, "director_spectate is 0: spectators see the game's own views");
+        engine_print_line(on_console, "director_spectate is 0: spectators see the game's own views");
     if (report == NULL) {
-        answer(on_console, "not connected yet");
+        engine_print_line(on_console, "not connected yet");
         return;
     }
-    answer(on_console, "epoch %" PRIu64 ", directors connected %" PRIu32, report->epoch, report->directors);
-    if (report->error[0] != '\0') answer(on_console, "error: %s", report->error);
-    answer(on_console,
-           "published %" PRIu64 " frames, %" PRIu64 " events; skipped %" PRIu64 " frames, failed %" PRIu64,
-           report->published_frames, report->published_events, report->skipped_frames, report->failures);
-    if (report->recorded_rows >= 0) answer(on_console, "recorded %" PRId64 " rows", report->recorded_rows);
+    engine_print_line(on_console, "epoch %" PRIu64 ", directors connected %" PRIu32, report->epoch,
+                      report->directors);
+    if (report->error[0] != '\0') engine_print_line(on_console, "error: %s", report->error);
+    engine_print_line(
+        on_console,
+        "published %" PRIu64 " frames, %" PRIu64 " events; skipped %" PRIu64 " frames, failed %" PRIu64,
+        report->published_frames, report->published_events, report->skipped_frames, report->failures);
+    if (report->recorded_rows >= 0)
+        engine_print_line(on_console, "recorded %" PRId64 " rows", report->recorded_rows);
 }
 
 static void describe_module(void) {
@@ -107,12 +83,13 @@ static void describe_module(void) {
     const struct view_counters* const views = viewers_counters();
     const double mean =
         module->timed_frames > 0 ? (double)module->total_ns / 1e3 / (double)module->timed_frames : 0;
-    answer(on_console, "sampled %" PRIu64 " frames, %" PRIu64 " events; dropped %" PRIu64 " frames",
-           module->frames, module->events, module->dropped);
-    answer(on_console, "shown %" PRIu64 " camera frames, %" PRIu64 " cuts, %" PRIu64 " fallbacks",
-           views->camera_frames, views->cuts, views->fallbacks);
-    answer(on_console, "the game's thread spends %.1f us a frame here, at most %.1f us", mean,
-           (double)module->max_ns / 1e3);
+    engine_print_line(on_console,
+                      "sampled %" PRIu64 " frames, %" PRIu64 " events; dropped %" PRIu64 " frames",
+                      module->frames, module->events, module->dropped);
+    engine_print_line(on_console, "shown %" PRIu64 " camera frames, %" PRIu64 " cuts, %" PRIu64 " fallbacks",
+                      views->camera_frames, views->cuts, views->fallbacks);
+    engine_print_line(on_console, "the game's thread spends %.1f us a frame here, at most %.1f us", mean,
+                      (double)module->max_ns / 1e3);
 }
 
 static void print_status(void) {
@@ -129,7 +106,7 @@ static void show_own_status(int slot) {
     if (viewers_status(slot, &viewer)) {
         describe_viewer(slot, slot, &viewer);
     } else {
-        answer(slot, "director: its camera is for spectators");
+        engine_print_line(slot, "director: its camera is for spectators");
     }
 }
 
@@ -147,23 +124,23 @@ static bool choose(int to, int slot, const struct words* words, int count) {
     const char* const what = words->words[1];
     if (strcmp(what, "auto") == 0 && count == 2) {
         viewers_choose(slot, choice_auto);
-        answer(to, "director: chooses the player");
+        engine_print_line(to, "director: chooses the player");
     } else if (strcmp(what, "off") == 0 && count == 2) {
         viewers_choose(slot, choice_off);
-        answer(to, "director: off");
+        engine_print_line(to, "director: off");
     } else if (strcmp(what, "profile") == 0 && (count == 2 || count == 3)) {
         const char* const name = count == 3 ? words->words[2] : "";
         if (strlen(name) >= sizeof((struct viewer_request*)0)->profile || !is_profile_name(name)) {
-            answer(to, "director: a profile's name has at most 31 letters, digits and -_.");
+            engine_print_line(to, "director: a profile's name has at most 31 letters, digits and -_.");
             return true;
         }
         viewers_choose_profile(slot, name);
-        answer(to, "director: profile %s", name[0] != '\0' ? name : "of the server");
+        engine_print_line(to, "director: profile %s", name[0] != '\0' ? name : "of the server");
     } else {
         return false;
     }
     if (!module_settings()->spectate)
-        answer(to, "director: switched off on this server (director_spectate 0)");
+        engine_print_line(to, "director: switched off on this server (director_spectate 0)");
     return true;
 }
 
@@ -190,11 +167,11 @@ bool commands_console(void) {
     const int last = words.count - 1;
     const int slot = last < word_limit ? slot_of(words.words[last]) : -1;
     if (words.count < 3 || slot < 0) {
-        answer(on_console, "usage: %s", console_usage);
+        engine_print_line(on_console, "usage: %s", console_usage);
     } else if (!viewers_status(slot, &viewer)) {
-        answer(on_console, "director: slot %d is no human spectator", slot);
+        engine_print_line(on_console, "director: slot %d is no human spectator", slot);
     } else if (!choose(on_console, slot, &words, last)) {
-        answer(on_console, "usage: %s", console_usage);
+        engine_print_line(on_console, "usage: %s", console_usage);
     }
     return true;
 }
@@ -216,23 +193,47 @@ static struct words split(int first_argument) {
 }
 
 static bool is_one_of(const char* word, const char* const* list) {
-    while (*list != NULL && strcmp(word, *list) != 0) {
+    while (*list != NULL && strcasecmp(word, *list) != 0) {
         ++list;
     }
     return *list != NULL;
 }
 
+/* The slot that an argument of the game's `follow` means, or no_slot. */
+static uint8_t player_named(const char* text) {
+    char name[sizeof((struct roster_entry*)0)->name];
+    if (isdigit((unsigned char)text[0])) {
+        const long slot = strtol(text, NULL, 10);
+        return slot < max_slots ? (uint8_t)slot : no_slot;
+    }
+    roster_copy_name(name, sizeof name, text);
+    for (int slot = 0; slot < max_slots; ++slot) {
+        if (roster_at(slot)->in_use && strcasecmp(roster_at(slot)->name, name) == 0) return (uint8_t)slot;
+    }
+    return no_slot;
+}
+
+static bool take_follow(int slot, const char* name) {
+    static const char* const cycle[] = {"follownext", "followprev", NULL};
+    char text[sizeof((struct words*)0)->words[0]];
+    if (is_one_of(name, cycle)) {
+        viewers_take_follow(slot, follow_next, no_slot);
+    } else if (strcasecmp(name, "follow") != 0) {
+        return false;
+    } else if (engine_argument_count() != 2) {
+        viewers_take_follow(slot, follow_stop, no_slot);
+    } else {
+        engine_argument(1, text, sizeof text);
+        viewers_take_follow(slot, follow_player, player_named(text));
+    }
+    return true;
+}
+
 bool commands_client(int slot) {
     static const char* const chat[] = {"say", "say_team", NULL};
-    static const char* const follow[] = {"follow", "follownext", "followprev", NULL};
-    struct viewer_status viewer;
     char name[40];
     engine_argument(0, name, sizeof name);
-    /* The player that the director shows may be chosen, too. */
-    if (is_one_of(name, follow) && viewers_status(slot, &viewer) && viewer.choice == choice_auto) {
-        viewers_choose(slot, choice_follow);
-        return false;
-    }
+    if (take_follow(slot, name)) return false;
     const bool chats = is_one_of(name, chat);
     if (!chats && strcmp(name, "director") != 0) return false;
     const struct words words = split(chats ? 1 : 0);
@@ -240,7 +241,7 @@ bool commands_client(int slot) {
     if (words.count < 2 || (words.count == 2 && strcmp(words.words[1], "status") == 0)) {
         show_own_status(slot);
     } else if (!choose(slot, slot, &words, words.count)) {
-        answer(slot, "usage: %s", usage);
+        engine_print_line(slot, "usage: %s", usage);
     }
     return true;
 }

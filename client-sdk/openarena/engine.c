@@ -66,6 +66,29 @@ void engine_print(const char* format, ...) {
     call_engine(ENGINE_PRINT, (intptr_t)text);
 }
 
+static void make_printable(char* text) {
+    for (; *text != '\0'; ++text) {
+        const unsigned char c = (unsigned char)*text;
+        if (c == '"') *text = '\'';
+        if (c < ' ' || c == 127) *text = ' ';
+    }
+}
+
+void engine_print_line(int slot, const char* format, ...) {
+    char line[400], command[420];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(line, sizeof line, format, arguments);
+    va_end(arguments);
+    make_printable(line);
+    if (slot < 0) {
+        engine_print("%s\n", line);
+        return;
+    }
+    snprintf(command, sizeof command, "print \"%s\n\"\n", line);
+    engine_send_command(slot, command);
+}
+
 void engine_error(const char* format, ...) {
     char text[1024];
     va_list arguments;

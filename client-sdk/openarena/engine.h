@@ -171,6 +171,9 @@ void engine_link_entity(uint8_t* entity);
 
 /* Prints on the server's console. */
 void engine_print(const char* format, ...) __attribute__((format(printf, 1, 2)));
+/* Prints one line on the console of a client, or of the server with slot -1. Characters that would end the
+ * engine's command or upset a terminal are replaced. */
+void engine_print_line(int slot, const char* format, ...) __attribute__((format(printf, 2, 3)));
 /* Ends the game with a message; the server program goes on without a map. Does not return to its caller. */
 void engine_error(const char* format, ...) __attribute__((format(printf, 1, 2)));
 

@@ -1,15 +1,12 @@
 /* SPDX-License-Identifier: GPL-2.0-or-later */
 #include "overlay.h"
 
-/* How long a cut to the game's own view stays declared, for clients that take few snapshots or lose some. */
-static const int32_t cut_duration = 1000;
-
 void overlay_show_camera(struct overlay* overlay, int slot, int32_t level_time, const struct view* view,
                          bool cut) {
     static const int32_t health = 100, constant_spawn_count = 1, no_ground = 1023;
     uint8_t* const state = overlay->camera;
-    if (cut || overlay->kind != overlay_camera) overlay->teleport_bit ^= EFLAG_TELEPORT;
-    overlay->kind = overlay_camera;
+    if (cut || !overlay->active) overlay->teleport_bit ^= EFLAG_TELEPORT;
+    overlay->active = true;
     memset(state, 0, player_state_size);
     write_int(state, PS_COMMAND_TIME, level_time);
     write_int(state, PS_PM_TYPE, PM_SPECTATOR);
@@ -27,35 +24,33 @@ void overlay_show_camera(struct overlay* overlay, int slot, int32_t level_time, 
     write_int(state, PS_PERSISTANT + 4 * PERSISTANT_SPAWN_COUNT, constant_spawn_count);
 }
 
-void overlay_show_own(struct overlay* overlay, int slot, int32_t level_time, const uint8_t* own) {
-    const int32_t bit = read_int(own, PS_EFLAGS) & EFLAG_TELEPORT;
-    /* The client cuts by itself when the number changes, as it does to a followed player. */
-    const bool same_number = read_int(own, PS_CLIENT_NUMBER) == slot;
-    if (overlay->kind == overlay_camera) {
-        overlay->kind = same_number && bit == overlay->teleport_bit ? overlay_cut : overlay_none;
-        overlay->cut_end = level_time + cut_duration;
-    } else if (overlay->kind == overlay_cut && (!same_number || level_time >= overlay->cut_end)) {
-        overlay->kind = overlay_none;
-    }
-    overlay->teleport_bit = overlay->kind == overlay_cut ? bit ^ EFLAG_TELEPORT : bit;
+static void write_teleport_bit(uint8_t* state, int32_t bit) {
+    write_int(state, PS_EFLAGS, (read_int(state, PS_EFLAGS) & ~(int32_t)EFLAG_TELEPORT) | bit);
 }
 
-static bool may_show(enum overlay_kind kind, const uint8_t* state) {
+void overlay_show_own(struct overlay* overlay, int slot, uint8_t* own) {
+    /* The client cuts by itself when the number changes, as it does to a followed player. */
+    const bool same_number = read_int(own, PS_CLIENT_NUMBER) == slot;
+    if (overlay->active && same_number) write_teleport_bit(own, overlay->teleport_bit ^ EFLAG_TELEPORT);
+    overlay->teleport_bit = read_int(own, PS_EFLAGS) & EFLAG_TELEPORT;
+    overlay->active = false;
+}
+
+void overlay_prepare_spawn(const struct overlay* overlay, uint8_t* own) {
+    if (overlay->active) write_teleport_bit(own, overlay->teleport_bit);
+}
+
+static bool is_watching(const uint8_t* state) {
     const bool follows = (read_int(state, PS_PM_FLAGS) & PM_FLAG_FOLLOW) != 0;
     const int32_t type = read_int(state, PS_PM_TYPE);
-    if (type == PM_INTERMISSION) return kind == overlay_cut;
-    return kind != overlay_none && (follows || type == PM_SPECTATOR);
+    return type != PM_INTERMISSION && (follows || type == PM_SPECTATOR);
 }
 
 void overlay_put_on(struct overlay* overlay, uint8_t* state) {
-    if (overlay->on || !may_show(overlay->kind, state)) return;
+    if (overlay->on || !overlay->active || !is_watching(state)) return;
     memcpy(overlay->own, state, player_state_size);
-    if (overlay->kind == overlay_camera) {
-        memcpy(state, overlay->camera, player_state_size);
-        write_int(state, PS_PING, read_int(overlay->own, PS_PING));
-    } else {
-        write_int(state, PS_EFLAGS, read_int(state, PS_EFLAGS) ^ EFLAG_TELEPORT);
-    }
+    memcpy(state, overlay->camera, player_state_size);
+    write_int(state, PS_PING, read_int(overlay->own, PS_PING));
     overlay->on = true;
 }
 

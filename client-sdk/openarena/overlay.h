@@ -15,18 +15,11 @@
 extern "C" {
 #endif
 
-enum overlay_kind {
-    overlay_none, /* the game's own state is sent */
-    overlay_cut,  /* the game's own, with the teleport bit inverted: the client must not blend into it */
-    overlay_camera
-};
-
 /* One slot's. All zero at first. */
 struct overlay {
-    enum overlay_kind kind;
-    bool on;              /* own holds the game's state, the game's place holds another */
+    bool active;          /* a camera is sent, otherwise the game's own state */
+    bool on;              /* own holds the game's state, the game's place holds the camera */
     int32_t teleport_bit; /* as the client is shown it */
-    int32_t cut_end;      /* level time at which overlay_cut ends */
     uint8_t camera[player_state_size], own[player_state_size];
 };
 
@@ -34,8 +27,12 @@ struct overlay {
  * none that follows the game's own view. */
 void overlay_show_camera(struct overlay* overlay, int slot, int32_t level_time, const struct view* view,
                          bool cut);
-/* The game's own state, as it is now. */
-void overlay_show_own(struct overlay* overlay, int slot, int32_t level_time, const uint8_t* own);
+/* The game's own state of a spectator. Toggles its teleport bit where the client would blend the camera into
+ * it. */
+void overlay_show_own(struct overlay* overlay, int slot, uint8_t* own);
+/* Before the game spawns the client, which toggles the teleport bit of the game's state: makes that a cut for
+ * a client that is shown a camera. */
+void overlay_prepare_spawn(const struct overlay* overlay, uint8_t* own);
 
 /* Put on and take off a client's playerState; a second call in a row does nothing. No player's state is
  * touched, and no intermission is covered. Taking off restores every byte except the ping, which the engine

@@ -32,11 +32,11 @@ uint32_t roster_version(void) {
     return version;
 }
 
-/* Copies up to the next backslash without colour codes ("^1") and what is not printable ASCII. */
-static void copy_name(char* name, size_t size, const char* text) {
+void roster_copy_name(char* name, size_t size, const char* text) {
     size_t length = 0;
     for (; *text != '\0' && *text != '\\' && length + 1 < size; ++text) {
-        if (text[0] == '^' && text[1] != '\0' && text[1] != '\\' && text[1] != '^') {
+        if (text[0] == '^' /* a colour code: "^1" */ && text[1] != '\0' && text[1] != '\\' &&
+            text[1] != '^') {
             ++text;
         } else if (*text >= 0x20 && *text < 0x7f) {
             name[length++] = *text;
@@ -55,7 +55,7 @@ struct roster_entry roster_parse(const char* configstring) {
         if (value == NULL) break;
         ++value;
         if (strncmp(key, "n\\", 2) == 0) {
-            copy_name(entry.name, sizeof entry.name, value);
+            roster_copy_name(entry.name, sizeof entry.name, value);
         } else if (strncmp(key, "t\\", 2) == 0) {
             const int team = atoi(value);
             entry.team = team < team_free || team > team_spectator ? team_free : (uint8_t)team;

@@ -4,6 +4,7 @@
 #define CAMERA_DIRECTOR_OPENARENA_ROSTER_H
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 #ifdef __cplusplus
@@ -24,6 +25,8 @@ const struct roster_entry* roster_at(int slot);
 /* Changes whenever an entry does. */
 uint32_t roster_version(void);
 
+/* A name, up to the next backslash, without colour codes and what is not printable ASCII. size > 0. */
+void roster_copy_name(char* name, size_t size, const char* text);
 /* Of a player's configstring. */
 struct roster_entry roster_parse(const char* configstring);
 

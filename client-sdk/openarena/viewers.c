@@ -9,6 +9,7 @@
 #include "game.h"
 #include "overlay.h"
 #include "proxy.h"
+#include "refusal_notice.h"
 #include "roster.h"
 #include "shown_name.h"
 #include "view_prediction.h"
@@ -17,6 +18,9 @@
 static const int32_t max_camera_age = 250;
 /* When the game has not followed a player as asked, it is asked again after this time, ms. */
 static const int32_t follow_interval = 1000;
+/* Of the game's own view before a camera, ms: a client that does not receive every frame must see each of two
+ * cuts in a row, because together they leave the teleport bit as it was. */
+static const int32_t min_own_view = 100;
 
 /* Where a spectator flies freely. */
 struct place {
@@ -24,22 +28,24 @@ struct place {
 };
 
 struct viewer {
-    enum viewer_choice choice;
+    struct choice choice;
     char profile[32];
     struct shown_name name;
 
     /* Of the present time as a spectator. */
-    uint8_t followed; /* by the game's own view, no_slot = it flies freely */
-    uint8_t asked;    /* the player that the game was asked to follow last */
+    uint8_t asked; /* the player that the game was asked to follow last */
     int32_t ask_time;
     bool away;      /* has left its place for a camera or a player */
     bool has_place; /* has flown freely before that */
     struct place place;
     int32_t level_time;   /* of the newest frame */
+    bool viewed;          /* some frame before it */
+    int32_t own_time;     /* level time at which the game's own view began */
     bool requested;       /* a shot, in that frame */
     int32_t request_time; /* level time of the first frame since that did */
     struct camera_motion motion;
     struct overlay overlay;
+    struct refusal_notice refusal;
 };
 
 static struct viewer viewers[max_slots];
@@ -48,7 +54,7 @@ static int call_depth;
 /* Sets of slots, as bits: most slots are empty, and looking at each costs more than everything else here. */
 static uint64_t human_slots;   /* clients that are no bots */
 static uint64_t viewer_slots;  /* of them, those that spectate */
-static uint64_t overlay_slots; /* of them, those whose overlay is not overlay_none */
+static uint64_t overlay_slots; /* of them, those who are shown a camera */
 
 const struct view_counters* viewers_counters(void) {
     return &counters;
@@ -96,15 +102,17 @@ static void forget_view(int slot) {
     struct viewer* const viewer = &viewers[slot];
     put(&viewer_slots, slot, false);
     put(&overlay_slots, slot, false);
-    viewer->followed = viewer->asked = no_slot;
-    viewer->away = viewer->has_place = viewer->requested = false;
+    viewer->asked = no_slot;
+    viewer->away = viewer->has_place = viewer->requested = viewer->viewed = false;
     memset(&viewer->motion, 0, sizeof viewer->motion);
     memset(&viewer->overlay, 0, sizeof viewer->overlay);
+    memset(&viewer->refusal, 0, sizeof viewer->refusal);
 }
 
 static void forget_viewer(int slot) {
     struct viewer* const viewer = &viewers[slot];
     memset(viewer, 0, sizeof *viewer);
+    viewer->choice = choice_of_newcomer();
     viewer->name = shown_name_own();
     forget_view(slot);
     put(&human_slots, slot, false);
@@ -132,21 +140,48 @@ void viewers_disconnect(int slot) {
     forget_viewer(slot);
 }
 
+static bool plays(uint8_t slot) {
+    return slot < max_slots && roster_at(slot)->in_use && roster_at(slot)->team != team_spectator;
+}
+
+static void stop_viewing(struct viewer* viewer, int slot) {
+    if (!contains(viewer_slots, slot)) return;
+    forget_view(slot);
+    viewer->name = shown_name_own(); /* with the team, the game has sent the name */
+    if (viewer->choice.what == choice_follow) choice_set(&viewer->choice, choice_auto);
+}
+
+/* The game announces a team before it spawns the client as its player. */
+static void leave_spectators(int slot) {
+    uint8_t* const state = engine_player_state(slot);
+    if (state != NULL) overlay_prepare_spawn(&viewers[slot].overlay, state);
+    stop_viewing(&viewers[slot], slot);
+}
+
 void viewers_take_configstring(int number) {
     const int player = number - CONFIGSTRING_PLAYERS;
     if (player < 0 || player >= max_slots) return;
-    for (uint64_t slots = viewer_slots; slots != 0;) {
+    const bool leaves = !plays((uint8_t)player);
+    for (uint64_t slots = human_slots; slots != 0;) {
         const int slot = take_slot(&slots);
-        shown_name_take_configstring(&viewers[slot].name, slot, (uint8_t)player);
+        if (leaves) choice_take_departure(&viewers[slot].choice, (uint8_t)player);
+        if (contains(viewer_slots, slot))
+            shown_name_take_configstring(&viewers[slot].name, slot, (uint8_t)player);
     }
+    if (contains(viewer_slots, player) && !leaves) leave_spectators(player);
 }
 
 /* --------------------------------------------------------------------------------- the viewer's choice */
 
 bool viewers_choose(int slot, enum viewer_choice choice) {
     if (!contains(human_slots, slot)) return false;
-    viewers[slot].choice = choice;
+    choice_set(&viewers[slot].choice, choice);
     return true;
+}
+
+void viewers_take_follow(int slot, enum follow_command command, uint8_t named) {
+    if (!contains(human_slots, slot) || (command == follow_stop && plays((uint8_t)slot))) return;
+    choice_take_command(&viewers[slot].choice, command, named);
 }
 
 bool viewers_choose_profile(int slot, const char* profile) {
@@ -160,15 +195,11 @@ static const char* profile_of(const struct viewer* viewer) {
 }
 
 static bool wants_director(const struct viewer* viewer) {
-    return viewer->choice != choice_off && module_settings()->spectate;
+    return viewer->choice.what != choice_off && module_settings()->spectate;
 }
 
 static bool requests_shot(const struct viewer* viewer) {
-    return wants_director(viewer) && (viewer->choice == choice_auto || viewer->followed != no_slot);
-}
-
-static bool plays(uint8_t slot) {
-    return slot < max_slots && roster_at(slot)->in_use && roster_at(slot)->team != team_spectator;
+    return wants_director(viewer) && (viewer->choice.what == choice_auto || plays(viewer->choice.player));
 }
 
 static bool is_intermission(const uint8_t* state) {
@@ -181,44 +212,32 @@ static uint8_t followed_by_game(int slot, const uint8_t* state) {
     return follows && number != slot && number >= 0 && number < max_slots ? (uint8_t)number : no_slot;
 }
 
-/* What the game follows is what the viewer chose, unless this module asked for it or the followed player
- * left. */
-static void take_in_follow(struct viewer* viewer, uint8_t followed) {
-    if (followed == viewer->followed) return;
-    const bool by_viewer = followed != no_slot ? followed != viewer->asked : plays(viewer->followed);
-    if (by_viewer && viewer->choice == choice_auto) viewer->choice = choice_follow;
-    if (followed == no_slot) viewer->asked = no_slot;
-    viewer->followed = followed;
+static uint8_t followed_by(uint8_t slot) {
+    return followed_by_game(slot, engine_player_state(slot));
 }
 
 static void take_in_spectator(struct viewer* viewer, int slot, const uint8_t* state) {
-    const uint8_t followed = followed_by_game(slot, state);
-    if (!contains(viewer_slots, slot) || is_intermission(state)) {
-        viewer->followed = viewer->asked = followed;
-        put(&viewer_slots, slot, true);
+    const bool begins = !contains(viewer_slots, slot);
+    put(&viewer_slots, slot, true);
+    if (is_intermission(state)) {
+        choice_skip_frame(&viewer->choice);
+    } else if (begins) {
+        choice_begin(&viewer->choice, followed_by_game(slot, state), followed_by);
     } else {
-        take_in_follow(viewer, followed);
+        choice_take_frame(&viewer->choice, followed_by_game(slot, state), followed_by);
     }
 }
 
-/* A client that spectates and has entered the game. */
-static bool is_spectator(int slot, const uint8_t* state) {
-    return state != NULL && roster_at(slot)->in_use && roster_at(slot)->team == team_spectator &&
+static bool has_entered(int slot, const uint8_t* state) {
+    return state != NULL && roster_at(slot)->in_use &&
            read_element(state, PS_PERSISTANT, PERSISTANT_SPAWN_COUNT) > 0;
 }
 
-static void stop_viewing(struct viewer* viewer, int slot) {
-    if (!contains(viewer_slots, slot)) return;
-    forget_view(slot);
-    viewer->name = shown_name_own(); /* with the team, the game has sent the name */
-    if (viewer->choice == choice_follow) viewer->choice = choice_auto;
-}
-
 static void fill_request(struct viewer_request* request, const struct viewer* viewer) {
-    const bool follows = viewer->choice == choice_follow;
+    const bool follows = viewer->choice.what == choice_follow;
     request->active = 1;
     request->mode = follows ? viewer_follow : viewer_auto;
-    request->target = follows ? viewer->followed : no_slot;
+    request->target = follows ? viewer->choice.player : no_slot;
     memcpy(request->profile, profile_of(viewer), sizeof request->profile);
 }
 
@@ -227,11 +246,14 @@ void viewers_fill_requests(struct viewer_request requests[max_slots]) {
         const int slot = take_slot(&slots);
         struct viewer* const viewer = &viewers[slot];
         const uint8_t* const state = engine_player_state(slot);
-        if (is_spectator(slot, state)) {
+        if (!has_entered(slot, state)) {
+            stop_viewing(viewer, slot);
+        } else if (roster_at(slot)->team != team_spectator) {
+            stop_viewing(viewer, slot);
+            choice_skip_frame(&viewer->choice);
+        } else {
             take_in_spectator(viewer, slot, state);
             if (requests_shot(viewer)) fill_request(&requests[slot], viewer);
-        } else {
-            stop_viewing(viewer, slot);
         }
     }
 }
@@ -240,11 +262,12 @@ void viewers_fill_requests(struct viewer_request requests[max_slots]) {
 
 static void ask_to_follow(struct viewer* viewer, int slot, uint8_t target) {
     const bool asked = viewer->asked == target && viewer->level_time - viewer->ask_time < follow_interval;
-    if (viewer->followed == target || asked || target == slot || !plays(target)) return;
+    if (viewer->choice.followed == target || asked || target == slot || !plays(target)) return;
     char number[4];
     snprintf(number, sizeof number, "%d", target);
     const char* const words[] = {"follow", number};
     game_client_command(slot, words, 2);
+    choice_expect(&viewer->choice, target);
     viewer->asked = target;
     viewer->ask_time = viewer->level_time;
 }
@@ -267,16 +290,20 @@ static void put_back(const struct viewer* viewer, int slot, uint8_t* state) {
 /* Keeps the place of a spectator who flies freely, and gives it back after the director's camera: without it,
  * the game would leave them wherever the player was whom it followed last. */
 static void keep_place(struct viewer* viewer, int slot, uint8_t* state, bool camera) {
-    if (!wants_director(viewer) && viewer->away && viewer->followed != no_slot) {
+    uint8_t followed = viewer->choice.followed;
+    const bool by_module = followed != no_slot && followed != viewer->choice.player;
+    if (!wants_director(viewer) && viewer->away && by_module) {
         const char* const words[] = {"follow"};
         game_client_command(slot, words, 1);
-        viewer->followed = viewer->asked = followed_by_game(slot, state);
+        viewer->asked = no_slot;
+        followed = followed_by_game(slot, state);
+        choice_expect(&viewer->choice, followed);
     }
-    if (camera || (wants_director(viewer) && viewer->followed != no_slot)) {
+    if (camera || (wants_director(viewer) && followed != no_slot)) {
         viewer->away = true;
         return;
     }
-    if (viewer->followed == no_slot && !is_intermission(state)) {
+    if (followed == no_slot && !is_intermission(state)) {
         if (viewer->away) put_back(viewer, slot, state);
         read_vector(viewer->place.origin, state, PS_ORIGIN);
         read_vector(viewer->place.angles, state, PS_VIEW_ANGLES);
@@ -303,14 +330,15 @@ static struct view current_view(const struct viewer* viewer, const struct frame_
                         pose_at(history, viewer->level_time, camera->target));
 }
 
-/* Cameras of poses before the request belong to an earlier one, or to the slot's previous client. */
+/* Cameras of poses before the request belong to an earlier one, or to the slot's previous client; those of
+ * poses that are yet to come would keep out the right ones. */
 static bool take_camera(struct viewer* viewer, const struct viewer_camera* camera) {
     const bool requests = requests_shot(viewer);
     if (requests && !viewer->requested) viewer->request_time = viewer->level_time;
     if (!requests) viewer->motion.count = 0;
     viewer->requested = requests;
     return requests && camera != NULL && camera->live && camera->level_time >= viewer->request_time &&
-           camera_motion_take(&viewer->motion, camera);
+           camera->level_time <= viewer->level_time && camera_motion_take(&viewer->motion, camera);
 }
 
 static bool has_camera(const struct viewer* viewer) {
@@ -322,34 +350,46 @@ static void show_camera(struct viewer* viewer, int slot, const struct frame_hist
                         bool new_segment) {
     const struct view view = current_view(viewer, history);
     const uint8_t target = viewer->motion.newest.target;
-    if (new_segment || viewer->overlay.kind != overlay_camera) ++counters.cuts;
+    if (new_segment || !viewer->overlay.active) ++counters.cuts;
     ++counters.camera_frames;
     overlay_show_camera(&viewer->overlay, slot, viewer->level_time, &view, new_segment);
-    if (viewer->choice == choice_auto) ask_to_follow(viewer, slot, target);
+    if (viewer->choice.what == choice_auto) ask_to_follow(viewer, slot, target);
     shown_name_set(&viewer->name, slot, plays(target) ? target : no_slot, viewer->level_time);
 }
 
-static void show_own(struct viewer* viewer, int slot, const uint8_t* state) {
-    const bool fell_back =
-        viewer->overlay.kind == overlay_camera && requests_shot(viewer) && !is_intermission(state);
+static void show_own(struct viewer* viewer, int slot, uint8_t* state) {
+    const bool fell_back = viewer->overlay.active && requests_shot(viewer) && !is_intermission(state);
     if (fell_back) ++counters.fallbacks;
-    overlay_show_own(&viewer->overlay, slot, viewer->level_time, state);
+    if (viewer->overlay.active || !viewer->viewed) viewer->own_time = viewer->level_time;
+    viewer->viewed = true;
+    overlay_show_own(&viewer->overlay, slot, state);
     shown_name_set(&viewer->name, slot, no_slot, viewer->level_time);
 }
 
-static void update_view(int slot, const struct viewer_camera* camera, const struct frame_history* history) {
+static bool may_show_camera(const struct viewer* viewer, const uint8_t* state) {
+    const bool own_was_seen =
+        viewer->viewed && (int64_t)viewer->level_time - viewer->own_time >= min_own_view;
+    return has_camera(viewer) && !is_intermission(state) && (viewer->overlay.active || own_was_seen);
+}
+
+static void update_view(int slot, const struct director_report* report, const struct frame_history* history) {
     struct viewer* const viewer = &viewers[slot];
     uint8_t* const state = engine_player_state(slot);
     viewer->level_time = frame_before(history, 0)->level_time;
-    const bool new_segment = take_camera(viewer, camera);
-    const bool shows_camera = has_camera(viewer) && !is_intermission(state);
+    const bool new_segment = take_camera(viewer, report != NULL ? &report->cameras[slot] : NULL);
+    const bool shows_camera = may_show_camera(viewer, state);
+    refusal_notice_update(&viewer->refusal, slot,
+                          report != NULL && viewer->requested ? &report->shots[slot] : NULL,
+                          viewer->level_time);
+    if (viewer->choice.what == choice_follow && wants_director(viewer) && !is_intermission(state))
+        ask_to_follow(viewer, slot, viewer->choice.player);
     keep_place(viewer, slot, state, shows_camera);
     if (shows_camera) {
         show_camera(viewer, slot, history, new_segment);
     } else {
         show_own(viewer, slot, state);
     }
-    put(&overlay_slots, slot, viewer->overlay.kind != overlay_none);
+    put(&overlay_slots, slot, viewer->overlay.active);
 }
 
 void viewers_apply(const struct director_report* report, const struct frame_history* history) {
@@ -358,18 +398,18 @@ void viewers_apply(const struct director_report* report, const struct frame_hist
     const bool current = report != NULL && report->life == now->life;
     for (uint64_t slots = viewer_slots; slots != 0;) {
         const int slot = take_slot(&slots);
-        update_view(slot, current ? &report->cameras[slot] : NULL, history);
+        update_view(slot, current ? report : NULL, history);
     }
 }
 
 bool viewers_status(int slot, struct viewer_status* status) {
     const struct viewer* const viewer = &viewers[slot];
     if (!contains(viewer_slots, slot)) return false;
-    status->choice = viewer->choice;
+    status->choice = viewer->choice.what;
     snprintf(status->profile, sizeof status->profile, "%s", profile_of(viewer));
     status->requests = requests_shot(viewer);
-    status->camera = viewer->overlay.kind == overlay_camera;
-    status->target = status->camera ? viewer->motion.newest.target : viewer->followed;
+    status->camera = viewer->overlay.active;
+    status->target = status->camera ? viewer->motion.newest.target : viewer->choice.followed;
     status->camera_age = status->camera ? viewer->level_time - viewer->motion.newest.level_time : 0;
     return true;
 }

@@ -11,7 +11,7 @@
 
 #include <stdbool.h>
 
-#include "frame.h"
+#include "choice.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -36,16 +36,13 @@ void viewers_fill_requests(struct viewer_request requests[max_slots]);
 /* Then: prepares what viewers_resume() shows. report: null before the first one of this life. */
 void viewers_apply(const struct director_report* report, const struct frame_history* history);
 
-enum viewer_choice {
-    choice_auto,   /* the director chooses the player */
-    choice_follow, /* the viewer does; whoever stops following flies freely, without the director */
-    choice_off     /* the game's own spectating */
-};
-
 /* Both return false when no human client is in the slot. profile: at most 31 bytes, "" = the server's
  * default. */
 bool viewers_choose(int slot, enum viewer_choice choice);
 bool viewers_choose_profile(int slot, const char* profile);
+/* Before the game has such a command of the client, whether they spectate already or not. named: as
+ * choice_take_command(). */
+void viewers_take_follow(int slot, enum follow_command command, uint8_t named);
 
 struct viewer_status {
     enum viewer_choice choice;

@@ -17,7 +17,8 @@ class OpenArenaCommands : public testing::Test {
     OpenArenaCommands() {
         game.connect_bot(0, "Anna");
         game.connect_spectator(viewer, "Eve");
-        game.run_frame();
+        for (int i = 0; i < 3; ++i)
+            game.run_frame();
         game.forget_sent();
     }
     viewer_status status() {

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <strings.h>
+
 #include <algorithm>
+#include <cctype>
 #include <cstdarg>
 #include <cstdio>
 #include <cstdlib>
@@ -118,9 +121,6 @@ void FakeServer::disconnect(int slot) {
         if (!game_[static_cast<std::size_t>(slot)].bot) viewers_disconnect(slot);
         game_[static_cast<std::size_t>(slot)] = {};
         set_configstring(slot, "", 0);
-        for (int follower = 0; follower < max_slots; ++follower) {
-            if (game_[static_cast<std::size_t>(follower)].followed == slot) stop_following(follower);
-        }
     });
 }
 
@@ -160,6 +160,11 @@ void FakeServer::respawn(int slot) {
     call([&] { spawn(slot); });
 }
 
+bool FakeServer::can_be_followed(int slot) const {
+    return slot >= 0 && slot < max_slots && game_[static_cast<std::size_t>(slot)].connected &&
+           !game_[static_cast<std::size_t>(slot)].spectates;
+}
+
 void FakeServer::begin_intermission() {
     intermission_ = true;
 }
@@ -171,6 +176,9 @@ void FakeServer::end_frame() {
         if (intermission_) {
             stop_following(slot);
             write_int(state(slot), PS_PM_TYPE, PM_INTERMISSION);
+        } else if (client.followed >= 0 && !can_be_followed(client.followed)) {
+            client.followed = -1;
+            spawn(slot);
         } else if (client.followed >= 0) {
             const std::int32_t ping = read_int(state(slot), PS_PING);
             std::copy_n(state(client.followed), player_state_size, state(slot));
@@ -184,6 +192,7 @@ void FakeServer::run_frame(int ms) {
     level_time += ms;
     call([&] {
         end_frame();
+        if (in_frame_) std::exchange(in_frame_, nullptr)();
         server_frame& frame = history_.frames[history_.count % history_length];
         frame = {};
         frame.life = 1;
@@ -232,12 +241,33 @@ bool FakeServer::console_command(std::vector<std::string> words) {
 }
 
 void FakeServer::execute(int slot, const std::vector<std::string>& words) {
-    if (words.at(0) != "follow" || !game_[static_cast<std::size_t>(slot)].spectates) return;
-    if (words.size() == 1) {
-        stop_following(slot);
-    } else {
-        follow(slot, std::atoi(words[1].c_str()));
+    const Client& client = game_[static_cast<std::size_t>(slot)];
+    const bool follow_command = strcasecmp(words.at(0).c_str(), "follow") == 0;
+    if (intermission_) return;
+    if (words[0] == "team") {
+        join_team(slot, words.at(1) == "s" ? team_spectator : team_free);
+    } else if (follow_command && words.size() != 2) {
+        if (client.followed >= 0) stop_following(slot);
+    } else if (follow_command || words[0] == "follownext") {
+        int target = std::max(client.followed, 0);
+        if (follow_command) {
+            target = player_named(words[1]);
+        } else {
+            for (int i = 0; i < max_slots && (i == 0 || !can_be_followed(target)); ++i)
+                target = (target + 1) % max_slots;
+        }
+        if (target == slot || !can_be_followed(target)) return;
+        if (!client.spectates) join_team(slot, team_spectator);
+        follow(slot, target);
     }
+}
+
+int FakeServer::player_named(const std::string& text) const {
+    if (std::isdigit(static_cast<unsigned char>(text.c_str()[0])) != 0) return std::atoi(text.c_str());
+    for (int slot = 0; slot < max_slots; ++slot) {
+        if (roster_at(slot)->in_use && strcasecmp(text.c_str(), roster_at(slot)->name) == 0) return slot;
+    }
+    return -1;
 }
 
 State FakeServer::snapshot(int slot) {

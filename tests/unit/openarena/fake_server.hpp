@@ -28,6 +28,8 @@ class FakeServer {
     void disconnect(int slot);
     void join_team(int slot, int team);
     void change_name(int slot, const std::string& name);
+    // What the game does at the end of its next frame, after it has updated everybody's state.
+    void in_next_frame(std::function<void()> what) { in_frame_ = std::move(what); }
     // What attack and the follow commands do in the end.
     void follow(int slot, int target);
     void stop_following(int slot);
@@ -78,6 +80,8 @@ class FakeServer {
     };
     void set_configstring(int slot, const std::string& name, int team);
     void spawn(int slot);
+    bool can_be_followed(int slot) const;
+    int player_named(const std::string& text) const;
     void end_frame();
 
     std::vector<std::uint8_t> clients_, entities_;
@@ -87,6 +91,7 @@ class FakeServer {
     std::array<State, max_slots> own_{};
     frame_history history_{};
     bool intermission_ = false;
+    std::function<void()> in_frame_;
 };
 
 }  // namespace camdir::openarena

@@ -6,6 +6,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "fake_server.hpp"
 
@@ -23,7 +24,8 @@ class OpenArenaViewers : public testing::Test {
         game.connect_bot(anna, "Anna");
         game.connect_bot(bob, "Bob");
         game.connect_spectator(viewer, "Eve");
-        game.run_frame();
+        for (int i = 0; i < 3; ++i)
+            game.run_frame();
     }
 
     // Frames with a camera that is one frame late, as live.
@@ -96,7 +98,7 @@ TEST_F(OpenArenaViewers, AViewerWhoJoinsATeamIsAPlayerAtOnce) {
     EXPECT_FALSE(game.shows_camera(viewer));
     EXPECT_EQ(game.snapshot(viewer), game.own(viewer));
     game.join_team(viewer, team_spectator);
-    watch(anna, 2, 2);
+    watch(anna, 2, 4);
     EXPECT_TRUE(game.shows_camera(viewer));
 }
 
@@ -139,6 +141,8 @@ TEST_F(OpenArenaViewers, WithoutCamerasTheGamesOwnViewIsSeen) {
     EXPECT_EQ(viewers_counters()->fallbacks, fallbacks + 1);
     EXPECT_EQ(game.request(viewer).active, 1);
     const int bit = game.teleport_bit(viewer);
+    watch(anna, 1);
+    EXPECT_FALSE(game.shows_camera(viewer)) << "not before 100 ms";
     watch(anna, 1);
     EXPECT_TRUE(game.shows_camera(viewer));
     EXPECT_NE(game.teleport_bit(viewer), bit);
@@ -185,7 +189,10 @@ TEST_F(OpenArenaViewers, FreeFlightIsHandedBackWhereItWas) {
         if (how == "kick") game.disconnect(anna);
         if (how == "off") game.client_command(viewer, {"director", "off"});
         if (how == "stop") game.call([&] { game.stop_following(viewer); });
-        if (how == "disabled") game.options.spectate = 0;
+        if (how == "disabled") {
+            game.client_command(viewer, {"director", "auto"});  // not the viewer's choice of a player
+            game.options.spectate = 0;
+        }
     };
     for (const std::string how : {"off", "stop", "disabled", "kick"}) {
         SCOPED_TRACE(how);
@@ -233,6 +240,217 @@ TEST_F(OpenArenaViewers, OffIsTheGamesOwnSpectating) {
         EXPECT_EQ(game.snapshot(viewer), game.own(viewer));
         EXPECT_TRUE(follows(bob));
     }
+}
+
+// A client blends two snapshots in a row of one client number and teleport bit.
+bool blends(const State& before, const State& after) {
+    const int changed = read_int(before.data(), PS_EFLAGS) ^ read_int(after.data(), PS_EFLAGS);
+    return (changed & EFLAG_TELEPORT) == 0 &&
+           read_int(before.data(), PS_CLIENT_NUMBER) == read_int(after.data(), PS_CLIENT_NUMBER);
+}
+
+TEST_F(OpenArenaViewers, JoiningATeamIsACutForTheClient) {
+    const auto join = [&](const std::string& how) {
+        if (how == "command") game.client_command(viewer, {"team", "f"});
+        if (how == "console") game.join_team(viewer, team_red);
+        if (how == "game") game.in_next_frame([&] { game.join_team(viewer, team_free); });
+        if (how == "name") {
+            game.change_name(viewer, "Eva");
+            game.join_team(viewer, team_free);
+            game.change_name(viewer, "Eve");
+        }
+        game.run_frame();
+    };
+    std::uint32_t segment = 1;
+    for (const std::string how : {"command", "console", "game", "name"}) {
+        for (int state = 0; state < 64; ++state) {
+            SCOPED_TRACE(how + ", " + std::to_string(state));
+            game.join_team(viewer, team_spectator);
+            game.client_command(viewer, {"director", "auto"});
+            for (int i = 0; i < 4; ++i)
+                watch(state & 1 ? anna : bob, ++segment);
+            if (state & 2) game.client_command(viewer, {"follow", "0"});
+            if (state & 4) game.respawn(anna);
+            if (state & 8) watch(anna, segment);
+            if (state & 16) watch(anna, ++segment);
+            if (state & 32) game.respawn(bob);
+            const State sent = game.snapshot(viewer);
+            ASSERT_TRUE(game.shows_camera(viewer));
+            const State anna_before = game.snapshot(anna);
+            join(how);
+            EXPECT_FALSE(game.shows_camera(viewer));
+            EXPECT_EQ(read_int(game.state(viewer), PS_PM_TYPE), PM_NORMAL);
+            EXPECT_FALSE(blends(sent, game.snapshot(viewer)));
+            EXPECT_EQ(game.snapshot(viewer), game.own(viewer));
+            EXPECT_EQ(game.snapshot(anna), anna_before) << "another player";
+        }
+    }
+}
+
+TEST_F(OpenArenaViewers, APlayersStateIsTheGamesOwnFromTheSpawnOn) {
+    watch(anna, 1, 3);
+    State spawned{};
+    game.call([&] {
+        game.join_team(viewer, team_free);
+        spawned = game.snapshot(viewer);
+        game.change_name(viewer, "Eva");
+        game.change_name(viewer, "Eve");
+    });
+    watch(anna, 1, 1);
+    EXPECT_EQ(game.snapshot(viewer), spawned);
+}
+
+// Clients take at most every frame, or skip frames when `snaps` is lower than the server's rate.
+TEST_F(OpenArenaViewers, NoChangeOfViewIsBlendedWhenAClientSkipsFrames) {
+    const auto view = [&] {
+        if (game.shows_camera(viewer)) return std::string("camera");
+        const State state = game.snapshot(viewer);
+        if (read_int(state.data(), PS_PM_TYPE) == PM_NORMAL && read_int(state.data(), PS_PM_FLAGS) == 0)
+            return std::string("player");
+        return std::to_string(read_int(state.data(), PS_PM_FLAGS));
+    };
+    for (const int every : {1, 2}) {
+        for (int phase = 0; phase < every; ++phase) {
+            State received = game.snapshot(viewer);
+            std::string received_view = view();
+            for (int i = 0; i < 400; ++i) {
+                if (i % 20 == 3) game.join_team(viewer, team_free);
+                if (i % 20 == 7 + i / 20 % 3) game.join_team(viewer, team_spectator);
+                if (i % 20 == 15 && i % 3 == 0) game.client_command(viewer, {"director", "off"});
+                if (i % 20 == 17) game.client_command(viewer, {"director", "auto"});
+                if (i % 40 > 30 && i % 40 < 37)
+                    game.run_frame();
+                else
+                    watch(anna, 1);
+                if (i % every != phase) continue;
+                const State state = game.snapshot(viewer);
+                EXPECT_FALSE(view() != received_view && blends(received, state))
+                    << received_view << " to " << view() << ", frame " << i << ", every " << every;
+                received = state;
+                received_view = view();
+            }
+        }
+    }
+}
+
+TEST_F(OpenArenaViewers, ACameraOfTheFutureDoesNotKeepOutTheNextOnes) {
+    watch(anna, 1, 3);
+    game.set_camera(viewer, anna, 1, x += 5);
+    game.report.cameras[viewer].level_time += 1'000'000;
+    game.run_frame();
+    watch(anna, 1, 10);
+    EXPECT_TRUE(game.shows_camera(viewer));
+}
+
+TEST_F(OpenArenaViewers, ASlotIsReusedWithinOneFrame) {
+    game.client_command(viewer, {"director", "profile", "wide"});
+    watch(anna, 1, 3);
+    game.client_command(viewer, {"follow", "1"});
+    game.call([&] {
+        game.disconnect(viewer);
+        game.connect_spectator(viewer, "Dan");
+    });
+    watch(anna, 1);
+    EXPECT_TRUE(flies_freely());
+    EXPECT_EQ(game.request(viewer).mode, viewer_auto);
+    EXPECT_STREQ(game.request(viewer).profile, "");
+    EXPECT_EQ(vector(PS_ORIGIN)[0], 400) << "where the game spawned them";
+    watch(anna, 1, 3);
+    EXPECT_TRUE(game.shows_camera(viewer));
+    game.call([&] {
+        game.disconnect(viewer);
+        game.connect_bot(viewer, "Bot");
+    });
+    watch(anna, 1);
+    EXPECT_EQ(game.snapshot(viewer), game.own(viewer));
+    EXPECT_EQ(game.request(viewer).active, 0);
+}
+
+TEST_F(OpenArenaViewers, ClientsDropInMidFrame) {
+    watch(anna, 1, 3);
+    game.in_next_frame([&] { game.disconnect(anna); });
+    watch(anna, 1);
+    EXPECT_TRUE(game.shows_camera(viewer)) << "the old shot until the new one comes";
+    EXPECT_EQ(game.request(viewer).mode, viewer_auto);
+    game.in_next_frame([&] { game.disconnect(viewer); });
+    watch(bob, 2);
+    EXPECT_EQ(game.request(viewer).active, 0);
+    EXPECT_EQ(game.snapshot(viewer), game.own(viewer));
+    game.call([&] { game.disconnect(viewer); });  // once more
+    watch(bob, 2);
+    EXPECT_EQ(game.snapshot(viewer), game.own(viewer));
+}
+
+TEST_F(OpenArenaViewers, AKickedViewerLeavesNothingBehind) {
+    watch(anna, 1, 3);
+    const State bots[] = {game.snapshot(anna), game.snapshot(bob)};
+    game.console_command({"director", "profile", "wide", "4"});
+    game.disconnect(viewer);
+    watch(anna, 1, 3);
+    EXPECT_EQ(game.snapshot(viewer), game.own(viewer));
+    EXPECT_EQ(game.snapshot(anna), bots[0]);
+    EXPECT_EQ(game.snapshot(bob), bots[1]);
+    viewer_status status{};
+    EXPECT_FALSE(viewers_status(viewer, &status));
+}
+
+TEST_F(OpenArenaViewers, ARestartWhileACameraIsShown) {
+    for (const bool same_map : {true, false}) {
+        watch(anna, 1, 5);
+        ASSERT_TRUE(game.shows_camera(viewer));
+        const director_report stale = game.report;
+        game.restart(same_map);
+        EXPECT_EQ(read_int(game.state(viewer), PS_CLIENT_NUMBER), viewer);
+        EXPECT_FALSE(game.shows_camera(viewer));
+        for (int i = 0; i < 6; ++i) {
+            game.report = stale;  // level times that are over, or in the future
+            game.run_frame();
+            EXPECT_FALSE(game.shows_camera(viewer)) << i;
+            EXPECT_EQ(game.snapshot(viewer), game.own(viewer));
+        }
+        EXPECT_EQ(game.request(viewer).mode, viewer_auto);
+    }
+}
+
+TEST_F(OpenArenaViewers, AnIntermissionIsACutAndEndsTheCamera) {
+    for (std::uint32_t segment = 1; segment < 3; ++segment) {
+        watch(anna, 1, 3);
+        watch(anna, segment, 1);
+        const State sent = game.snapshot(viewer);
+        ASSERT_TRUE(game.shows_camera(viewer));
+        game.begin_intermission();
+        watch(anna, segment);
+        EXPECT_EQ(read_int(game.state(viewer), PS_PM_TYPE), PM_INTERMISSION);
+        EXPECT_FALSE(blends(sent, game.snapshot(viewer)));
+        EXPECT_EQ(game.snapshot(viewer), game.own(viewer));
+        game.restart(true);
+        watch(anna, 1, 3);
+    }
+}
+
+TEST_F(OpenArenaViewers, TheCameraComesAndGoesWithTheSetting) {
+    watch(anna, 1, 3);
+    for (int i = 0; i < 20; ++i) {
+        const State sent = game.snapshot(viewer);
+        const bool camera = game.shows_camera(viewer);
+        game.options.spectate ^= 1;
+        watch(anna, 1, i % 4 + 1);
+        EXPECT_FALSE(camera && i % 4 == 0 && blends(sent, game.snapshot(viewer)));
+        EXPECT_EQ(game.request(viewer).active, game.options.spectate);
+        EXPECT_TRUE(game.options.spectate != 0 || flies_freely());
+    }
+}
+
+TEST_F(OpenArenaViewers, LevelTimesUpToTheLargest) {
+    game.level_time = std::numeric_limits<std::int32_t>::max() - 2000;
+    game.run_frame();
+    watch(anna, 1, 30);
+    EXPECT_TRUE(game.shows_camera(viewer));
+    EXPECT_TRUE(follows(anna));
+    game.restart(false);
+    watch(bob, 2, 5);
+    EXPECT_TRUE(game.shows_camera(viewer)) << "of the new life, whose time is small";
+    EXPECT_TRUE(follows(bob));
 }
 
 TEST_F(OpenArenaViewers, IntermissionsAreLeftAlone) {
