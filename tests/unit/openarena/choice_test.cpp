@@ -2,8 +2,6 @@
 #include "choice.h"
 
 #include <gtest/gtest.h>
-#include <rapidcheck.h>
-#include <rapidcheck/gtest.h>
 
 #include <string>
 #include <vector>
