@@ -271,6 +271,11 @@ static void count_time(int command, int64_t duration) {
     own_ns = 0;
 }
 
+/* The engine sends snapshots after the game's frame; in between it drops the clients that timed out. */
+static bool snapshots_may_follow(int command) {
+    return command == GAME_RUN_FRAME || command == GAME_CLIENT_DISCONNECT;
+}
+
 EXPORT void dllEntry(engine_call call) {
     /* No call to the engine is allowed before GAME_INIT. */
     call_engine = call;
@@ -285,7 +290,7 @@ EXPORT intptr_t vmMain(int command, int a0, int a1, int a2, int a3, int a4, int 
     ++call_depth;
     viewers_suspend();
     const intptr_t result = dispatch(command, arguments);
-    viewers_resume();
+    viewers_resume(snapshots_may_follow(command));
     if (--call_depth == 0) count_time(command, clock_ns(CLOCK_MONOTONIC) - start);
     return result;
 }

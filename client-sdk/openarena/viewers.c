@@ -51,6 +51,7 @@ struct viewer {
 static struct viewer viewers[max_slots];
 static struct view_counters counters;
 static int call_depth;
+static bool overlays_on;
 /* Sets of slots, as bits: most slots are empty, and looking at each costs more than everything else here. */
 static uint64_t human_slots;   /* clients that are no bots */
 static uint64_t viewer_slots;  /* of them, those that spectate */
@@ -79,7 +80,8 @@ static int take_slot(uint64_t* slots) {
 }
 
 void viewers_suspend(void) {
-    if (call_depth++ > 0) return;
+    if (call_depth++ > 0 || !overlays_on) return;
+    overlays_on = false;
     for (uint64_t slots = overlay_slots; slots != 0;) {
         const int slot = take_slot(&slots);
         uint8_t* const state = engine_player_state(slot);
@@ -87,8 +89,9 @@ void viewers_suspend(void) {
     }
 }
 
-void viewers_resume(void) {
-    if (--call_depth > 0) return;
+void viewers_resume(bool snapshots_follow) {
+    if (--call_depth > 0 || !snapshots_follow) return;
+    overlays_on = true;
     for (uint64_t slots = overlay_slots; slots != 0;) {
         const int slot = take_slot(&slots);
         uint8_t* const state = engine_player_state(slot);

@@ -18,9 +18,10 @@ extern "C" {
 #endif
 
 /* First and last thing in every vmMain call, nested ones included: while the game runs, its playerStates are
- * its own. */
+ * its own. snapshots_follow: the engine may send them before its next call; only then is anything put over
+ * them, because the engine calls for every command of every client. */
 void viewers_suspend(void);
-void viewers_resume(void);
+void viewers_resume(bool snapshots_follow);
 
 /* Before the game's initialisation. The viewers' choices stay, as their connections do. */
 void viewers_reset(void);

@@ -72,7 +72,7 @@ void FakeServer::restart(bool same_map) {
         if (!client.bot) viewers_connect(slot, false, false);
         spawn(slot);
     }
-    viewers_resume();
+    viewers_resume(false);
 }
 
 void FakeServer::set_configstring(int slot, const std::string& name, int team) {
@@ -117,11 +117,13 @@ void FakeServer::connect_bot(int slot, const std::string& name) {
 }
 
 void FakeServer::disconnect(int slot) {
-    call([&] {
-        if (!game_[static_cast<std::size_t>(slot)].bot) viewers_disconnect(slot);
-        game_[static_cast<std::size_t>(slot)] = {};
-        set_configstring(slot, "", 0);
-    });
+    call(
+        [&] {
+            if (!game_[static_cast<std::size_t>(slot)].bot) viewers_disconnect(slot);
+            game_[static_cast<std::size_t>(slot)] = {};
+            set_configstring(slot, "", 0);
+        },
+        true);
 }
 
 void FakeServer::join_team(int slot, int team) {
@@ -190,37 +192,41 @@ void FakeServer::end_frame() {
 
 void FakeServer::run_frame(int ms) {
     level_time += ms;
-    call([&] {
-        end_frame();
-        if (in_frame_) std::exchange(in_frame_, nullptr)();
-        server_frame& frame = history_.frames[history_.count % history_length];
-        frame = {};
-        frame.life = 1;
-        frame.level_time = level_time;
-        for (int slot = 0; slot < max_slots; ++slot) {
-            const Client& client = game_[static_cast<std::size_t>(slot)];
-            player_pose& player = frame.players[slot];
-            if (!client.connected) continue;
-            player.in_game = 1;
-            player.bot = client.bot;
-            player.spectator = client.spectates;
-            player.alive = !client.spectates && read_int(state(slot), PS_STATS) > 0;
-            player.teleport_bit = (read_int(state(slot), PS_EFLAGS) & EFLAG_TELEPORT) != 0;
-            player.viewheight = static_cast<std::int16_t>(read_int(state(slot), PS_VIEW_HEIGHT));
-            read_vector(player.origin, state(slot), PS_ORIGIN);
-        }
-        viewers_fill_requests(frame.viewers);
-        ++history_.count;
-        viewers_apply(has_report ? &report : nullptr, &history_);
-        for (int slot = 0; slot < max_slots; ++slot)
-            own_[static_cast<std::size_t>(slot)] = snapshot(slot);
-    });
+    call(
+        [&] {
+            end_frame();
+            if (in_frame_) std::exchange(in_frame_, nullptr)();
+            server_frame& frame = history_.frames[history_.count % history_length];
+            frame = {};
+            frame.life = 1;
+            frame.level_time = level_time;
+            for (int slot = 0; slot < max_slots; ++slot) {
+                const Client& client = game_[static_cast<std::size_t>(slot)];
+                player_pose& player = frame.players[slot];
+                if (!client.connected) continue;
+                player.in_game = 1;
+                player.bot = client.bot;
+                player.spectator = client.spectates;
+                player.alive = !client.spectates && read_int(state(slot), PS_STATS) > 0;
+                player.teleport_bit = (read_int(state(slot), PS_EFLAGS) & EFLAG_TELEPORT) != 0;
+                player.viewheight = static_cast<std::int16_t>(read_int(state(slot), PS_VIEW_HEIGHT));
+                read_vector(player.origin, state(slot), PS_ORIGIN);
+            }
+            viewers_fill_requests(frame.viewers);
+            ++history_.count;
+            viewers_apply(has_report ? &report : nullptr, &history_);
+            for (int slot = 0; slot < max_slots; ++slot)
+                own_[static_cast<std::size_t>(slot)] = snapshot(slot);
+        },
+        true);
+    for (int slot = 0; slot < max_slots; ++slot)
+        sent_states_[static_cast<std::size_t>(slot)] = snapshot(slot);
 }
 
-void FakeServer::call(const std::function<void()>& game) {
+void FakeServer::call(const std::function<void()>& game, bool snapshots_follow) {
     viewers_suspend();
     game();
-    viewers_resume();
+    viewers_resume(snapshots_follow);
 }
 
 bool FakeServer::client_command(int slot, std::vector<std::string> words) {

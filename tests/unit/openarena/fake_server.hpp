@@ -40,8 +40,8 @@ class FakeServer {
 
     // One server frame of `ms`: the game's, then the module's. The director's cameras are those in `report`.
     void run_frame(int ms = 50);
-    // A vmMain call that runs `game` as the game.
-    void call(const std::function<void()>& game);
+    // A vmMain call that runs `game` as the game. snapshots_follow: the engine may send some before the next.
+    void call(const std::function<void()>& game, bool snapshots_follow = false);
     // A client's or the console's command; returns whether the module took it.
     bool client_command(int slot, std::vector<std::string> words);
     bool console_command(std::vector<std::string> words);
@@ -51,6 +51,8 @@ class FakeServer {
     State snapshot(int slot);
     State own(int slot) const { return own_[static_cast<std::size_t>(slot)]; }
     bool shows_camera(int slot);
+    // As the engine sent it after its last frame.
+    State sent(int slot) const { return sent_states_[static_cast<std::size_t>(slot)]; }
     int teleport_bit(int slot) { return read_int(state(slot), PS_EFLAGS) & EFLAG_TELEPORT; }
     viewer_request request(int slot) const;
     std::vector<std::string> sent_to(int slot) const;
@@ -88,7 +90,7 @@ class FakeServer {
     std::array<Client, max_slots> game_{};
     std::vector<std::string> configstrings_, words_;
     std::vector<std::pair<int, std::string>> sent_;
-    std::array<State, max_slots> own_{};
+    std::array<State, max_slots> own_{}, sent_states_{};
     frame_history history_{};
     bool intermission_ = false;
     std::function<void()> in_frame_;
