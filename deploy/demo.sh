@@ -3,24 +3,25 @@
 # 30 s of a recorded match of 8 players over DDS in a loop, and shows what 8 observers receive.
 #
 #     demo.sh [--seconds N] [--json FILE]
-#     demo.sh --openarena [--seconds N] [--video FILE]
+#     demo.sh --openarena [--seconds N] [--video FILE.mp4]
 #
 # Runs until Ctrl-C, or for N seconds, and ends with a summary (--json also writes it to FILE). Exit code 1 when a
 # camera was in an obstacle, moved through one or jumped without declaring a cut, or when a camera frame was missing.
 #
 # --openarena: a live match of 8 bots on OpenArena's server instead, which spectators can join, for N seconds (30). It
 # ends with a video, by default build/demo/openarena.mp4: the director's camera beside the game's own chase camera,
-# both following one player; and with a contact sheet of it, FILE with .png in place of its suffix. Needs no display.
+# both following one player; and with a contact sheet of it, FILE.png. Needs no display.
 set -euo pipefail
+export LC_ALL=C  # numbers have a decimal point
 caller=$PWD
 cd "$(dirname "$0")/.."
 
 usage() {
     echo "demo.sh: $1; usage: demo.sh [--seconds N] [--json FILE]" \
-        "or demo.sh --openarena [--seconds N] [--video FILE]" >&2
+        "or demo.sh --openarena [--seconds N] [--video FILE.mp4]" >&2
     exit 2
 }
-seconds=0 json='' openarena=false video=''
+seconds='' json='' openarena=false video=''
 while [ $# -gt 0 ]; do
     case "$1" in
         -h|--help) sed -n '2,/^set /s/^# \{0,1\}//p' deploy/demo.sh; exit 0 ;;
@@ -31,13 +32,15 @@ while [ $# -gt 0 ]; do
     case "$1" in
         --seconds)
             seconds=$2
-            [[ $seconds =~ ^[0-9]+(\.[0-9]+)?$ ]] || usage "--seconds '$seconds': expected a number" ;;
+            [[ $seconds =~ ^[0-9]{1,6}(\.[0-9]+)?$ && $seconds =~ [1-9] ]] ||
+                usage "--seconds '$seconds': expected a number above 0, at most 999999" ;;
         --json)
             json=$2
             [[ $json = /* ]] || json=$caller/$json
             [ -d "$(dirname "$json")" ] || usage "--json '$2': no folder $(dirname "$json")" ;;
         --video)
             video=$2
+            [[ $video != *.png ]] || usage "--video '$video': that is the contact sheet's name; expected FILE.mp4"
             [[ $video = /* ]] || video=$caller/$video ;;
     esac
     shift 2
@@ -55,30 +58,21 @@ if $openarena; then
     source deploy/openarena/game.sh
     source deploy/openarena/live.sh
     video=${video:-$PWD/$work/openarena.mp4}
-    for output in "$video" "${video%.*}.png"; do check_output "$output"; done
+    for output in "$video" "$(sheet_of "$video")"; do check_output "$output"; done
     groups+=(game) targets=(camera-director camera_director_openarena)
-    [ "$seconds" != 0 ] || seconds=30
+    seconds=${seconds:-30}
+    [[ $seconds =~ ^0*[1-9][0-9]*(\.|$) ]] || usage "--seconds '$seconds': expected at least 1 with --openarena"
 fi
-
 
 step "Packages"
 deploy/install-packages.sh "${groups[@]}"
 ! $openarena || check_tools
 
+lock_checkout
 step "Build (the first one takes some minutes)"
-cmake --preset release
-cmake --build --preset release --target "${targets[@]}"
-
-# A DDS domain that no other demo, test or soak run uses: the lock lasts as long as this script.
-locks=${TMPDIR:-/tmp}/camera-director-test-domains
-mkdir -p -m 777 "$locks"  # for every user of the machine
-for domain in $(shuf -i 1-80) ""; do
-    [ -n "$domain" ] || { echo "demo.sh: all DDS domains from 1 to 80 are in use (see the locks in $locks):" \
-                               "end another demo or test run first" >&2; exit 1; }
-    [ -e "$locks/$domain" ] || : >"$locks/$domain"
-    exec 9<"$locks/$domain"
-    flock -n 9 && break
-done
+foreground cmake --preset release
+foreground cmake --build --preset release --target "${targets[@]}"
+lock_domain
 
 cat >"$work/demo.json" <<CONFIG
 {
@@ -88,15 +82,17 @@ cat >"$work/demo.json" <<CONFIG
 }
 CONFIG
 step "Bake oa_dm1 (only when $work/oa_dm1.vfs is missing or out of date)"
-"$bin/camera-director" bake --config "$work/demo.json"
+foreground "$bin/camera-director" bake --config "$work/demo.json"
 
-trap 'end "${started[@]}"' EXIT
-trap 'exit 143' TERM
-run "$work/director.log" setsid "$bin/camera-director" serve --config "$work/demo.json"
+run "$work/director.log" "$bin/camera-director" serve --config "$work/demo.json"
 
 if $openarena; then
-    trap 'exit 130' INT
     work=$work/openarena
+    at_exit() {
+        local spectator
+        for spectator in director chase; do rm -rf "$(video_folder "$spectator")"; done
+        [ "$1" -ne 1 ] || echo "The director's messages: ${work%/*}/director.log" >&2
+    }
     step "A live match of ${#bots[@]} bots, $seconds s"
     start_match
     how_to_connect
@@ -104,9 +100,7 @@ if $openarena; then
     exit 0
 fi
 
-# Ctrl-C reaches only the observers, which then print their summary; end() ends the other programs.
-trap : INT
-run "$work/replay.log" setsid "$bin/pose-replay" deploy/demo/match.csv.gz --domain "$domain" --match-prefix demo \
+run "$work/replay.log" "$bin/pose-replay" deploy/demo/match.csv.gz --domain "$domain" --match-prefix demo \
     --map-name oa_dm1
 
 step "Live: one row for each player, and the camera that follows them"
@@ -119,16 +113,13 @@ cat >&2 <<LEGEND
 Logs: $work/director.log, $work/replay.log. Ctrl-C ends the demo.
 
 LEGEND
-"$bin/observer-probe" --domain "$domain" --match-prefix demo --observers 8 --by-player --map "$map" \
-    --seconds "$seconds" ${json:+--json "$json"} 9>&- &
+start_program "$bin/observer-probe" --domain "$domain" --match-prefix demo --observers 8 --by-player --map "$map" \
+    --seconds "${seconds:-0}" ${json:+--json "$json"}
 probe=$!
-started+=("$probe")
+trap 'send INT "$probe"' INT  # the observers print their summary
+while running "$probe"; do wait "$probe" || true; done  # a signal ends a wait
 status=0
 wait "$probe" || status=$?
-while kill -0 "$probe" 2>/dev/null; do  # the wait was interrupted
-    status=0
-    wait "$probe" || status=$?
-done
 if [ "$status" -eq 0 ]; then
     echo "All checks held: every camera frame arrived, no camera was in a wall or moved through one, every jump was declared."
 elif [ "$status" -ne 130 ]; then  # 130: Ctrl-C twice

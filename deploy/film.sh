@@ -16,6 +16,7 @@
 # Needs no display. The match is played once at its own speed; then every frame is drawn, however long that takes, so
 # that the film is smooth on any machine.
 set -euo pipefail
+export LC_ALL=C  # numbers have a decimal point
 caller=$PWD
 cd "$(dirname "$0")/.."
 
@@ -36,10 +37,11 @@ while [ $# -gt 0 ]; do
         -o) file=$(absolute "$2"); shift 2 ;;
         --players)
             players=$2; shift 2
-            [[ $players =~ ^[0-9]+(,[0-9]+){0,3}$ ]] || usage "--players '$players': expected one to four numbers" ;;
+            [[ $players =~ ^[0-9]{1,6}(,[0-9]{1,6}){0,3}$ ]] || usage "--players '$players': expected one to four numbers" ;;
         --seconds)
             seconds=$2; shift 2
-            [[ $seconds =~ ^[0-9]+(\.[0-9]+)?,[0-9]+(\.[0-9]+)?$ ]] || usage "--seconds '$seconds': expected FROM,TO" ;;
+            [[ $seconds =~ ^[0-9]{1,6}(\.[0-9]+)?,[0-9]{1,6}(\.[0-9]+)?$ ]] ||
+                usage "--seconds '$seconds': expected FROM,TO, each at most 999999" ;;
         *) inputs+=("$1"); shift ;;
     esac
 done
@@ -47,43 +49,61 @@ done
 [ -n "$file" ] || usage "no -o FILE.mp4"
 map=${inputs[0]} cameras=$(absolute "${inputs[1]}") trace=$(absolute "${inputs[2]}")
 [[ $map =~ ^[A-Za-z0-9_-]+$ ]] || usage "MAP '$map': expected the name of a map, such as oa_dm1"
-for input in "$cameras" "$trace"; do [ -r "$input" ] || usage "$input cannot be read"; done
+for input in "$cameras" "$trace"; do
+    [ -f "$input" ] && [ -r "$input" ] || usage "$input cannot be read"
+    # It goes through the game's console.
+    [[ $input != *[\"$'\n']* ]] || usage "$input: a name with quotation marks or line breaks"
+done
+milliseconds() { awk -v s="$1" 'BEGIN { printf "%d", 1000 * s + 0.5 }'; }
+from=$(milliseconds "${seconds%,*}") to=$(milliseconds "${seconds#*,}")
+[ "$from" -lt "$to" ] || usage "--seconds '$seconds': expected FROM below TO"
 
 source deploy/processes.sh
 source deploy/openarena/game.sh
 check_output "$file"
-trap 'end "${started[@]}"' EXIT
-trap 'exit 130' INT
-trap 'exit 143' TERM
 
 deploy/install-packages.sh build game
 check_tools
+lock_checkout
 step "Build"
-cmake --preset release >/dev/null
-cmake --build --preset release --target camera_director_openarena_film
+foreground cmake --preset release >/dev/null
+foreground cmake --build --preset release --target camera_director_openarena_film
 
-# Match times in ms, and the server's rate: that of the trace, so that its frames are those of the match.
-from=$(awk -v s="${seconds%,*}" 'BEGIN { printf "%d", 1000 * s }')
-to=$(awk -v s="${seconds#*,}" 'BEGIN { printf "%d", 1000 * s }')
+# The server's rate: that of the trace, so that its frames are those of the match.
 rate=$({ zcat -f "$trace" 2>/dev/null || true; } | awk -F, '
+    { sub(/\r$/, "") }
     NR == 1 { for (i = 1; i <= NF; ++i) if ($i == "t_ms") c = i; if (!c) exit }
     NR == 2 { t = $c }
     NR > 2 && $c > t { if (!step || $c - t < step) step = $c - t; t = $c; if (++n == 100) exit }
     END { r = step > 0 ? int(1000 / step) : 20; print (r < 10 ? 10 : (r > 125 ? 125 : r)) }')
 movers=${trace%.csv.gz}-movers.csv.gz
 [[ $trace = *.csv.gz && -r $movers ]] || movers=''
-[ -n "$players" ] || players=$(awk -F, '
+[ -n "$players" ] || players=$({ zcat -f "$cameras" 2>/dev/null || true; } | awk -F, '
+    { sub(/\r$/, "") }
     NR == 1 { for (i = 1; i <= NF; ++i) if ($i == "player") c = i; if (!c) exit }
-    NR == 2 { print $c; exit }' < <(zcat -f "$cameras"))
-IFS=, read -ra wanted <<<"$players"
+    NR == 2 { print $c; exit }')
+wanted=()
+IFS=, read -ra numbers <<<"$players"
+for player in "${numbers[@]}"; do
+    [[ $player =~ ^[0-9]{1,6}$ ]] || fail "$cameras: expected a number in column 'player', found '$player'"
+    player=$((10#$player))
+    [[ " ${wanted[*]} " != *" $player "* ]] || fail "--players '$players': player $player twice"
+    wanted+=("$player")
+done
+[ ${#wanted[@]} -gt 0 ] || fail "$cameras: expected a header with 'player' and a row of numbers"
 
-work=$(mktemp -d "${TMPDIR:-/tmp}/camera-director-film.XXXXXX")
-status=0
-trap 'status=$?; end "${started[@]}"; [ $status -ne 0 ] || rm -rf "$work"' EXIT
+work=$(mktemp -d build/film.XXXXXX)
+at_exit() {
+    case "$1" in
+        0|129|130|143) rm -rf "$work" ;;
+        *) echo "film.sh: its files are kept in $PWD/$work" >&2 ;;
+    esac
+}
 
-step "Playing the match, $((to / 1000 - from / 1000)) s"
+step "Playing the match, $(awk -v ms=$((to - from)) 'BEGIN { print ms / 1000 }') s"
 start_server server build/release/lib/openarena/film/qagamex86_64.so "$rate" film_trace "$trace" \
-    film_cameras "$cameras" film_movers "$movers" film_players "$players" film_from "$from" film_to "$to"
+    film_cameras "$cameras" film_movers "$movers" film_players "$(IFS=,; echo "${wanted[*]}")" \
+    film_from "$from" film_to "$to"
 console server "map $map"
 await 120 server "film: \|Can't find map"
 grep -q 'film: ready' "$work/server/log" ||
@@ -92,10 +112,10 @@ spectators=()
 for player in "${wanted[@]}"; do
     start_spectator "player$player"
     # One after the other: the first to connect gets the first camera.
-    await 120 server "player$player.*connected"
+    await 120 server "player${player}[^0-9].*connected"
     spectators+=("player$player=player $player")
 done
-for spectator in "${spectators[@]}"; do await_recording "${spectator%%=*}"; done
+start_recording "${spectators[@]%%=*}"
 console server 'film start'
 await $(((to - from) / 1000 + 60)) server 'film: end'
 for spectator in "${spectators[@]}"; do leave "${spectator%%=*}" 'film: end'; done

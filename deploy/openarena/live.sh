@@ -1,7 +1,7 @@
 # Sourced by demo.sh --openarena, after processes.sh and game.sh: a live match of bots on OpenArena's server, and what a
 # spectator with the director's camera sees beside the game's own chase camera.
 
-# The player both cameras follow: the number of a bot.
+# The player that both cameras follow. The bots join an empty server one by one: their player numbers count from 0.
 followed=2
 
 # start_match: a server with bots whose module talks to the director in $domain.
@@ -26,18 +26,25 @@ and choose "spectate". Attack and "use item" change the player, \`/director off\
 TEXT
 }
 
-# film_match SECONDS FILE: the match for so long, and its pictures: FILE, and FILE with .png in place of its suffix.
+# sheet_of VIDEO: where its contact sheet goes.
+sheet_of() {
+    local name
+    name=$(basename "$1")
+    echo "$(dirname "$1")/${name%.*}.png"
+}
+
+# film_match SECONDS VIDEO: the match for so long, and its pictures in two files.
 film_match() {
-    local video=$2 sheet=${2%.*}.png spectator
+    local video=$2 sheet spectator
+    sheet=$(sheet_of "$2")
     # A choice counts only once the server has executed the previous one, some frames later.
     start_spectator director "wait 20; follow $followed"
     start_spectator chase "wait 20; director off; wait 20; follow $followed"
-    for spectator in director chase; do await_recording "$spectator"; done
-    console server 'director status'
-    await 10 server ' director: follow, .*camera of'
-    await 10 server ' chase: off, .*view of'
+    await_answer 180 server 'director status' ' director: follow, .*camera of'
+    await_answer 60 server 'director status' ' chase: off, .*view of'
+    start_recording director chase
     console server 'say demo begins'
-    sleep "$1"
+    stay "$1" server director chase
     console server 'director status'
     console server 'say demo ends'
     for spectator in director chase; do leave "$spectator" 'demo ends'; done
@@ -49,8 +56,8 @@ film_match() {
     start_drawing chase cg_thirdPerson 1
     for spectator in director chase; do finish_drawing "$spectator"; done
     join_videos "$work/video.mp4" 'demo begins' 'demo ends' "director=camera director" "chase=chase camera of the game"
-    contact_sheet "$work/video.mp4" "$work/sheet.png" 2
+    contact_sheet "$work/video.mp4" "$work/sheet.png" "$1"
     mv "$work/video.mp4" "$video"
     mv "$work/sheet.png" "$sheet"
-    echo "Video: $video ($(du -h --apparent-size "$video" | cut -f 1)). Contact sheet, a picture every 2 s: $sheet"
+    echo "Video: $video ($(du -h --apparent-size "$video" | cut -f 1)). Contact sheet, 15 pictures of it: $sheet"
 }

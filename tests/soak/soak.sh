@@ -49,23 +49,8 @@ for program in camera-director pose-replay synthetic-players observer-probe; do
 done
 mkdir -p "$work"
 
-# A domain that no test and no other soak run uses; the lock is held until this script ends.
-locks=${TMPDIR:-/tmp}/camera-director-test-domains
-mkdir -p -m 777 "$locks"  # for every user of the machine
-for domain in $(shuf -i 1-80); do
-    [ -e "$locks/$domain" ] || : >"$locks/$domain"
-    exec 9<"$locks/$domain"
-    flock -n 9 && break
-    domain=''
-done
-[ -n "$domain" ] || { echo "soak.sh: every test domain is taken" >&2; exit 1; }
-
-started=()
-finish() {
-    for pid in "${started[@]}"; do kill "$pid" 2>/dev/null || true; done
-    for pid in "${started[@]}"; do wait "$pid" 2>/dev/null || true; done
-}
-trap finish EXIT
+source "$here/../../deploy/processes.sh"
+lock_domain
 
 cat >"$work/soak.json" <<CONFIG
 {
@@ -77,23 +62,20 @@ cat >"$work/soak.json" <<CONFIG
 CONFIG
 "$bin/camera-director" bake --config "$work/soak.json"
 
-"$bin/camera-director" serve --config "$work/soak.json" 9>&- &
+start_program "$bin/camera-director" serve --config "$work/soak.json"
 server=$!
-started+=("$server")
 network=(--domain "$domain" --match-prefix soak)
 if [ -n "$trace" ]; then
-    "$bin/pose-replay" "$trace" "${network[@]}" --map-name "$map_name" --copies "$matches" --rate "$rate" \
-        9>&- >"$work/players.txt" &
+    start_program "$bin/pose-replay" "$trace" "${network[@]}" --map-name "$map_name" --copies "$matches" \
+        --rate "$rate" >"$work/players.txt"
 else
-    "$bin/synthetic-players" "$work/$map_name.vfs" "${network[@]}" --map-name "$map_name" --matches "$matches" \
-        --players "$players" --rate "$rate" 9>&- >"$work/players.txt" &
+    start_program "$bin/synthetic-players" "$work/$map_name.vfs" "${network[@]}" --map-name "$map_name" \
+        --matches "$matches" --players "$players" --rate "$rate" >"$work/players.txt"
 fi
 game=$!
-started+=("$game")
-"$bin/observer-probe" "${network[@]}" --matches "$matches" --observers "$observers" --map "$map" \
-    --seconds "$seconds" --json "$work/probe.json" 9>&- &
+start_program "$bin/observer-probe" "${network[@]}" --matches "$matches" --observers "$observers" --map "$map" \
+    --seconds "$seconds" --json "$work/probe.json"
 probe=$!
-started+=("$probe")
 
 # Samples the server's resident kilobytes and processor ticks, once per second or 1000 times in total.
 pause=$(awk -v s="$seconds" 'BEGIN { print (s > 1000 ? s / 1000 : 1) }')
@@ -102,18 +84,18 @@ sample() {
     awk '{ print $14 + $15 }' "/proc/$server/stat"
 }
 : >"$work/samples.txt"
-while kill -0 "$probe" 2>/dev/null; do
-    kill -0 "$server" 2>/dev/null || { echo "soak.sh: the server has ended" >&2; exit 1; }
-    kill -0 "$game" 2>/dev/null || { echo "soak.sh: the game server has ended" >&2; exit 1; }
+while running "$probe"; do
+    running "$server" || fail "the server has ended"
+    running "$game" || fail "the game server has ended"
     sample >>"$work/samples.txt"
     sleep "$pause"
 done
 probed=0
 wait "$probe" || probed=$?
-kill -TERM "$server"
+send TERM "$server"
 served=0
 wait "$server" || served=$?
-kill -TERM "$game"
+send TERM "$game"
 played=0
 wait "$game" || played=$?
 

@@ -2,10 +2,10 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <chrono>
-#include <filesystem>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -16,23 +16,31 @@ namespace {
 constexpr std::uint32_t first_domain = 1;
 constexpr std::uint32_t last_domain = 80;
 
+// Any user may have put something else there: nothing is created or waited for through a link or a pipe.
+int open_lock(const std::string& path) {
+    const int created = ::open(path.c_str(), O_RDONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+    if (created < 0) return ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    ::fchmod(created, 0644);  // other users must be able to open it, whatever the umask
+    return created;
+}
+
 }  // namespace
 
-TestDomain::TestDomain() {
-    const auto folder = std::filesystem::temp_directory_path() / "camera-director-test-domains";
-    if (std::filesystem::create_directories(folder))  // for every user of the machine
-        std::filesystem::permissions(folder, std::filesystem::perms::all);
+TestDomain::TestDomain(const std::filesystem::path& locks) {
+    ::mkdir(locks.c_str(), 0777);
+    // For every user, who may not replace another's locks. Fails when it belongs to another, who has done so.
+    ::chmod(locks.c_str(), 01777);
     const auto pid = static_cast<std::uint32_t>(::getpid());
     constexpr std::uint32_t count = last_domain - first_domain + 1;
     for (std::uint32_t i = 0; i < 100 * count; ++i) {
         id_ = first_domain + (pid + i) % count;
-        lock_ = ::open((folder / std::to_string(id_)).c_str(), O_RDONLY | O_CREAT | O_CLOEXEC, 0644);
-        if (lock_ < 0) throw std::runtime_error("cannot open a lock file in " + folder.string());
-        if (::flock(lock_, LOCK_EX | LOCK_NB) == 0) return;
-        ::close(lock_);
+        lock_ = open_lock(locks / std::to_string(id_));
+        if (lock_ >= 0 && ::flock(lock_, LOCK_EX | LOCK_NB) == 0) return;
+        if (lock_ >= 0) ::close(lock_);
         if (i % count == count - 1) std::this_thread::sleep_for(std::chrono::milliseconds(100));
     }
-    throw std::runtime_error("every test domain is taken; locks are in " + folder.string());
+    throw std::runtime_error("every test domain is taken, or its lock in " + locks.string() +
+                             " cannot be opened");
 }
 
 TestDomain::~TestDomain() {

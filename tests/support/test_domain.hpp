@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 
 namespace camdir::test {
 
@@ -16,7 +17,9 @@ inline constexpr std::uint32_t last_director_domain = 99;
 // constructor waits for a free one.
 class TestDomain {
   public:
-    TestDomain();
+    // locks: the same folder for all users, whatever their TMPDIR, and for lock_domain in
+    // deploy/processes.sh.
+    explicit TestDomain(const std::filesystem::path& locks = "/tmp/camera-director-test-domains");
     ~TestDomain();
     TestDomain(const TestDomain&) = delete;
     TestDomain& operator=(const TestDomain&) = delete;

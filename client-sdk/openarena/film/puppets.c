@@ -65,8 +65,13 @@ bool puppets_enter(const struct take* take) {
     return false;
 }
 
+static bool stands(const struct recorded_pose* pose) {
+    return hypotf(pose->velocity[0], pose->velocity[1]) < run_speed;
+}
+
 /* Of the legs: eighths of a turn, counterclockwise from where the player looks. */
 static int movement_direction(const struct recorded_pose* pose) {
+    if (stands(pose)) return 0;
     const double yaw = pose->angles[1] * 0.017453292519943295;
     const double eighths = (atan2(pose->velocity[1], pose->velocity[0]) - yaw) / 0.7853981633974483;
     return (int)(((long)floor(eighths + 0.5) % 8 + 8) % 8);
@@ -75,8 +80,7 @@ static int movement_direction(const struct recorded_pose* pose) {
 static int legs_of(const struct recorded_pose* pose, int direction) {
     const bool crouched = pose->viewheight <= crouched_viewheight;
     if (fabsf(pose->velocity[2]) > jump_speed) return legs_jump;
-    if (hypotf(pose->velocity[0], pose->velocity[1]) < run_speed)
-        return crouched ? legs_idle_crouched : legs_idle;
+    if (stands(pose)) return crouched ? legs_idle_crouched : legs_idle;
     if (crouched) return legs_walk_crouched;
     return direction >= 3 && direction <= 5 ? legs_back : legs_run;
 }

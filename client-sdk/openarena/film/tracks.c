@@ -9,7 +9,7 @@
 
 enum { max_line = 1024, max_fields = 64, largest_number = 999999 };
 
-static const size_t max_rows = 4000000; /* of a player: 18 hours at 60 Hz */
+static const size_t max_rows = 1u << 22; /* of a player: 19 hours at 60 Hz */
 
 /* Where in the file, for messages. */
 struct source {
@@ -76,7 +76,8 @@ static bool take_row(struct tracks* tracks, const double values[max_columns], co
     if (track->row_count > 0 && values[COLUMN_TIME] < time_of(tracks, track, track->row_count - 1))
         return fail(source, reason, reason_size, "a time before the previous one of the same", owner);
     double* const row = add_row(tracks, track);
-    if (row == NULL) return fail(source, reason, reason_size, "no memory for more rows of a", owner);
+    if (row == NULL)
+        return fail(source, reason, reason_size, "no room for more rows (at most 4194304) of a", owner);
     memcpy(row, values, tracks->column_count * sizeof *row);
     return true;
 }
@@ -136,7 +137,10 @@ bool tracks_read(struct tracks* tracks, const char* path, const struct column* c
         return false;
     }
     bool read = read_rows(file, tracks, columns, &source, reason, reason_size);
-    if (gzclose(file) != Z_OK && read) read = fail(&source, reason, reason_size, "damaged or cut off:", path);
+    int error; /* gzgets() does not distinguish it from the end, and gzclose() knows only of a file cut off */
+    gzerror(file, &error);
+    if ((gzclose(file) != Z_OK || error != Z_OK) && read)
+        read = fail(&source, reason, reason_size, "damaged or cut off:", path);
     return read;
 }
 

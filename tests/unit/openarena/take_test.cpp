@@ -5,10 +5,12 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
+#include <zlib.h>
 
 #include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -212,6 +214,36 @@ TEST_F(Scenery, OtherEntitiesOfThatNumberAreLeftAlone) {
         write_int(entity(66), field, before);
     }
     EXPECT_EQ(linked, 0);
+}
+
+TEST(Take, ADamagedArchiveIsRefused) {
+    const test::TemporaryFolder folder;
+    const std::string trace = folder / "trace.csv.gz", cameras = folder / "cameras.csv";
+    std::ofstream(cameras) << camera_header << "0,4,0,0,0,1,0,0,0,0\n";
+    const auto reason_after = [&](auto damage) -> std::string {
+        const gzFile file = gzopen(trace.c_str(), "wb");
+        gzputs(file, trace_header.c_str());
+        for (int t = 0; t < 2000; ++t)
+            gzprintf(file, "%d,4,%d.%d,0,0,0,0,0,0,0,26,0,1\n", t, t * 7919 % 10007, t);
+        gzclose(file);
+        damage();
+        take content{};
+        std::array<char, 1000> text{};
+        take_open(&content, trace.c_str(), cameras.c_str(), "", text.data(), text.size());
+        take_close(&content);
+        return text.data();
+    };
+    const auto size = [&] { return std::filesystem::file_size(trace); };
+    const auto overwrite_at = [&](std::uintmax_t place) {
+        std::fstream file(trace, std::ios::in | std::ios::out | std::ios::binary);
+        file.seekp(static_cast<std::streamoff>(place));
+        file << "damaged";
+    };
+    EXPECT_EQ(reason_after([] {}), "");
+    EXPECT_THAT(reason_after([&] { overwrite_at(size() - 8); }),
+                HasSubstr("damaged or cut off"));  // checksum
+    EXPECT_NE(reason_after([&] { overwrite_at(size() / 2); }), "");
+    EXPECT_THAT(reason_after([&] { std::filesystem::resize_file(trace, size() / 2); }), HasSubstr("line"));
 }
 
 RC_GTEST_PROP(Take, ViewsHaveTheOrientationOfTheFile, ()) {
