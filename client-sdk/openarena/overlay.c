@@ -4,6 +4,8 @@
 void overlay_show_camera(struct overlay* overlay, int slot, int32_t level_time, const struct view* view,
                          bool cut) {
     static const int32_t health = 100, constant_spawn_count = 1, no_ground = 1023;
+    /* As in free flight: a client spreads a change of the view height over 100 ms, even at a cut. */
+    static const int32_t view_height = 26;
     uint8_t* const state = overlay->camera;
     if (cut || !overlay->active) overlay->teleport_bit ^= EFLAG_TELEPORT;
     overlay->active = true;
@@ -14,7 +16,9 @@ void overlay_show_camera(struct overlay* overlay, int slot, int32_t level_time, 
      */
     write_int(state, PS_PM_FLAGS, PM_FLAG_FOLLOW);
     write_int(state, PS_CLIENT_NUMBER, slot);
-    write_vector(state, PS_ORIGIN, view->position);
+    const float origin[3] = {view->position[0], view->position[1], view->position[2] - (float)view_height};
+    write_vector(state, PS_ORIGIN, origin);
+    write_int(state, PS_VIEW_HEIGHT, view_height);
     write_vector(state, PS_VIEW_ANGLES, view->angles);
     write_int(state, PS_GROUND_ENTITY, no_ground);
     write_int(state, PS_EFLAGS, overlay->teleport_bit);

@@ -286,7 +286,7 @@ bool FakeServer::shows_camera(int slot) {
     viewer_status status{};
     return viewers_status(slot, &status) && status.camera &&
            read_int(state(slot), PS_PM_FLAGS) == PM_FLAG_FOLLOW &&
-           read_int(state(slot), PS_CLIENT_NUMBER) == slot && read_int(state(slot), PS_VIEW_HEIGHT) == 0;
+           read_int(state(slot), PS_CLIENT_NUMBER) == slot && read_int(state(slot), PS_VIEW_HEIGHT) == 26;
 }
 
 viewer_request FakeServer::request(int slot) const {

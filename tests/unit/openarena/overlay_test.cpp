@@ -71,11 +71,13 @@ TEST(OpenArenaOverlay, ShowsTheView) {
     set(0, 1234);
     set(4, 2);
     set(12, 4096);
-    write_vector(expected.data(), 20, somewhere.position);
+    const float below_the_eye[3] = {1, 2, 3 - 26};
+    write_vector(expected.data(), 20, below_the_eye);
     set(68, 1023);
     set(104, 4);
     set(140, slot);
     write_vector(expected.data(), 152, somewhere.angles);
+    set(164, 26);
     set(184, 100);
     set(212, 100);
     set(260, 3);
