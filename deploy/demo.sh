@@ -59,7 +59,7 @@ if $openarena; then
     source deploy/openarena/live.sh
     video=${video:-$PWD/$work/openarena.mp4}
     for output in "$video" "$(sheet_of "$video")"; do check_output "$output"; done
-    groups+=(game) targets=(camera-director camera_director_openarena)
+    groups+=(game film) targets=(camera-director camera_director_openarena)
     seconds=${seconds:-30}
     [[ $seconds =~ ^0*[1-9][0-9]*(\.|$) ]] || usage "--seconds '$seconds': expected at least 1 with --openarena"
 fi

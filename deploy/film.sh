@@ -62,7 +62,7 @@ source deploy/processes.sh
 source deploy/openarena/game.sh
 check_output "$file"
 
-deploy/install-packages.sh build game
+deploy/install-packages.sh build game film
 check_tools
 lock_checkout
 step "Build"

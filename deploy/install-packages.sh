@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs what is missing of the Debian 12 packages in the named groups: build (default), map, game, test, lint, or
-# all.
+# Installs what is missing of the Debian 12 packages in the named groups: build (default), map, game, film, test,
+# lint, or all.
 # Needs root or sudo when something is missing. On any other system it prints what is missing and fails.
 #     install-packages.sh [GROUP ...]
 set -euo pipefail
@@ -14,11 +14,13 @@ for group in "${@:-build}"; do
         build) wanted+=("${build_packages[@]}") ;;
         map) wanted+=("${map_packages[@]}") ;;
         game) wanted+=("${game_packages[@]}") ;;
+        film) wanted+=("${film_packages[@]}") ;;
         test) wanted+=("${test_packages[@]}") ;;
         lint) wanted+=("${lint_packages[@]}") ;;
         all)
-            wanted+=("${build_packages[@]}" "${map_packages[@]}" "${game_packages[@]}" "${test_packages[@]}" "${lint_packages[@]}") ;;
-        *) echo "install-packages.sh: unknown group '$group'; known: build map game test lint all" >&2; exit 2 ;;
+            wanted+=("${build_packages[@]}" "${map_packages[@]}" "${game_packages[@]}" "${film_packages[@]}" "${test_packages[@]}"
+                "${lint_packages[@]}") ;;
+        *) echo "install-packages.sh: unknown group '$group'; known: build map game film test lint all" >&2; exit 2 ;;
     esac
 done
 

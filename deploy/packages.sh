@@ -18,8 +18,10 @@ build_packages=(
 )
 # The map of the demo.
 map_packages=(openarena-081-maps)
-# A real game: server and client, a display in memory with Mesa's software renderer, pictures and video.
-game_packages=(openarena-server openarena xvfb xauth libgl1-mesa-dri imagemagick ffmpeg)
+# A real game: server and client, and a display in memory with Mesa's software renderer.
+game_packages=(openarena-server openarena xvfb libgl1-mesa-dri)
+# Videos of it.
+film_packages=(ffmpeg)
 # What test.sh needs in addition.
 test_packages=(clang-format-14 openarena-088-data)
 # What test.sh --all needs in addition.

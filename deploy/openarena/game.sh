@@ -19,7 +19,7 @@ check_output() {
 check_tools() {
     local tool
     for tool in "$server" "$client" Xvfb ffmpeg; do
-        [ -x "$(command -v "$tool")" ] || fail "no program $tool: deploy/install-packages.sh game installs it"
+        [ -x "$(command -v "$tool")" ] || fail "no program $tool: deploy/install-packages.sh game film installs it"
     done
 }
 
