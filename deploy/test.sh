@@ -54,7 +54,7 @@ run_tests() {
 }
 
 step "Packages"
-groups=(build map test)
+groups=(build map test game)
 $all && groups+=(lint)
 deploy/install-packages.sh "${groups[@]}"
 ! $all || deploy/i386-packages.sh build/i386-root
@@ -68,7 +68,7 @@ cmake --preset release
 cmake --build --preset release
 
 step "Release tests: unit, integration, soak"
-run_tests release --label-exclude '^live$'
+run_tests release
 
 step "Address and undefined-behaviour sanitizers: unit tests"
 cmake --preset asan

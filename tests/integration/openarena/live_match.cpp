@@ -1,19 +1,12 @@
 #include "live_match.hpp"
 
 #include <cstring>
-#include <map>
 
 #include "support/game/packages.hpp"
 #include "support/openarena.hpp"
 
 namespace camdir::test {
 namespace {
-
-enum { team_spectator = 3, following = 4096 };
-
-bool is_spectator(const witness_player& player) {
-    return player.connected && !player.bot && player.team == team_spectator;
-}
 
 // What the game decides about a player, and what others see of them.
 bool same_state(const witness_player& a, const witness_player& b) {
@@ -25,11 +18,6 @@ bool same_state(const witness_player& a, const witness_player& b) {
 }
 
 }  // namespace
-
-bool is_overlaid(const witness_record& frame, int slot) {
-    const witness_player& player = frame.players[slot];
-    return is_spectator(player) && (player.pm_flags & following) != 0 && player.client_num == slot;
-}
 
 LiveMatch::LiveMatch(std::vector<std::string> maps) : maps_(std::move(maps)) {}
 
@@ -43,40 +31,17 @@ void LiveMatch::SetUp() {
     options.map = maps_.front();
     options.bots = bots;
     options.witness_inside = true;
-    options.settings = {{"director_domain", std::to_string(domain_.id())}};
+    options.settings = settings_;
+    options.settings["director_domain"] = std::to_string(domain_.id());
     server_.emplace(options);
     tape_.emplace(domain_.id(), "openarena-" + std::to_string(server_->port()));
     ASSERT_TRUE(director_->ready()) << director_->log();
     ASSERT_TRUE(server_->ready(bots)) << server_->console().output();
 }
 
-void LiveMatch::join() {
-    client_.emplace(server_->port(), GameClientOptions{});
-    ASSERT_TRUE(server_->reaches([&](const witness_record& frame) {
-        for (int slot = 0; slot < witness_slots; ++slot) {
-            if (is_spectator(frame.players[slot])) slot_ = slot;
-        }
-        return slot_ >= 0;
-    })) << logs();
-    ASSERT_TRUE(client_->draws(1)) << logs();
-    ASSERT_TRUE(has_camera()) << logs();
-}
-
-void LiveMatch::follow(int player) {
-    client_->console().enter("cmd follow " + std::to_string(player));
-    ASSERT_TRUE(eventually([&] {
-        const auto entries = tape_->entries();
-        return !entries.empty() && entries.back().camera.target == static_cast<std::uint32_t>(player);
-    })) << logs();
-    ASSERT_TRUE(has_camera()) << logs();
-}
-
-bool LiveMatch::has_camera() {
-    return server_->reaches([&](const witness_record& frame) { return is_overlaid(frame, slot_); });
-}
-
-bool LiveMatch::has_own_view() {
-    return server_->reaches([&](const witness_record& frame) { return !is_overlaid(frame, slot_); });
+void LiveMatch::join(const GameClientOptions& options) {
+    spectators_.push_back(std::make_unique<Spectator>(*server_, *tape_, options));
+    ASSERT_TRUE(spectators_.back()->joins()) << logs();
 }
 
 std::string LiveMatch::logs() {
@@ -84,9 +49,11 @@ std::string LiveMatch::logs() {
         constexpr std::size_t enough = 2000;
         return text.size() > enough ? "..." + text.substr(text.size() - enough) : text;
     };
-    return "status:\n" + status() + "director:\n" + end_of(director_->log()) + "server:\n" +
-           end_of(server_->console().output()) +
-           (client_ ? "client:\n" + end_of(client_->console().output()) : "");
+    std::string all = "status:\n" + status() + "director:\n" + end_of(director_->log()) + "server:\n" +
+                      end_of(server_->console().output());
+    for (const auto& spectator : spectators_)
+        all += "client:\n" + end_of(spectator->client().console().output());
+    return all;
 }
 
 void LiveMatch::expect_players_untouched() {
@@ -102,7 +69,7 @@ void LiveMatch::expect_players_untouched() {
         const witness_record& own = inner[next++];
         ASSERT_EQ(own.level_time, sent.level_time);
         for (int slot = 0; slot < witness_slots; ++slot) {
-            if (!sent.players[slot].connected || is_spectator(sent.players[slot])) continue;
+            if (!sent.players[slot].connected || is_human_spectator(sent.players[slot])) continue;
             ASSERT_TRUE(same_state(own.players[slot], sent.players[slot]))
                 << "slot " << slot << " at " << sent.level_time << " ms";
             ++compared;

@@ -1,58 +1,51 @@
-// For the tests of the game module: a director, a game server with bots and the module, and a spectator's
-// client.
+// For the tests of the game module: a director, a game server with bots and the module, and spectators.
 #pragma once
 
 #include <gtest/gtest.h>
 
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "support/game/camera_tape.hpp"
-#include "support/game/commanded_path.hpp"
 #include "support/game/director.hpp"
-#include "support/game/game_client.hpp"
 #include "support/game/game_server.hpp"
+#include "support/game/spectator.hpp"
 #include "support/test_domain.hpp"
 
 namespace camdir::test {
 
-constexpr int bots = 8;
-
-// The engine sends this slot a view of its own that follows nobody: the director's camera.
-[[nodiscard]] bool is_overlaid(const witness_record& frame, int slot);
-
 class LiveMatch : public testing::Test {
   protected:
+    // On the first map; the director has all of them.
     explicit LiveMatch(std::vector<std::string> maps = {"oa_dm1"});
 
     // Skips without the packages.
     void SetUp() override;
 
-    // A client joins as spectator; waits until it has drawn the director's camera, of the given player when
-    // one is named.
-    void join();
-    void follow(int player);
+    // Adds a client that spectates; waits until it has drawn the director's camera.
+    void join(const GameClientOptions& options = {});
+    [[nodiscard]] Spectator& spectator(std::size_t number = 0) { return *spectators_.at(number); }
 
     [[nodiscard]] std::string status() { return server_->console().ask("director status"); }
-    // Waits until the spectator sees the director's camera, or the game's own view.
-    [[nodiscard]] bool has_camera();
-    [[nodiscard]] bool has_own_view();
     // Logs of everyone, for failures.
     [[nodiscard]] std::string logs();
 
     // The module changed no player's state in any frame, only spectators'.
     void expect_players_untouched();
 
+    static constexpr int bots = 8;
+    std::map<std::string, std::string> settings_;  // the server's cvars
     TestDomain domain_;
     std::optional<GameDirector> director_;
     std::optional<GameServer> server_;
     std::optional<CameraTape> tape_;
-    std::optional<GameClient> client_;
-    int slot_ = -1;  // the spectator's
 
   private:
     std::vector<std::string> maps_;
+    std::vector<std::unique_ptr<Spectator>> spectators_;
 };
 
 }  // namespace camdir::test

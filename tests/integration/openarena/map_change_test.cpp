@@ -1,14 +1,11 @@
 // New maps and restarts under a running server, with a spectator.
-#include <gmock/gmock.h>
-
+#include <algorithm>
 #include <set>
 
 #include "live_match.hpp"
 
 namespace camdir::test {
 namespace {
-
-using testing::HasSubstr;
 
 class MapChange : public LiveMatch {
   protected:
@@ -32,18 +29,7 @@ class MapChange : public LiveMatch {
         server_->add_bots(4);  // they leave with the map, unless they stay
     }
 
-    // The client draws the director's camera of this life.
-    [[nodiscard]] bool is_served() {
-        if (!has_camera()) return false;
-        return eventually([&] {
-            const auto& pictures = client_->drawn();
-            if (pictures.empty()) return false;
-            const CommandedPath path(server_->witnessed(), slot_);
-            const auto drawn = locate(path, pictures.back());
-            return drawn && drawn->offset < 0.1 && drawn->turn < 0.1 &&
-                   is_overlaid(path.snapshots()[path.snapshot_at(drawn->time, drawn->newest)].frame, slot_);
-        });
-    }
+    [[nodiscard]] bool is_served() { return spectator().has_camera() && spectator().draws_camera(); }
 };
 
 TEST_F(MapChange, EachOfTenLivesIsServedAndAMapThatIsNotBakedIsNamed) {
@@ -60,7 +46,7 @@ TEST_F(MapChange, EachOfTenLivesIsServedAndAMapThatIsNotBakedIsNamed) {
         return text.find("no map 'oa_dm3'") != std::string::npos ||
                text.find("oa_dm3") != text.rfind("oa_dm3");
     })) << logs();
-    EXPECT_FALSE(is_overlaid(*server_->newest(), slot_));
+    EXPECT_FALSE(is_overlaid(*server_->newest(), spectator().slot()));
     ASSERT_NO_FATAL_FAILURE(change("map oa_dm1"));
     ASSERT_TRUE(is_served()) << logs();
 

@@ -1,5 +1,6 @@
 // What a spectator's client draws, in pixels: pictures against the views and poses that the server sent.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -20,6 +21,7 @@ struct Judged {
     DrawnView drawn;
     GameView commanded;
     const witness_record* from;  // the snapshot from which the client went on
+    bool before_cut;             // the next snapshot is a cut
 };
 
 Vec3d vector(const float* values) {
@@ -31,35 +33,83 @@ class Picture : public LiveMatch {
     // The pictures since the `first`th that the client drew from the director's cameras.
     std::vector<Judged> judged(const CommandedPath& path, std::size_t first) {
         std::vector<Judged> result;
-        const auto& pictures = client_->drawn();
+        const auto& pictures = spectator().client().drawn();
         for (std::size_t i = first; i < pictures.size(); ++i) {
             const auto drawn = locate(path, pictures[i]);
             if (!drawn) continue;
             const std::size_t from = path.snapshot_at(drawn->time, drawn->newest);
             const std::size_t to = std::min(from + 1, drawn->newest);
-            if (!is_overlaid(path.snapshots()[from].frame, slot_) ||
-                !is_overlaid(path.snapshots()[to].frame, slot_))
+            if (!is_overlaid(path.snapshots()[from].frame, spectator().slot()) ||
+                !is_overlaid(path.snapshots()[to].frame, spectator().slot()))
                 continue;
-            result.push_back(
-                {pictures[i], *drawn, path.view(drawn->time, drawn->newest), &path.snapshots()[from].frame});
+            result.push_back({pictures[i], *drawn, path.view(drawn->time, drawn->newest),
+                              &path.snapshots()[from].frame, path.snapshots()[to].cut});
         }
         return result;
     }
 };
 
+// By how much the server or the client came late in the seconds before a picture, as the machine had other
+// work. The client's clock, which aims at the newest snapshot, takes so long to recover.
+class Lateness {
+  public:
+    Lateness(const CommandedPath& path, const std::vector<drawn_record>& pictures)
+        : snapshots_(path.snapshots()), pictures_(pictures) {}
+
+    [[nodiscard]] double before(const drawn_record& picture) const {
+        return of_server(picture.time) + of_client(picture.time);
+    }
+
+  private:
+    static constexpr double ns = 1e-6;                     // in ms
+    static constexpr std::int64_t memory = 3'000'000'000;  // ns
+
+    double of_server(std::int64_t time) const {
+        double least = std::numeric_limits<double>::infinity(), most = -least;
+        for (const auto& [frame, cut] : snapshots_) {
+            if (frame.time > time || frame.time < time - memory) continue;
+            const double delay =
+                static_cast<double>(frame.time - snapshots_.front().frame.time) * ns - frame.level_time;
+            least = std::min(least, delay);
+            most = std::max(most, delay);
+        }
+        return std::max(0.0, most - least);
+    }
+
+    double of_client(std::int64_t time) const {
+        constexpr double interval = 25.0;  // ms: the client's own limit
+        double longest = interval;
+        for (std::size_t i = 1; i < pictures_.size(); ++i) {
+            if (pictures_[i].time > time || pictures_[i - 1].time < time - memory) continue;
+            longest = std::max(longest, static_cast<double>(pictures_[i].time - pictures_[i - 1].time) * ns);
+        }
+        return longest - interval;
+    }
+
+    const std::vector<CommandedPath::Snapshot>& snapshots_;
+    const std::vector<drawn_record>& pictures_;
+};
+
 // No picture between the views on both sides of a cut, none that stands still while newer snapshots wait,
 // none that is older than interpolation needs.
-void expect_views_as_commanded(const CommandedPath& path, const std::vector<Judged>& pictures) {
+void expect_views_as_commanded(const CommandedPath& path, const std::vector<Judged>& pictures,
+                               const Lateness& lateness) {
     for (const Judged& picture : pictures) {
         const DrawnView& drawn = picture.drawn;
         EXPECT_LE(drawn.offset, 0.1) << "units off the commanded path at " << drawn.time << " ms";
         EXPECT_LE(drawn.turn, 0.1) << "degrees off the commanded view at " << drawn.time << " ms";
-        EXPECT_LE(drawn.age, 1.5) << "snapshots behind at " << drawn.time << " ms";
+        constexpr double interval = 50.0;  // ms
+        const double late = lateness.before(picture.picture);
+        EXPECT_LE(drawn.age, 1.5 + late / interval)
+            << "snapshots behind at " << drawn.time << " ms; server and client were up to " << late
+            << " ms late";
     }
     for (std::size_t i = 1; i < pictures.size(); ++i) {
         const DrawnView& before = pictures[i - 1].drawn;
         const DrawnView& after = pictures[i].drawn;
         if (path.snapshots()[after.newest].frame.level_time <= before.time) continue;
+        constexpr double sets_clock_anew = 100.0;  // ms: a client that is off by more
+        if (lateness.before(pictures[i].picture) > sets_clock_anew) continue;
         EXPECT_GT(after.latest_time, before.time) << "stands still";
     }
 }
@@ -73,31 +123,19 @@ void expect_declared_cuts(const CommandedPath& path, int spectator) {
         if (snapshots[i].cut || !is_overlaid(to, spectator)) continue;
         ASSERT_TRUE(is_overlaid(from, spectator))
             << "the camera begins without a cut at " << to.level_time << " ms";
-        const double step =
-            (vector(to.players[spectator].origin) - vector(from.players[spectator].origin)).norm();
+        const double step = (eye_of(to.players[spectator]) - eye_of(from.players[spectator])).norm();
         EXPECT_LE(step, fastest * (to.level_time - from.level_time) / 1000.0)
             << "at " << to.level_time << " ms";
     }
 }
 
-// The director's cameras by their own observer: what the server sends is one of the last 250 ms, moved only
-// within its free space.
+// The director's cameras by their own observer: what the server sends is one of them, moved only within its
+// free space.
 void expect_cameras_of_the_director(const CommandedPath& path, int spectator,
                                     const std::vector<CameraTape::Entry>& tape) {
-    std::size_t oldest = 0;
-    for (const auto& snapshot : path.snapshots()) {
-        const int time = snapshot.frame.level_time;
-        if (!is_overlaid(snapshot.frame, spectator)) continue;
-        while (oldest < tape.size() && tape[oldest].level_time < time - 250)
-            ++oldest;
-        const Vec3d sent = vector(snapshot.frame.players[spectator].origin);
-        double excess = std::numeric_limits<double>::infinity();
-        for (std::size_t i = oldest; i < tape.size() && tape[i].level_time <= time; ++i) {
-            const auto& camera = tape[i].camera;
-            excess = std::min(
-                excess, (sent - vector(camera.position)).norm() - static_cast<double>(camera.clearance));
-        }
-        EXPECT_LE(excess, 0.01) << "at " << time << " ms";
+    for (const auto& [frame, cut] : path.snapshots()) {
+        if (!is_overlaid(frame, spectator)) continue;
+        EXPECT_LE(distance_to_cameras(frame, spectator, tape), 0.01) << "at " << frame.level_time << " ms";
     }
 }
 
@@ -105,10 +143,11 @@ void expect_cameras_of_the_director(const CommandedPath& path, int spectator,
 // out.
 class Markers {
   public:
-    explicit Markers(const CommandedPath& path, const oracle::Oracle& map) : path_(path), map_(map) {}
+    Markers(const CommandedPath& path, const oracle::Oracle& map) : path_(path), map_(map) {}
 
     void judge(const Judged& picture) {
-        if (may_show_corpse(picture)) return;
+        // Clients extrapolate players whom they will not see after a cut.
+        if (picture.before_cut || may_show_corpse(picture)) return;
         const Vec3d place = path_.player(marker, picture.drawn.time, picture.drawn.newest);
         const auto box = box_at(picture, picture.drawn.time);
         expect_in(extended(box, picture), picture);
@@ -155,7 +194,11 @@ class Markers {
         const drawn_record& seen = picture.picture;
         if (seen.marker_pixels == 0) return;
         const int time = picture.drawn.time;
-        ASSERT_TRUE(box) << "pixels of a player who is not in front of the camera at " << time << " ms";
+        if (!box) {
+            EXPECT_TRUE(reaches_in_front(picture))
+                << "pixels of a player behind the camera at " << time << " ms";
+            return;
+        }
         // Pixels. Clients extrapolate players, and not the camera, while a snapshot is late.
         const int extrapolated = std::max(0, time - path_.snapshots()[picture.drawn.newest].frame.level_time);
         const double tolerance = 1.5 + 0.1 * extrapolated;
@@ -165,6 +208,15 @@ class Markers {
         EXPECT_GE(seen.marker_top, box->top - tolerance);
         EXPECT_LE(seen.marker_right + 1, box->right + tolerance);
         EXPECT_LE(seen.marker_bottom + 1, box->bottom + tolerance);
+    }
+
+    bool reaches_in_front(const Judged& picture) const {
+        const std::array guesses = {picture.drawn.earliest_guess, picture.drawn.latest_guess};
+        return std::ranges::any_of(guesses, [&](int time) {
+            const GameView camera = path_.view(time, picture.drawn.newest);
+            const Vec3d place = path_.player(marker, time, picture.drawn.newest);
+            return camera.axes.col(0).dot(place - camera.position) > -marker_radius;
+        });
     }
 
     // Alive, whole in the picture, and hidden by neither the map nor other players.
@@ -198,36 +250,41 @@ class Markers {
 };
 
 TEST_F(Picture, ShowsTheFollowedPlayerWhereTheCameraProjectsThem) {
-    ASSERT_NO_FATAL_FAILURE(join());
-    ASSERT_NO_FATAL_FAILURE(follow(marker));
-    const std::size_t first = client_->drawn().size();
-    for (const int other : {1, 2, 3}) {  // another player is a cut
-        ASSERT_TRUE(client_->draws(80)) << logs();
-        ASSERT_NO_FATAL_FAILURE(follow(other));
-        ASSERT_TRUE(client_->draws(10)) << logs();
-        ASSERT_NO_FATAL_FAILURE(follow(marker));
-    }
-    ASSERT_TRUE(client_->draws(80)) << logs();
-
-    const CommandedPath path(server_->witnessed(), slot_);
-    const auto pictures = judged(path, first);
-    EXPECT_GE(pictures.size(), 300U) << logs();
-    expect_views_as_commanded(path, pictures);
-    expect_declared_cuts(path, slot_);
-    if (tape_->gaps() == 0) expect_cameras_of_the_director(path, slot_, tape_->entries());
-
+    constexpr int enough_pictures = 300, enough_in_sight = 60, most_rounds = 30;
     const auto scene = scene::load(*openarena_map("oa_dm1"));
     ASSERT_TRUE(scene);
     const oracle::Oracle map(*scene);
-    Markers markers(path, map);
-    for (const Judged& picture : pictures)
-        ASSERT_NO_FATAL_FAILURE(markers.judge(picture));
-    RecordProperty("pictures", static_cast<int>(pictures.size()));
-    RecordProperty("in_sight", markers.in_sight());
-    RecordProperty("drawn", markers.drawn());
-    EXPECT_GE(markers.in_sight(), 60) << "pictures with the marked player in sight, of " << pictures.size();
+    ASSERT_NO_FATAL_FAILURE(join());
+    GameClient& client = spectator().client();
+    int count = 0, in_sight = 0, drawn = 0;
+    for (int round = 0; round < most_rounds && (count < enough_pictures || in_sight < enough_in_sight);
+         ++round) {
+        const std::size_t first = client.drawn().size();
+        for (const int player : {1 + round % 7, marker}) {  // another player is a cut
+            ASSERT_TRUE(spectator().follows(player)) << logs();
+            ASSERT_TRUE(client.draws(player == marker ? 80 : 10)) << logs();
+        }
+        const CommandedPath path(server_->witnessed(), spectator().slot());
+        const auto pictures = judged(path, first);
+        expect_views_as_commanded(path, pictures, Lateness(path, client.drawn()));
+        Markers markers(path, map);
+        for (const Judged& picture : pictures)
+            markers.judge(picture);
+        count += static_cast<int>(pictures.size());
+        in_sight += markers.in_sight();
+        drawn += markers.drawn();
+    }
+    RecordProperty("pictures", count);
+    RecordProperty("in_sight", in_sight);
+    RecordProperty("drawn", drawn);
+    EXPECT_GE(count, enough_pictures) << logs();
+    EXPECT_GE(in_sight, enough_in_sight) << "pictures with the marked player in sight, of " << count;
     // Explosions and smoke may hide the rest.
-    EXPECT_GE(markers.drawn(), 0.95 * markers.in_sight());
+    EXPECT_GE(drawn, 0.95 * in_sight);
+
+    const CommandedPath path(server_->witnessed(), spectator().slot());
+    expect_declared_cuts(path, spectator().slot());
+    if (tape_->gaps() == 0) expect_cameras_of_the_director(path, spectator().slot(), tape_->entries());
     expect_players_untouched();
 }
 

@@ -10,7 +10,7 @@ namespace {
 enum { teleport_flag = 4 };
 constexpr int snapshots_back = 8;          // as far as a client may lag
 constexpr int longest_extrapolation = 50;  // ms
-constexpr double unit_of_a_turn = 40.0;    // map units: how much a radian counts beside an offset
+constexpr double unit_of_a_turn = 0.7;     // map units: how much a degree counts beside an offset
 constexpr double negligible = 0.01;        // map units
 
 // What a client decides for the view that it is sent.
@@ -64,6 +64,16 @@ double misfit_of_players(const CommandedPath& path, int time, std::size_t newest
 }
 
 }  // namespace
+
+Vec3d eye_of(const witness_player& player) {
+    return vector(player.origin) + player.view_height * Vec3d::UnitZ();
+}
+
+Deviation deviation(const drawn_record& picture, const GameView& commanded) {
+    const GameView drawn = drawn_view(picture);
+    return {(drawn.position - commanded.position).norm(),
+            turn_between(drawn, commanded) / radians_of_a_degree<double>};
+}
 
 Eigen::Matrix3d axes_of(const float angles[3]) {
     const Vec3d radians = vector(angles) * radians_of_a_degree<double>;
@@ -120,13 +130,14 @@ double CommandedPath::fraction(std::size_t from, int time) const {
 GameView CommandedPath::view(int time, std::size_t newest) const {
     const std::size_t index = snapshot_at(time, newest);
     const witness_player& from = snapshots_[index].frame.players[spectator_];
-    if (index == newest || snapshots_[index + 1].cut) return {vector(from.origin), axes_of(from.angles)};
+    if (index == newest || snapshots_[index + 1].cut) return {eye_of(from), axes_of(from.angles)};
     const witness_player& to = snapshots_[index + 1].frame.players[spectator_];
     const auto s = static_cast<float>(fraction(index, time));
     float angles[3];
     for (int i = 0; i < 3; ++i)
         angles[i] = from.angles[i] + s * std::remainder(to.angles[i] - from.angles[i], 360.0F);
-    return {vector(from.origin) + s * (vector(to.origin) - vector(from.origin)), axes_of(angles)};
+    const Vec3d step = vector(to.origin) - vector(from.origin);
+    return {eye_of(from) + s * step, axes_of(angles)};
 }
 
 Vec3d CommandedPath::player(int slot, int time, std::size_t newest) const {
@@ -164,8 +175,7 @@ std::optional<DrawnView> locate(const CommandedPath& path, const drawn_record& p
     double least = std::numeric_limits<double>::infinity();
     for (int time = first; time <= last + longest_extrapolation; ++time) {
         const GameView commanded = path.view(time, *newest);
-        const double offset = (drawn.position - commanded.position).norm();
-        const double turn = turn_between(drawn, commanded);
+        const auto [offset, turn] = deviation(picture, commanded);
         candidates.push_back({time, offset, turn, offset + unit_of_a_turn * turn});
         least = std::min(least, candidates.back().misfit);
     }
@@ -186,15 +196,8 @@ std::optional<DrawnView> locate(const CommandedPath& path, const drawn_record& p
         shown < *newest ? snapshots[shown + 1].frame.level_time - snapshots[shown].frame.level_time : 1;
     const double age =
         shown < *newest ? static_cast<double>(*newest - shown) - static_cast<double>(since) / step : 0.0;
-    DrawnView result{drawn,
-                     best->time,
-                     latest->time,
-                     best->time,
-                     best->time,
-                     best->offset,
-                     best->turn / radians_of_a_degree<double>,
-                     age,
-                     *newest};
+    DrawnView result{drawn,        best->time, latest->time, best->time, best->time,
+                     best->offset, best->turn, age,          *newest};
     constexpr double a_unit = 1.0;
     for (const Candidate& candidate : candidates) {
         if (candidate.misfit > best->misfit + a_unit) continue;

@@ -17,6 +17,14 @@ struct GameView {
 };
 
 [[nodiscard]] Eigen::Matrix3d axes_of(const float angles[3]);
+// Where a client that is sent this playerState draws from.
+[[nodiscard]] Vec3d eye_of(const witness_player& player);
+
+struct Deviation {
+    double offset;  // map units
+    double turn;    // degrees
+};
+[[nodiscard]] Deviation deviation(const drawn_record& picture, const GameView& commanded);
 
 // A picture's pixels, x to the right and y downwards; whole numbers are pixels' corners.
 struct PixelBox {

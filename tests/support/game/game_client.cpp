@@ -56,16 +56,41 @@ VirtualDisplay::VirtualDisplay(int width, int height)
     name_.pop_back();
 }
 
-GameClient::GameClient(int server_port, const GameClientOptions& options)
+GameClient::GameClient(const GameClientOptions& options)
     : display_(options.width, options.height), drawn_(home_ / "drawn.log") {
-    std::filesystem::create_directories(home_ / "baseoa");
-    write_marker_model(home_ / "baseoa");
+    std::filesystem::create_directories(home_ / "baseoa/demos");
+    if (options.marker) write_marker_model(home_ / "baseoa");
     write_settings(home_ / "baseoa/autoexec.cfg", options);
-    console_ = std::make_unique<ConsoleProcess>(std::vector<std::string>{
-        "/usr/bin/env", "DISPLAY=" + display_.name(), "LIBGL_ALWAYS_SOFTWARE=1", "LP_NUM_THREADS=1",
-        "SDL_AUDIODRIVER=dummy", std::string("LD_PRELOAD=") + CAMDIR_TEST_DRAWN_VIEWS,
-        "CAMDIR_DRAWN_VIEWS=" + (home_ / "drawn.log").string(), "/usr/games/openarena", "+set", "fs_homepath",
-        home_.path().string(), "+connect", "127.0.0.1:" + std::to_string(server_port)});
+}
+
+GameClient::GameClient(int server_port, const GameClientOptions& options) : GameClient(options) {
+    start({"+connect", "127.0.0.1:" + std::to_string(server_port)});
+}
+
+GameClient::GameClient(const std::filesystem::path& recording, const GameClientOptions& options)
+    : GameClient(options) {
+    std::filesystem::copy_file(recording, home_ / "baseoa/demos" / recording.filename());
+    start({"+set", "timedemo", "1", "+set", "nextdemo", "quit", "+demo", recording.stem().string()});
+}
+
+void GameClient::start(const std::vector<std::string>& commands) {
+    std::vector<std::string> command = {"/usr/bin/env",
+                                        "DISPLAY=" + display_.name(),
+                                        "LIBGL_ALWAYS_SOFTWARE=1",
+                                        "LP_NUM_THREADS=1",
+                                        "SDL_AUDIODRIVER=dummy",
+                                        std::string("LD_PRELOAD=") + CAMDIR_TEST_DRAWN_VIEWS,
+                                        "CAMDIR_DRAWN_VIEWS=" + (home_ / "drawn.log").string(),
+                                        "/usr/games/openarena",
+                                        "+set",
+                                        "fs_homepath",
+                                        home_.path().string()};
+    command.insert(command.end(), commands.begin(), commands.end());
+    console_ = std::make_unique<ConsoleProcess>(command);
+}
+
+std::filesystem::path GameClient::recording(const std::string& name) const {
+    return home_ / "baseoa/demos" / (name + ".dm_71");
 }
 
 bool GameClient::draws(std::size_t more) {
