@@ -18,8 +18,8 @@ for group in "${@:-build}"; do
         test) wanted+=("${test_packages[@]}") ;;
         lint) wanted+=("${lint_packages[@]}") ;;
         all)
-            wanted+=("${build_packages[@]}" "${map_packages[@]}" "${game_packages[@]}" "${film_packages[@]}" "${test_packages[@]}"
-                "${lint_packages[@]}") ;;
+            wanted+=("${build_packages[@]}" "${map_packages[@]}" "${game_packages[@]}" "${film_packages[@]}"
+                "${test_packages[@]}" "${lint_packages[@]}") ;;
         *) echo "install-packages.sh: unknown group '$group'; known: build map game film test lint all" >&2; exit 2 ;;
     esac
 done

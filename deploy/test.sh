@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds, and runs every test that a change must pass: formatting, the release build with
-# its unit and integration tests and a short soak, the unit tests under the address and undefined-behaviour sanitizers.
+# its unit and integration tests (matches on OpenArena's own server and client among them) and a short soak, the unit
+# tests under the address and undefined-behaviour sanitizers.
 #     test.sh [--all]
 # --all: also the thread sanitizer, clang-tidy, every fuzzer for a minute, and the client library on i386
 set -euo pipefail

@@ -10,12 +10,10 @@
 #include <stdexcept>
 #include <thread>
 
-#include "support/game/camera_tape.hpp"
-#include "support/game/commanded_path.hpp"
 #include "support/game/director.hpp"
-#include "support/game/game_client.hpp"
 #include "support/game/game_server.hpp"
 #include "support/game/packages.hpp"
+#include "support/game/spectator.hpp"
 #include "support/openarena.hpp"
 #include "support/test_domain.hpp"
 
@@ -92,11 +90,6 @@ ServerFigures figures_of(const std::vector<witness_record>& outer, const std::ve
     return figures;
 }
 
-bool is_overlaid(const witness_player& player, int slot) {
-    enum { following = 4096 };
-    return (player.pm_flags & following) != 0 && player.client_num == slot;
-}
-
 // Level time of the newest poses for which a camera had arrived by then.
 std::optional<int> newest_camera(const std::vector<CameraTape::Entry>& tape, std::int64_t clock) {
     const auto after =
@@ -116,7 +109,7 @@ ViewerFigures figures_of(const CommandedPath& path, int slot, const std::vector<
         const std::size_t from = path.snapshot_at(drawn->time, drawn->newest);
         const std::size_t to = std::min(from + 1, drawn->newest);
         const witness_record &first = path.snapshots()[from].frame, &second = path.snapshots()[to].frame;
-        if (!is_overlaid(first.players[slot], slot) || !is_overlaid(second.players[slot], slot)) continue;
+        if (!is_overlaid(first, slot) || !is_overlaid(second, slot)) continue;
         ++figures.from_director;
         if (before && path.snapshots()[drawn->newest].frame.level_time > before->time &&
             drawn->latest_time <= before->time)
@@ -132,19 +125,6 @@ ViewerFigures figures_of(const CommandedPath& path, int slot, const std::vector<
             figures.camera_to_picture_ms.add(drawn_age + first.level_time - *camera);
     }
     return figures;
-}
-
-int spectator_of(GameServer& server) {
-    int found = -1;
-    static_cast<void>(server.reaches([&](const witness_record& frame) {
-        for (int slot = 0; slot < witness_slots; ++slot) {
-            const witness_player& player = frame.players[slot];
-            if (player.connected && !player.bot && is_overlaid(player, slot)) found = slot;
-        }
-        return found >= 0;
-    }));
-    if (found < 0) throw std::runtime_error("no spectator sees the director's camera");
-    return found;
 }
 
 std::int64_t now() {
@@ -178,16 +158,19 @@ void measure(const Run& run) {
     const CameraTape tape(domain.id(), "openarena-" + std::to_string(server.port()));
     if (!server.ready(bots))
         throw std::runtime_error("the server does not start: " + server.console().output());
-    GameClient client(server.port(), {.snaps = run.rate});
-    if (!client.draws(1)) throw std::runtime_error("the client does not start: " + client.console().output());
-    const int slot = spectator_of(server);
+    Spectator spectator(server, tape, {.snaps = run.rate});
+    if (!spectator.joins()) {
+        throw std::runtime_error("no spectator sees the director's camera: " +
+                                 spectator.client().console().output());
+    }
     const std::int64_t begin = now();
     std::this_thread::sleep_for(std::chrono::duration<double>(run.seconds));
 
     ServerFigures with =
         figures_of(frames_since(server.witnessed(), begin), frames_since(server.witnessed_inside(), begin));
-    const CommandedPath path(server.witnessed(), slot);
-    ViewerFigures viewer = figures_of(path, slot, client.drawn(), tape.entries(), begin);
+    const CommandedPath path(server.witnessed(), spectator.slot());
+    ViewerFigures viewer =
+        figures_of(path, spectator.slot(), spectator.client().drawn(), tape.entries(), begin);
     std::printf(
         "| %s | %d | %zu | %.1f %% | %.0f / %.0f | %.0f / %.0f | %.2f | %.4f | %.4f | %zu "
         "| %zu of %zu | %zu | %zu of %zu | %.1f / %.1f | %.0f |\n",
