@@ -8,10 +8,10 @@ namespace camdir::test {
 namespace {
 
 enum { teleport_flag = 4 };
-constexpr int snapshots_back = 8;          // as far as a client may lag
-constexpr int longest_extrapolation = 50;  // ms
-constexpr double unit_of_a_turn = 0.7;     // map units: how much a degree counts beside an offset
-constexpr double negligible = 0.01;        // map units
+constexpr int snapshots_back = 8;           // as far as a client may lag
+constexpr int longest_extrapolation = 500;  // ms
+constexpr double unit_of_a_turn = 0.7;      // map units: how much a degree counts beside an offset
+constexpr double negligible = 0.01;         // map units
 
 // What a client decides for the view that it is sent.
 bool is_interpolated(const witness_player& from, const witness_player& to) {
@@ -159,12 +159,18 @@ std::optional<std::size_t> CommandedPath::newest_at(std::int64_t clock) const {
     return static_cast<std::size_t>(after - snapshots_.begin()) - 1;
 }
 
-std::optional<DrawnView> locate(const CommandedPath& path, const drawn_record& picture) {
-    const auto newest = path.newest_at(picture.packet_time);
-    if (!newest) return std::nullopt;
+namespace {
+
+struct Located {
+    DrawnView drawn;
+    double misfit;  // of camera and players
+};
+
+// For a client whose newest snapshot has the index `newest`.
+Located locate_with(const CommandedPath& path, const drawn_record& picture, std::size_t newest) {
     const auto& snapshots = path.snapshots();
-    const int last = snapshots[*newest].frame.level_time;
-    const int first = snapshots[*newest < snapshots_back ? 0 : *newest - snapshots_back].frame.level_time;
+    const int last = snapshots[newest].frame.level_time;
+    const int first = snapshots[newest < snapshots_back ? 0 : newest - snapshots_back].frame.level_time;
     const GameView drawn = drawn_view(picture);
 
     struct Candidate {
@@ -174,7 +180,7 @@ std::optional<DrawnView> locate(const CommandedPath& path, const drawn_record& p
     std::vector<Candidate> candidates;
     double least = std::numeric_limits<double>::infinity();
     for (int time = first; time <= last + longest_extrapolation; ++time) {
-        const GameView commanded = path.view(time, *newest);
+        const GameView commanded = path.view(time, newest);
         const auto [offset, turn] = deviation(picture, commanded);
         candidates.push_back({time, offset, turn, offset + unit_of_a_turn * turn});
         least = std::min(least, candidates.back().misfit);
@@ -183,28 +189,40 @@ std::optional<DrawnView> locate(const CommandedPath& path, const drawn_record& p
     std::erase_if(candidates, [&](const Candidate& c) { return c.misfit > least + negligible; });
     const auto models = models_of(picture, drawn);
     for (Candidate& candidate : candidates)
-        candidate.misfit = misfit_of_players(path, candidate.time, *newest, models);
+        candidate.misfit = misfit_of_players(path, candidate.time, newest, models);
     const auto best = std::min_element(candidates.begin(), candidates.end(),
                                        [](const auto& a, const auto& b) { return a.misfit < b.misfit; });
     const auto latest = std::find_if(candidates.rbegin(), candidates.rend(), [&](const Candidate& c) {
         return c.misfit <= best->misfit + negligible;
     });
 
-    const std::size_t shown = path.snapshot_at(latest->time, *newest);
+    const std::size_t shown = path.snapshot_at(latest->time, newest);
     const int since = latest->time - snapshots[shown].frame.level_time;
     const int step =
-        shown < *newest ? snapshots[shown + 1].frame.level_time - snapshots[shown].frame.level_time : 1;
+        shown < newest ? snapshots[shown + 1].frame.level_time - snapshots[shown].frame.level_time : 1;
     const double age =
-        shown < *newest ? static_cast<double>(*newest - shown) - static_cast<double>(since) / step : 0.0;
+        shown < newest ? static_cast<double>(newest - shown) - static_cast<double>(since) / step : 0.0;
     DrawnView result{drawn,        best->time, latest->time, best->time, best->time,
-                     best->offset, best->turn, age,          *newest};
+                     best->offset, best->turn, age,          newest};
     constexpr double a_unit = 1.0;
     for (const Candidate& candidate : candidates) {
         if (candidate.misfit > best->misfit + a_unit) continue;
         result.earliest_guess = std::min(result.earliest_guess, candidate.time);
         result.latest_guess = std::max(result.latest_guess, candidate.time);
     }
-    return result;
+    return {result, least + best->misfit};
+}
+
+}  // namespace
+
+std::optional<DrawnView> locate(const CommandedPath& path, const drawn_record& picture) {
+    const auto newest = path.newest_at(picture.packet_time);
+    if (!newest) return std::nullopt;
+    const Located located = locate_with(path, picture, *newest);
+    if (*newest == 0) return located.drawn;
+    // The client may have read the packet before after that frame's end: it is sent a little later.
+    const Located earlier = locate_with(path, picture, *newest - 1);
+    return earlier.misfit + negligible < located.misfit ? earlier.drawn : located.drawn;
 }
 
 }  // namespace camdir::test
