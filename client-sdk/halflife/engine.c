@@ -14,6 +14,10 @@ double engine_time(void) {
     return (double)engine_globals->time;
 }
 
+double engine_frame_time(void) {
+    return (double)engine_globals->frame_time;
+}
+
 const char* engine_map_name(void) {
     return engine_text(engine_globals->map_name);
 }

@@ -159,7 +159,8 @@ _Static_assert(sizeof(struct cvar) == 20 && sizeof(struct plugin_info) == 36, ""
 
 /* Keeps the engine's functions and globals. */
 void engine_connect(const engine_function* table, const struct engine_globals* globals);
-double engine_time(void);
+double engine_time(void);       /* s since the map began, as exact as a float */
+double engine_frame_time(void); /* s since the previous frame */
 const char* engine_map_name(void);
 const char* engine_text(engine_string string); /* never null */
 /* The entity of a player, 1 .. max_clients; null: the engine has none. */

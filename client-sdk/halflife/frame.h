@@ -11,9 +11,11 @@
 enum { max_players = 32, max_events = 64 };
 
 struct settings { /* without padding: compared as bytes */
-    uint32_t enabled, domain;
+    uint32_t enabled;
+    uint32_t domain; /* UINT32_MAX when that is no number */
     float max_rate_hz;
     char match[64], network_interface[64], directors[256];
+    char error[128]; /* what is wrong with them; "" = nothing */
 };
 
 struct player_identity {

@@ -6,6 +6,7 @@
 
 #include "exchange.h"
 #include "game/thread.h"
+#include "game_clock.h"
 #include "messages.h"
 #include "players.h"
 #include "settings.h"
@@ -14,22 +15,24 @@
 static const double settings_interval = 1.0; /* s of game time; server.cfg is read after a map has begun */
 
 static struct {
-    struct worker* worker; /* null until the plugin was enabled during a map */
+    struct worker* worker; /* null: no thread could be started */
     struct ring* exchange;
     bool in_map;
     struct entity_list entities;
     struct match_state match;
     bool match_sent;
+    struct game_clock clock;
     double settings_read_at, frame_due_at; /* s of game time; less than 0: not yet in this map */
     struct server_frame frame;             /* collects the events of the next frame */
     uint64_t dropped_frames, dropped_events;
 } game;
 
-static bool has_worker(void) {
-    if (game.worker != NULL) return true;
+/* Before a map, also of a server that publishes nothing yet: a frame must not wait for memory and a thread. */
+static void start_worker(void) {
+    if (game.worker != NULL) return;
     if (game.exchange == NULL) game.exchange = exchange_create();
     if (game.exchange != NULL) game.worker = worker_start(game.exchange);
-    return game.worker != NULL;
+    if (game.worker == NULL) engine_print("director: no thread could be started\n");
 }
 
 void game_begin_map(struct entity* entities, int count, int max_clients,
@@ -39,13 +42,13 @@ void game_begin_map(struct entity* entities, int count, int max_clients,
     ++game.match.life;
     snprintf(game.match.map, sizeof game.match.map, "%s", engine_map_name());
     game.match_sent = false;
+    game.clock = (struct game_clock){0};
     game.settings_read_at = -1.0;
     game.frame_due_at = -1.0;
     game.frame.event_count = 0;
     players_reset();
     messages_reset(find_message);
-    /* Now, because a frame must not wait for memory and a thread. */
-    if (settings_read().enabled) (void)has_worker();
+    start_worker();
 }
 
 static void read_settings(double now) {
@@ -78,11 +81,9 @@ static bool frame_is_due(double now) {
 }
 
 void game_run_frame(void) {
-    if (!game.in_map) return;
-    const double now = engine_time();
+    if (!game.in_map || game.worker == NULL) return;
+    const double now = game_clock_advance(&game.clock, engine_time(), engine_frame_time());
     read_settings(now);
-    if (!game.match.settings.enabled && game.worker == NULL) return;
-    if (!has_worker()) return;
     send_match();
     if (!game.match.settings.enabled || !game.match_sent) return;
     players_damage(&game.entities, game_add_event);
@@ -134,7 +135,8 @@ void game_print_status(void) {
     if (game.worker != NULL) status = worker_read_status(game.worker);
     print_line("match", game.match.settings.match);
     print_line("map", game.in_map ? game.match.map : "none");
-    print_line("state", !game.match.settings.enabled ? "disabled"
+    print_line("state", game.worker == NULL             ? "no thread could be started"
+                        : !game.match.settings.enabled ? "disabled"
                         : status.error[0] != '\0'    ? status.error
                         : status.open                ? "publishing"
                                                      : "waiting for a map");

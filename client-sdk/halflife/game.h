@@ -1,6 +1,6 @@
 /*
  * The game's thread: samples the running map and sends it to the worker. Makes no system call after a map has
- * begun, except when the settings enable the plugin for the first time during a map.
+ * begun.
  */
 #ifndef CAMERA_DIRECTOR_HALFLIFE_GAME_H
 #define CAMERA_DIRECTOR_HALFLIFE_GAME_H

@@ -1,10 +1,10 @@
 #include "settings.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "engine.h"
+#include "game/setting.h"
 
 enum cvar_number { enable, match, domain, interface, directors, max_rate, cvar_count };
 
@@ -30,22 +30,26 @@ void settings_register(void) {
     server_port = engine_find_cvar("port");
 }
 
-static void copy_text(char* to, size_t size, enum cvar_number from) {
-    const char* text = registered[from]->text;
-    snprintf(to, size, "%s", text != NULL ? text : "");
+static const char* value_of(enum cvar_number number) {
+    const char* text = registered[number]->text;
+    return text != NULL ? text : "";
+}
+
+static void read_text(struct settings* settings, enum cvar_number number, char* text, size_t size) {
+    setting_text(text, size, cvars[number].name, value_of(number), settings->error, sizeof settings->error);
 }
 
 struct settings settings_read(void) {
     struct settings settings;
     memset(&settings, 0, sizeof settings);
     settings.enabled = registered[enable]->value != 0.0f ? 1u : 0u;
-    const float number = registered[domain]->value;
-    settings.domain = number >= 0.0f && number <= 230.0f ? (uint32_t)number : 0u;
-    const float rate = registered[max_rate]->value;
-    settings.max_rate_hz = rate >= 1.0f && rate <= 1000.0f ? rate : 100.0f;
-    copy_text(settings.match, sizeof settings.match, match);
-    copy_text(settings.network_interface, sizeof settings.network_interface, interface);
-    copy_text(settings.directors, sizeof settings.directors, directors);
+    settings.domain = setting_domain(value_of(domain));
+    settings.max_rate_hz = registered[max_rate]->value;
+    if (!(settings.max_rate_hz >= 1.0f && settings.max_rate_hz <= 1000.0f))
+        snprintf(settings.error, sizeof settings.error, "director_max_rate must be 1 to 1000");
+    read_text(&settings, match, settings.match, sizeof settings.match);
+    read_text(&settings, interface, settings.network_interface, sizeof settings.network_interface);
+    read_text(&settings, directors, settings.directors, sizeof settings.directors);
     if (settings.match[0] == '\0') {
         const char* port = server_port != NULL && server_port->text != NULL ? server_port->text : "0";
         snprintf(settings.match, sizeof settings.match, "halflife-%s", port);

@@ -6,7 +6,7 @@
 
 /* Registers the cvars with their defaults. Once, when the plugin is attached. */
 void settings_register(void);
-/* The present values, with those out of range replaced by their defaults. */
+/* The present values. */
 struct settings settings_read(void);
 
 #endif

@@ -9,11 +9,11 @@
 #include "game/published_match.h"
 #include "game/thread.h"
 
-static const int64_t live_sleep = 500000;              /* ns between looks into the ring during a map */
-static const int64_t idle_sleep = 20000000;            /* ns otherwise */
-static const int64_t retry_interval = 2000000000;      /* ns between attempts to open a match */
-static const int64_t director_interval = 500000000;    /* ns between looks at the number of directors */
-static const int64_t change_of_map_limit = 5000000000; /* ns without a map after which the match ends */
+static const int64_t live_sleep = 500000;               /* ns between looks into the ring during a map */
+static const int64_t idle_sleep = 20000000;             /* ns otherwise */
+static const int64_t retry_interval = 2000000000;       /* ns between attempts to open a match */
+static const int64_t director_interval = 500000000;     /* ns between looks at the number of directors */
+static const int64_t change_of_map_limit = 60000000000; /* ns without a map after which the match ends */
 
 struct worker {
     struct ring* exchange;
@@ -80,10 +80,37 @@ static bool announce(struct worker* worker) {
     return published_match_announce(&worker->match, &options, wanted->life, &info, players, player_count);
 }
 
+static struct worker* running; /* by the game's thread; null between worker_stop() and worker_start() */
+
+static void end(struct worker* worker) {
+    if (!atomic_exchange(&worker->stopping, true)) pthread_join(worker->thread, NULL);
+}
+
+static void end_at_exit(void) {
+    if (running != NULL) end(running);
+}
+
+/* Exit handlers run last to first: this one is registered after the client library's, so that the thread has
+ * ended before that closes all contexts. */
+static void end_before_contexts(void) {
+    static bool registered;
+    if (!registered) (void)atexit(end_at_exit);
+    registered = true;
+}
+
+/* Returns why nothing can be published; "" when the match is announced. */
+static const char* announced_or_why_not(struct worker* worker) {
+    if (worker->wanted.settings.error[0] != '\0') return worker->wanted.settings.error;
+    if (!announce(worker)) return cdir_last_error();
+    end_before_contexts();
+    return "";
+}
+
 static void try_to_announce(struct worker* worker) {
     const bool enabled = worker->wanted.settings.enabled != 0;
-    worker->failed = enabled && !announce(worker);
-    set_error(worker, worker->failed ? cdir_last_error() : "");
+    const char* error = enabled ? announced_or_why_not(worker) : "";
+    set_error(worker, error);
+    worker->failed = error[0] != '\0';
     if (worker->failed) worker->failed_at = clock_ns(CLOCK_MONOTONIC);
     if (worker->failed || !enabled) {
         close_match(worker);
@@ -155,20 +182,28 @@ static void handle(struct worker* worker, const struct message* message) {
     }
 }
 
+static void count_directors(struct worker* worker) {
+    const uint32_t directors = published_match_directors(&worker->match);
+    pthread_mutex_lock(&worker->status_mutex);
+    const uint32_t before = worker->status.directors;
+    worker->status.directors = directors;
+    pthread_mutex_unlock(&worker->status_mutex);
+    if (directors > 0 || before == 0) return;
+    /* One that only hung takes up a lost connection after a minute, but a new one at once. */
+    close_match(worker);
+    if (worker->in_map) try_to_announce(worker);
+}
+
 static void look_after_match(struct worker* worker) {
     const int64_t now = clock_ns(CLOCK_MONOTONIC);
     if (worker->failed && now >= worker->failed_at + retry_interval) try_to_announce(worker);
     if (!worker->match.open) return;
     if (!worker->in_map && now >= worker->map_ended_at + change_of_map_limit) {
         close_match(worker);
-        return;
+    } else if (now >= worker->directors_read_at + director_interval) {
+        worker->directors_read_at = now;
+        count_directors(worker);
     }
-    if (now < worker->directors_read_at + director_interval) return;
-    worker->directors_read_at = now;
-    const uint32_t directors = published_match_directors(&worker->match);
-    pthread_mutex_lock(&worker->status_mutex);
-    worker->status.directors = directors;
-    pthread_mutex_unlock(&worker->status_mutex);
 }
 
 static void* run(void* argument) {
@@ -179,7 +214,8 @@ static void* run(void* argument) {
             handle(worker, message);
             ring_release(worker->exchange);
         } else {
-            const struct timespec pause = {0, worker->in_map ? live_sleep : idle_sleep};
+            const bool live = worker->in_map && worker->wanted.settings.enabled;
+            const struct timespec pause = {0, live ? live_sleep : idle_sleep};
             nanosleep(&pause, NULL);
         }
         look_after_match(worker);
@@ -193,15 +229,18 @@ struct worker* worker_start(struct ring* exchange) {
     if (worker == NULL) return NULL;
     worker->exchange = exchange;
     pthread_mutex_init(&worker->status_mutex, NULL);
-    if (thread_start(&worker->thread, run, worker)) return worker;
+    if (thread_start(&worker->thread, run, worker)) {
+        running = worker;
+        return worker;
+    }
     pthread_mutex_destroy(&worker->status_mutex);
     free(worker);
     return NULL;
 }
 
 void worker_stop(struct worker* worker) {
-    atomic_store(&worker->stopping, true);
-    pthread_join(worker->thread, NULL);
+    end(worker);
+    running = NULL;
     pthread_mutex_destroy(&worker->status_mutex);
     free(worker);
 }

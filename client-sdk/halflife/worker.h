@@ -18,7 +18,8 @@ struct worker_status {
 
 /* `exchange` must outlive the worker. Null when there is no memory or no thread. */
 struct worker* worker_start(struct ring* exchange);
-/* Ends the match and the thread. Takes some milliseconds. */
+/* Ends the match and the thread, which takes some milliseconds. A process that exits ends them itself, before
+ * the client library leaves the network; the worker must be stopped nevertheless. */
 void worker_stop(struct worker* worker);
 /* From any thread; waits for the worker to copy at most. */
 struct worker_status worker_read_status(struct worker* worker);

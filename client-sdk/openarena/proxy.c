@@ -32,11 +32,11 @@ static struct proxy_counters counters;
 static struct frame_history history;
 
 /* The worker and what it has been sent. */
-static struct exchange* exchange; /* null until director_enable is set for the first time */
+static struct exchange* exchange; /* null: no thread could be started */
 static bool match_sent;
 static uint32_t sent_roster;
 static int settings_time; /* level time at which the settings were read */
-/* Events of frames that the worker could not take. */
+/* Events of the frames since the last one that the worker could take. */
 static struct game_event undelivered[max_events];
 static uint32_t undelivered_count;
 
@@ -101,8 +101,9 @@ static intptr_t forward(int command, const int arguments[game_call_arguments]) {
 
 /* ----------------------------------------------------------------------------------------- the worker */
 
+/* Before a life, also of a server that publishes nothing yet: a frame must not wait for memory and a thread. */
 static void start_worker(void) {
-    if (exchange != NULL || !settings.enable) return;
+    if (exchange != NULL) return;
     exchange = exchange_create();
     if (exchange == NULL || !worker_start(exchange)) {
         engine_print("camera director: no thread could be started, poses are not published\n");
@@ -129,7 +130,6 @@ static void read_settings(int level_time) {
     if (!settings_read(&settings)) return;
     match_sent = false;
     movers_reset(); /* a recording that begins now has every mover */
-    start_worker();
 }
 
 static void hand_over(const struct server_frame* frame) {

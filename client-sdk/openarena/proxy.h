@@ -26,7 +26,7 @@ struct proxy_counters {
 
 const struct proxy_counters* module_counters(void);
 const struct settings* module_settings(void);
-/* The newest report of this life, or null. Valid until vmMain() returns. */
+/* The newest report of this life, or null. Valid until the next call. */
 const struct director_report* module_report(void);
 /* The cvar mapname at the start of this life. */
 const char* module_map(void);

@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: GPL-2.0-or-later */
 #include "settings.h"
 
-#include <limits.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "engine.h"
+#include "game/setting.h"
 
 enum { default_port = 27960, default_rate_hz = 20 };
 
@@ -32,27 +31,21 @@ void settings_register(void) {
 }
 
 static uint32_t read_domain(void) {
-    char text[16], *end = NULL;
+    char text[16];
     engine_cvar_string("director_domain", text, sizeof text);
-    const long domain = strtol(text, &end, 10);
-    return end != text && *end == '\0' && domain >= 0 && domain <= INT_MAX ? (uint32_t)domain : UINT32_MAX;
+    return setting_domain(text);
 }
 
-/* A value that does not fit is an error, not another value. */
 static void read_text(struct settings* settings, const char* name, char* text, size_t size) {
     enum { longest = 256 }; /* of the engine's cvars */
     char value[longest];
     engine_cvar_string(name, value, sizeof value);
-    if (strlen(value) < size) {
-        memcpy(text, value, strlen(value));
-    } else {
-        snprintf(settings->error, sizeof settings->error, "%s is longer than %zu bytes", name, size - 1);
-    }
+    setting_text(text, size, name, value, settings->error, sizeof settings->error);
 }
 
 bool settings_read(struct settings* settings) {
     struct settings now;
-    memset(&now, 0, sizeof now); /* compared as bytes */
+    memset(&now, 0, sizeof now); /* compared as bytes: an assignment need not keep the padding */
     now.enable = engine_cvar_integer("director_enable") != 0;
     now.spectate = now.enable && engine_cvar_integer("director_spectate") != 0;
     now.domain = read_domain();
@@ -68,6 +61,6 @@ bool settings_read(struct settings* settings) {
     read_text(&now, "director_profile", now.profile, sizeof now.profile);
     read_text(&now, "director_record", now.record, sizeof now.record);
     if (memcmp(&now, settings, sizeof now) == 0) return false;
-    *settings = now;
+    memcpy(settings, &now, sizeof now);
     return true;
 }

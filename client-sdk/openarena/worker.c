@@ -14,11 +14,12 @@
 #include "shots.h"
 
 static const int64_t ns_per_s = 1000000000, ns_per_ms = 1000000;
-static const int64_t poll_ns = 250000;       /* while something is expected */
-static const int64_t early_ns = 500000;      /* before the next frame is due */
-static const int64_t idle_ns = 10000000;     /* longest sleep */
-static const int64_t retry_ns = 1000000000;  /* after a failure */
-static const int64_t linger_ns = 5000000000; /* after a life's end, until the match is closed */
+static const int64_t poll_ns = 250000;        /* while a frame is expected */
+static const int64_t early_ns = 500000;       /* before the next frame is due */
+static const int64_t idle_ns = 10000000;      /* longest sleep */
+static const int64_t answers_ns = 10000000;   /* between looks at all shots */
+static const int64_t retry_ns = 1000000000;   /* after a failure */
+static const int64_t linger_ns = 60000000000; /* after a life's end, until the match is closed */
 enum { max_backlog = 8 /* frames; the poses of older ones are not worth sending */ };
 
 static struct {
@@ -34,11 +35,14 @@ static struct {
     bool recording_failed; /* in this life and with this prefix */
     struct director_report report;
     bool report_changed;
+    const struct message* unrecorded; /* a frame that is published, and not released yet */
+    bool cameras_arrived;             /* for a shot that is behind */
 
     int64_t now;           /* CLOCK_MONOTONIC */
     int64_t retry_time;    /* not before: open the match */
     int64_t end_time;      /* of the last life */
     int64_t check_time;    /* of the next look at what changes seldom */
+    int64_t answers_time;  /* of the next look at all shots */
     int64_t frame_arrival; /* of the newest frame */
     int64_t frame_period;
     int32_t level_time; /* of the newest frame */
@@ -128,7 +132,7 @@ static void send_frame(const struct server_frame* frame) {
         fail();
     } else {
         shots_request(&worker.shots, worker.publisher.match.context, worker.match.settings.match,
-                      frame->viewers);
+                      frame->viewers, worker.now);
     }
 }
 
@@ -191,27 +195,42 @@ static void take_frame(const struct server_frame* frame) {
     worker.frame_arrival = worker.now;
     worker.level_time = frame->level_time;
     send_frame(frame);
-    record_frame(frame);
+}
+
+/* Once nothing else is to be done: a disk may be slow. */
+static void record_published(void) {
+    if (worker.unrecorded == NULL) return;
+    const struct server_frame* frame = &worker.unrecorded->frame;
+    if (worker.has_match && frame->life == worker.match.life) record_frame(frame);
+    worker.unrecorded = NULL;
+    exchange_release_message(worker.exchange);
+}
+
+static void take_message(const struct message* message) {
+    switch (message->kind) {
+        case message_match:
+            take_match(&message->match);
+            break;
+        case message_frame:
+            take_frame(&message->frame);
+            worker.unrecorded = message;
+            return;
+        case message_end:
+            close_recording();
+            worker.has_match = false;
+            worker.end_time = worker.now;
+            break;
+    }
+    exchange_release_message(worker.exchange);
 }
 
 static void take_messages(void) {
-    const struct message* message;
-    while (!atomic_load(&worker.stop) && (message = exchange_next_message(worker.exchange)) != NULL) {
+    while (!atomic_load(&worker.stop)) {
+        const uint32_t published = worker.unrecorded != NULL ? 1 : 0;
+        if (exchange_backlog(worker.exchange) == published) return;
+        record_published();
         worker.now = clock_ns(CLOCK_MONOTONIC);
-        switch (message->kind) {
-            case message_match:
-                take_match(&message->match);
-                break;
-            case message_frame:
-                take_frame(&message->frame);
-                break;
-            case message_end:
-                close_recording();
-                worker.has_match = false;
-                worker.end_time = worker.now;
-                break;
-        }
-        exchange_release_message(worker.exchange);
+        take_message(exchange_next_message(worker.exchange));
     }
 }
 
@@ -243,15 +262,47 @@ static void check_match(void) {
     check_directors();
 }
 
-static int64_t sleep_time(void) {
-    if (!worker.has_match) return idle_ns;
+static uint64_t shots_behind_newest(void) {
+    return worker.has_match ? shots_behind(&worker.shots, &worker.report, worker.level_time) : 0;
+}
+
+/* Each look at a shot takes some microseconds: at those alone for which something can have come. */
+static void look_at_shots(void) {
+    uint64_t slots = worker.cameras_arrived ? shots_behind_newest() : 0;
+    worker.cameras_arrived = false;
+    if (worker.now >= worker.answers_time) {
+        worker.answers_time = worker.now + answers_ns;
+        slots = UINT64_MAX;
+    }
+    if (shots_poll(&worker.shots, slots, worker.publisher.match.epoch, &worker.report)) {
+        worker.report_changed = true;
+    }
+}
+
+static void report(void) {
+    if (!worker.report_changed) return;
+    worker.report_changed = !exchange_send_report(worker.exchange, &worker.report);
+}
+
+static int64_t time_to_wait(void) {
+    if (!worker.has_match || !worker.match.settings.enable) return idle_ns;
     const int64_t age = worker.now - worker.frame_arrival, due = worker.frame_period - early_ns;
     if (age > 4 * worker.frame_period) return 4 * poll_ns; /* no frames: the server hangs */
-    /* A director answers within some milliseconds, or late. */
-    const bool expects_cameras =
-        age < worker.frame_period / 2 && shots_behind(&worker.shots, &worker.report, worker.level_time) > 0;
-    if (age >= due || expects_cameras) return poll_ns;
+    if (age >= due) return poll_ns;
     return due - age < idle_ns ? due - age : idle_ns;
+}
+
+/* Until a frame or a camera is expected to have come. */
+static void wait_for_work(void) {
+    const uint64_t behind = shots_behind_newest();
+    const int64_t record_time = worker.frame_arrival + worker.frame_period / 2; /* whatever is missing */
+    if (behind == 0 || worker.now >= record_time) record_published();
+    worker.now = clock_ns(CLOCK_MONOTONIC);
+    int64_t duration = time_to_wait();
+    if (worker.unrecorded != NULL && worker.now + duration > record_time) duration = poll_ns;
+    const cdir_status status = behind != 0 ? shots_wait(&worker.shots, behind, duration) : CDIR_NO_DATA;
+    worker.cameras_arrived = status == CDIR_OK;
+    if (status != CDIR_OK && status != CDIR_TIMEOUT) sleep_ns(duration);
 }
 
 static void* run(void* unused) {
@@ -259,15 +310,12 @@ static void* run(void* unused) {
     while (!atomic_load(&worker.stop)) {
         worker.now = clock_ns(CLOCK_MONOTONIC);
         take_messages();
-        if (shots_poll(&worker.shots, worker.publisher.match.epoch, &worker.report))
-            worker.report_changed = true;
+        look_at_shots();
         check_match();
-        if (worker.report_changed && exchange_send_report(worker.exchange, &worker.report)) {
-            worker.report_changed = false;
-        }
-        worker.now = clock_ns(CLOCK_MONOTONIC);
-        sleep_ns(sleep_time());
+        report();
+        wait_for_work();
     }
+    record_published();
     close_recording();
     disconnect();
     return NULL;
