@@ -3,6 +3,8 @@
 #include <cstdarg>
 #include <cstdio>
 #include <cstdlib>
+#include <iterator>
+#include <numeric>
 #include <stdexcept>
 
 #include "engine.h"
@@ -39,11 +41,23 @@ void FakeEngine::start_map(const std::string& map) {
     dllEntry(&FakeEngine::answer);
     running_ = true;
     call(GAME_INIT, level_time);
+    for (const int slot : clients_)
+        call(GAME_CLIENT_CONNECT, slot, 0, 0);
 }
 
 void FakeEngine::end_map() {
     call(GAME_SHUTDOWN);
     running_ = false;
+}
+
+void FakeEngine::connect(int slot) {
+    clients_.insert(slot);
+    call(GAME_CLIENT_CONNECT, slot, 1, 0);
+}
+
+void FakeEngine::disconnect(int slot) {
+    clients_.erase(slot);
+    call(GAME_CLIENT_DISCONNECT, slot);
 }
 
 void FakeEngine::run_frames(int count) {
@@ -76,7 +90,7 @@ __attribute__((no_sanitize("address"))) std::intptr_t FakeEngine::answer(std::in
                    ? engine.command[static_cast<std::size_t>(index)]
                    : std::string();
     };
-    enum { drop_client = 16 };
+    enum { drop_client = 16, call_with_all = 700 };
     switch (number) {
         case ENGINE_PRINT:
             engine.prints.push_back(text_at(a[0]));
@@ -113,6 +127,9 @@ __attribute__((no_sanitize("address"))) std::intptr_t FakeEngine::answer(std::in
         case ENGINE_GET_CONFIGSTRING:
             store(a[1], a[2], engine.configstrings[static_cast<int>(a[0])]);
             break;
+        case call_with_all:
+            return std::accumulate(std::begin(a), std::end(a), std::intptr_t{0},
+                                   [](std::intptr_t sum, std::intptr_t each) { return 16 * sum + each; });
         default:
             break;
     }

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -27,9 +28,12 @@ class FakeEngine {
     void end_map();
     // `count` frames of 50 ms.
     void run_frames(int count);
-    static std::intptr_t call(int command, int a0 = 0, int a11 = 0) {
-        return vmMain(command, a0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, a11);
+    static std::intptr_t call(int command, int a0 = 0, int a1 = 0, int a2 = 0) {
+        return vmMain(command, a0, a1, a2, 0, 0, 0, 0, 0, 0, 0, 0, 0);
     }
+    // A human spectator enters; clients stay over the ends of maps.
+    void connect(int slot);
+    void disconnect(int slot);
 
     [[nodiscard]] std::uint8_t* client(int slot) const;
     [[nodiscard]] std::uint8_t* entity(int number) const;
@@ -44,6 +48,7 @@ class FakeEngine {
   private:
     static std::intptr_t answer(std::intptr_t number, ...);
 
+    std::set<int> clients_;
     bool running_ = false;
     std::intptr_t located_[5] = {};
 };
