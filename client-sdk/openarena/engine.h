@@ -151,7 +151,7 @@ static inline void write_vector(uint8_t* structure, size_t offset, const float v
     memcpy(structure + offset, vector, 3 * sizeof *vector);
 }
 
-/* Sets what the functions below call; null after the game has shut down. */
+/* Sets what the functions below call. */
 void engine_attach(engine_call call);
 
 /* The game's arrays, as it announces them with ENGINE_LOCATE_GAME_DATA. Structures that are too small for the

@@ -12,13 +12,16 @@ void movers_reset(void) {
     memset(last_poses, 0, sizeof last_poses);
 }
 
-static struct mover_pose pose_of(const uint8_t* entity) {
-    struct mover_pose pose;
-    memset(&pose, 0, sizeof pose); /* compared as bytes */
-    pose.model = (int16_t)read_int(entity, ENTITY_MODEL_INDEX);
+static struct mover_pose mover_pose_of(const uint8_t* entity) {
+    struct mover_pose pose = {.model = (int16_t)read_int(entity, ENTITY_MODEL_INDEX)};
     read_vector(pose.origin, entity, ENTITY_ORIGIN);
     read_vector(pose.angles, entity, ENTITY_ANGLES);
     return pose;
+}
+
+static bool same_pose(const struct mover_pose* a, const struct mover_pose* b) {
+    return a->model == b->model && memcmp(a->origin, b->origin, sizeof a->origin) == 0 &&
+           memcmp(a->angles, b->angles, sizeof a->angles) == 0;
 }
 
 static bool is_finite(const struct mover_pose* pose) {
@@ -37,8 +40,8 @@ void movers_sample(struct server_frame* frame) {
             read_int(entity, ENTITY_BRUSH_MODEL) == 0) {
             continue;
         }
-        const struct mover_pose pose = pose_of(entity);
-        if (memcmp(&pose, &last_poses[number], sizeof pose) == 0 || !is_finite(&pose)) continue;
+        const struct mover_pose pose = mover_pose_of(entity);
+        if (same_pose(&pose, &last_poses[number]) || !is_finite(&pose)) continue;
         last_poses[number] = pose;
         frame->movers[frame->mover_count++] = pose;
     }

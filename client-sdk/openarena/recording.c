@@ -19,7 +19,7 @@ static const struct {
      "t_ms,player,x,y,z,pitch,yaw,roll,vx,vy,vz,viewheight,health,team,teleport_bit,alive,weapon\n", "wb3"},
     {"-events.csv.gz", "t_ms,kind,actor,subject,value\n", "wb3"},
     {"-movers.csv.gz", "t_ms,mover,x,y,z,pitch,yaw,roll\n", "wb3"},
-    {"-players.csv", "player,name,team\n", "wbT"},
+    {"-players.csv", "player,name,team,since_ms\n", "wbT"},
 };
 
 struct recording {
@@ -27,7 +27,14 @@ struct recording {
     gzFile files[file_count];
     int64_t frames, rows;
     int32_t first_time; /* level time */
-    struct roster_entry players[max_slots], took_part[max_slots];
+    int error; /* errno of the first write that failed; 0 = none */
+    struct roster_entry players[max_slots];
+    struct occupant {
+        struct roster_entry player; /* in_use: took part, and has no row yet */
+        int64_t since;              /* ms */
+        bool left;                  /* the slot was free since */
+        uint8_t teleport_bit, toggle;
+    } occupants[max_slots];
 };
 
 static void file_path(char path[path_size + suffix_size], const struct recording* recording, int kind,
@@ -92,6 +99,9 @@ struct recording* recording_open(const char* prefix, const char* map, time_t now
 
 void recording_set_players(struct recording* recording, const struct roster_entry players[max_slots]) {
     memcpy(recording->players, players, sizeof recording->players);
+    for (int slot = 0; slot < max_slots; ++slot) {
+        if (!players[slot].in_use) recording->occupants[slot].left = true;
+    }
 }
 
 int64_t recording_rows(const struct recording* recording) {
@@ -131,7 +141,41 @@ int mover_row(char row[max_row], int64_t t_ms, const struct mover_pose* mover) {
 }
 
 static bool write_row(struct recording* recording, int kind, const char* row, int length) {
-    return length > 0 && length < max_row && gzwrite(recording->files[kind], row, (unsigned)length) == length;
+    errno = 0;
+    if (length > 0 && length < max_row && gzwrite(recording->files[kind], row, (unsigned)length) == length) {
+        return true;
+    }
+    if (recording->error == 0) recording->error = errno != 0 ? errno : EIO;
+    return false;
+}
+
+static void write_occupant(struct recording* recording, int slot) {
+    char row[max_row];
+    struct occupant* occupant = &recording->occupants[slot];
+    struct roster_entry* player = &occupant->player;
+    if (!player->in_use) return;
+    for (char* c = player->name; *c != '\0'; ++c) {
+        if (*c == ',' || *c == '"') *c = '_';
+    }
+    (void)write_row(recording, player_file, row,
+                    snprintf(row, sizeof row, "%d,%s,%d,%lld\n", slot, player->name, player->team,
+                             (long long)occupant->since));
+}
+
+/* Another player than before in this slot gets a row of their own, and does not go on from where the former one
+ * was: their first pose is a teleport. */
+static void take_in_player(struct recording* recording, int slot, int64_t time, uint8_t teleport_bit) {
+    struct occupant* occupant = &recording->occupants[slot];
+    const struct roster_entry* player = &recording->players[slot];
+    const bool seen = occupant->player.in_use;
+    if (!seen || occupant->left || strcmp(occupant->player.name, player->name) != 0) {
+        if (seen && occupant->left && teleport_bit == occupant->teleport_bit) occupant->toggle ^= 1;
+        write_occupant(recording, slot);
+        occupant->since = time;
+        occupant->left = false;
+    }
+    occupant->player = *player;
+    occupant->teleport_bit = teleport_bit;
 }
 
 bool recording_add_frame(struct recording* recording, const struct server_frame* frame) {
@@ -140,10 +184,11 @@ bool recording_add_frame(struct recording* recording, const struct server_frame*
     if (recording->frames++ == 0) recording->first_time = frame->level_time;
     const int64_t time = (int64_t)frame->level_time - recording->first_time;
     for (int slot = 0; slot < max_slots && good; ++slot) {
-        const struct player_pose* pose = &frame->players[slot];
-        if (!pose->in_game || pose->spectator) continue;
-        good = write_row(recording, pose_file, row, pose_row(row, time, slot, pose));
-        recording->took_part[slot] = recording->players[slot];
+        struct player_pose pose = frame->players[slot];
+        if (!pose.in_game || pose.spectator) continue;
+        take_in_player(recording, slot, time, pose.teleport_bit);
+        pose.teleport_bit ^= recording->occupants[slot].toggle;
+        good = write_row(recording, pose_file, row, pose_row(row, time, slot, &pose));
         ++recording->rows;
     }
     for (uint32_t i = 0; i < frame->event_count && good; ++i) {
@@ -155,38 +200,46 @@ bool recording_add_frame(struct recording* recording, const struct server_frame*
     return good;
 }
 
-static bool write_players(struct recording* recording) {
-    char row[max_row];
-    bool good = true;
-    for (int slot = 0; slot < max_slots && good; ++slot) {
-        struct roster_entry* player = &recording->took_part[slot];
-        if (!player->in_use) continue;
-        for (char* c = player->name; *c != '\0'; ++c) {
-            if (*c == ',' || *c == '"') *c = '_';
+/* The poses get their name last: where they are, all of the set is. */
+static bool name_files(struct recording* recording) {
+    for (int kind = file_count - 1; kind >= 0; --kind) {
+        char from[path_size + suffix_size], to[path_size + suffix_size];
+        file_path(from, recording, kind, ".part");
+        file_path(to, recording, kind, "");
+        if (rename(from, to) != 0) {
+            recording->error = errno;
+            return false;
         }
-        good = write_row(recording, player_file, row,
-                         snprintf(row, sizeof row, "%d,%s,%d\n", slot, player->name, player->team));
+    }
+    return true;
+}
+
+static bool close_files(struct recording* recording) {
+    bool good = true;
+    for (int kind = 0; kind < file_count; ++kind) {
+        errno = 0;
+        good = gzclose(recording->files[kind]) == Z_OK && good;
+        if (recording->error == 0) recording->error = errno;
+        recording->files[kind] = NULL;
     }
     return good;
 }
 
-/* The poses get their name last: where they are, all of the set is. */
 bool recording_close(struct recording* recording, char* reason, size_t reason_size) {
-    bool good = write_players(recording);
-    for (int kind = 0; kind < file_count; ++kind) {
-        good = gzclose(recording->files[kind]) == Z_OK && good;
-        recording->files[kind] = NULL;
+    for (int slot = 0; slot < max_slots; ++slot) {
+        write_occupant(recording, slot);
     }
-    for (int kind = file_count - 1; kind >= 0 && good && recording->rows > 0; --kind) {
-        char from[path_size + suffix_size], to[path_size + suffix_size];
-        file_path(from, recording, kind, ".part");
-        file_path(to, recording, kind, "");
-        good = rename(from, to) == 0;
+    const bool written = recording->error == 0;
+    const bool closed = close_files(recording);
+    if (recording->rows == 0) {
+        discard(recording);
+        return true;
     }
+    const bool good = written && closed && name_files(recording);
     if (!good) {
-        snprintf(reason, reason_size, "the recording %s cannot be completed: %s", recording->path,
-                 errno != 0 ? strerror(errno) : "not written");
+        snprintf(reason, reason_size, "cannot write: %s; what was recorded is kept in %s*.part",
+                 strerror(recording->error), recording->path);
     }
-    discard(recording);
+    free(recording);
     return good;
 }

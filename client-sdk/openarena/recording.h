@@ -6,7 +6,8 @@
  *                                                `camera-director evaluate` reads
  *     PREFIX-MAP-YYYYMMDD-HHMMSS-events.csv.gz   t_ms,kind,actor,subject,value
  *     PREFIX-MAP-YYYYMMDD-HHMMSS-movers.csv.gz   t_ms,mover,x,y,z,pitch,yaw,roll; a row for each that moved
- *     PREFIX-MAP-YYYYMMDD-HHMMSS-players.csv     player,name,team of everyone who took part
+ *     PREFIX-MAP-YYYYMMDD-HHMMSS-players.csv     player,name,team,since_ms of everyone who took part: a row for
+ *                                                each name that a slot's player had, and for each new player in it
  *
  * Time counts from the first frame in all of them. Until they are complete their names end in ".part".
  */
@@ -33,8 +34,8 @@ void recording_set_players(struct recording* recording, const struct roster_entr
 bool recording_add_frame(struct recording* recording, const struct server_frame* frame);
 /* Pose rows so far. */
 int64_t recording_rows(const struct recording* recording);
-/* Completes the files and gives them their names. A recording without rows, or that cannot be completed,
- * leaves none; false and a reason in the latter case. */
+/* Completes the files and gives them their names. A recording without rows leaves none. Of one that cannot be
+ * completed, what was written stays in the ".part" files: returns false, and a reason that names them. */
 bool recording_close(struct recording* recording, char* reason, size_t reason_size);
 
 /* One row each with its line end; returns its length. */

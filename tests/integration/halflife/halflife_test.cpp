@@ -274,6 +274,30 @@ TEST_F(HalfLife, AnErrorOfTheSettingsIsInTheStatusAndTheServerRunsOn) {
     expect_end();
 }
 
+TEST_F(HalfLife, ASettingThatDoesNotFitIsInTheStatusAndNothingIsPublished) {
+    start({"set", "director_domain", "231", "map", "crossfire", "expect",
+           "director state: domain must be 0 to 230", "set", "director_domain", "none", "expect",
+           "director state: domain must be 0 to 230", "set", "director_match", std::string(64, 'm'), "expect",
+           "director state: director_match is longer than 63 bytes"});
+    expect_end();
+}
+
+TEST_F(HalfLife, TheMatchIsAnnouncedAnewWhenTheDirectorIsLost) {
+    start({"map", "crossfire", "join", "1", "anna", "0", "expect", "director directors: 1\n", "wait",
+           file("lost"), "expect", "director directors: 0\n", "wait", file("back"), "expect",
+           "director directors: 1\n", "wait", file("seen")});
+    const auto before = next_info();
+    ASSERT_TRUE(before);
+    ASSERT_TRUE(next_poses([](const ReceivedPoses&) { return true; }));
+    create("lost");
+    director_.reset();
+    create("back");
+    director_.emplace(domain_.number(), "cup");
+    EXPECT_TRUE(next_poses([&](const ReceivedPoses& poses) { return poses.epoch > before->epoch; }));
+    create("seen");
+    expect_end();
+}
+
 TEST_F(HalfLife, PlayersComeAndGo) {
     start({"map", "crossfire", "join", "1", "anna", "0", "wait", file("one"), "join", "2", "bart", "3",
            "wait", file("two"), "leave", "1", "wait", file("left")});

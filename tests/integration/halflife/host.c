@@ -6,6 +6,7 @@
  *
  * Ends with 0; on the first thing that a server could not bear, with 1 and the reason on standard error.
  */
+#include <dirent.h>
 #include <dlfcn.h>
 #include <math.h>
 #include <stdarg.h>
@@ -369,8 +370,20 @@ static int run_command(char** words, int count, void* library) {
     return command->arguments;
 }
 
+/* Exit handlers run last to first: this one after those of the plugin, which has ended all its threads. */
+static void expect_one_thread(void) {
+    int entries = 0;
+    DIR* tasks = opendir("/proc/self/task");
+    while (tasks != NULL && readdir(tasks) != NULL)
+        ++entries;
+    if (entries == 3) return; /* with . and .. */
+    fprintf(stderr, "halflife-host: %d threads at the end\n", entries - 2);
+    _exit(1);
+}
+
 int main(int count, char** words) {
     if (count < 2) fail("usage: halflife-host PLUGIN COMMAND [ARGUMENT ...] ...");
+    atexit(expect_one_thread);
     void* library = load(words[1]);
     for (int i = 2; i < count; ++i)
         i += run_command(&words[i], count - i, library);

@@ -4,7 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <malloc.h>
+
 #include <chrono>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <regex>
@@ -16,6 +19,7 @@
 #include "roster.h"
 #include "support/eventually.hpp"
 #include "support/temporary_folder.hpp"
+#include "support/test_domain.hpp"
 #include "unpacked.hpp"
 
 namespace camdir::openarena {
@@ -30,7 +34,7 @@ using testing::IsEmpty;
 TEST(OpenArenaProxy, ForwardsEveryCallWithItsArguments) {
     FakeEngine engine;
     engine.start_map("oa_dm1");
-    for (const int command : {GAME_CLIENT_THINK, GAME_RUN_BOTS, 77}) {
+    for (const int command : {int{GAME_CLIENT_THINK}, int{GAME_RUN_BOTS}, 77}) {
         auto digest = static_cast<std::uint32_t>(command);
         for (std::uint32_t argument = 1; argument <= 12; ++argument) {
             digest = 31 * digest + argument;
@@ -75,23 +79,66 @@ TEST(OpenArenaProxy, AClientThatIsDroppedWithinAFrameLeaves) {
     EXPECT_TRUE(roster_at(4)->in_use);
 }
 
+struct Resources {
+    std::ptrdiff_t descriptors, threads;
+    std::size_t heap;
+
+    static Resources used() {
+        const auto entries = [](const char* folder) {
+            const std::filesystem::directory_iterator all(folder);
+            return std::distance(begin(all), end(all));
+        };
+        return {entries("/proc/self/fd"), entries("/proc/self/task"), mallinfo2().uordblks};
+    }
+};
+
 TEST(OpenArenaProxy, AHundredMapsLeaveNothingBehind) {
-    const auto descriptors = [] {
-        const std::filesystem::directory_iterator all("/proc/self/fd");
-        return std::distance(begin(all), end(all));
-    };
+    const test::TestDomain domain;
     FakeEngine engine;
+    engine.cvars["director_enable"] = "1";
+    engine.cvars["director_domain"] = std::to_string(domain.id());
     engine.start_map("oa_dm1");
-    engine.run_frames(2);
-    const auto open_before = descriptors();
+    for (const int spectator : {8, 9})
+        engine.connect(spectator);
+    const auto published_anew = [&](std::uint64_t before) {
+        engine.run_frames(1);
+        return module_report() != nullptr && module_report()->epoch > before;
+    };
+    const auto change_map = [&](const char* map) {
+        const std::uint64_t before = module_report()->epoch;
+        engine.start_map(map);
+        return test::eventually([&] { return published_anew(before); });
+    };
+    ASSERT_TRUE(test::eventually([&] { return published_anew(0); }));
+    for (int i = 0; i < 10; ++i) {
+        ASSERT_TRUE(change_map("oa_dm3"));
+    }
+    const Resources before = Resources::used();
     const std::uint32_t life = module_life();
     for (int i = 0; i < 100; ++i) {
-        engine.start_map(i % 2 == 0 ? "oa_dm2" : "oa_dm1");
-        engine.run_frames(3);
+        ASSERT_TRUE(change_map(i % 2 == 0 ? "oa_dm2" : "oa_dm1"));
     }
+    const Resources after = Resources::used();
     EXPECT_EQ(module_life(), life + 100);
-    EXPECT_EQ(descriptors(), open_before);
+    EXPECT_EQ(after.descriptors, before.descriptors);
+    EXPECT_EQ(after.threads, before.threads);
+    EXPECT_LT(after.heap, before.heap + 100'000) << "1 kB a map";
     EXPECT_THAT(engine.errors, IsEmpty());
+    std::printf("heap %zu -> %zu\n", before.heap, after.heap);
+    engine.cvars["director_enable"] = "0";
+}
+
+// Enabled or not, the thread is there before the frames.
+TEST(OpenArenaProxy, NoFrameStartsTheThread) {
+    FakeEngine engine;
+    engine.start_map("oa_dm1");
+    const std::ptrdiff_t threads = Resources::used().threads;
+    EXPECT_GE(threads, 2);
+    engine.cvars["director_interface"] = "no-such-interface";
+    engine.cvars["director_enable"] = "1";
+    engine.run_frames(30);
+    EXPECT_EQ(Resources::used().threads, threads);
+    engine.cvars["director_enable"] = "0";
 }
 
 class OpenArenaRefusal : public testing::Test {

@@ -3,9 +3,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <sys/resource.h>
+
 #include <algorithm>
+#include <csignal>
 #include <filesystem>
 #include <memory>
+#include <random>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -94,7 +99,70 @@ TEST_F(OpenArenaRecording, WritesWhatEvaluateReads) {
         "t_ms,kind,actor,subject,value\n0,kill,1,2,MOD_ROCKET\n0,death,,2,MOD_FALLING\n0,damage,1,2,40\n");
     EXPECT_EQ(content("-movers.csv.gz"),
               "t_ms,mover,x,y,z,pitch,yaw,roll\n0,4,0.00,0.00,-8.00,0.00,90.00,0.00\n");
-    EXPECT_EQ(content("-players.csv"), "player,name,team\n2,A_b,1\n");
+    EXPECT_EQ(content("-players.csv"), "player,name,team,since_ms\n2,A_b,1,0\n");
+}
+
+TEST_F(OpenArenaRecording, WhoTakesASlotThatWasLeftIsAnotherPlayer) {
+    recording* match = open();
+    ASSERT_NE(match, nullptr) << reason;
+    const auto frame_with = [&](const std::string& name, int in_use = 1) {
+        players[2].in_use = static_cast<std::uint8_t>(in_use);
+        std::copy_n(name.c_str(), name.size() + 1, players[2].name);
+        recording_set_players(match, players);
+        frame->players[2].in_game = players[2].in_use;
+        EXPECT_TRUE(recording_add_frame(match, frame.get()));
+        frame->level_time += 50;
+    };
+    frame_with("anna");
+    frame_with("ann");  // has changed the name
+    frame_with("", 0);
+    frame_with("bart");  // at the same place, without a teleport
+    frame_with("", 0);
+    frame_with("bart");
+    EXPECT_TRUE(recording_close(match, reason, sizeof reason)) << reason;
+    EXPECT_EQ(content("-players.csv"),
+              "player,name,team,since_ms\n2,anna,1,0\n2,ann,1,50\n2,bart,1,150\n2,bart,1,250\n");
+    std::string teleport_bits;
+    std::istringstream rows(unpacked(folder / files()[3]));
+    std::string row;
+    std::getline(rows, row);
+    const std::string header = row;
+    while (std::getline(rows, row)) {
+        std::istringstream fields(row), names(header);
+        std::string field, name;
+        while (std::getline(names, name, ',') && std::getline(fields, field, ','))
+            if (name == "teleport_bit") teleport_bits += field;
+    }
+    EXPECT_EQ(teleport_bits, "1101");
+}
+
+// A file may not grow beyond 100 kB, as on a full disk.
+TEST_F(OpenArenaRecording, AFullDiskLeavesWhatWasWritten) {
+    recording* match = open();
+    ASSERT_NE(match, nullptr) << reason;
+    recording_set_players(match, players);
+    rlimit before{};
+    ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+    const rlimit small{100'000, before.rlim_max};
+    const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+    ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+    std::minstd_rand random;
+    bool good = true;
+    for (int i = 0; i < 100'000 && good; ++i) {
+        frame->players[2].origin[0] = static_cast<float>(random() % 10'000'000) / 100.0F;
+        good = recording_add_frame(match, frame.get());
+        frame->level_time += 50;
+    }
+    EXPECT_FALSE(good);
+    EXPECT_FALSE(recording_close(match, reason, sizeof reason));
+    setrlimit(RLIMIT_FSIZE, &before);
+    std::signal(SIGXFSZ, handler);
+    EXPECT_THAT(reason, HasSubstr("File too large"));
+    EXPECT_THAT(reason, HasSubstr(folder.path().string() + "/m-oa_dm1-"));
+    EXPECT_EQ(files().size(), 4U);
+    EXPECT_THAT(files(), testing::Each(EndsWith(".part")));
+    EXPECT_GT(unpacked(folder / files()[3]).size(), 100'000U);
+    EXPECT_THAT(content("-players.csv.part"), HasSubstr("2,A_b,1,0"));
 }
 
 TEST_F(OpenArenaRecording, AnEmptyOneLeavesNoFile) {
