@@ -27,7 +27,8 @@ static struct {
     uint64_t dropped_frames, dropped_events;
 } game;
 
-/* Before a map, also of a server that publishes nothing yet: a frame must not wait for memory and a thread. */
+/* Before a map, also of a server that publishes nothing yet: a frame must not wait for memory and a thread.
+ */
 static void start_worker(void) {
     if (game.worker != NULL) return;
     if (game.exchange == NULL) game.exchange = exchange_create();
@@ -135,11 +136,11 @@ void game_print_status(void) {
     if (game.worker != NULL) status = worker_read_status(game.worker);
     print_line("match", game.match.settings.match);
     print_line("map", game.in_map ? game.match.map : "none");
-    print_line("state", game.worker == NULL             ? "no thread could be started"
+    print_line("state", game.worker == NULL            ? "no thread could be started"
                         : !game.match.settings.enabled ? "disabled"
-                        : status.error[0] != '\0'    ? status.error
-                        : status.open                ? "publishing"
-                                                     : "waiting for a map");
+                        : status.error[0] != '\0'      ? status.error
+                        : status.open                  ? "publishing"
+                                                       : "waiting for a map");
     print_number("directors", status.directors);
     print_number("frames published", status.published_frames);
     print_number("frames dropped", game.dropped_frames);

@@ -230,6 +230,9 @@ struct worker* worker_start(struct ring* exchange) {
     worker->exchange = exchange;
     pthread_mutex_init(&worker->status_mutex, NULL);
     if (thread_start(&worker->thread, run, worker)) {
+        static bool registered;
+        if (!registered) (void)atexit(end_at_exit); /* for a worker that never reached the network */
+        registered = true;
         running = worker;
         return worker;
     }

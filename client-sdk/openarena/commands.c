@@ -74,6 +74,8 @@ static void describe_match(void) {
         on_console,
         "published %" PRIu64 " frames, %" PRIu64 " events; skipped %" PRIu64 " frames, failed %" PRIu64,
         report->published_frames, report->published_events, report->skipped_frames, report->failures);
+    if (report->recording_error[0] != '\0')
+        engine_print_line(on_console, "recording: %s", report->recording_error);
     if (report->recorded_rows >= 0)
         engine_print_line(on_console, "recorded %" PRId64 " rows", report->recorded_rows);
 }

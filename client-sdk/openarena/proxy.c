@@ -101,7 +101,8 @@ static intptr_t forward(int command, const int arguments[game_call_arguments]) {
 
 /* ----------------------------------------------------------------------------------------- the worker */
 
-/* Before a life, also of a server that publishes nothing yet: a frame must not wait for memory and a thread. */
+/* Before a life, also of a server that publishes nothing yet: a frame must not wait for memory and a thread.
+ */
 static void start_worker(void) {
     if (exchange != NULL) return;
     exchange = exchange_create();

@@ -27,7 +27,7 @@ struct recording {
     gzFile files[file_count];
     int64_t frames, rows;
     int32_t first_time; /* level time */
-    int error; /* errno of the first write that failed; 0 = none */
+    int error;          /* errno of the first write that failed; 0 = none */
     struct roster_entry players[max_slots];
     struct occupant {
         struct roster_entry player; /* in_use: took part, and has no row yet */
@@ -162,8 +162,8 @@ static void write_occupant(struct recording* recording, int slot) {
                              (long long)occupant->since));
 }
 
-/* Another player than before in this slot gets a row of their own, and does not go on from where the former one
- * was: their first pose is a teleport. */
+/* Another player than before in this slot gets a row of their own, and does not go on from where the former
+ * one was: their first pose is a teleport. */
 static void take_in_player(struct recording* recording, int slot, int64_t time, uint8_t teleport_bit) {
     struct occupant* occupant = &recording->occupants[slot];
     const struct roster_entry* player = &recording->players[slot];

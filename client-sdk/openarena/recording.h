@@ -6,8 +6,8 @@
  *                                                `camera-director evaluate` reads
  *     PREFIX-MAP-YYYYMMDD-HHMMSS-events.csv.gz   t_ms,kind,actor,subject,value
  *     PREFIX-MAP-YYYYMMDD-HHMMSS-movers.csv.gz   t_ms,mover,x,y,z,pitch,yaw,roll; a row for each that moved
- *     PREFIX-MAP-YYYYMMDD-HHMMSS-players.csv     player,name,team,since_ms of everyone who took part: a row for
- *                                                each name that a slot's player had, and for each new player in it
+ *     PREFIX-MAP-YYYYMMDD-HHMMSS-players.csv     player,name,team,since_ms of everyone who took part: a row
+ * for each name that a slot's player had, and for each new player in it
  *
  * Time counts from the first frame in all of them. Until they are complete their names end in ".part".
  */

@@ -42,8 +42,7 @@ void shots_request(struct shots* shots, cdir_context context, const char* match_
         if (!viewer->active) {
             close_shot(shot);
         } else if (!(shot->open && same_request(&shot->request, viewer)) && now >= shot->retry_time) {
-            const bool good =
-                open_shot(shot, context, match_id, slot) && request_shot(shot, viewer);
+            const bool good = open_shot(shot, context, match_id, slot) && request_shot(shot, viewer);
             snprintf(shot->error, sizeof shot->error, "%s", good ? "" : cdir_last_error());
             shot->retry_time = good ? 0 : now + retry_ns;
         }

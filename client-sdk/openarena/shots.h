@@ -10,7 +10,7 @@ struct shots {
     struct shot {
         bool open;
         cdir_observer observer;
-        struct viewer_request request; /* as requested */
+        struct viewer_request request;                      /* as requested */
         char error[sizeof((struct viewer_shot*)0)->reason]; /* of the last attempt to request it; "" = none */
         int64_t retry_time;                                 /* no attempt before that */
     } slots[max_slots];

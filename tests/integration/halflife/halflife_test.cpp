@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -283,15 +284,14 @@ TEST_F(HalfLife, ASettingThatDoesNotFitIsInTheStatusAndNothingIsPublished) {
 }
 
 TEST_F(HalfLife, TheMatchIsAnnouncedAnewWhenTheDirectorIsLost) {
-    start({"map", "crossfire", "join", "1", "anna", "0", "expect", "director directors: 1\n", "wait",
-           file("lost"), "expect", "director directors: 0\n", "wait", file("back"), "expect",
-           "director directors: 1\n", "wait", file("seen")});
+    start({"map", "crossfire", "join", "1", "anna", "0", "expect", "director directors: 1\n", "create",
+           file("met"), "expect", "director directors: 0\n", "create", file("missed"), "wait", file("seen")});
     const auto before = next_info();
     ASSERT_TRUE(before);
     ASSERT_TRUE(next_poses([](const ReceivedPoses&) { return true; }));
-    create("lost");
+    ASSERT_TRUE(eventually([&] { return std::filesystem::exists(file("met")); }));
     director_.reset();
-    create("back");
+    ASSERT_TRUE(eventually([&] { return std::filesystem::exists(file("missed")); }));
     director_.emplace(domain_.number(), "cup");
     EXPECT_TRUE(next_poses([&](const ReceivedPoses& poses) { return poses.epoch > before->epoch; }));
     create("seen");

@@ -249,6 +249,11 @@ static void await_file(const char* path, int with_rounds) {
     fail("no file %s", path);
 }
 
+static void create_file(const char* path) {
+    FILE* file = fopen(path, "w");
+    if (file == NULL || fclose(file) != 0) fail("cannot create %s", path);
+}
+
 static void begin_map(const char* name) {
     memset(entities, 0, sizeof entities);
     globals.time = 1.0f;
@@ -323,10 +328,10 @@ struct command {
 /* Runs the command; words[0] is its name. Returns the number of its arguments. */
 static int run_command(char** words, int count, void* library) {
     static const struct command commands[] = {
-        {"set", 2},    {"map", 1},   {"end", 0},    {"join", 3},   {"leave", 1}, {"spectate", 1},
-        {"place", 7},  {"walk", 4},  {"turn", 1},   {"kill", 3},   {"hurt", 3},  {"rocket", 3},
-        {"wild", 1},   {"spawn", 1}, {"broken", 1}, {"pickup", 2}, {"round", 0}, {"run", 1},
-        {"expect", 1}, {"wait", 1},  {"rounds", 1}, {"status", 0}, {"detach", 0}};
+        {"set", 2},    {"map", 1},   {"end", 0},    {"join", 3},   {"leave", 1},  {"spectate", 1},
+        {"place", 7},  {"walk", 4},  {"turn", 1},   {"kill", 3},   {"hurt", 3},   {"rocket", 3},
+        {"wild", 1},   {"spawn", 1}, {"broken", 1}, {"pickup", 2}, {"round", 0},  {"run", 1},
+        {"expect", 1}, {"wait", 1},  {"rounds", 1}, {"status", 0}, {"detach", 0}, {"create", 1}};
     const char* name = words[0];
     const struct command* command = NULL;
     for (size_t i = 0; i < sizeof commands / sizeof *commands; ++i)
@@ -366,6 +371,7 @@ static int run_command(char** words, int count, void* library) {
     if (strcmp(name, "wait") == 0) await_file(first, 0);
     if (strcmp(name, "rounds") == 0) await_file(first, 1);
     if (strcmp(name, "status") == 0) fputs(status(), stdout);
+    if (strcmp(name, "create") == 0) create_file(first);
     if (strcmp(name, "detach") == 0) detach(library);
     return command->arguments;
 }

@@ -1,5 +1,5 @@
-// The game module with an engine and a game of the tests, eight bots and human spectators, and a director of the tests
-// over real DDS.
+// The game module with an engine and a game of the tests, eight bots and human spectators, and a director of
+// the tests over real DDS.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -17,8 +17,8 @@
 namespace camdir::test {
 namespace {
 
-// Answers every request, and every frame with the cameras of the accepted shots, which stand at x = the observer's
-// number and look at player 100 + number.
+// Answers every request, and every frame with the cameras of the accepted shots, which stand at x = the
+// observer's number and look at player 100 + number.
 class Cameraman {
   public:
     explicit Cameraman(std::uint32_t domain) : director_(domain, "cup") {}

@@ -59,7 +59,8 @@ TEST_F(HalfLifeSettings, ADomainThatIsNoneIsNotAnotherOne) {
     EXPECT_EQ(read_with("director_domain", "230").domain, 230U);
     EXPECT_EQ(read_with("director_domain", "231").domain, 231U) << "which the client library refuses";
     for (const char* text : {"", "-1", "abc", "1.5"})
-        EXPECT_EQ(read_with("director_domain", text).domain, std::numeric_limits<std::uint32_t>::max()) << text;
+        EXPECT_EQ(read_with("director_domain", text).domain, std::numeric_limits<std::uint32_t>::max())
+            << text;
 }
 
 TEST_F(HalfLifeSettings, AValueThatDoesNotFitIsAnError) {
@@ -71,7 +72,8 @@ TEST_F(HalfLifeSettings, AValueThatDoesNotFitIsAnError) {
 TEST_F(HalfLifeSettings, ARateOutOfRangeIsAnError) {
     EXPECT_STREQ(read_with("director_max_rate", "1000").error, "");
     for (const char* text : {"0", "-5", "1001", "nan", "fast"})
-        EXPECT_STREQ(read_with("director_max_rate", text).error, "director_max_rate must be 1 to 1000") << text;
+        EXPECT_STREQ(read_with("director_max_rate", text).error, "director_max_rate must be 1 to 1000")
+            << text;
 }
 
 }  // namespace
