@@ -5,6 +5,10 @@
 
 #include "exchange.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* All 0 = none. */
 struct shots {
     struct shot {
@@ -30,5 +34,9 @@ cdir_status shots_wait(const struct shots* shots, uint64_t slots, int64_t timeou
  * Returns true when something new did. */
 bool shots_poll(struct shots* shots, uint64_t slots, uint64_t epoch, struct director_report* report);
 void shots_close(struct shots* shots);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -7,7 +7,6 @@
 #include <malloc.h>
 
 #include <chrono>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <regex>
@@ -124,7 +123,6 @@ TEST(OpenArenaProxy, AHundredMapsLeaveNothingBehind) {
     EXPECT_EQ(after.threads, before.threads);
     EXPECT_LT(after.heap, before.heap + 100'000) << "1 kB a map";
     EXPECT_THAT(engine.errors, IsEmpty());
-    std::printf("heap %zu -> %zu\n", before.heap, after.heap);
     engine.cvars["director_enable"] = "0";
 }
 
