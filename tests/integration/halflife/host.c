@@ -382,6 +382,7 @@ static void expect_one_thread(void) {
     DIR* tasks = opendir("/proc/self/task");
     while (tasks != NULL && readdir(tasks) != NULL)
         ++entries;
+    if (tasks != NULL) closedir(tasks);
     if (entries == 3) return; /* with . and .. */
     fprintf(stderr, "halflife-host: %d threads at the end\n", entries - 2);
     _exit(1);
