@@ -106,7 +106,8 @@ ViewerFigures figures_of(const CommandedPath& path, int slot, const std::vector<
         const auto drawn = picture.time < begin ? std::nullopt : locate(path, picture);
         if (!drawn) continue;
         ++figures.pictures;
-        const std::size_t from = path.snapshot_at(drawn->time, drawn->newest);
+        // Where nothing moves, all times look alike: the latest.
+        const std::size_t from = path.snapshot_at(drawn->latest_time, drawn->newest);
         const std::size_t to = std::min(from + 1, drawn->newest);
         const witness_record &first = path.snapshots()[from].frame, &second = path.snapshots()[to].frame;
         if (!is_overlaid(first, slot) || !is_overlaid(second, slot)) continue;
@@ -118,7 +119,7 @@ ViewerFigures figures_of(const CommandedPath& path, int slot, const std::vector<
         figures.age.add(drawn->age);
         figures.offset.add(drawn->offset);
         figures.turn.add(drawn->turn);
-        const double since = drawn->time - first.level_time;
+        const double since = drawn->latest_time - first.level_time;
         const double drawn_age = static_cast<double>(picture.time - first.time) / ms - since;
         figures.pose_to_picture_ms.add(drawn_age);
         if (const auto camera = newest_camera(tape, first.time))
@@ -131,6 +132,11 @@ std::int64_t now() {
     return std::chrono::steady_clock::now().time_since_epoch().count();
 }
 
+// Small pictures: drawing them without a graphics card must not make the others late.
+GameClientOptions client_options(const Run& run) {
+    return {.snaps = run.rate, .width = 320, .height = 180};
+}
+
 // The server's figures without the module, for comparison: how often this machine makes it late.
 ServerFigures measure_plain(const Run& run) {
     constexpr double long_enough = 60.0;
@@ -138,7 +144,7 @@ ServerFigures measure_plain(const Run& run) {
         {.map = run.map, .rate = run.rate, .bots = bots, .settings = {}, .module = plain_module()});
     if (!server.ready(bots))
         throw std::runtime_error("the server does not start: " + server.console().output());
-    GameClient client(server.port(), {.snaps = run.rate});
+    GameClient client(server.port(), client_options(run));
     if (!client.draws(1)) throw std::runtime_error("the client does not start: " + client.console().output());
     const std::int64_t begin = now();
     std::this_thread::sleep_for(std::chrono::duration<double>(std::min(run.seconds, long_enough)));
@@ -158,7 +164,7 @@ void measure(const Run& run) {
     const CameraTape tape(domain.id(), "openarena-" + std::to_string(server.port()));
     if (!server.ready(bots))
         throw std::runtime_error("the server does not start: " + server.console().output());
-    Spectator spectator(server, tape, {.snaps = run.rate});
+    Spectator spectator(server, tape, client_options(run));
     if (!spectator.joins()) {
         throw std::runtime_error("no spectator sees the director's camera: " +
                                  spectator.client().console().output());

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <sstream>
 
 #include "live_match.hpp"
 #include "oracle/oracle.hpp"
@@ -90,28 +91,38 @@ class Lateness {
     const std::vector<drawn_record>& pictures_;
 };
 
-// No picture between the views on both sides of a cut, none that stands still while newer snapshots wait,
-// none that is older than interpolation needs.
+// What is wrong with a picture, and with its place after the one before: it shows a view between those on
+// both sides of a cut, stands still while newer snapshots wait, or is older than interpolation needs.
+std::string fault(const CommandedPath& path, const Judged& picture, const Judged* before, double late) {
+    constexpr double interval = 50.0;          // ms
+    constexpr double sets_clock_anew = 100.0;  // ms: a client that is off by more
+    const DrawnView& drawn = picture.drawn;
+    std::ostringstream text;
+    if (drawn.offset > 0.1) text << drawn.offset << " units off the commanded path; ";
+    if (drawn.turn > 0.1) text << drawn.turn << " degrees off the commanded view; ";
+    if (drawn.age > 1.5 + late / interval) text << drawn.age << " snapshots behind; ";
+    if (before != nullptr && late <= sets_clock_anew && drawn.latest_time <= before->drawn.time &&
+        path.snapshots()[drawn.newest].frame.level_time > before->drawn.time)
+        text << "stands still; ";
+    if (text.tellp() > 0) text << "at " << drawn.time << " ms, " << late << " ms late\n";
+    return text.str();
+}
+
+// All pictures of a machine that draws in time, and nearly all others.
 void expect_views_as_commanded(const CommandedPath& path, const std::vector<Judged>& pictures,
                                const Lateness& lateness) {
-    for (const Judged& picture : pictures) {
-        const DrawnView& drawn = picture.drawn;
-        EXPECT_LE(drawn.offset, 0.1) << "units off the commanded path at " << drawn.time << " ms";
-        EXPECT_LE(drawn.turn, 0.1) << "degrees off the commanded view at " << drawn.time << " ms";
-        constexpr double interval = 50.0;  // ms
-        const double late = lateness.before(picture.picture);
-        EXPECT_LE(drawn.age, 1.5 + late / interval)
-            << "snapshots behind at " << drawn.time << " ms; server and client were up to " << late
-            << " ms late";
+    constexpr double tolerable = 25.0;  // ms
+    std::size_t faults_of_late_ones = 0;
+    for (std::size_t i = 0; i < pictures.size(); ++i) {
+        const double late = lateness.before(pictures[i].picture);
+        const std::string found = fault(path, pictures[i], i > 0 ? &pictures[i - 1] : nullptr, late);
+        if (late > tolerable) {
+            faults_of_late_ones += !found.empty();
+        } else {
+            EXPECT_EQ(found, "");
+        }
     }
-    for (std::size_t i = 1; i < pictures.size(); ++i) {
-        const DrawnView& before = pictures[i - 1].drawn;
-        const DrawnView& after = pictures[i].drawn;
-        if (path.snapshots()[after.newest].frame.level_time <= before.time) continue;
-        constexpr double sets_clock_anew = 100.0;  // ms: a client that is off by more
-        if (lateness.before(pictures[i].picture) > sets_clock_anew) continue;
-        EXPECT_GT(after.latest_time, before.time) << "stands still";
-    }
+    EXPECT_LE(faults_of_late_ones, 1 + pictures.size() / 50);
 }
 
 // Between two snapshots that are not separated by a cut the camera moves as a camera can.
@@ -199,11 +210,10 @@ class Markers {
                 << "pixels of a player behind the camera at " << time << " ms";
             return;
         }
-        // Pixels. Clients extrapolate players, and not the camera, while a snapshot is late.
-        const int extrapolated = std::max(0, time - path_.snapshots()[picture.drawn.newest].frame.level_time);
-        const double tolerance = 1.5 + 0.1 * extrapolated;
-        SCOPED_TRACE(std::to_string(time) + " ms, of them " + std::to_string(extrapolated) +
-                     " ms extrapolated");
+        // Clients extrapolate players, and not the camera, while a snapshot is late.
+        if (time > path_.snapshots()[picture.drawn.newest].frame.level_time) return;
+        constexpr double tolerance = 1.5;  // pixels
+        SCOPED_TRACE(std::to_string(time) + " ms");
         EXPECT_GE(seen.marker_left, box->left - tolerance);
         EXPECT_GE(seen.marker_top, box->top - tolerance);
         EXPECT_LE(seen.marker_right + 1, box->right + tolerance);
