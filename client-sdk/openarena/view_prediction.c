@@ -97,9 +97,8 @@ static void keep_in_place(struct view* view, const double then[3], const double 
     const double raised = asin(fmax(-1.0, fmin(1.0, radius > 0 ? now[2] / radius : 0)));
     const double ahead = level < 0 ? 180 / degrees - raised : raised;
     const double new_pitch = wrapped((elevation - ahead) * degrees);
-    if (fabs(new_pitch) > max_pitch) return;
     const double new_yaw = atan2(now[1], now[0]) - atan2(left, radius * cos(ahead));
-    view->angles[0] = (float)new_pitch;
+    view->angles[0] = (float)fmax(-max_pitch, fmin(max_pitch, new_pitch));
     view->angles[1] = (float)wrapped(new_yaw * degrees);
 }
 

@@ -141,6 +141,23 @@ TEST(OpenArenaViewPrediction, TurnsWithATargetThatStaysInTheCentre) {
     EXPECT_NEAR(shown.angles[1], 45, 1e-4);
 }
 
+// In the upper half of the picture; following below the camera it would be turned over.
+TEST(OpenArenaViewPrediction, TurnsAsFarAsItCanWithATargetBelow) {
+    const viewer_camera camera = camera_at(1000, {0, 0, 0}, orientation_of(60, 0, 0));
+    camera_motion motion{};
+    camera_motion_take(&motion, &camera);
+    const player_pose then = player_at({100, 0, -80});
+    double pitch = 0;
+    for (const double x : {80.0, 60.0, 40.0, 20.0, 5.0}) {
+        const player_pose now = player_at({x, 0, -100});
+        const view shown = predict_view(&motion, 1050, &then, &now);
+        EXPECT_GE(shown.angles[0], pitch);
+        EXPECT_NEAR(shown.angles[1], 0, 1e-4);
+        pitch = shown.angles[0];
+    }
+    EXPECT_NEAR(pitch, 89, 1e-4);
+}
+
 class OpenArenaViewInMotion : public testing::Test {
   protected:
     OpenArenaViewInMotion() {
