@@ -221,7 +221,7 @@ TEST(Take, ADamagedArchiveIsRefused) {
     const std::string trace = folder / "trace.csv.gz", cameras = folder / "cameras.csv";
     std::ofstream(cameras) << camera_header << "0,4,0,0,0,1,0,0,0,0\n";
     const auto reason_after = [&](auto damage) -> std::string {
-        const gzFile file = gzopen(trace.c_str(), "wb");
+        gzFile file = gzopen(trace.c_str(), "wb");
         gzputs(file, trace_header.c_str());
         for (int t = 0; t < 2000; ++t)
             gzprintf(file, "%d,4,%d.%d,0,0,0,0,0,0,0,26,0,1\n", t, t * 7919 % 10007, t);
