@@ -5,13 +5,13 @@
 #include <cmath>
 #include <cstdlib>
 #include <mutex>
-#include <numbers>
 
 #include "checks.hpp"
 #include "context.hpp"
 #include "game_match.hpp"
 #include "handle_table.hpp"
 #include "observer.hpp"
+#include "orientation.hpp"
 
 namespace camdir::sdk {
 
@@ -84,21 +84,6 @@ std::span<const cdir_player> player_span(const cdir_player* players, std::uint32
     require(count <= CDIR_MAX_PLAYERS, "player_count is greater than CDIR_MAX_PLAYERS");
     require(count == 0 || players != nullptr, "players is null");
     return {players, count};
-}
-
-// About z by yaw, then about y by pitch, then about x by roll.
-void store_orientation(const float* pitch_yaw_roll, float* orientation) {
-    constexpr double half_degree = std::numbers::pi / 360.0;
-    const double pitch = pitch_yaw_roll[0] * half_degree;
-    const double yaw = pitch_yaw_roll[1] * half_degree;
-    const double roll = pitch_yaw_roll[2] * half_degree;
-    const double sp = std::sin(pitch), cp = std::cos(pitch);
-    const double sy = std::sin(yaw), cy = std::cos(yaw);
-    const double sr = std::sin(roll), cr = std::cos(roll);
-    orientation[0] = static_cast<float>(sr * cp * cy - cr * sp * sy);
-    orientation[1] = static_cast<float>(cr * sp * cy + sr * cp * sy);
-    orientation[2] = static_cast<float>(cr * cp * sy - sr * sp * cy);
-    orientation[3] = static_cast<float>(cr * cp * cy + sr * sp * sy);
 }
 
 cdir_status store(std::optional<cdir_view> found, cdir_view* view) {

@@ -161,7 +161,7 @@ void Observer::take_info_and_status() {
         if (taken == Taken::data) {
             match_.accept(*status_sample_);
         } else if (status_sample_->observer_id == observer_id_) {
-            match_.status_withdrawn();
+            taken == Taken::disposed ? match_.status_withdrawn() : match_.director_gone();
         }
     }
 }
@@ -169,7 +169,9 @@ void Observer::take_info_and_status() {
 // Takes the next valid frame. Returns false when none waits.
 bool Observer::take_frame() {
     for (Taken taken; (taken = frame_sample_.take(frame_reader_)) != Taken::nothing;) {
-        if (taken == Taken::data && match_.accept(*frame_sample_, steady_ns())) return true;
+        if (taken != Taken::data || !match_.accept(*frame_sample_, steady_ns())) continue;
+        if (frame_sample_.has_writer()) match_.director_seen();
+        return true;
     }
     return false;
 }

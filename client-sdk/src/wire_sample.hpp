@@ -3,13 +3,15 @@
 
 #include <dds/dds.h>
 
+#include <optional>
 #include <utility>
 
 #include "entity.hpp"
 
 namespace camdir::sdk {
 
-enum class Taken { nothing, data, ended };  // ended: the instance has no writer; only its key is set
+// Of an instance that its writer has disposed, and of one whose writers are gone, only the key is set.
+enum class Taken { nothing, data, disposed, abandoned };
 
 // The sample's sequences keep their memory, so that taking does not allocate once they have grown.
 template <class Wire>
@@ -21,30 +23,37 @@ class WireSample {
     ~WireSample() { dds_sample_free(&value_, &type_, DDS_FREE_CONTENTS); }
 
     [[nodiscard]] Taken take(const Entity& reader) {
-        if (std::exchange(end_pending_, false)) return Taken::ended;
+        if (const auto end = std::exchange(pending_end_, std::nullopt)) return *end;
         void* buffer = &value_;
         dds_sample_info_t info{};
         while (true) {
             const dds_return_t count = dds_take(reader.get(), &buffer, &info, 1, 1);
             check_dds("cannot read", count);
             if (count == 0) return Taken::nothing;
-            const bool alive = info.instance_state == DDS_IST_ALIVE;
+            const auto end = end_of(info.instance_state);
             if (info.valid_data) {
-                end_pending_ = !alive;
+                pending_end_ = end;
                 return Taken::data;
             }
-            if (!alive) return Taken::ended;
+            if (end) return *end;
         }
     }
 
+    // After data: whether its instance has a writer still.
+    [[nodiscard]] bool has_writer() const { return !pending_end_; }
     [[nodiscard]] const Wire& operator*() const { return value_; }
     [[nodiscard]] const Wire* operator->() const { return &value_; }
 
   private:
+    static std::optional<Taken> end_of(dds_instance_state_t state) {
+        if (state == DDS_IST_ALIVE) return std::nullopt;
+        return state == DDS_IST_NOT_ALIVE_DISPOSED ? Taken::disposed : Taken::abandoned;
+    }
+
     const dds_topic_descriptor_t& type_;
     Wire value_{};
     // When an instance has ended after its last sample, DDS reports both with that one sample.
-    bool end_pending_ = false;
+    std::optional<Taken> pending_end_;
 };
 
 }  // namespace camdir::sdk

@@ -87,10 +87,13 @@ dds_return_t MatchEndpoints::withdraw(const std::string& observer_id) {
 }
 
 bool MatchEndpoints::peer_left() {
-    dds_subscription_matched_status_t status{};
-    if (dds_get_subscription_matched_status(peer_status_reader_, &status) != DDS_RETCODE_OK) return false;
+    dds_subscription_matched_status_t matched{};
+    dds_liveliness_changed_status_t liveliness{};
+    dds_get_subscription_matched_status(peer_status_reader_, &matched);
+    dds_get_liveliness_changed_status(peer_status_reader_, &liveliness);
     // total_count_change counts arrivals, current_count_change arrivals less departures.
-    return status.current_count_change < static_cast<std::int32_t>(status.total_count_change);
+    return matched.current_count_change < static_cast<std::int32_t>(matched.total_count_change) ||
+           liveliness.not_alive_count_change > 0;
 }
 
 void MatchEndpoints::republish_statuses() {

@@ -34,7 +34,7 @@ class MatchEndpoints {
     // Disposes the observer's status.
     [[nodiscard]] dds_return_t withdraw(const std::string& observer_id);
 
-    // True when a peer director of the match has left since the last call. One thread at a time.
+    // True when a peer director of the match has left or died since the last call. One thread at a time.
     [[nodiscard]] bool peer_left();
     // Writes the newest status of every observer again: readers drop what a standby writes while its leader
     // is alive. Thread-safe.

@@ -9,6 +9,9 @@ namespace {
 // this.
 constexpr dds_duration_t max_blocking_time = DDS_MSECS(100);
 
+// Until then readers drop the answers of a dead director's successor.
+constexpr dds_duration_t status_lease = DDS_SECS(1);
+
 }  // namespace
 
 Qos reader_qos(Topic topic) {
@@ -26,6 +29,8 @@ Qos writer_qos(Topic topic, const Leadership& leadership) {
     if (topic == Topic::camera_frame) {
         dds_qset_liveliness(qos.get(), DDS_LIVELINESS_MANUAL_BY_TOPIC, DDS_MSECS(leadership.lease.count()));
         dds_qset_lifespan(qos.get(), DDS_SECS(1));
+    } else {
+        dds_qset_liveliness(qos.get(), DDS_LIVELINESS_AUTOMATIC, status_lease);
     }
     dds_qset_ownership_strength(qos.get(), leadership.strength);
     // A director that leaves must hand its instances over to the next one, not dispose them.

@@ -14,9 +14,9 @@ namespace {
 
 constexpr std::size_t samples_per_take = 32;
 
-// Observers notice on their own, by the lease of its participant (10 s), that a director has gone.
-constexpr std::chrono::seconds republish_interval{2};
-constexpr std::chrono::seconds republish_span{30};
+// Observers notice on their own, by the lease of its statuses, that a director has gone.
+constexpr std::chrono::seconds republish_interval{1};
+constexpr std::chrono::seconds republish_span{10};
 
 // Tags in the waitset that are not a Source.
 const char guard_tag = 0;
@@ -218,6 +218,7 @@ Result<void> Subscriber::add_match(const director::MatchInfo& info) {
     match = std::make_unique<Match>();
     match->info = info;
     match->endpoints = std::move(*endpoints);
+    match->republish_until = Clock::now() + republish_span;  // a director may have died before this one came
     match->poses = {match.get(), &Subscriber::take_poses};
     match->events = {match.get(), &Subscriber::take_events};
     match->requests = {match.get(), &Subscriber::take_requests};

@@ -23,8 +23,8 @@ namespace camdir::dds {
 
 // Finds matches by their MatchInfo in the configured partitions. A match's partition is read until the
 // director has forgotten the match and its game server is gone. The thread also asserts the liveliness of the
-// camera writers while the ingress is responsive, and republishes a match's statuses after a peer director
-// has left.
+// camera writers while the ingress is responsive, and republishes a match's statuses after it was found and
+// after a peer director has left.
 class Subscriber {
   public:
     struct Options {

@@ -91,6 +91,39 @@ TEST_F(FailureTest, AServerThatIsKilledAndStartedAgainFindsItsMatches) {
     })) << server->log();
 }
 
+// The observer's reader takes the dead director for the owner of the answer until its lease ends.
+TEST_F(FailureTest, AShotThatIsChangedWhileTheDirectorIsDeadIsShownByTheNextOne) {
+    const Context context(connection(domain_.id()));
+    const Game game(context, "cup", "hall");
+    Observer observer(context, "cup", "anna");
+    observer.request({.target = 2});
+    Server first(domain_.id(), {.strength = 200, .director_id = 10});
+    ASSERT_TRUE(sees_own_camera(observer)) << first.log();
+    first.process().send_signal(SIGKILL);
+    EXPECT_EQ(first.process().wait(), -SIGKILL);
+    observer.request({.target = 1});
+    const Server next(domain_.id(), {.strength = 100, .director_id = 11});
+    EXPECT_TRUE(eventually([&] {
+        observer.poll();
+        const auto view = observer.newest_camera();
+        return view && view->camera.target == 1;
+    })) << next.log();
+}
+
+TEST_F(FailureTest, ADirectorThatWasStoppedGoesOn) {
+    const Context context(connection(domain_.id()));
+    const Game game(context, "cup", "hall");
+    Observer observer(context, "cup", "anna");
+    observer.request({.target = 2});
+    Server server(domain_.id());
+    ASSERT_TRUE(sees_own_camera(observer)) << server.log();
+    server.process().send_signal(SIGSTOP);
+    EXPECT_TRUE(comes_to(observer, CDIR_SHOT_UNANSWERED));
+    server.process().send_signal(SIGCONT);
+    EXPECT_TRUE(comes_to(observer, CDIR_SHOT_ACCEPTED)) << server.log();
+    EXPECT_TRUE(sees_own_camera(observer)) << server.log();
+}
+
 TEST_F(FailureTest, TheStandbyTakesOverWithTheSameCameraIds) {
     Server leader(domain_.id(), {.participant_index = 0, .strength = 200, .director_id = 10});
     Server standby(domain_.id(), {.participant_index = 1, .strength = 100, .director_id = 20});

@@ -222,14 +222,23 @@ TEST(OpenArenaProxy, ASecondCopyOnlyForwards) {
     engine.cvars["director_module"] = "";
 }
 
-// The worker falls behind, while a game that never pauses kills a player in every frame.
-TEST(OpenArenaProxy, EventsOfAFrameThatWasDroppedGoWithTheNext) {
+// A match that is recorded and cannot be published.
+class OpenArenaUnpublished : public testing::Test {
+  protected:
+    OpenArenaUnpublished() {
+        engine.cvars["director_enable"] = "1";
+        engine.cvars["director_interface"] = "no-such-interface";
+        engine.cvars["director_record"] = (folder / "m").string();
+        engine.start_map("oa_dm1");
+    }
+    ~OpenArenaUnpublished() override { engine.cvars["director_enable"] = "0"; }
+
     test::TemporaryFolder folder;
     FakeEngine engine;
-    engine.cvars["director_enable"] = "1";
-    engine.cvars["director_interface"] = "no-such-interface";
-    engine.cvars["director_record"] = (folder / "m").string();
-    engine.start_map("oa_dm1");
+};
+
+// The worker falls behind, while a game that never pauses kills a player in every frame.
+TEST_F(OpenArenaUnpublished, EventsOfAFrameThatWasDroppedGoWithTheNext) {
     const auto dropped = [] { return module_counters()->dropped; };
     const std::uint64_t dropped_before = dropped();
     std::ptrdiff_t kills = 0;
@@ -259,17 +268,10 @@ TEST(OpenArenaProxy, EventsOfAFrameThatWasDroppedGoWithTheNext) {
         return false;
     }));
     EXPECT_EQ(recorded, kills);
-    engine.cvars["director_enable"] = "0";
 }
 
-// No network interface of that name: the reason is told, the game goes on and is recorded.
-TEST(OpenArenaProxy, RecordsWithoutANetwork) {
-    test::TemporaryFolder folder;
-    FakeEngine engine;
-    engine.cvars["director_enable"] = "1";
-    engine.cvars["director_interface"] = "no-such-interface";
-    engine.cvars["director_record"] = (folder / "m").string();
-    engine.start_map("oa_dm1");
+// The reason is told, and the game goes on.
+TEST_F(OpenArenaUnpublished, IsRecorded) {
     const auto frames_are_recorded = [&] {
         engine.run_frames(1);
         const director_report* report = module_report();
@@ -286,7 +288,6 @@ TEST(OpenArenaProxy, RecordsWithoutANetwork) {
         }
         return complete == 4;
     }));
-    engine.cvars["director_enable"] = "0";
 }
 
 }  // namespace

@@ -1,63 +1,19 @@
+// What a spectator is shown.
 #include "viewers.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <rapidcheck.h>
-#include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "fake_server.hpp"
+#include "viewers_fixture.hpp"
 
 namespace camdir::openarena {
 namespace {
 
 using testing::ElementsAre;
 using testing::IsEmpty;
-
-constexpr int viewer = 4, anna = 0, bob = 1;
-
-class OpenArenaViewers : public testing::Test {
-  protected:
-    OpenArenaViewers() {
-        game.connect_bot(anna, "Anna");
-        game.connect_bot(bob, "Bob");
-        game.connect_spectator(viewer, "Eve");
-        for (int i = 0; i < 3; ++i)
-            game.run_frame();
-    }
-
-    // Frames with a camera that is one frame late, as live.
-    void watch(int target, std::uint32_t segment, int frames = 1) {
-        for (int i = 0; i < frames; ++i) {
-            game.set_camera(viewer, target, segment, x += 5);
-            game.run_frame();
-        }
-    }
-    std::array<float, 3> shown_position() {
-        std::array<float, 3> result = vector(PS_ORIGIN);
-        result[2] += static_cast<float>(read_int(game.state(viewer), PS_VIEW_HEIGHT));
-        return result;
-    }
-    std::array<float, 3> vector(std::size_t offset) {
-        std::array<float, 3> result;
-        read_vector(result.data(), game.state(viewer), offset);
-        return result;
-    }
-    bool follows(int target) {
-        const State own = game.own(viewer);
-        return (read_int(own.data(), PS_PM_FLAGS) & PM_FLAG_FOLLOW) != 0 &&
-               read_int(own.data(), PS_CLIENT_NUMBER) == target;
-    }
-    bool flies_freely() {
-        return !game.shows_camera(viewer) && read_int(game.state(viewer), PS_PM_TYPE) == PM_SPECTATOR &&
-               read_int(game.state(viewer), PS_PM_FLAGS) == 0;
-    }
-
-    FakeServer game;
-    float x = 0;
-};
 
 TEST_F(OpenArenaViewers, WhoSpectatesGetsTheDirectorsCamera) {
     EXPECT_EQ(game.request(viewer).active, 1);
@@ -81,14 +37,6 @@ TEST_F(OpenArenaViewers, TheGameNeverSeesTheOverlay) {
     EXPECT_TRUE(game.shows_camera(viewer));
 }
 
-// The engine drops clients that timed out after the frame and before it sends the snapshots.
-TEST_F(OpenArenaViewers, TheCameraStaysWhileOthersAreDropped) {
-    watch(anna, 1, 3);
-    const State camera = game.snapshot(viewer);
-    game.disconnect(bob);
-    EXPECT_EQ(game.snapshot(viewer), camera);
-}
-
 TEST_F(OpenArenaViewers, PlayersAreNeverTouched) {
     game.connect_spectator(5, "Dan");
     game.join_team(5, team_red);
@@ -102,34 +50,10 @@ TEST_F(OpenArenaViewers, PlayersAreNeverTouched) {
     }
 }
 
-TEST_F(OpenArenaViewers, AViewerWhoJoinsATeamIsAPlayerAtOnce) {
-    watch(anna, 1, 3);
-    game.join_team(viewer, team_free);
-    const State before = game.snapshot(viewer);
-    EXPECT_EQ(read_int(before.data(), PS_PM_TYPE), PM_NORMAL) << "even before the next frame";
-    game.run_frame();
-    EXPECT_FALSE(game.shows_camera(viewer));
-    EXPECT_EQ(game.snapshot(viewer), game.own(viewer));
-    game.join_team(viewer, team_spectator);
-    watch(anna, 2, 4);
-    EXPECT_TRUE(game.shows_camera(viewer));
-}
-
 TEST_F(OpenArenaViewers, TheCameraIsPredictedFromItsTwoNewestFrames) {
     watch(anna, 1, 3);
     EXPECT_THAT(shown_position(), ElementsAre(17.5F, 0, 50))
         << "15 of the frame before, and half a step of 5";
-}
-
-TEST_F(OpenArenaViewers, TheTeleportBitTogglesExactlyAtSegments) {
-    watch(anna, 1);
-    int bit = game.teleport_bit(viewer);
-    for (const std::uint32_t segment : {1, 1, 2, 2, 2, 9, 3, 3}) {
-        const bool cut = segment != game.report.cameras[viewer].segment;
-        watch(anna, segment);
-        EXPECT_EQ(game.teleport_bit(viewer) != bit, cut) << segment;
-        bit = game.teleport_bit(viewer);
-    }
 }
 
 TEST_F(OpenArenaViewers, TheGamesOwnViewFollowsTheDirectorsTarget) {
@@ -232,16 +156,6 @@ TEST_F(OpenArenaViewers, FreeFlightIsHandedBackWhereItWas) {
     }
 }
 
-TEST_F(OpenArenaViewers, WhenThePlayerLeavesTheDirectorChoosesAnother) {
-    watch(anna, 1, 3);
-    game.disconnect(anna);
-    watch(anna, 1);
-    EXPECT_TRUE(game.shows_camera(viewer));
-    EXPECT_EQ(game.request(viewer).mode, viewer_auto);
-    watch(bob, 2, 2);
-    EXPECT_TRUE(follows(bob));
-}
-
 TEST_F(OpenArenaViewers, OffIsTheGamesOwnSpectating) {
     watch(anna, 1, 3);
     EXPECT_TRUE(game.client_command(viewer, {"director", "off"}));
@@ -252,52 +166,6 @@ TEST_F(OpenArenaViewers, OffIsTheGamesOwnSpectating) {
         watch(anna, 1);
         EXPECT_EQ(game.snapshot(viewer), game.own(viewer));
         EXPECT_TRUE(follows(bob));
-    }
-}
-
-// A client blends two snapshots in a row of one client number and teleport bit.
-bool blends(const State& before, const State& after) {
-    const int changed = read_int(before.data(), PS_EFLAGS) ^ read_int(after.data(), PS_EFLAGS);
-    return (changed & EFLAG_TELEPORT) == 0 &&
-           read_int(before.data(), PS_CLIENT_NUMBER) == read_int(after.data(), PS_CLIENT_NUMBER);
-}
-
-TEST_F(OpenArenaViewers, JoiningATeamIsACutForTheClient) {
-    const auto join = [&](const std::string& how) {
-        if (how == "command") game.client_command(viewer, {"team", "f"});
-        if (how == "console") game.join_team(viewer, team_red);
-        if (how == "game") game.in_next_frame([&] { game.join_team(viewer, team_free); });
-        if (how == "name") {
-            game.change_name(viewer, "Eva");
-            game.join_team(viewer, team_free);
-            game.change_name(viewer, "Eve");
-        }
-        game.run_frame();
-    };
-    std::uint32_t segment = 1;
-    for (const std::string how : {"command", "console", "game", "name"}) {
-        for (int state = 0; state < 64; ++state) {
-            SCOPED_TRACE(how + ", " + std::to_string(state));
-            game.join_team(viewer, team_spectator);
-            game.client_command(viewer, {"director", "auto"});
-            for (int i = 0; i < 4; ++i)
-                watch(state & 1 ? anna : bob, ++segment);
-            if (state & 2) game.client_command(viewer, {"follow", "0"});
-            if (state & 4) game.respawn(anna);
-            if (state & 8) watch(anna, segment);
-            if (state & 16) watch(anna, ++segment);
-            if (state & 32) game.respawn(bob);
-            const State sent = game.sent(viewer);
-            ASSERT_EQ(read_int(sent.data(), PS_PM_FLAGS), PM_FLAG_FOLLOW) << "the camera";
-            ASSERT_EQ(read_int(sent.data(), PS_CLIENT_NUMBER), viewer);
-            const State anna_before = game.snapshot(anna);
-            join(how);
-            EXPECT_FALSE(game.shows_camera(viewer));
-            EXPECT_EQ(read_int(game.state(viewer), PS_PM_TYPE), PM_NORMAL);
-            EXPECT_FALSE(blends(sent, game.snapshot(viewer)));
-            EXPECT_EQ(game.snapshot(viewer), game.own(viewer));
-            EXPECT_EQ(game.snapshot(anna), anna_before) << "another player";
-        }
     }
 }
 
@@ -314,39 +182,6 @@ TEST_F(OpenArenaViewers, APlayersStateIsTheGamesOwnFromTheSpawnOn) {
     EXPECT_EQ(game.snapshot(viewer), spawned);
 }
 
-// Clients take at most every frame, or skip frames when `snaps` is lower than the server's rate.
-TEST_F(OpenArenaViewers, NoChangeOfViewIsBlendedWhenAClientSkipsFrames) {
-    const auto view = [&] {
-        if (game.shows_camera(viewer)) return std::string("camera");
-        const State state = game.snapshot(viewer);
-        if (read_int(state.data(), PS_PM_TYPE) == PM_NORMAL && read_int(state.data(), PS_PM_FLAGS) == 0)
-            return std::string("player");
-        return std::to_string(read_int(state.data(), PS_PM_FLAGS));
-    };
-    for (const int every : {1, 2}) {
-        for (int phase = 0; phase < every; ++phase) {
-            State received = game.snapshot(viewer);
-            std::string received_view = view();
-            for (int i = 0; i < 400; ++i) {
-                if (i % 20 == 3) game.join_team(viewer, team_free);
-                if (i % 20 == 7 + i / 20 % 3) game.join_team(viewer, team_spectator);
-                if (i % 20 == 15 && i % 3 == 0) game.client_command(viewer, {"director", "off"});
-                if (i % 20 == 17) game.client_command(viewer, {"director", "auto"});
-                if (i % 40 > 30 && i % 40 < 37)
-                    game.run_frame();
-                else
-                    watch(anna, 1);
-                if (i % every != phase) continue;
-                const State state = game.snapshot(viewer);
-                EXPECT_FALSE(view() != received_view && blends(received, state))
-                    << received_view << " to " << view() << ", frame " << i << ", every " << every;
-                received = state;
-                received_view = view();
-            }
-        }
-    }
-}
-
 TEST_F(OpenArenaViewers, ACameraOfTheFutureDoesNotKeepOutTheNextOnes) {
     watch(anna, 1, 3);
     game.set_camera(viewer, anna, 1, x += 5);
@@ -354,117 +189,6 @@ TEST_F(OpenArenaViewers, ACameraOfTheFutureDoesNotKeepOutTheNextOnes) {
     game.run_frame();
     watch(anna, 1, 10);
     EXPECT_TRUE(game.shows_camera(viewer));
-}
-
-TEST_F(OpenArenaViewers, ASlotIsReusedWithinOneFrame) {
-    game.client_command(viewer, {"director", "profile", "wide"});
-    watch(anna, 1, 3);
-    game.client_command(viewer, {"follow", "1"});
-    game.call([&] {
-        game.disconnect(viewer);
-        game.connect_spectator(viewer, "Dan");
-    });
-    watch(anna, 1);
-    EXPECT_TRUE(flies_freely());
-    EXPECT_EQ(game.request(viewer).mode, viewer_auto);
-    EXPECT_STREQ(game.request(viewer).profile, "");
-    EXPECT_EQ(vector(PS_ORIGIN)[0], 400) << "where the game spawned them";
-    watch(anna, 1, 3);
-    EXPECT_TRUE(game.shows_camera(viewer));
-    game.call([&] {
-        game.disconnect(viewer);
-        game.connect_bot(viewer, "Bot");
-    });
-    watch(anna, 1);
-    EXPECT_EQ(game.snapshot(viewer), game.own(viewer));
-    EXPECT_EQ(game.request(viewer).active, 0);
-}
-
-TEST_F(OpenArenaViewers, ClientsDropInMidFrame) {
-    watch(anna, 1, 3);
-    game.in_next_frame([&] { game.disconnect(anna); });
-    watch(anna, 1);
-    EXPECT_TRUE(game.shows_camera(viewer)) << "the old shot until the new one comes";
-    EXPECT_EQ(game.request(viewer).mode, viewer_auto);
-    game.in_next_frame([&] { game.disconnect(viewer); });
-    watch(bob, 2);
-    EXPECT_EQ(game.request(viewer).active, 0);
-    EXPECT_EQ(game.snapshot(viewer), game.own(viewer));
-    game.call([&] { game.disconnect(viewer); });  // once more
-    watch(bob, 2);
-    EXPECT_EQ(game.snapshot(viewer), game.own(viewer));
-}
-
-TEST_F(OpenArenaViewers, AKickedViewerLeavesNothingBehind) {
-    watch(anna, 1, 3);
-    const State bots[] = {game.snapshot(anna), game.snapshot(bob)};
-    game.console_command({"director", "profile", "wide", "4"});
-    game.disconnect(viewer);
-    watch(anna, 1, 3);
-    EXPECT_EQ(game.snapshot(viewer), game.own(viewer));
-    EXPECT_EQ(game.snapshot(anna), bots[0]);
-    EXPECT_EQ(game.snapshot(bob), bots[1]);
-    viewer_status status{};
-    EXPECT_FALSE(viewers_status(viewer, &status));
-}
-
-TEST_F(OpenArenaViewers, ARestartWhileACameraIsShown) {
-    for (const bool same_map : {true, false}) {
-        watch(anna, 1, 5);
-        ASSERT_TRUE(game.shows_camera(viewer));
-        const director_report stale = game.report;
-        game.restart(same_map);
-        EXPECT_EQ(read_int(game.state(viewer), PS_CLIENT_NUMBER), viewer);
-        EXPECT_FALSE(game.shows_camera(viewer));
-        for (int i = 0; i < 6; ++i) {
-            game.report = stale;  // level times that are over, or in the future
-            game.run_frame();
-            EXPECT_FALSE(game.shows_camera(viewer)) << i;
-            EXPECT_EQ(game.snapshot(viewer), game.own(viewer));
-        }
-        EXPECT_EQ(game.request(viewer).mode, viewer_auto);
-    }
-}
-
-TEST_F(OpenArenaViewers, AnIntermissionIsACutAndEndsTheCamera) {
-    for (std::uint32_t segment = 1; segment < 3; ++segment) {
-        watch(anna, 1, 3);
-        watch(anna, segment, 1);
-        const State sent = game.snapshot(viewer);
-        ASSERT_TRUE(game.shows_camera(viewer));
-        game.begin_intermission();
-        watch(anna, segment);
-        EXPECT_EQ(read_int(game.state(viewer), PS_PM_TYPE), PM_INTERMISSION);
-        EXPECT_FALSE(blends(sent, game.snapshot(viewer)));
-        EXPECT_EQ(game.snapshot(viewer), game.own(viewer));
-        game.restart(true);
-        watch(anna, 1, 3);
-    }
-}
-
-TEST_F(OpenArenaViewers, TheCameraComesAndGoesWithTheSetting) {
-    watch(anna, 1, 3);
-    for (int i = 0; i < 20; ++i) {
-        const State sent = game.snapshot(viewer);
-        const bool camera = game.shows_camera(viewer);
-        game.options.spectate ^= 1;
-        watch(anna, 1, i % 4 + 1);
-        EXPECT_FALSE(camera && i % 4 == 0 && blends(sent, game.snapshot(viewer)));
-        EXPECT_EQ(game.request(viewer).active, game.options.spectate);
-        EXPECT_TRUE(game.options.spectate != 0 || flies_freely());
-    }
-}
-
-TEST_F(OpenArenaViewers, LevelTimesUpToTheLargest) {
-    game.level_time = std::numeric_limits<std::int32_t>::max() - 2000;
-    game.run_frame();
-    watch(anna, 1, 30);
-    EXPECT_TRUE(game.shows_camera(viewer));
-    EXPECT_TRUE(follows(anna));
-    game.restart(false);
-    watch(bob, 2, 5);
-    EXPECT_TRUE(game.shows_camera(viewer)) << "of the new life, whose time is small";
-    EXPECT_TRUE(follows(bob));
 }
 
 TEST_F(OpenArenaViewers, IntermissionsAreLeftAlone) {
@@ -475,51 +199,6 @@ TEST_F(OpenArenaViewers, IntermissionsAreLeftAlone) {
         EXPECT_EQ(read_int(game.state(viewer), PS_PM_TYPE), PM_INTERMISSION);
     }
     EXPECT_EQ(game.snapshot(viewer), game.own(viewer));
-    EXPECT_EQ(game.request(viewer).mode, viewer_auto);
-}
-
-TEST_F(OpenArenaViewers, DeathAndRespawnOfTheTargetCutWhereTheDirectorCuts) {
-    watch(anna, 1, 3);
-    int bit = game.teleport_bit(viewer);
-    game.kill(anna);
-    watch(anna, 1, 3);
-    EXPECT_EQ(game.teleport_bit(viewer), bit);
-    EXPECT_EQ(vector(PS_VIEW_ANGLES)[0], 0) << "does not look down after the body's eye";
-    game.respawn(anna);
-    watch(anna, 1);
-    EXPECT_EQ(game.teleport_bit(viewer), bit) << "until the director's camera jumps";
-    watch(anna, 2);
-    EXPECT_NE(game.teleport_bit(viewer), bit);
-}
-
-TEST_F(OpenArenaViewers, ChoicesOutliveAMapButNotAConnection) {
-    game.client_command(viewer, {"director", "off"});
-    game.client_command(viewer, {"director", "profile", "wide"});
-    game.restart(false);
-    game.run_frame();
-    EXPECT_EQ(game.request(viewer).active, 0);
-    game.client_command(viewer, {"director", "auto"});
-    game.run_frame();
-    EXPECT_STREQ(game.request(viewer).profile, "wide");
-    game.disconnect(viewer);
-    game.options.profile[0] = 'd';
-    game.connect_spectator(viewer, "Dan");
-    game.run_frame();
-    EXPECT_EQ(game.request(viewer).active, 1);
-    EXPECT_STREQ(game.request(viewer).profile, "d");
-    EXPECT_FALSE(game.shows_camera(viewer));
-}
-
-TEST_F(OpenArenaViewers, ASlotsNextClientInheritsNothing) {
-    watch(anna, 1, 3);
-    game.disconnect(viewer);
-    game.connect_bot(viewer, "Bot");
-    watch(anna, 1, 3);
-    EXPECT_EQ(game.snapshot(viewer), game.own(viewer));
-    game.disconnect(viewer);
-    game.connect_spectator(viewer, "Dan");
-    game.run_frame();
-    EXPECT_TRUE(flies_freely());
     EXPECT_EQ(game.request(viewer).mode, viewer_auto);
 }
 
@@ -565,60 +244,6 @@ TEST_F(OpenArenaViewers, EachHasAShotOfTheirOwn) {
     EXPECT_EQ(other[0], 1000);
     EXPECT_NE(shown_position()[0], 1000);
     EXPECT_TRUE(game.shows_camera(viewer) && game.shows_camera(5));
-}
-
-// Whatever happens in whatever order: players are not touched, the game sees its own states, and exactly the
-// jumps between views are declared.
-TEST(OpenArenaViewersProperty, AnyEvents) {
-    rc::check([] {
-        FakeServer game;
-        game.connect_bot(anna, "Anna");
-        game.connect_bot(bob, "Bob");
-        game.connect_spectator(viewer, "Eve");
-        game.run_frame();
-        std::uint32_t segment = 1, shown_segment = 0;
-        float x = 0;
-        for (const int event : *rc::gen::container<std::vector<int>>(rc::gen::inRange(0, 40))) {
-            const bool was_camera = game.shows_camera(viewer);
-            const State before = game.snapshot(viewer);
-            const auto bots = std::pair(game.snapshot(anna), game.snapshot(bob));
-            switch (event) {
-                case 0:
-                    game.client_command(viewer, {"director", "off"});
-                    break;
-                case 1:
-                    game.client_command(viewer, {"director", "auto"});
-                    break;
-                case 2:
-                case 3:
-                    game.follow(viewer, event - 2);
-                    break;
-                case 4:
-                    game.call([&] { game.stop_following(viewer); });
-                    break;
-                case 5:
-                    game.options.spectate ^= 1;
-                    break;
-                default:
-                    break;
-            }
-            if (event > 5 && event < 12) ++segment;
-            if (event > 8) game.set_camera(viewer, event % 2, segment, x += 3);
-            game.run_frame(event % 3 == 0 ? 16 : 50);
-            RC_ASSERT(bots == std::pair(game.snapshot(anna), game.snapshot(bob)));
-            game.call([&] { RC_ASSERT(game.snapshot(viewer) == game.own(viewer)); });
-            const bool camera = game.shows_camera(viewer);
-            const std::uint32_t new_segment = game.report.cameras[viewer].segment;
-            const int number = read_int(game.state(viewer), PS_CLIENT_NUMBER);
-            const bool jump = camera ? !was_camera || new_segment != shown_segment : was_camera;
-            const bool toggled =
-                game.teleport_bit(viewer) != (read_int(before.data(), PS_EFLAGS) & EFLAG_TELEPORT);
-            if (camera || number == read_int(before.data(), PS_CLIENT_NUMBER)) {
-                if (camera || jump) RC_ASSERT(toggled == jump);
-            }
-            if (camera) shown_segment = new_segment;
-        }
-    });
 }
 
 }  // namespace

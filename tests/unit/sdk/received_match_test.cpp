@@ -93,6 +93,16 @@ TEST_F(ReceivedMatchTest, StatusGoesFromNotRequestedToAnsweredAndBack) {
     EXPECT_EQ(match_.shot_status().state, static_cast<std::uint32_t>(CDIR_SHOT_NOT_REQUESTED));
 }
 
+TEST_F(ReceivedMatchTest, TheCameraOfADirectorThatIsGoneIsFoundInTheNextOnesFrames) {
+    answer(1, 5);
+    match_.director_gone();
+    EXPECT_EQ(match_.shot_status().state, static_cast<std::uint32_t>(CDIR_SHOT_UNANSWERED));
+    EXPECT_TRUE(accept(1, 0, 12.0F, 0, 2));
+    match_.director_seen();
+    EXPECT_EQ(match_.shot_status().state, static_cast<std::uint32_t>(CDIR_SHOT_ACCEPTED));
+    EXPECT_EQ(match_.track().newest()->camera.position[0], 12.0F);
+}
+
 TEST_F(ReceivedMatchTest, OlderEpochsAreDroppedAndCounted) {
     answer(3, 5);
     EXPECT_TRUE(accept(3, 7, 1.0F));
