@@ -16,7 +16,7 @@ struct Contract {
     std::int32_t keep_last;    // 0: keep all
     std::int32_t max_samples;  // with keep all
     dds_liveliness_kind_t liveliness;
-    dds_duration_t lease;
+    dds_duration_t lease;  // a director's writers offer shorter ones
     dds_ownership_kind_t ownership;
 };
 

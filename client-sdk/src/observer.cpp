@@ -20,9 +20,8 @@ Entity condition_on(const Entity& reader) {
     return Entity("cannot create a read condition", dds_create_readcondition(reader.get(), DDS_ANY_STATE));
 }
 
-template <std::size_t size>
-void set_string(char (&to)[size], const char* field, const char* text) {
-    copy_string(to, checked_string(field, text == nullptr ? "" : text, 0, size - 1).c_str());
+std::string text_or_empty(const char* field, const char* text, std::size_t max_bytes) {
+    return checked_string(field, text == nullptr ? "" : text, 0, max_bytes);
 }
 
 camera_director_ObserverRequest key_of(const std::string& match_id, const std::string& observer_id) {
@@ -53,24 +52,47 @@ Observer::Observer(std::shared_ptr<const Context> context, const std::string& ma
     status_condition_ = condition_on(status_reader_);
     frame_condition_ = condition_on(frame_reader_);
     waitset_ = Entity("cannot create a waitset", dds_create_waitset(participant));
-    for (const Entity* entity : {&guard_, &info_condition_, &status_condition_, &frame_condition_}) {
+    check_dds("cannot set a status mask",
+              dds_set_status_mask(status_reader_.get(),
+                                  DDS_SUBSCRIPTION_MATCHED_STATUS | DDS_LIVELINESS_CHANGED_STATUS));
+    for (const Entity* entity :
+         {&guard_, &info_condition_, &status_condition_, &frame_condition_, &status_reader_}) {
         check_dds("cannot attach to a waitset", dds_waitset_attach(waitset_.get(), entity->get(), 0));
     }
 }
 
-void Observer::request(const cdir_shot_request& request) {
-    camera_director_ObserverRequest sample = key_of(match_id_, observer_id_);
+Observer::Request Observer::checked_request(const cdir_shot_request& request) {
     require(request.reserved == 0, "request.reserved is not 0");
     require(request.group_count <= CDIR_MAX_PLAYERS, "group_count is greater than CDIR_MAX_PLAYERS");
     require(request.group_count == 0 || request.group != nullptr, "group is null");
-    sample.target = request.target;
-    sample.group._buffer = const_cast<std::uint32_t*>(request.group);
-    sample.group._length = sample.group._maximum = request.group_count;
-    set_string(sample.profile, "profile", request.profile);
-    set_string(sample.overrides, "overrides", request.overrides);
+    Request checked;
+    checked.target = request.target;
+    checked.group.assign(request.group, request.group + request.group_count);
+    checked.profile =
+        text_or_empty("profile", request.profile, sizeof camera_director_ObserverRequest::profile - 1);
+    checked.overrides =
+        text_or_empty("overrides", request.overrides, sizeof camera_director_ObserverRequest::overrides - 1);
+    return checked;
+}
+
+void Observer::request(const cdir_shot_request& request) {
+    Request checked = checked_request(request);
     const std::lock_guard lock(mutex_);
-    check_written("ObserverRequest", dds_write(request_writer_.get(), &sample));
+    std::swap(request_, checked);
+    const dds_return_t written = write_request();
+    if (written < 0) std::swap(request_, checked);
+    check_written("ObserverRequest", written);
     match_.set_requested(true);
+}
+
+dds_return_t Observer::write_request() {
+    camera_director_ObserverRequest sample = key_of(match_id_, observer_id_);
+    sample.target = request_.target;
+    sample.group._buffer = request_.group.data();
+    sample.group._length = sample.group._maximum = static_cast<std::uint32_t>(request_.group.size());
+    copy_string(sample.profile, request_.profile.c_str());
+    copy_string(sample.overrides, request_.overrides.c_str());
+    return dds_write(request_writer_.get(), &sample);
 }
 
 void Observer::withdraw() {
@@ -117,6 +139,7 @@ void Observer::end_waits() {
 std::uint32_t Observer::poll() {
     const std::lock_guard lock(mutex_);
     take_info_and_status();
+    ask_again_after_loss();
     std::uint32_t count = 0;
     while (take_frame()) {
         ++count;
@@ -127,6 +150,7 @@ std::uint32_t Observer::poll() {
 bool Observer::next_frame(cdir_camera_frame& frame, std::span<cdir_camera> cameras) {
     const std::lock_guard lock(mutex_);
     take_info_and_status();
+    ask_again_after_loss();
     if (!take_frame()) return false;
     frame.camera_count = frame_sample_->camera_id._length;
     frame.epoch = frame_sample_->epoch;
@@ -160,18 +184,39 @@ void Observer::take_info_and_status() {
     for (Taken taken; (taken = status_sample_.take(status_reader_)) != Taken::nothing;) {
         if (taken == Taken::data) {
             match_.accept(*status_sample_);
-        } else if (status_sample_->observer_id == observer_id_) {
-            taken == Taken::disposed ? match_.status_withdrawn() : match_.director_gone();
+        } else if (status_sample_->observer_id != observer_id_) {
+            continue;
+        } else if (taken == Taken::disposed) {
+            match_.status_withdrawn();
+        } else {
+            match_.status_abandoned();
         }
     }
+}
+
+// The reader keeps a dead director's answer and drops its successor's until the lease ends; a director that
+// was only silent does not answer again by itself.
+void Observer::ask_again_after_loss() {
+    unanswered_loss_ = lost_director() || unanswered_loss_;
+    if (unanswered_loss_ && match_.requested()) unanswered_loss_ = write_request() < 0;
+}
+
+bool Observer::lost_director() const {
+    dds_subscription_matched_status_t matched{};
+    dds_liveliness_changed_status_t liveliness{};
+    check_dds("ObserverStatus: cannot count its writers",
+              dds_get_subscription_matched_status(status_reader_.get(), &matched));
+    check_dds("ObserverStatus: cannot count its live writers",
+              dds_get_liveliness_changed_status(status_reader_.get(), &liveliness));
+    // Those that died before they left were counted when they died.
+    const auto left = static_cast<std::int32_t>(matched.total_count_change) - matched.current_count_change;
+    return left + liveliness.not_alive_count_change > 0;
 }
 
 // Takes the next valid frame. Returns false when none waits.
 bool Observer::take_frame() {
     for (Taken taken; (taken = frame_sample_.take(frame_reader_)) != Taken::nothing;) {
-        if (taken != Taken::data || !match_.accept(*frame_sample_, steady_ns())) continue;
-        if (frame_sample_.has_writer()) match_.director_seen();
-        return true;
+        if (taken == Taken::data && match_.accept(*frame_sample_, steady_ns())) return true;
     }
     return false;
 }

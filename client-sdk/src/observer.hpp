@@ -10,6 +10,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "context.hpp"
 #include "received_match.hpp"
@@ -48,7 +49,18 @@ class Observer {
     [[nodiscard]] std::uint32_t director_count() const;
 
   private:
+    struct Request {
+        std::uint32_t target = CDIR_NO_PLAYER;
+        std::vector<std::uint32_t> group;
+        std::string profile, overrides;
+    };
+
+    [[nodiscard]] static Request checked_request(const cdir_shot_request& request);
+    [[nodiscard]] dds_return_t write_request();
     void take_info_and_status();
+    void ask_again_after_loss();
+    // True when a director has left or fallen silent since the last call.
+    [[nodiscard]] bool lost_director() const;
     [[nodiscard]] bool take_frame();
 
     std::shared_ptr<const Context> context_;
@@ -57,6 +69,8 @@ class Observer {
 
     std::mutex mutex_;
     ReceivedMatch match_;
+    Request request_;               // the last one
+    bool unanswered_loss_ = false;  // a director was lost, and the request not written again
     WireSample<camera_director_MatchInfo> info_sample_{camera_director_MatchInfo_desc};
     WireSample<camera_director_ObserverStatus> status_sample_{camera_director_ObserverStatus_desc};
     WireSample<camera_director_CameraFrame> frame_sample_{camera_director_CameraFrame_desc};

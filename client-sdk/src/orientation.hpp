@@ -3,8 +3,8 @@
 
 namespace camdir::sdk {
 
-// Of three angles in degrees to the quaternion x, y, z, w: about z by yaw, then about y by pitch, then about
-// x by roll.
+// Stores the quaternion x, y, z, w of three angles in degrees: about z by yaw, then about y by pitch, then
+// about x by roll.
 void store_orientation(const float* pitch_yaw_roll, float* orientation);
 
 }  // namespace camdir::sdk

@@ -82,7 +82,7 @@ void ReceivedMatch::accept(const camera_director_ObserverStatus& status) {
         return;
     }
     if (!enter_epoch(status.epoch)) return;
-    has_director_ = true;
+    answered_ = true;
     if (status_ && status_->camera_id != status.camera_id) track_.interrupt();
     status_ = cdir_shot_status_default();
     status_->state = status.state;
@@ -142,7 +142,7 @@ void ReceivedMatch::set_requested(bool requested) {
 }
 
 cdir_shot_status ReceivedMatch::shot_status() const {
-    if (requested_ && status_ && has_director_) return *status_;
+    if (requested_ && status_ && answered_) return *status_;
     cdir_shot_status status = cdir_shot_status_default();
     status.state = requested_ ? CDIR_SHOT_UNANSWERED : CDIR_SHOT_NOT_REQUESTED;
     return status;

@@ -24,10 +24,9 @@ class ReceivedMatch {
     void match_ended() { info_.reset(); }
     void accept(const camera_director_ObserverStatus& status);
     void status_withdrawn() { status_.reset(); }
-    // The answer's writer is silent or dead. Its camera stays the shot's, whoever writes the next frame.
-    void director_gone() { has_director_ = false; }
-    // A writer of frames lives: one that was only stopped does not answer again.
-    void director_seen() { has_director_ = true; }
+    // The answer's writer is silent or dead. Until the next answer, its camera stays the shot's, whoever
+    // writes the next frame.
+    void status_abandoned() { answered_ = false; }
     // `now`: see DisplayClock. Returns false when the frame was dropped.
     bool accept(const camera_director_CameraFrame& frame, std::int64_t now);
 
@@ -58,7 +57,7 @@ class ReceivedMatch {
     std::string match_id_;
     std::string observer_id_;
     bool requested_ = false;
-    bool has_director_ = false;  // that wrote the answer, or a frame since
+    bool answered_ = false;  // by a director that lives
     std::uint64_t epoch_ = 0;
     std::optional<Info> info_;
     std::optional<cdir_shot_status> status_;

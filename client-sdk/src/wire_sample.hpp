@@ -39,8 +39,6 @@ class WireSample {
         }
     }
 
-    // After data: whether its instance has a writer still.
-    [[nodiscard]] bool has_writer() const { return !pending_end_; }
     [[nodiscard]] const Wire& operator*() const { return value_; }
     [[nodiscard]] const Wire* operator->() const { return &value_; }
 

@@ -6,6 +6,9 @@
 namespace camdir::dds {
 namespace {
 
+// A quarter of the shortest lease: some may come late. Each is a packet for every observer.
+constexpr std::chrono::milliseconds status_assertion_interval{250};
+
 std::int64_t now_realtime() {
     return std::chrono::duration_cast<std::chrono::nanoseconds>(
                std::chrono::system_clock::now().time_since_epoch())
@@ -36,8 +39,7 @@ Result<void> MatchEndpoints::open_readers(const Participant& participant) {
 
     for (const auto& [topic, reader] :
          {std::pair{Topic::pose_frame, &pose_reader_}, std::pair{Topic::match_event, &event_reader_},
-          std::pair{Topic::observer_request, &request_reader_},
-          std::pair{Topic::observer_status, &peer_status_reader_}}) {
+          std::pair{Topic::observer_request, &request_reader_}}) {
         *reader = dds_create_reader(subscriber_.handle(), participant.topic(topic), reader_qos(topic).get(),
                                     nullptr);
         if (*reader < 0) {
@@ -73,37 +75,21 @@ dds_return_t MatchEndpoints::write(const director::CameraFrame& frame) {
 
 dds_return_t MatchEndpoints::write(const director::ObserverStatus& status) {
     const camera_director_ObserverStatus sample = encode(status);
-    const std::lock_guard lock(statuses_mutex_);
-    statuses_[status.observer_id] = sample;
     return dds_write(status_writer_, &sample);
 }
 
 dds_return_t MatchEndpoints::withdraw(const std::string& observer_id) {
     const camera_director_ObserverStatus key = observer_status_key(match_id_, observer_id);
-    const std::lock_guard lock(statuses_mutex_);
-    statuses_.erase(observer_id);
     if (const dds_return_t disposed = dds_dispose(status_writer_, &key); disposed < 0) return disposed;
     return dds_unregister_instance(status_writer_, &key);
 }
 
-bool MatchEndpoints::peer_left() {
-    dds_subscription_matched_status_t matched{};
-    dds_liveliness_changed_status_t liveliness{};
-    dds_get_subscription_matched_status(peer_status_reader_, &matched);
-    dds_get_liveliness_changed_status(peer_status_reader_, &liveliness);
-    // total_count_change counts arrivals, current_count_change arrivals less departures.
-    return matched.current_count_change < static_cast<std::int32_t>(matched.total_count_change) ||
-           liveliness.not_alive_count_change > 0;
-}
-
-void MatchEndpoints::republish_statuses() {
-    const std::lock_guard lock(statuses_mutex_);
-    for (const auto& [observer_id, sample] : statuses_)
-        dds_write(status_writer_, &sample);
-}
-
 void MatchEndpoints::assert_liveliness() {
     if (!wrote_frame_.exchange(false)) dds_assert_liveliness(camera_writer_);
+    const auto now = std::chrono::steady_clock::now();
+    if (now < next_status_assertion_) return;
+    dds_assert_liveliness(status_writer_);
+    next_status_assertion_ = now + status_assertion_interval;
 }
 
 void MatchEndpoints::release_ownership() {

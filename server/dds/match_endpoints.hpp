@@ -2,10 +2,9 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <memory>
-#include <mutex>
 #include <string>
-#include <unordered_map>
 
 #include "dds/encode.hpp"
 #include "dds/entity.hpp"
@@ -25,8 +24,6 @@ class MatchEndpoints {
     [[nodiscard]] dds_entity_t pose_reader() const { return pose_reader_; }
     [[nodiscard]] dds_entity_t event_reader() const { return event_reader_; }
     [[nodiscard]] dds_entity_t request_reader() const { return request_reader_; }
-    // Reads the statuses of peer directors, only to notice when a peer leaves.
-    [[nodiscard]] dds_entity_t peer_status_reader() const { return peer_status_reader_; }
 
     // One writing thread at a time, which may differ from the reading one. They return DDS's return code.
     [[nodiscard]] dds_return_t write(const director::CameraFrame& frame);
@@ -34,13 +31,8 @@ class MatchEndpoints {
     // Disposes the observer's status.
     [[nodiscard]] dds_return_t withdraw(const std::string& observer_id);
 
-    // True when a peer director of the match has left or died since the last call. One thread at a time.
-    [[nodiscard]] bool peer_left();
-    // Writes the newest status of every observer again: readers drop what a standby writes while its leader
-    // is alive. Thread-safe.
-    void republish_statuses();
-
-    // Asserts the camera writer's liveliness unless a frame was written since the last call. Thread-safe.
+    // Asserts the writers' liveliness, the camera writer's unless a frame was written since the last call.
+    // One thread at a time.
     void assert_liveliness();
     // Releases the ownership of the match: observers receive the next director, if there is one. Thread-safe.
     void release_ownership();
@@ -59,11 +51,9 @@ class MatchEndpoints {
     dds_entity_t pose_reader_ = 0;
     dds_entity_t event_reader_ = 0;
     dds_entity_t request_reader_ = 0;
-    dds_entity_t peer_status_reader_ = 0;
     dds_entity_t camera_writer_ = 0;
     dds_entity_t status_writer_ = 0;
-    std::mutex statuses_mutex_;
-    std::unordered_map<std::string, camera_director_ObserverStatus> statuses_;  // newest, by observer
+    std::chrono::steady_clock::time_point next_status_assertion_{};
 };
 
 }  // namespace camdir::dds

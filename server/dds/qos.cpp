@@ -1,5 +1,6 @@
 #include "dds/qos.hpp"
 
+#include <algorithm>
 #include <vector>
 
 namespace camdir::dds {
@@ -9,8 +10,9 @@ namespace {
 // this.
 constexpr dds_duration_t max_blocking_time = DDS_MSECS(100);
 
-// Until then readers drop the answers of a dead director's successor.
-constexpr dds_duration_t status_lease = DDS_SECS(1);
+// For so long readers drop the answers of a dead director's successor; shorter, and every observer would ask
+// again when a busy machine delays the director.
+constexpr dds_duration_t min_status_lease = DDS_SECS(1);
 
 }  // namespace
 
@@ -26,12 +28,13 @@ Qos reader_qos(Topic topic) {
 
 Qos writer_qos(Topic topic, const Leadership& leadership) {
     Qos qos = wire::topic_qos(topic, max_blocking_time);
+    dds_duration_t lease = DDS_MSECS(leadership.lease.count());
     if (topic == Topic::camera_frame) {
-        dds_qset_liveliness(qos.get(), DDS_LIVELINESS_MANUAL_BY_TOPIC, DDS_MSECS(leadership.lease.count()));
         dds_qset_lifespan(qos.get(), DDS_SECS(1));
     } else {
-        dds_qset_liveliness(qos.get(), DDS_LIVELINESS_AUTOMATIC, status_lease);
+        lease = std::max(lease, min_status_lease);
     }
+    dds_qset_liveliness(qos.get(), DDS_LIVELINESS_MANUAL_BY_TOPIC, lease);
     dds_qset_ownership_strength(qos.get(), leadership.strength);
     // A director that leaves must hand its instances over to the next one, not dispose them.
     dds_qset_writer_data_lifecycle(qos.get(), false);

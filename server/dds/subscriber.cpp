@@ -14,10 +14,6 @@ namespace {
 
 constexpr std::size_t samples_per_take = 32;
 
-// Observers notice on their own, by the lease of its statuses, that a director has gone.
-constexpr std::chrono::seconds republish_interval{1};
-constexpr std::chrono::seconds republish_span{10};
-
 // Tags in the waitset that are not a Source.
 const char guard_tag = 0;
 const char match_info_tag = 0;
@@ -37,8 +33,7 @@ Subscriber::Subscriber(const Participant& participant, Options options, MatchTab
       match_info_samples_(topic_type(Topic::match_info), samples_per_take),
       pose_samples_(topic_type(Topic::pose_frame), samples_per_take),
       event_samples_(topic_type(Topic::match_event), samples_per_take),
-      request_samples_(topic_type(Topic::observer_request), samples_per_take),
-      status_samples_(topic_type(Topic::observer_status), samples_per_take) {}
+      request_samples_(topic_type(Topic::observer_request), samples_per_take) {}
 
 Subscriber::~Subscriber() {
     stop();
@@ -104,7 +99,6 @@ void Subscriber::run() noexcept {
     // Four assertions per lease: some may come late.
     const std::chrono::nanoseconds interval = std::chrono::nanoseconds(options_.leadership.lease) / 4;
     Clock::time_point next_assertion = Clock::now();
-    Clock::time_point next_republication = Clock::now();
     while (!stopping_) {
         const std::chrono::nanoseconds patience =
             std::max(std::chrono::nanoseconds(next_assertion - Clock::now()), std::chrono::nanoseconds(0));
@@ -115,10 +109,6 @@ void Subscriber::run() noexcept {
         if (Clock::now() >= next_assertion) {
             assert_liveliness();
             next_assertion = Clock::now() + interval;
-        }
-        if (Clock::now() >= next_republication) {
-            republish_statuses(Clock::now());
-            next_republication = Clock::now() + republish_interval;
         }
     }
 }
@@ -147,13 +137,6 @@ void Subscriber::assert_liveliness() {
     }
     for (const auto& [id, match] : matches_)
         match->endpoints->assert_liveliness();
-}
-
-void Subscriber::republish_statuses(Clock::time_point now) {
-    for (const auto& [id, match] : matches_) {
-        if (match->endpoints->peer_left()) match->republish_until = now + republish_span;
-        if (now < match->republish_until) match->endpoints->republish_statuses();
-    }
 }
 
 void Subscriber::drop(Topic topic, ValidationError error, const std::string& match_id) {
@@ -218,22 +201,18 @@ Result<void> Subscriber::add_match(const director::MatchInfo& info) {
     match = std::make_unique<Match>();
     match->info = info;
     match->endpoints = std::move(*endpoints);
-    match->republish_until = Clock::now() + republish_span;  // a director may have died before this one came
     match->poses = {match.get(), &Subscriber::take_poses};
     match->events = {match.get(), &Subscriber::take_events};
     match->requests = {match.get(), &Subscriber::take_requests};
-    match->peer_statuses = {match.get(), &Subscriber::discard_peer_statuses};
     table_.add(match->endpoints);
     counters_.matches = static_cast<std::uint32_t>(matches_.size());
     // On failure the caller removes the match.
-    for (const auto& [reader, source] :
-         {std::pair{match->endpoints->pose_reader(), &match->poses},
-          std::pair{match->endpoints->event_reader(), &match->events},
-          std::pair{match->endpoints->request_reader(), &match->requests},
-          std::pair{match->endpoints->peer_status_reader(), &match->peer_statuses}}) {
+    for (const auto& [reader, source] : {std::pair{match->endpoints->pose_reader(), &match->poses},
+                                         std::pair{match->endpoints->event_reader(), &match->events},
+                                         std::pair{match->endpoints->request_reader(), &match->requests}}) {
         if (auto watched = watch(reader, source); !watched) return watched;
     }
-    triggered_.resize(2 + 4 * matches_.size());
+    triggered_.resize(2 + 3 * matches_.size());
     return {};
 }
 
@@ -337,11 +316,6 @@ void Subscriber::take_requests(Match& match) {
             cancel_forget(match_id);
         }
     });
-}
-
-void Subscriber::discard_peer_statuses(Match& match) {
-    status_samples_.take(match.endpoints->peer_status_reader(),
-                         [](const auto& /*sample*/, const auto& /*info*/) {});
 }
 
 }  // namespace camdir::dds

@@ -23,8 +23,7 @@ namespace camdir::dds {
 
 // Finds matches by their MatchInfo in the configured partitions. A match's partition is read until the
 // director has forgotten the match and its game server is gone. The thread also asserts the liveliness of the
-// camera writers while the ingress is responsive, and republishes a match's statuses after it was found and
-// after a peer director has left.
+// writers while the ingress is responsive.
 class Subscriber {
   public:
     struct Options {
@@ -60,15 +59,13 @@ class Subscriber {
         dds_instance_handle_t server = 0;  // the writer of its MatchInfo
         bool has_server = true;            // that writer is alive
         bool forgotten = false;            // by the director; reintroduced when a sample arrives
-        Source poses, events, requests, peer_statuses;
-        Clock::time_point republish_until{};
+        Source poses, events, requests;
     };
 
     [[nodiscard]] Result<void> watch(dds_entity_t reader, const void* tag);
     void run() noexcept;
     void take_triggered(std::size_t count);
     void assert_liveliness();
-    void republish_statuses(Clock::time_point now);
 
     // Counts the sample and logs each reason at most once a second.
     void drop(Topic topic, ValidationError error, const std::string& match_id);
@@ -80,7 +77,6 @@ class Subscriber {
     void take_poses(Match& match);
     void take_events(Match& match);
     void take_requests(Match& match);
-    void discard_peer_statuses(Match& match);
 
     void match_info_found(const camera_director_MatchInfo& sample, const dds_sample_info_t& info);
     void match_info_lost(const std::string& match_id, const dds_sample_info_t& info);
@@ -114,7 +110,6 @@ class Subscriber {
     TakeBuffer<camera_director_PoseFrame> pose_samples_;
     TakeBuffer<camera_director_MatchEvent> event_samples_;
     TakeBuffer<camera_director_ObserverRequest> request_samples_;
-    TakeBuffer<camera_director_ObserverStatus> status_samples_;
     director::PoseFrame pose_frame_;
     director::MatchEvent match_event_;
     director::ObserverRequest observer_request_;

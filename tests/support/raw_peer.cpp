@@ -166,16 +166,6 @@ void RawPeer::dispose(const camera_director_ObserverRequest& key) {
     check(dds_dispose(observer_request_, &key), "disposing ObserverRequest");
 }
 
-void RawPeer::write(const camera_director_ObserverStatus& sample, std::int32_t strength) {
-    if (director_status_ == 0) {
-        dds_qos_t* qos = observer_status_qos();
-        dds_qset_ownership_strength(qos, strength);
-        dds_qset_writer_data_lifecycle(qos, false);
-        director_status_ = add_writer(camera_director_ObserverStatus_desc, "ObserverStatus", qos);
-    }
-    check(dds_write(director_status_, &sample), "writing an ObserverStatus");
-}
-
 std::vector<RawPeer::CameraFrame> RawPeer::take_cameras() {
     std::vector<CameraFrame> frames;
     void* samples[32] = {};

@@ -30,9 +30,6 @@ class RawPeer {
     void dispose(const camera_director_MatchInfo& key);
     void dispose(const camera_director_ObserverRequest& key);
 
-    // Writes as a director of this ownership strength; the first call sets the peer's strength.
-    void write(const camera_director_ObserverStatus& sample, std::int32_t strength);
-
     struct Camera {
         std::uint32_t id, target, flags;
         float position[3], orientation[4];
@@ -62,7 +59,6 @@ class RawPeer {
     std::string partition_;
     dds_entity_t match_info_ = 0, pose_frame_ = 0, match_event_ = 0, observer_request_ = 0;
     dds_entity_t camera_frame_ = 0, observer_status_ = 0;
-    dds_entity_t director_status_ = 0;  // writer of ObserverStatus; 0 until used
     std::map<std::string, camera_director_ObserverStatus> statuses_;
 };
 

@@ -320,7 +320,8 @@ CDIR_API cdir_status cdir_observer_request(cdir_observer observer,
 /* Withdraws the request. CDIR_CONFLICT: there is none. */
 CDIR_API cdir_status cdir_observer_withdraw(cdir_observer observer) CDIR_NOEXCEPT;
 
-/* Waits until there is something for poll or next_frame to take. timeout: nanoseconds, 0 = do not wait,
+/* Waits until there is something for poll or next_frame to take, or a director that came or left for them to
+ * take note of. timeout: nanoseconds, 0 = do not wait,
  * negative = without limit. Returns CDIR_OK, CDIR_TIMEOUT or CDIR_INTERRUPTED. */
 CDIR_API cdir_status cdir_observer_wait(cdir_observer observer, int64_t timeout) CDIR_NOEXCEPT;
 

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <future>
+#include <memory>
 
 #include "fake_director.hpp"
 #include "support/test_domain.hpp"
@@ -287,7 +288,29 @@ TEST_F(Spectator, MatchAndPlayersAreKnownUntilTheMatchEnds) {
     }));
 }
 
+// The next director's answer may have been dropped while the lost one owned the observer's status.
+TEST_F(Spectator, TheRequestIsWrittenAgainWhenADirectorIsLost) {
+    auto leader = std::make_unique<FakeDirector>(shared_domain, match_id_, 100);
+    observer_.request({.target = 9, .group = {1, 9, 4}, .profile = "shoulder"});
+    ASSERT_TRUE(eventually([&] { return director_.take_request().has_value(); }));
+    observer_.poll();
+    EXPECT_FALSE(director_.take_request()) << "not before";
+    leader.reset();
+    EXPECT_EQ(observer_.wait(std::chrono::seconds(30)), cd::Waited::arrived);
+    std::optional<ReceivedRequest> request;
+    EXPECT_TRUE(eventually([&] {
+        observer_.poll();
+        return (request = director_.take_request()).has_value();
+    }));
+    EXPECT_EQ(request->target, 9U);
+    EXPECT_THAT(request->group, ElementsAre(1, 9, 4));
+    EXPECT_EQ(request->profile, "shoulder");
+    observer_.poll();
+    EXPECT_FALSE(director_.take_request()) << "once";
+}
+
 TEST_F(Spectator, WaitEndsByTimeByInterruptAndByClose) {
+    observer_.poll();  // takes note of the director
     EXPECT_EQ(observer_.wait(std::chrono::nanoseconds(0)), cd::Waited::timeout);
     EXPECT_EQ(observer_.wait(std::chrono::milliseconds(20)), cd::Waited::timeout);
     observer_.interrupt();

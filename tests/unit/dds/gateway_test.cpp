@@ -132,11 +132,6 @@ director::ObserverStatus status_of(const std::string& observer_id, const std::st
     return status;
 }
 
-// Publishes a status for anna as a director of the match "cup" that is stronger than the gateway.
-void publish_as_stronger_director(RawPeer& leader) {
-    leader.write(encode(status_of("anna", "the leader's")), 1000);
-}
-
 TEST_F(GatewayTest, HandsOnTheSamplesOfAMatch) {
     RawPeer& raw = game("cup");
     EXPECT_TRUE(recorder_.has("info cup 1"));
@@ -185,32 +180,6 @@ TEST_F(GatewayTest, WritesCamerasAndStatuses) {
     gateway_->publish("nobody's match", one_camera(0));
     EXPECT_EQ(gateway_->counters().camera_frames_written, 1U);
     EXPECT_EQ(gateway_->counters().write_failures, 0U);
-}
-
-TEST_F(GatewayTest, StatusesAreRepublishedWhenAStrongerDirectorHasLeft) {
-    RawPeer& observer = game("cup");
-    const auto anna_hears = [&](const std::string& reason) {
-        return eventually([&] {
-            const auto& statuses = observer.statuses();
-            return statuses.contains("anna") && statuses.at("anna").reason == reason;
-        });
-    };
-    auto leader = std::make_unique<RawPeer>(domain_.id(), "cup");
-    publish_as_stronger_director(*leader);
-    ASSERT_TRUE(anna_hears("the leader's"));
-    gateway_->publish(status_of("anna", "ours"));
-    gateway_->publish(status_of("bob", "ours"));
-    ASSERT_TRUE(eventually([&] { return observer.statuses().contains("bob"); }));
-    EXPECT_STREQ(observer.statuses().at("anna").reason, "the leader's");
-    leader.reset();
-    EXPECT_TRUE(anna_hears("ours"));
-
-    // A director that leaves soon after it came.
-    leader = std::make_unique<RawPeer>(domain_.id(), "cup");
-    publish_as_stronger_director(*leader);
-    ASSERT_TRUE(anna_hears("the leader's"));
-    leader.reset();
-    EXPECT_TRUE(anna_hears("ours"));
 }
 
 TEST_F(GatewayTest, AnIdleReaderLosesNothingWithin32Frames) {

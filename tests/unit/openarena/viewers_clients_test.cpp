@@ -1,4 +1,4 @@
-// Clients that come, leave and change sides, and maps that do, while cameras are shown.
+// Clients that come, leave and change sides, and changes of the map, while cameras are shown.
 #include "viewers.h"
 
 #include <gtest/gtest.h>

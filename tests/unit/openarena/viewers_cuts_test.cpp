@@ -5,6 +5,10 @@
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
 
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "viewers_fixture.hpp"
 
 namespace camdir::openarena {

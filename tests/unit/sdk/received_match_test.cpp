@@ -95,12 +95,12 @@ TEST_F(ReceivedMatchTest, StatusGoesFromNotRequestedToAnsweredAndBack) {
 
 TEST_F(ReceivedMatchTest, TheCameraOfADirectorThatIsGoneIsFoundInTheNextOnesFrames) {
     answer(1, 5);
-    match_.director_gone();
+    match_.status_abandoned();
     EXPECT_EQ(match_.shot_status().state, static_cast<std::uint32_t>(CDIR_SHOT_UNANSWERED));
     EXPECT_TRUE(accept(1, 0, 12.0F, 0, 2));
-    match_.director_seen();
-    EXPECT_EQ(match_.shot_status().state, static_cast<std::uint32_t>(CDIR_SHOT_ACCEPTED));
     EXPECT_EQ(match_.track().newest()->camera.position[0], 12.0F);
+    match_.accept(status_of(1, 5));
+    EXPECT_EQ(match_.shot_status().state, static_cast<std::uint32_t>(CDIR_SHOT_ACCEPTED));
 }
 
 TEST_F(ReceivedMatchTest, OlderEpochsAreDroppedAndCounted) {

@@ -1,0 +1,38 @@
+#include "dds/qos.hpp"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <utility>
+
+namespace camdir::dds {
+namespace {
+
+using std::chrono::milliseconds;
+
+std::pair<dds_liveliness_kind_t, dds_duration_t> liveliness_of(const Qos& qos) {
+    std::pair<dds_liveliness_kind_t, dds_duration_t> liveliness{};
+    EXPECT_TRUE(dds_qget_liveliness(qos.get(), &liveliness.first, &liveliness.second));
+    return liveliness;
+}
+
+TEST(DirectorsQos, WritersEndWithTheLeaseAndAnswersNotWithinASecond) {
+    for (const auto& [lease, of_answers] :
+         {std::pair(milliseconds(200), DDS_SECS(1)), std::pair(milliseconds(5000), DDS_SECS(5))}) {
+        const Leadership leadership{.strength = 7, .lease = lease};
+        const Qos cameras = writer_qos(Topic::camera_frame, leadership);
+        const Qos answers = writer_qos(Topic::observer_status, leadership);
+        EXPECT_EQ(liveliness_of(cameras),
+                  std::pair(DDS_LIVELINESS_MANUAL_BY_TOPIC, DDS_MSECS(lease.count())));
+        EXPECT_EQ(liveliness_of(answers),
+                  std::pair(DDS_LIVELINESS_MANUAL_BY_TOPIC, dds_duration_t{of_answers}));
+    }
+}
+
+TEST(DirectorsQos, ReadersAcceptAnyLease) {
+    for (std::size_t topic = 0; topic < topic_count; ++topic)
+        EXPECT_EQ(liveliness_of(reader_qos(static_cast<Topic>(topic))).second, DDS_INFINITY);
+}
+
+}  // namespace
+}  // namespace camdir::dds
