@@ -113,6 +113,8 @@ for player in "${wanted[@]}"; do
     start_spectator "player$player"
     # One after the other: the first to connect gets the first camera.
     await 120 server "player${player}[^0-9].*connected"
+    # Only then: what is entered while a client loads swallows its command to spectate.
+    await 120 server "n\\\\player$player\\\\t\\\\3"
     spectators+=("player$player=player $player")
 done
 start_recording "${spectators[@]%%=*}"

@@ -74,6 +74,12 @@ GameMatch::GameMatch(std::shared_ptr<const Context> context, const cdir_match_in
     announce(info_, players);
 }
 
+GameMatch::~GameMatch() {
+    camera_director_MatchInfo key{};
+    copy_string(key.match_id, match_id_.c_str());
+    (void)dds_dispose(info_writer_.get(), &key);
+}
+
 void GameMatch::update(const cdir_match_info& info, std::span<const cdir_player> players) {
     check(info, players);
     const std::lock_guard lock(mutex_);

@@ -18,6 +18,9 @@ class GameMatch {
   public:
     GameMatch(std::shared_ptr<const Context> context, const cdir_match_info& info,
               std::span<const cdir_player> players);
+    GameMatch(const GameMatch&) = delete;
+    GameMatch& operator=(const GameMatch&) = delete;
+    ~GameMatch();  // ends the match
 
     [[nodiscard]] const Context& context() const { return *context_; }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 #include "checks.hpp"
 #include "fixed_string.hpp"
@@ -9,6 +10,9 @@
 namespace camdir::sdk {
 
 namespace {
+
+constexpr std::int64_t max_step_back =
+    1'000'000'000;  // ns; what comes late by less is one frame out of order
 
 cdir_player player_at(const camera_director_MatchInfo& info, std::uint32_t index) {
     cdir_player player{};
@@ -52,19 +56,39 @@ ReceivedMatch::ReceivedMatch(std::string match_id, std::string observer_id, std:
     : match_id_(std::move(match_id)), observer_id_(std::move(observer_id)), clock_(interpolation_delay) {}
 
 bool ReceivedMatch::enter_epoch(std::uint64_t epoch) {
-    if (epoch < epoch_) {
+    if (info_ && epoch < epoch_) {
         ++counters_.stale_epoch;
         return false;
     }
-    if (epoch > epoch_) {
-        epoch_ = epoch;
-        info_.reset();
-        status_.reset();
-        last_frame_.reset();
-        track_.clear();
-        clock_.clear();
-    }
+    if (epoch != epoch_) begin_epoch(epoch);
     return true;
+}
+
+bool ReceivedMatch::is_of_epoch(std::uint64_t epoch) {
+    if (epoch < epoch_) ++counters_.stale_epoch;
+    if (epoch > epoch_ && !info_) begin_epoch(epoch);
+    return epoch == epoch_;
+}
+
+void ReceivedMatch::begin_epoch(std::uint64_t epoch) {
+    epoch_ = epoch;
+    info_.reset();
+    status_.reset();
+    last_frame_.reset();
+    track_.clear();
+    clock_.clear();
+}
+
+// The game server and the director write on different ways: an answer can overtake its epoch's beginning.
+void ReceivedMatch::take_early_status() {
+    if (early_status_ && early_status_->epoch <= epoch_) accept(*std::exchange(early_status_, std::nullopt));
+}
+
+// A frame of the far future would keep out all later ones.
+void ReceivedMatch::forget_future(const camera_director_CameraFrame& frame) {
+    if (!last_frame_ || frame.frame_time >= last_frame_->frame_time - max_step_back) return;
+    track_.clear();
+    clock_.clear();
 }
 
 void ReceivedMatch::accept(const camera_director_MatchInfo& info) {
@@ -72,6 +96,7 @@ void ReceivedMatch::accept(const camera_director_MatchInfo& info) {
         ++counters_.invalid;
     } else if (enter_epoch(info.epoch)) {
         info_ = info_from(info);
+        take_early_status();
     }
 }
 
@@ -81,7 +106,10 @@ void ReceivedMatch::accept(const camera_director_ObserverStatus& status) {
         ++counters_.invalid;
         return;
     }
-    if (!enter_epoch(status.epoch)) return;
+    if (!is_of_epoch(status.epoch)) {
+        if (status.epoch > epoch_) early_status_ = status;
+        return;
+    }
     answered_ = true;
     if (status_ && status_->camera_id != status.camera_id) track_.interrupt();
     status_ = cdir_shot_status_default();
@@ -96,10 +124,11 @@ bool ReceivedMatch::accept(const camera_director_CameraFrame& frame, std::int64_
         ++counters_.invalid;
         return false;
     }
-    if (!enter_epoch(frame.epoch)) return false;
+    if (!is_of_epoch(frame.epoch)) return false;
     ++counters_.frames;
+    forget_future(frame);
     if (!follows_last(frame)) track_.interrupt();
-    last_frame_ = FrameId{frame.director_id, frame.frame_number};
+    last_frame_ = FrameId{frame.director_id, frame.frame_number, frame.frame_time};
     clock_.observe(frame.frame_time, now);
     if (const std::optional<cdir_camera> camera = camera_of_shot(frame)) {
         track_.add(frame.frame_time, *camera, (camera->flags & CDIR_CAMERA_CUT) == 0);

@@ -15,7 +15,9 @@
 namespace camdir::sdk {
 
 // accept() drops and counts samples that are malformed or of an earlier epoch. A newer epoch discards the
-// cameras and the director's answer of the earlier one. One thread at a time.
+// cameras and the director's answer of the earlier one. Once the game server is known, its description alone
+// begins an epoch: what directors write for a later one waits (answers) or is dropped (frames). Frames whose
+// time goes back by more than a second discard the cameras before them. One thread at a time.
 class ReceivedMatch {
   public:
     ReceivedMatch(std::string match_id, std::string observer_id, std::int64_t interpolation_delay);
@@ -44,14 +46,19 @@ class ReceivedMatch {
     [[nodiscard]] const cdir_observer_counters& counters() const { return counters_; }
 
   private:
-    // Returns false when the sample must be dropped.
+    // Of the game server and of a director. They return false when the sample must be dropped.
     [[nodiscard]] bool enter_epoch(std::uint64_t epoch);
+    [[nodiscard]] bool is_of_epoch(std::uint64_t epoch);
+    void begin_epoch(std::uint64_t epoch);
+    void take_early_status();
+    void forget_future(const camera_director_CameraFrame& frame);
     [[nodiscard]] bool follows_last(const camera_director_CameraFrame& frame);
     [[nodiscard]] std::optional<cdir_camera> camera_of_shot(const camera_director_CameraFrame& frame) const;
 
     struct FrameId {
         std::uint64_t director_id;
         std::uint32_t frame_number;
+        std::int64_t frame_time;
     };
 
     std::string match_id_;
@@ -61,7 +68,8 @@ class ReceivedMatch {
     std::uint64_t epoch_ = 0;
     std::optional<Info> info_;
     std::optional<cdir_shot_status> status_;
-    std::optional<FrameId> last_frame_;  // of this epoch
+    std::optional<camera_director_ObserverStatus> early_status_;  // of an epoch that is to come
+    std::optional<FrameId> last_frame_;                           // of this epoch
     CameraTrack track_;
     DisplayClock clock_;
     cdir_observer_counters counters_ = cdir_observer_counters_default();

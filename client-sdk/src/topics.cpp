@@ -33,8 +33,10 @@ Topics::Topics(dds_entity_t participant) {
 
 Entity Topics::make_writer(dds_entity_t group, Topic topic) const {
     const dds_entity_t handle = topics_[static_cast<std::size_t>(topic)].get();
-    return Entity(failed_to_create("writer of", topic),
-                  dds_create_writer(group, handle, wire::topic_qos(topic, max_blocking_time).get(), nullptr));
+    const wire::Qos qos = wire::topic_qos(topic, max_blocking_time);
+    // A match whose writer is only silent has not ended: its end is disposed by hand.
+    if (topic == Topic::match_info) dds_qset_writer_data_lifecycle(qos.get(), false);
+    return Entity(failed_to_create("writer of", topic), dds_create_writer(group, handle, qos.get(), nullptr));
 }
 
 Entity Topics::make_reader(dds_entity_t group, Topic topic) const {

@@ -150,11 +150,9 @@ void Subscriber::drop(Topic topic, ValidationError error, const std::string& mat
 
 void Subscriber::take_match_infos() {
     match_info_samples_.take(match_info_reader_, [this](const auto& sample, const auto& info) {
-        if (info.instance_state != DDS_ALIVE_INSTANCE_STATE) {
-            match_info_lost(sample.match_id, info);
-        } else if (info.valid_data) {
-            match_info_found(sample, info);
-        }
+        // The state is the instance's after the last sample.
+        if (info.valid_data) match_info_found(sample, info);
+        if (info.instance_state != DDS_ALIVE_INSTANCE_STATE) match_info_lost(sample.match_id, info);
     });
 }
 

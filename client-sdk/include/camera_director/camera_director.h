@@ -429,7 +429,8 @@ CDIR_API cdir_status cdir_observer_camera_at(cdir_observer observer, int64_t fra
                                              cdir_view* view) CDIR_NOEXCEPT;
 
 /* Stores the game time to display now: interpolation_delay behind the camera frames as they arrive. Advances
- * smoothly and never goes back within an epoch. CDIR_NO_DATA: no frame has been taken in this epoch. */
+ * smoothly and never goes back within an epoch, unless the director's frames go back by more than a second.
+ * CDIR_NO_DATA: no frame has been taken in this epoch. */
 CDIR_API cdir_status cdir_observer_display_time(cdir_observer observer, int64_t* frame_time) CDIR_NOEXCEPT;
 
 /* Stores the match's description and up to capacity of its players; players may be null for 0, player_count

@@ -118,7 +118,16 @@ static double advance(int32_t level_time) {
 
 static bool is_spectator(int slot) {
     const uint8_t* const entity = engine_entity(slot);
-    return read_int(entity, ENTITY_IN_USE) != 0 && (read_int(entity, ENTITY_SERVER_FLAGS) & ENTITY_BOT) == 0;
+    return read_int(entity, ENTITY_IN_USE) != 0 &&
+           (read_int(entity, ENTITY_SERVER_FLAGS) & ENTITY_BOT) == 0 &&
+           read_element(engine_player_state(slot), PS_PERSISTANT, PERSISTANT_TEAM) == team_spectator;
+}
+
+static size_t spectator_count(void) {
+    size_t count = 0;
+    for (int slot = 0; slot < max_slots; ++slot)
+        count += is_spectator(slot);
+    return count;
 }
 
 static void show(int32_t level_time, double time) {
@@ -145,11 +154,14 @@ static bool take_command(void) {
     engine_argument(0, name, sizeof name);
     engine_argument(1, word, sizeof word);
     if (strcmp(name, "film") != 0 || strcmp(word, "start") != 0) return false;
-    if (state == waiting)
-        state = starting;
-    else
+    if (state != waiting)
         engine_print("film: %s\n",
                      state == adding_bots ? "not all players are in the game yet" : "it runs, or has ended");
+    else if (spectator_count() < filmed_count)
+        engine_print("film: %zu spectators are needed, one for each of film_players; there are %zu\n",
+                     filmed_count, spectator_count());
+    else
+        state = starting;
     return true;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <csignal>
 #include <memory>
+#include <thread>
 
 #include "hall.hpp"
 #include "support/eventually.hpp"
@@ -129,6 +130,25 @@ TEST_F(FailureTest, ADirectorThatWasStoppedGoesOn) {
     server.process().send_signal(SIGCONT);
     EXPECT_TRUE(comes_to(observer, CDIR_SHOT_ACCEPTED)) << server.log();
     EXPECT_TRUE(sees_own_camera(observer)) << server.log();
+}
+
+// The game server's description lives for 2 s without a sign of its writer, its participant for 10 s.
+TEST_F(FailureTest, AStopDoesNotEndTheMatch) {
+    const Context context(connection(domain_.id()));
+    const Game game(context, "cup", "hall");
+    Observer observer(context, "cup", "anna");
+    observer.request({.target = 2});
+    Server server(domain_.id());
+    for (const int seconds : {3, 4, 5}) {
+        ASSERT_TRUE(sees_own_camera(observer)) << server.log();
+        server.process().send_signal(SIGSTOP);
+        std::this_thread::sleep_for(std::chrono::seconds(seconds));
+        observer.poll();
+        server.process().send_signal(SIGCONT);
+        EXPECT_TRUE(comes_to(observer, CDIR_SHOT_ACCEPTED)) << server.log();
+    }
+    EXPECT_TRUE(sees_own_camera(observer)) << server.log();
+    EXPECT_THAT(server.log(), testing::Not(testing::HasSubstr("ended")));
 }
 
 TEST_F(FailureTest, ADirectorThatWasStoppedAnswersAgainWithoutCameras) {

@@ -56,6 +56,17 @@ class ReceivedMatchTest : public testing::Test {
         match_.accept(status_of(epoch, camera_id));
     }
 
+    // By the game server.
+    void describe(std::uint64_t epoch) {
+        camera_director_MatchInfo info{};
+        std::string("cup").copy(info.match_id, 63);
+        std::string map = "oa_dm1";
+        info.map_name = map.data();
+        info.metres_per_unit = 1.0F;
+        info.epoch = epoch;
+        match_.accept(info);
+    }
+
     [[nodiscard]] std::uint32_t segment() const { return match_.track().newest()->segment; }
 
     ReceivedMatch match_{"cup", "anna", 50 * ms};
@@ -104,22 +115,64 @@ TEST_F(ReceivedMatchTest, TheCameraOfADirectorThatIsGoneIsFoundInTheNextOnesFram
 }
 
 TEST_F(ReceivedMatchTest, OlderEpochsAreDroppedAndCounted) {
+    describe(3);
     answer(3, 5);
     EXPECT_TRUE(accept(3, 7, 1.0F));
     EXPECT_FALSE(accept(2, 8, 2.0F));
     match_.accept(status_of(2, 4));
-    camera_director_MatchInfo info{};
-    std::string("cup").copy(info.match_id, 63);
-    std::string map = "oa_dm1";
-    info.map_name = map.data();
-    info.metres_per_unit = 1.0F;
-    info.epoch = 2;
-    match_.accept(info);
+    describe(2);
     EXPECT_EQ(match_.counters().stale_epoch, 3U);
     EXPECT_EQ(match_.counters().invalid, 0U);
     EXPECT_EQ(match_.track().newest()->camera.position[0], 1.0F);
     EXPECT_EQ(match_.shot_status().camera_id, 5U);
-    EXPECT_FALSE(match_.info());
+    EXPECT_EQ(match_.info()->match.epoch, 3U);
+}
+
+TEST_F(ReceivedMatchTest, AFalseEpochOfADirectorDoesNotSilenceTheGameServers) {
+    constexpr std::uint64_t last = std::numeric_limits<std::uint64_t>::max();
+    for (const bool known : {true, false}) {
+        SCOPED_TRACE(known);
+        ReceivedMatch match("cup", "anna", 50 * ms);
+        std::swap(match, match_);
+        if (known) describe(3);
+        answer(3, 5);
+        EXPECT_EQ(accept(last, 0, 1.0F), !known);
+        match_.accept(status_of(last, 5));
+        describe(3);
+        match_.accept(status_of(3, 5));
+        EXPECT_TRUE(accept(3, 1, 2.0F));
+        EXPECT_EQ(match_.track().newest()->camera.position[0], 2.0F);
+        describe(4);
+        EXPECT_EQ(match_.shot_status().state, static_cast<std::uint32_t>(CDIR_SHOT_UNANSWERED));
+        match_.accept(status_of(4, 5));
+        EXPECT_TRUE(accept(4, 0, 3.0F));
+        EXPECT_EQ(match_.track().newest()->camera.position[0], 3.0F);
+    }
+}
+
+TEST_F(ReceivedMatchTest, AnAnswerThatOvertakesItsEpochHoldsOnceThatBegins) {
+    describe(3);
+    answer(3, 5);
+    match_.accept(status_of(4, 4));
+    EXPECT_EQ(match_.shot_status().camera_id, 5U);
+    describe(4);
+    EXPECT_EQ(match_.shot_status().camera_id, 4U);
+    EXPECT_TRUE(accept(4, 0, 1.0F));
+    EXPECT_EQ(match_.track().newest()->camera.position[0], -1.0F);
+}
+
+TEST_F(ReceivedMatchTest, AFrameOfTheFarFutureDoesNotKeepOutTheNextOnes) {
+    answer(1, 5);
+    EXPECT_TRUE(accept(1, 0, 1.0F));
+    CameraFrameArrays future = frame_of(1, 1);
+    future.director_id = 1;
+    future.frame_time = 3'600'000 * ms;
+    future.add_camera(5, 2.0F);
+    EXPECT_TRUE(accept(future));
+    EXPECT_TRUE(match_.clock().at(future.frame_time));
+    EXPECT_TRUE(accept(1, 2, 3.0F));
+    EXPECT_EQ(match_.track().newest()->camera.position[0], 3.0F);
+    EXPECT_LT(*match_.clock().at(2 * 16 * ms), 1000 * ms);
 }
 
 TEST_F(ReceivedMatchTest, NewEpochDiscardsTheOldOne) {
