@@ -10,8 +10,9 @@
 extern "C" {
 #endif
 
-/* The number of a DDS domain; UINT32_MAX when `value` is no number. The client library checks its range. */
-uint32_t setting_domain(const char* value);
+/* The number of a DDS domain, 0 to 230; for any other `value` UINT32_MAX, and `error` says so of the cvar
+ * `name`. */
+uint32_t setting_domain(const char* name, const char* value, char* error, size_t error_size);
 /* Copies `value`; when it does not fit, `text` stays as it is and `error` says so of the cvar `name`. */
 void setting_text(char* text, size_t size, const char* name, const char* value, char* error,
                   size_t error_size);

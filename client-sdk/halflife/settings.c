@@ -43,7 +43,8 @@ struct settings settings_read(void) {
     struct settings settings;
     memset(&settings, 0, sizeof settings);
     settings.enabled = registered[enable]->value != 0.0f ? 1u : 0u;
-    settings.domain = setting_domain(value_of(domain));
+    settings.domain =
+        setting_domain(cvars[domain].name, value_of(domain), settings.error, sizeof settings.error);
     settings.max_rate_hz = registered[max_rate]->value;
     if (!(settings.max_rate_hz >= 1.0f && settings.max_rate_hz <= 1000.0f))
         snprintf(settings.error, sizeof settings.error, "director_max_rate must be 1 to 1000");

@@ -57,11 +57,13 @@ static void describe_viewer(int to, int slot, const struct viewer_status* viewer
 static void describe_match(void) {
     const struct settings* const settings = module_settings();
     const struct director_report* const report = module_report();
-    engine_print_line(on_console, "match %s, DDS domain %" PRIu32 ", interface %s, directors at %s",
-                      settings->match, settings->domain, settings->interface, settings->directors);
+    if (settings->error[0] == '\0')
+        engine_print_line(on_console, "match %s, DDS domain %" PRIu32 ", interface %s, directors at %s",
+                          settings->match, settings->domain, settings->interface, settings->directors);
     engine_print_line(on_console, "map %s, life %" PRIu32, module_map(), module_life());
-    if (!settings->enable) engine_print_line(on_console, "director_enable is 0: nothing is published");
-    if (!settings->spectate)
+    if (!settings->enable)
+        engine_print_line(on_console, "director_enable is 0: nothing is published");
+    else if (!settings->spectate)
         engine_print_line(on_console, "director_spectate is 0: spectators see the game's own views");
     if (report == NULL) {
         engine_print_line(on_console, "not connected yet");
@@ -69,7 +71,13 @@ static void describe_match(void) {
     }
     engine_print_line(on_console, "epoch %" PRIu64 ", directors connected %" PRIu32, report->epoch,
                       report->directors);
-    if (report->error[0] != '\0') engine_print_line(on_console, "error: %s", report->error);
+    if (report->error[0] != '\0')
+        engine_print_line(on_console, "error: %s", report->error);
+    else if (report->directors == 0)
+        engine_print_line(on_console,
+                          "no director: is one running in DDS domain %" PRIu32
+                          ", at one of these addresses, and do its settings let this interface in?",
+                          settings->domain);
     engine_print_line(
         on_console,
         "published %" PRIu64 " frames, %" PRIu64 " events; skipped %" PRIu64 " frames, failed %" PRIu64,

@@ -16,7 +16,8 @@ static bool is_due(const struct refusal_notice* notice, int32_t level_time) {
 
 void refusal_notice_update(struct refusal_notice* notice, int slot, const struct viewer_shot* shot,
                            int32_t level_time) {
-    const bool refused = shot != NULL && shot->state == CDIR_SHOT_REFUSED;
+    const bool refused =
+        shot != NULL && (shot->state == CDIR_SHOT_REFUSED || shot->state == CDIR_SHOT_WAITING_FOR_MAP);
     if (refused && (!notice->refused || strcmp(notice->reason, shot->reason) != 0)) {
         notice->printed = false;
         notice->since = level_time;
@@ -24,10 +25,10 @@ void refusal_notice_update(struct refusal_notice* notice, int slot, const struct
     }
     notice->refused = refused;
     if (!refused || !is_due(notice, level_time)) return;
-    engine_print_line(slot,
-                      "director: no camera: %s. 'director profile NAME' asks for another profile, "
-                      "'director profile' for the server's, 'director off' for none",
-                      notice->reason);
+    engine_print_line(slot, "director: no camera: %s%s", notice->reason,
+                      shot->state == CDIR_SHOT_REFUSED
+                          ? ". 'director profile NAME' asks for another profile, 'director off' for none"
+                          : "");
     notice->printed = notice->any_printed = true;
     notice->print_time = level_time;
 }

@@ -30,10 +30,11 @@ void settings_register(void) {
     }
 }
 
-static uint32_t read_domain(void) {
-    char text[16];
-    engine_cvar_string("director_domain", text, sizeof text);
-    return setting_domain(text);
+static uint32_t read_domain(struct settings* settings) {
+    static const char name[] = "director_domain";
+    char text[32];
+    engine_cvar_string(name, text, sizeof text);
+    return setting_domain(name, text, settings->error, sizeof settings->error);
 }
 
 static void read_text(struct settings* settings, const char* name, char* text, size_t size) {
@@ -48,7 +49,7 @@ bool settings_read(struct settings* settings) {
     memset(&now, 0, sizeof now); /* compared as bytes: an assignment need not keep the padding */
     now.enable = engine_cvar_integer("director_enable") != 0;
     now.spectate = now.enable && engine_cvar_integer("director_spectate") != 0;
-    now.domain = read_domain();
+    now.domain = read_domain(&now);
     const int rate = engine_cvar_integer("sv_fps");
     now.rate_hz = rate > 0 ? rate : default_rate_hz;
     read_text(&now, "director_match", now.match, sizeof now.match);

@@ -172,9 +172,9 @@ static void take_match(const struct match_state* match) {
     const bool new_target = strcmp(worker.match.settings.record, match->settings.record) != 0 ||
                             worker.match.settings.enable != match->settings.enable;
     if (new_life || new_target) {
-        close_recording();
         worker.recording_failed = false;
         set_error(worker.report.recording_error, "");
+        close_recording();
     }
     if (new_life) {
         memset(worker.report.cameras, 0, sizeof worker.report.cameras);

@@ -41,21 +41,27 @@ void check_file_descriptors() {
     }
 }
 
-Entity join(std::uint32_t domain, const std::string& configuration) {
+Entity join(const cdir_context_options& options, const std::string& configuration) {
     check_file_descriptors();
-    const dds_entity_t created = dds_create_domain(domain, configuration.c_str());
+    require_known_director(options);
+    const dds_entity_t created = dds_create_domain(options.domain, configuration.c_str());
     if (created == DDS_RETCODE_PRECONDITION_NOT_MET) return {};  // by the application
-    return Entity("cannot join DDS domain " + std::to_string(domain) + " with the network settings", created);
+    const std::string how = options.cyclone_xml != nullptr ? "with this cyclone_xml"
+                                                           : "through network interface '" +
+                                                                 std::string(options.network_interface) + "'";
+    return Entity("cannot join DDS domain " + std::to_string(options.domain) + " " + how, created);
 }
 
 }  // namespace
 
-DomainShare::DomainShare(std::uint32_t domain, const std::string& configuration) : domain_(domain) {
+DomainShare::DomainShare(const cdir_context_options& options) : domain_(options.domain) {
+    const std::uint32_t domain = options.domain;
+    const std::string configuration = network_configuration(options);
     OpenDomains& domains = open_domains();
     const std::lock_guard lock(domains.mutex);
     auto found = domains.by_number.find(domain);
     if (found == domains.by_number.end()) {
-        OpenDomain joined{configuration, join(domain, configuration), 0};
+        OpenDomain joined{configuration, join(options, configuration), 0};
         found = domains.by_number.emplace(domain, std::move(joined)).first;
     } else if (found->second.configuration != configuration) {
         throw Failure{CDIR_CONFLICT, "domain " + std::to_string(domain) +
@@ -72,7 +78,7 @@ DomainShare::~DomainShare() {
 }
 
 Context::Context(const cdir_context_options& options)
-    : domain_(options.domain, network_configuration(options)),
+    : domain_(options),
       participant_("cannot create a participant in DDS domain " + std::to_string(options.domain),
                    dds_create_participant(options.domain, nullptr, nullptr)),
       topics_(participant_.get()) {}

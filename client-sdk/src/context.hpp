@@ -14,8 +14,9 @@ namespace camdir::sdk {
 class DomainShare {
   public:
     // Throws a Failure: CDIR_CONFLICT when the domain is open with another configuration or the process holds
-    // too many file descriptors, CDIR_NETWORK when DDS refuses the configuration.
-    DomainShare(std::uint32_t domain, const std::string& configuration);
+    // too many file descriptors, CDIR_NETWORK when DDS refuses the configuration or no director's
+    // address can be resolved.
+    explicit DomainShare(const cdir_context_options& options);
     ~DomainShare();
     DomainShare(const DomainShare&) = delete;
     DomainShare& operator=(const DomainShare&) = delete;

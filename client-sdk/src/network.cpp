@@ -1,9 +1,11 @@
 #include "network.hpp"
 
 #include <arpa/inet.h>
+#include <netdb.h>
 
 #include <algorithm>
 #include <cctype>
+#include <vector>
 
 #include "failure.hpp"
 
@@ -37,18 +39,35 @@ std::string interface_element(const std::string& name) {
     return std::string("<NetworkInterface ") + attribute + "=\"" + name + "\"/>";
 }
 
-std::string peer_elements(const std::string& directors) {
-    std::string elements;
+std::vector<std::string> addresses_of(const std::string& directors) {
+    std::vector<std::string> addresses;
     std::size_t begin = 0;
     while (begin <= directors.size()) {
         const std::size_t end = std::min(directors.find(',', begin), directors.size());
-        std::string address = directors.substr(begin, end - begin);
+        std::string& address = addresses.emplace_back(directors.substr(begin, end - begin));
         std::erase(address, ' ');
         check_address("directors", address);
-        elements += "<Peer Address=\"" + address + "\"/>";
         begin = end + 1;
     }
+    return addresses;
+}
+
+std::string peer_elements(const std::string& directors) {
+    std::string elements;
+    for (const std::string& address : addresses_of(directors))
+        elements += "<Peer Address=\"" + address + "\"/>";
     return elements;
+}
+
+bool is_known(const std::string& address) {
+    const std::size_t colon = address.find(':');
+    const bool has_port = colon != std::string::npos && address.find(':', colon + 1) == std::string::npos;
+    addrinfo* found = nullptr;
+    if (getaddrinfo(address.substr(0, has_port ? colon : std::string::npos).c_str(), nullptr, nullptr,
+                    &found) != 0)
+        return address.front() == '[';  // "[IPv6 address]:port", which Cyclone DDS reads by itself
+    freeaddrinfo(found);
+    return true;
 }
 
 }  // namespace
@@ -65,6 +84,13 @@ std::string network_configuration(const cdir_context_options& options) {
     return element("CycloneDDS",
                    element("Domain", element("General", general) + element("Discovery", discovery) +
                                          element("Internal", internal)));
+}
+
+void require_known_director(const cdir_context_options& options) {
+    if (options.cyclone_xml != nullptr) return;
+    const std::vector<std::string> addresses = addresses_of(options.directors);
+    if (std::any_of(addresses.begin(), addresses.end(), is_known)) return;
+    throw Failure{CDIR_NETWORK, "directors: '" + std::string(options.directors) + "' cannot be resolved"};
 }
 
 }  // namespace camdir::sdk

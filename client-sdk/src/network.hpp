@@ -12,4 +12,8 @@ namespace camdir::sdk {
 // not allowed there.
 [[nodiscard]] std::string network_configuration(const cdir_context_options& options);
 
+// Throws a Failure with CDIR_NETWORK when no director's address can be resolved, which Cyclone DDS only
+// reports on standard error. May wait for a name server. Not with cyclone_xml.
+void require_known_director(const cdir_context_options& options);
+
 }  // namespace camdir::sdk

@@ -159,10 +159,10 @@ void Match::attach_map() {
     refusal_.clear();
     const std::string named = "map '" + info_->map_name + "'";
     const auto entry = maps_.find(info_->map_name);
-    if (!entry) return detach_map(named + " is not configured; known: " + joined(maps_.names()));
+    if (!entry) return wait_for_map(named + " is not configured; known: " + joined(maps_.names()));
     if (!entry->freespace)
-        return detach_map(named + (entry->state == LoadState::failed ? " failed: " : " is loading: ") +
-                          entry->reason);
+        return wait_for_map(named + (entry->state == LoadState::failed ? " failed: " : " is loading: ") +
+                            entry->reason);
     check_map_hash(*entry);
     missing_map_.clear();
     if (freespace_ && entry->generation == map_generation_) return;
@@ -183,6 +183,11 @@ void Match::check_map_hash(const MapEntry& entry) {
     }
     if (entry.strict)
         refusal_ = "the game server's map '" + info_->map_name + "' is not the one that was baked";
+}
+
+void Match::wait_for_map(std::string reason) {
+    if (reason != missing_map_) spdlog::warn("match {}: no cameras: {}", match_id_, reason);
+    detach_map(std::move(reason));
 }
 
 void Match::detach_map(std::string reason) {

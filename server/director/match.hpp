@@ -59,6 +59,7 @@ class Match final : public Strand {
     void fall_silent(Liveness liveness);
     void attach_map();
     void check_map_hash(const MapEntry& entry);
+    void wait_for_map(std::string reason);
     void detach_map(std::string reason);
     void reconcile();
     [[nodiscard]] std::string state() const;

@@ -1,5 +1,4 @@
-// A game server, observer or peer director on the DDS API itself: it can write samples that the SDK refuses
-// to write.
+// A game server or observer on the DDS API itself: it can write samples that the SDK refuses to write.
 #pragma once
 
 #include <camera_director.h>

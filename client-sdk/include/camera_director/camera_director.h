@@ -139,10 +139,10 @@ static inline cdir_context_options cdir_context_options_default(void) {
 /* Joins the domain.
  * CDIR_CONFLICT: a context of this process has the domain open with other network settings, or the process
  *   holds too many file descriptors: Cyclone DDS needs some below 1000.
- * CDIR_NETWORK: Cyclone DDS refuses the options, for instance an unknown interface.
- * When the application itself has joined the domain with Cyclone DDS before, its network settings remain in
- * force. DDS entities that it creates in the domain after this call are deleted with the domain's last
- * context. */
+ * CDIR_NETWORK: no address of `directors` can be resolved, or Cyclone DDS refuses the options, for instance
+ * an unknown interface. When the application itself has joined the domain with Cyclone DDS before, its
+ * network settings remain in force. DDS entities that it creates in the domain after this call are deleted
+ * with the domain's last context. */
 CDIR_API cdir_status cdir_context_open(const cdir_context_options* options,
                                        cdir_context* context) CDIR_NOEXCEPT;
 

@@ -277,8 +277,9 @@ TEST_F(HalfLife, AnErrorOfTheSettingsIsInTheStatusAndTheServerRunsOn) {
 
 TEST_F(HalfLife, ASettingThatDoesNotFitIsInTheStatusAndNothingIsPublished) {
     start({"set", "director_domain", "231", "map", "crossfire", "expect",
-           "director state: domain must be 0 to 230", "set", "director_domain", "none", "expect",
-           "director state: domain must be 0 to 230", "set", "director_match", std::string(64, 'm'), "expect",
+           "director state: director_domain '231': expected a number from 0 to 230", "set", "director_domain",
+           "none", "expect", "director state: director_domain 'none': expected a number from 0 to 230", "set",
+           "director_match", std::string(64, 'm'), "expect",
            "director state: director_match is longer than 63 bytes"});
     expect_end();
 }

@@ -310,8 +310,10 @@ TEST_F(Spectator, TheRequestIsWrittenAgainWhenADirectorIsLost) {
 }
 
 TEST_F(Spectator, WaitEndsByTimeByInterruptAndByClose) {
-    observer_.poll();  // takes note of the director
-    EXPECT_EQ(observer_.wait(std::chrono::nanoseconds(0)), cd::Waited::timeout);
+    ASSERT_TRUE(eventually([&] {
+        observer_.poll();  // takes note of the director
+        return observer_.wait(std::chrono::nanoseconds(0)) == cd::Waited::timeout;
+    }));
     EXPECT_EQ(observer_.wait(std::chrono::milliseconds(20)), cd::Waited::timeout);
     observer_.interrupt();
     EXPECT_EQ(observer_.wait(std::chrono::seconds(-1)), cd::Waited::interrupted);
@@ -323,7 +325,7 @@ TEST_F(Spectator, WaitEndsByTimeByInterruptAndByClose) {
     EXPECT_EQ(waiting.get(), cd::Waited::interrupted);
 
     cdir_observer raw{};
-    ASSERT_EQ(cdir_observer_open(context_.handle(), match_id_.c_str(), "raw", nullptr, &raw), CDIR_OK);
+    ASSERT_EQ(cdir_observer_open(context_.handle(), "nobody's match", "raw", nullptr, &raw), CDIR_OK);
     std::promise<void> started;
     auto closed_under = std::async(std::launch::async, [&] {
         started.set_value();

@@ -9,11 +9,18 @@ namespace camdir::game {
 namespace {
 
 TEST(Setting, ADomainThatIsNoneIsNotAnotherOne) {
-    EXPECT_EQ(setting_domain("0"), 0U);
-    EXPECT_EQ(setting_domain("230"), 230U);
-    EXPECT_EQ(setting_domain("231"), 231U) << "which the client library refuses";
-    for (const char* text : {"", "-1", "+1", " 1", "abc", "1x", "1.5", "99999999999999999999"})
-        EXPECT_EQ(setting_domain(text), std::numeric_limits<std::uint32_t>::max()) << text;
+    char error[128] = "";
+    const auto domain = [&](const char* text) {
+        error[0] = '\0';
+        return setting_domain("director_domain", text, error, sizeof error);
+    };
+    EXPECT_EQ(domain("0"), 0U);
+    EXPECT_EQ(domain("230"), 230U);
+    EXPECT_STREQ(error, "");
+    for (const char* text : {"231", "", "-1", "+1", " 1", "abc", "1x", "1.5", "99999999999999999999"}) {
+        EXPECT_EQ(domain(text), std::numeric_limits<std::uint32_t>::max()) << text;
+        EXPECT_EQ(error, "director_domain '" + std::string(text) + "': expected a number from 0 to 230");
+    }
 }
 
 TEST(Setting, ATextThatDoesNotFitIsAnError) {

@@ -48,7 +48,14 @@ TEST_F(OpenArenaRefusalNotice, ARefusalIsPrintedOnceWithWhatToDo) {
     ASSERT_EQ(printed.size(), 1U);
     EXPECT_EQ(printed[0],
               "print \"director: no camera: there is no profile 'fast'; known: wide. 'director profile NAME' "
-              "asks for another profile, 'director profile' for the server's, 'director off' for none\n\"\n");
+              "asks for another profile, 'director off' for none\n\"\n");
+}
+
+TEST_F(OpenArenaRefusalNotice, AMapThatIsNotServedIsTold) {
+    answer(CDIR_SHOT_WAITING_FOR_MAP, "map 'oa_dm2' is not configured; known: oa_dm1");
+    const auto printed = lines(1000);
+    ASSERT_EQ(printed.size(), 1U);
+    EXPECT_EQ(printed[0], "print \"director: no camera: map 'oa_dm2' is not configured; known: oa_dm1\n\"\n");
 }
 
 TEST_F(OpenArenaRefusalNotice, TheNextRefusalIsPrintedToo) {

@@ -44,6 +44,23 @@ TEST(NetworkConfiguration, InvalidAddressesAreRefused) {
     EXPECT_THROW((void)configuration("e\"th", "a"), Failure);
 }
 
+TEST(NetworkConfiguration, OneDirectorAtLeastIsKnown) {
+    cdir_context_options options = cdir_context_options_default();
+    for (const char* known :
+         {"127.0.0.1", "127.0.0.1:7412", "localhost", "nobody.invalid, 127.0.0.1", "[::1]:7412"}) {
+        options.directors = known;
+        EXPECT_NO_THROW(require_known_director(options)) << known;
+    }
+    options.directors = "nobody.invalid, 300.1.1.1:7412";
+    try {
+        require_known_director(options);
+        ADD_FAILURE() << "no failure";
+    } catch (const Failure& failure) {
+        EXPECT_EQ(failure.status, CDIR_NETWORK);
+        EXPECT_THAT(failure.text, HasSubstr("nobody.invalid, 300.1.1.1:7412"));
+    }
+}
+
 TEST(NetworkConfiguration, GivenXmlReplacesEverything) {
     cdir_context_options options = cdir_context_options_default();
     options.cyclone_xml = "<CycloneDDS/>";
