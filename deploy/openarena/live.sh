@@ -18,7 +18,7 @@ start_match() {
 
 how_to_connect() {
     cat >&2 <<TEXT
-Watch it with your own client on this machine, while it runs (another terminal, with a screen):
+Watch it with your own client on this machine (another terminal, with a screen), for the next $seconds s, or longer with --seconds:
 
     /usr/games/openarena +connect 127.0.0.1:$port
 
