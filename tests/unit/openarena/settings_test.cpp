@@ -13,7 +13,6 @@
 namespace camdir::openarena {
 namespace {
 
-using testing::HasSubstr;
 
 class OpenArenaSettings : public testing::Test {
   protected:
