@@ -1,6 +1,7 @@
 #include "maps/bake_map.hpp"
 
 #include <chrono>
+#include <filesystem>
 #include <thread>
 #include <utility>
 
@@ -66,7 +67,10 @@ Result<Freshness> freshness_of(const config::Map& map) {
     const auto hash = scene::hash_source(map.source);
     const auto opened = freespace::Freespace::open(map.file);
     if (!opened && !hash) return tl::unexpected(hash.error());
-    if (!opened) return Freshness{opened.error().message, ""};
+    if (!opened) {
+        const bool missing = !std::filesystem::exists(map.file);
+        return Freshness{missing ? map.file + " was not there" : opened.error().message, ""};
+    }
     if (!hash) return Freshness{"", hash.error().message + ": " + map.file + " is used as it is"};
     if (opened->metadata().source_hash != *hash) return Freshness{map.source + " has changed since", ""};
     const auto options = read_options_of(map);

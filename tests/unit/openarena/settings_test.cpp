@@ -13,7 +13,6 @@
 namespace camdir::openarena {
 namespace {
 
-
 class OpenArenaSettings : public testing::Test {
   protected:
     OpenArenaSettings() { engine.start_map("oa_dm1"); }
