@@ -43,13 +43,14 @@ void check_file_descriptors() {
 
 Entity join(const cdir_context_options& options, const std::string& configuration) {
     check_file_descriptors();
-    require_known_director(options);
     const dds_entity_t created = dds_create_domain(options.domain, configuration.c_str());
     if (created == DDS_RETCODE_PRECONDITION_NOT_MET) return {};  // by the application
     const std::string how = options.cyclone_xml != nullptr ? "with this cyclone_xml"
                                                            : "through network interface '" +
                                                                  std::string(options.network_interface) + "'";
-    return Entity("cannot join DDS domain " + std::to_string(options.domain) + " " + how, created);
+    Entity domain("cannot join DDS domain " + std::to_string(options.domain) + " " + how, created);
+    require_known_director(options);
+    return domain;
 }
 
 }  // namespace

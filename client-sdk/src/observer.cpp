@@ -190,6 +190,7 @@ void Observer::take_info_and_status() {
             match_.status_withdrawn();
         } else {
             match_.status_abandoned();
+            unanswered_loss_ = true;  // also of a writer that is back already
         }
     }
 }
@@ -208,9 +209,8 @@ bool Observer::lost_director() const {
               dds_get_subscription_matched_status(status_reader_.get(), &matched));
     check_dds("ObserverStatus: cannot count its live writers",
               dds_get_liveliness_changed_status(status_reader_.get(), &liveliness));
-    // Those that died before they left were counted when they died.
     const auto left = static_cast<std::int32_t>(matched.total_count_change) - matched.current_count_change;
-    return left + liveliness.not_alive_count_change > 0;
+    return left > 0 || liveliness.not_alive_count_change > 0;
 }
 
 // Takes the next valid frame. Returns false when none waits.

@@ -165,7 +165,7 @@ std::optional<cdir_camera> ReceivedMatch::camera_of_shot(const camera_director_C
 void ReceivedMatch::set_requested(bool requested) {
     requested_ = requested;
     if (!requested) {
-        status_.reset();
+        status_withdrawn();
         track_.clear();
     }
 }

@@ -25,10 +25,16 @@ class ReceivedMatch {
     void accept(const camera_director_MatchInfo& info);
     void match_ended() { info_.reset(); }
     void accept(const camera_director_ObserverStatus& status);
-    void status_withdrawn() { status_.reset(); }
+    void status_withdrawn() {
+        status_.reset();
+        early_status_.reset();
+    }
     // The answer's writer is silent or dead. Until the next answer, its camera stays the shot's, whoever
     // writes the next frame.
-    void status_abandoned() { answered_ = false; }
+    void status_abandoned() {
+        answered_ = false;
+        early_status_.reset();
+    }
     // `now`: see DisplayClock. Returns false when the frame was dropped.
     bool accept(const camera_director_CameraFrame& frame, std::int64_t now);
 
