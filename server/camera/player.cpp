@@ -11,7 +11,6 @@
 namespace camdir::camera {
 namespace {
 
-constexpr float furthest = 1e7F;                // map units: no map reaches there
 constexpr float fastest = 1e4F;                 // map units/s: more is a jump
 constexpr float velocity_smoothing = 0.03F;     // s: two frames of 60 Hz
 constexpr float horizontal_persistence = 0.5F;  // s: how long players keep running
@@ -82,12 +81,6 @@ Vec3f nearest_free_point(const freespace::Freespace& freespace, const Vec3f& poi
 }
 
 }  // namespace
-
-bool usable(const Pose& pose) {
-    const float norm = pose.orientation.norm();
-    return pose.eye.allFinite() && pose.eye.cwiseAbs().maxCoeff() <= furthest && pose.velocity.allFinite() &&
-           std::isfinite(norm) && norm > 1e-3F;
-}
 
 void restart(const freespace::Freespace& freespace, const Pose& pose, PlayerTrack& track) {
     track = PlayerTrack();

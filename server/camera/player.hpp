@@ -21,9 +21,6 @@ struct PlayerTrack {
     bool covered = false;                  // the anchor is the eye
 };
 
-// Finite position, velocity and rotation within 1e7 map units of the origin: everything else counts as no
-// pose.
-[[nodiscard]] bool usable(const Pose& pose);
 
 // Begins anew at `pose`: after a cut in the player's motion. An eye in no slab is sought at the nearest free
 // point of the representation.

@@ -4,10 +4,12 @@
 #include <cstdint>
 
 #include "camera/camera.hpp"
+#include "camera/planner.hpp"
 #include "camera/player.hpp"
 #include "camera/profile.hpp"
 #include "camera/spot.hpp"
 #include "camera/view.hpp"
+#include "camera/window.hpp"
 #include "freespace/freespace.hpp"
 #include "freespace/roadmap.hpp"
 
@@ -21,8 +23,10 @@ struct ShotState {
     Vec3f position = Vec3f::Zero();
     Vec3f velocity = Vec3f::Zero();
     std::uint32_t slab = freespace::none;  // of the position
-    SpotMemory spot;
     Look look;
+    double time = 0.0;   // of the last step, s
+    SpotMemory spot;     // of the paper's heuristic
+    PlanState plan;      // of the planner
     float lost_for = 0.0F;  // seconds since the player was last seen
 };
 
@@ -31,6 +35,7 @@ class Scratch {
   public:
     explicit Scratch(const freespace::Freespace& freespace) : roadmap(freespace) {}
     freespace::RoadmapSearch roadmap;
+    PlanScratch plan;
 };
 
 // Moves the camera by one pose. `pose` is null when the player has none in this frame. `dt` is the time
@@ -49,5 +54,9 @@ class Scratch {
 //   not seen                   searches along the roadmap, after profile.search_time_limit a cut
 [[nodiscard]] Camera step(const freespace::Freespace& freespace, const Profile& profile, const Pose* pose,
                           double dt, ShotState& state, Scratch& scratch);
+
+// The same at `time`, from poses around it.
+[[nodiscard]] Camera step(const freespace::Freespace& freespace, const Profile& profile, Window window,
+                          double time, bool planned, ShotState& state, Scratch& scratch);
 
 }  // namespace camdir::camera

@@ -1,0 +1,141 @@
+#include "camera/future.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "camera/tuning.hpp"
+#include "freespace/visibility.hpp"
+
+namespace camdir::camera {
+namespace {
+
+constexpr float fastest = 1e4F;  // map units/s: more is a jump
+
+Look view_of(const Pose& pose, float near_yaw) {
+    Look view = look_along(pose.orientation.normalized() * Vec3f::UnitX(), near_yaw);
+    view.yaw = near_yaw + wrapped(view.yaw - near_yaw);
+    return view;
+}
+
+// The continuous stretch of the window around an index.
+struct Stretch {
+    Window window;
+    std::size_t first;
+    std::size_t last;
+
+    Stretch(Window all, std::size_t index) : window(all), first(index), last(index) {
+        while (first > 0 && continuous(window, static_cast<std::ptrdiff_t>(first) - 1))
+            --first;
+        while (continuous(window, static_cast<std::ptrdiff_t>(last)))
+            ++last;
+    }
+    [[nodiscard]] double begin() const { return window[first].time; }
+    [[nodiscard]] double end() const { return window[last].time; }
+};
+
+// Reads a stretch at ascending times.
+class Reader {
+  public:
+    Reader(const Stretch& stretch, float yaw) : stretch_(stretch), index_(stretch.first), yaw_(yaw) {}
+
+    // Between the stretch's begin and end; clamped to them outside.
+    Future::Sample at(double time) {
+        while (index_ < stretch_.last && stretch_.window[index_ + 1].time <= time)
+            ++index_;
+        const TimedPose& a = stretch_.window[index_];
+        const Look view = view_of(a.pose, yaw_);
+        yaw_ = view.yaw;
+        if (index_ == stretch_.last || time <= a.time) return {a.pose.eye, view};
+        const TimedPose& b = stretch_.window[index_ + 1];
+        const Look next = view_of(b.pose, yaw_);
+        const auto share = static_cast<float>((time - a.time) / (b.time - a.time));
+        return {a.pose.eye + share * (b.pose.eye - a.pose.eye),
+                {view.yaw + share * (next.yaw - view.yaw), view.pitch + share * (next.pitch - view.pitch)}};
+    }
+
+  private:
+    const Stretch& stretch_;
+    std::size_t index_;
+    float yaw_;
+};
+
+struct Rates {
+    Vec3f velocity;
+    float yaw;
+    float pitch;
+};
+
+Rates rates_at(const Stretch& stretch, double time, float yaw) {
+    Rates rates{stretch.window[stretch.last].pose.velocity, 0.0F, 0.0F};
+    if (stretch.first == stretch.last) return rates;
+    const auto span_from = [&](float wanted) {
+        return std::max(stretch.begin(),
+                        std::min(time - wanted, stretch.window[stretch.last - 1].time));
+    };
+    const double moved_since = span_from(tuning.velocity_span);
+    const double turned_since = span_from(tuning.turn_span);
+    const auto sample = [&](double at) { return Reader(stretch, yaw).at(at); };
+    const Future::Sample now = sample(time);
+    rates.velocity = (now.eye - sample(moved_since).eye) / static_cast<float>(time - moved_since);
+    const Look before = sample(turned_since).view;
+    const auto seconds = static_cast<float>(time - turned_since);
+    rates.yaw = wrapped(now.view.yaw - before.yaw) / seconds;
+    rates.pitch = (now.view.pitch - before.pitch) / seconds;
+    const float speed = rates.velocity.norm();
+    if (speed > fastest) rates.velocity *= fastest / speed;
+    return rates;
+}
+
+// The time that a motion which fades with `persistence` makes up for, after `seconds`.
+float faded(float seconds, float persistence) {
+    return persistence * (1.0F - std::exp(-seconds / persistence));
+}
+
+Vec3f travel(const Rates& rates, float seconds) {
+    const float run = faded(seconds, tuning.run_persistence);
+    const float fall = faded(seconds, tuning.fall_persistence);
+    return rates.velocity.cwiseProduct(Vec3f(run, run, fall));
+}
+
+}  // namespace
+
+void foresee(const freespace::Freespace& freespace, const MapProfile& profile, Window window, double start,
+             double step, double horizon, float yaw, Future& future) {
+    const Stretch stretch(window, static_cast<std::size_t>(index_at(window, start)));
+    const double known = std::clamp(stretch.end() - start, 0.0, horizon);
+    const double whole = std::max(known + tuning.extend, static_cast<double>(tuning.horizon));
+    future.start = start;
+    future.step = step;
+    future.count = std::min(Future::capacity, static_cast<std::size_t>(whole / step + 1e-6) + 1);
+    future.known = std::min(future.count, static_cast<std::size_t>(known / step + 1e-6) + 1);
+    if (stretch.end() < start - 1e-6) future.known = 0;
+
+    Reader reader(stretch, yaw);
+    for (std::size_t i = 0; i < future.known; ++i)
+        future.samples[i] = reader.at(start + static_cast<double>(i) * step);
+    if (future.known == future.count) return;
+
+    const double last_time = std::min(stretch.end(), start + horizon);
+    const Future::Sample last = reader.at(last_time);
+    const Rates rates = rates_at(stretch, last_time, last.view.yaw);
+    const auto longest = static_cast<float>(start + static_cast<double>(future.count - 1) * step - last_time);
+    const Vec3f way = travel(rates, longest);
+    float share = 1.0F;  // of the way that walls leave
+    const float length = way.norm();
+    if (length > profile.unit) {
+        const freespace::Sight free = freespace::sight(freespace, last.eye, last.eye + way);
+        if (!free.clear)
+            share = std::max(0.0F, free.free_length - tuning.wall * profile.unit) / length;
+    }
+    for (std::size_t i = future.known; i < future.count; ++i) {
+        const auto seconds =
+            static_cast<float>(std::max(0.0, start + static_cast<double>(i) * step - last_time));
+        Vec3f moved = travel(rates, seconds);
+        if (moved.norm() > share * length) moved *= share * length / std::max(moved.norm(), 1e-6F);
+        const float turn = faded(seconds, tuning.turn_persistence);
+        future.samples[i] = {last.eye + moved,
+                             {last.view.yaw + rates.yaw * turn, last.view.pitch + rates.pitch * turn}};
+    }
+}
+
+}  // namespace camdir::camera

@@ -1,0 +1,196 @@
+#include "camera/programme.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+
+namespace camdir::camera {
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr std::size_t yaws = DirectionGrid::yaws;
+constexpr std::size_t elevations = DirectionGrid::elevations;
+constexpr int yaw_reach = 2;
+
+float square(float value) {
+    return value * value;
+}
+
+// Calls visit(bin, squared bins turned) for each direction that a step can lead to, and come from.
+template <class Visit>
+void for_each_neighbour(std::size_t bin, const Visit& visit) {
+    const auto yaw = static_cast<int>(bin % yaws);
+    const auto elevation = static_cast<int>(bin / yaws);
+    for (int e = std::max(0, elevation - 1); e <= std::min(static_cast<int>(elevations) - 1, elevation + 1);
+         ++e) {
+        for (int turn = -yaw_reach; turn <= yaw_reach; ++turn) {
+            const auto y = static_cast<std::size_t>(yaw + turn + static_cast<int>(yaws)) % yaws;
+            const int rise = e - elevation;
+            visit(static_cast<std::size_t>(e) * yaws + y, static_cast<float>(turn * turn + rise * rise));
+        }
+    }
+}
+
+}  // namespace
+
+float Programme::own_cost(float length) const {
+    const float half = 0.5F * costs_.length;
+    return costs_.shortage * square((costs_.length - length) / half) +
+           (length < ProgrammeCosts::close_share * costs_.length ? costs_.close : 0.0F);
+}
+
+// The least sum of direction costs and turns after each choice, as if every direction were free: separable in
+// yaw and elevation.
+void Programme::bound_from_behind(std::span<const DirectionCosts> direction_costs, float turn) {
+    const std::size_t last = direction_costs.size() - 1;
+    rest_[last].fill(0.0F);
+    Row turned;
+    for (std::size_t knot = last; knot-- > 0;) {
+        for (std::size_t elevation = 0; elevation < elevations; ++elevation) {
+            const std::size_t first = elevation * yaws;
+            std::array<float, yaws + 2 * yaw_reach> row;
+            for (std::size_t i = 0; i < row.size(); ++i) {
+                const std::size_t bin = first + (i + yaws - yaw_reach) % yaws;
+                row[i] = direction_costs[knot + 1][bin] + rest_[knot + 1][bin];
+            }
+            for (std::size_t i = 0; i < yaws; ++i) {
+                const float one = std::min(row[i + 1], row[i + 3]) + turn;
+                const float two = std::min(row[i], row[i + 4]) + 4.0F * turn;
+                turned[first + i] = std::min({row[i + 2], one, two});
+            }
+        }
+        for (std::size_t bin = 0; bin < turned.size(); ++bin) {
+            float least = turned[bin];
+            if (bin >= yaws) least = std::min(least, turned[bin - yaws] + turn);
+            if (bin + yaws < turned.size()) least = std::min(least, turned[bin + yaws] + turn);
+            rest_[knot][bin] = least;
+        }
+    }
+}
+
+// The least cost of coming to a choice from those that are closed, without its own; notes from which.
+float Programme::best_arrival(std::size_t knot, std::size_t bin) {
+    const float half = 0.5F * costs_.length;
+    const float length = length_[knot][bin];
+    if (knot == 0) {
+        return costs_.start_length < 0.0F
+                   ? 0.0F
+                   : costs_.stretch * square((length - costs_.start_length) / half);
+    }
+    float least = infinity;
+    for_each_neighbour(bin, [&](std::size_t from, float turned) {
+        const float before = cost_[knot - 1][from];
+        if (before == infinity) return;
+        const float change = (length - length_[knot - 1][from]) / half;
+        const float cost = before + costs_.turn * turned + costs_.stretch * square(change);
+        if (cost >= least) return;
+        least = cost;
+        parent_[knot][bin] = static_cast<std::uint8_t>(from);
+    });
+    return least;
+}
+
+std::span<const Programme::Choice> Programme::solve(std::span<const DirectionCosts> direction_costs,
+                                                    const ProgrammeCosts& costs, const Lengths& lengths) {
+    assert(!direction_costs.empty() && direction_costs.size() <= knots);
+    direction_costs_ = direction_costs;
+    costs_ = costs;
+    bound_from_behind(direction_costs, costs.turn);
+    const std::size_t count = direction_costs.size();
+    for (std::size_t knot = 0; knot < count; ++knot) {
+        length_[knot].fill(-1.0F);
+        cost_[knot].fill(infinity);
+    }
+    std::fill_n(place_.begin(), count * DirectionGrid::size, unset);
+    heap_size_ = 0;
+    for (std::size_t bin = 0; bin < DirectionGrid::size; ++bin) {
+        if (direction_costs[0][bin] < forbidden) arrive(0, bin, direction_costs[0][bin] + rest_[0][bin]);
+    }
+    while (heap_size_ > 0) {
+        const std::size_t state = take_first();
+        const std::size_t knot = state / DirectionGrid::size;
+        const std::size_t bin = state % DirectionGrid::size;
+        const float promised = estimate_[knot][bin];
+        if (length_[knot][bin] < 0.0F) length_[knot][bin] = lengths(knot, bin);
+        const float cost =
+            best_arrival(knot, bin) + direction_costs[knot][bin] + own_cost(length_[knot][bin]);
+        if (cost + rest_[knot][bin] > promised + 1e-5F) {
+            arrive(knot, bin, cost + rest_[knot][bin]);
+            continue;
+        }
+        cost_[knot][bin] = cost;
+        if (knot + 1 == count) {
+            std::size_t at = bin;
+            for (std::size_t k = count; k-- > 0;) {
+                choices_[k] = {static_cast<std::uint8_t>(at), length_[k][at]};
+                at = parent_[k][at];
+            }
+            return {choices_.data(), count};
+        }
+        for_each_neighbour(bin, [&](std::size_t to, float turned) {
+            if (direction_costs[knot + 1][to] >= forbidden || cost_[knot + 1][to] != infinity) return;
+            const float own = length_[knot + 1][to] < 0.0F ? 0.0F : own_cost(length_[knot + 1][to]);
+            arrive(knot + 1, to,
+                   cost + costs_.turn * turned + direction_costs[knot + 1][to] + own + rest_[knot + 1][to]);
+        });
+    }
+    return {};
+}
+
+// Opens a choice, or improves the estimate of an open one.
+void Programme::arrive(std::size_t knot, std::size_t bin, float estimate) {
+    if (estimate >= forbidden) return;
+    const auto state = static_cast<std::uint16_t>(knot * DirectionGrid::size + bin);
+    if (place_[state] == unset) {
+        place_[state] = static_cast<std::uint16_t>(heap_size_);
+        heap_[heap_size_++] = state;
+    } else if (estimate >= estimate_[knot][bin]) {
+        return;
+    }
+    estimate_[knot][bin] = estimate;
+    sift_up(place_[state]);
+}
+
+std::uint16_t Programme::take_first() {
+    const std::uint16_t first = heap_[0];
+    place_[first] = unset;
+    const std::uint16_t moved = heap_[--heap_size_];
+    if (heap_size_ > 0) {
+        heap_[0] = moved;
+        place_[moved] = 0;
+        sift_down(0);
+    }
+    return first;
+}
+
+void Programme::sift_up(std::size_t position) {
+    const float* const estimates = estimate_[0].data();
+    const std::uint16_t state = heap_[position];
+    while (position > 0) {
+        const std::size_t above = (position - 1) / 2;
+        if (estimates[heap_[above]] <= estimates[state]) break;
+        heap_[position] = heap_[above];
+        place_[heap_[position]] = static_cast<std::uint16_t>(position);
+        position = above;
+    }
+    heap_[position] = state;
+    place_[state] = static_cast<std::uint16_t>(position);
+}
+
+void Programme::sift_down(std::size_t position) {
+    const float* const estimates = estimate_[0].data();
+    const std::uint16_t state = heap_[position];
+    for (;;) {
+        std::size_t below = 2 * position + 1;
+        if (below >= heap_size_) break;
+        if (below + 1 < heap_size_ && estimates[heap_[below + 1]] < estimates[heap_[below]]) ++below;
+        if (estimates[heap_[below]] >= estimates[state]) break;
+        heap_[position] = heap_[below];
+        place_[heap_[position]] = static_cast<std::uint16_t>(position);
+        position = below;
+    }
+    heap_[position] = state;
+    place_[state] = static_cast<std::uint16_t>(position);
+}
+
+}  // namespace camdir::camera

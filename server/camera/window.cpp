@@ -1,0 +1,60 @@
+#include "camera/window.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace camdir::camera {
+namespace {
+
+constexpr float furthest = 1e7F;  // map units: no map reaches there
+
+bool seen(const TimedPose& each) {
+    return each.present && usable(each.pose);
+}
+
+Pose interpolated(const TimedPose& a, const TimedPose& b, double time) {
+    const auto share = static_cast<float>((time - a.time) / (b.time - a.time));
+    Pose pose = a.pose;
+    pose.eye += share * (b.pose.eye - a.pose.eye);
+    pose.velocity += share * (b.pose.velocity - a.pose.velocity);
+    pose.orientation = a.pose.orientation.normalized().slerp(share, b.pose.orientation.normalized());
+    return pose;
+}
+
+}  // namespace
+
+bool usable(const Pose& pose) {
+    const float norm = pose.orientation.norm();
+    return pose.eye.allFinite() && pose.eye.cwiseAbs().maxCoeff() <= furthest && pose.velocity.allFinite() &&
+           std::isfinite(norm) && norm > 1e-3F;
+}
+
+std::ptrdiff_t index_at(Window window, double time) {
+    const auto after = std::upper_bound(window.begin(), window.end(), time,
+                                        [](double t, const TimedPose& each) { return t < each.time; });
+    return after - window.begin() - 1;
+}
+
+bool continuous(Window window, std::ptrdiff_t index) {
+    if (index < 0 || index + 1 >= std::ssize(window)) return false;
+    const TimedPose& a = window[static_cast<std::size_t>(index)];
+    const TimedPose& b = window[static_cast<std::size_t>(index) + 1];
+    return seen(a) && seen(b) && a.pose.alive && b.pose.alive && !b.pose.discontinuity;
+}
+
+std::optional<Pose> pose_at(Window window, double since, double time) {
+    const std::ptrdiff_t index = index_at(window, time);
+    if (index < 0) return std::nullopt;
+    const auto last = static_cast<std::size_t>(index);
+    if (!seen(window[last])) return std::nullopt;
+    Pose pose = continuous(window, index) && window[last].time < time
+                    ? interpolated(window[last], window[last + 1], time)
+                    : window[last].pose;
+    pose.discontinuity = false;
+    for (std::size_t i = last + 1; i-- > 0 && window[i].time > since;) {
+        if (seen(window[i]) && window[i].pose.discontinuity) pose.discontinuity = true;
+    }
+    return pose;
+}
+
+}  // namespace camdir::camera

@@ -1,0 +1,35 @@
+// What is known of a player in time: recorded poses, from some history to as far ahead as a delay allows.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "camera/camera.hpp"
+
+namespace camdir::camera {
+
+struct TimedPose {
+    double time = 0.0;  // s, by the game's clock
+    Pose pose;
+    bool present = true;  // false: the player has no pose from here to the next one
+};
+
+// Ascending strictly by time. A continuous stretch has no absence, death, respawn or teleport in it.
+using Window = std::span<const TimedPose>;
+
+// Finite position, velocity and rotation within 1e7 map units of the origin: everything else counts as no
+// pose.
+[[nodiscard]] bool usable(const Pose& pose);
+
+// The index of the last pose at or before `time`; -1 before the first.
+[[nodiscard]] std::ptrdiff_t index_at(Window window, double time);
+
+// The pose at `time`: interpolated between its neighbours within a continuous stretch, else the one before.
+// None when there is none, or none that is usable. `discontinuity` says that the player came to it, after
+// `since`, by a respawn, a teleport or out of an absence.
+[[nodiscard]] std::optional<Pose> pose_at(Window window, double since, double time);
+
+// Whether poses `index` and `index` + 1 belong to one continuous stretch of a living player.
+[[nodiscard]] bool continuous(Window window, std::ptrdiff_t index);
+
+}  // namespace camdir::camera
