@@ -63,24 +63,41 @@ struct Rates {
     Vec3f velocity;
     float yaw;
     float pitch;
+    float persistence;  // s: of the turning
 };
 
+// A turn that slows down is nearly over; one that gains speed has just begun.
+float persistence(float rate, float rate_before) {
+    const float ratio = std::abs(rate) / std::max(std::abs(rate_before), 1e-3F);
+    if (rate * rate_before < 0.0F) return tuning.turn_end;
+    if (ratio < 1.0F) {
+        const float share = std::clamp((ratio - 0.7F) / 0.25F, 0.0F, 1.0F);
+        return tuning.turn_end + share * (tuning.turn_persistence - tuning.turn_end);
+    }
+    const float share = std::clamp((ratio - 1.05F) / 0.3F, 0.0F, 1.0F);
+    return tuning.turn_persistence + share * (tuning.turn_begin - tuning.turn_persistence);
+}
+
 Rates rates_at(const Stretch& stretch, double time, float yaw) {
-    Rates rates{stretch.window[stretch.last].pose.velocity, 0.0F, 0.0F};
+    Rates rates{stretch.window[stretch.last].pose.velocity, 0.0F, 0.0F, tuning.turn_persistence};
     if (stretch.first == stretch.last) return rates;
     const auto span_from = [&](float wanted) {
         return std::max(stretch.begin(),
                         std::min(time - wanted, stretch.window[stretch.last - 1].time));
     };
     const double moved_since = span_from(tuning.velocity_span);
-    const double turned_since = span_from(tuning.turn_span);
     const auto sample = [&](double at) { return Reader(stretch, yaw).at(at); };
     const Future::Sample now = sample(time);
     rates.velocity = (now.eye - sample(moved_since).eye) / static_cast<float>(time - moved_since);
-    const Look before = sample(turned_since).view;
-    const auto seconds = static_cast<float>(time - turned_since);
+    const double once = std::max(static_cast<double>(tuning.turn_span),
+                                 time - stretch.window[stretch.last - 1].time);
+    if (time - once < stretch.begin() - 1e-9) return rates;
+    const Look before = sample(time - once).view;
+    const auto seconds = static_cast<float>(once);
     rates.yaw = wrapped(now.view.yaw - before.yaw) / seconds;
     rates.pitch = (now.view.pitch - before.pitch) / seconds;
+    const Look earlier = sample(std::max(stretch.begin(), time - 2.0 * once)).view;
+    rates.persistence = persistence(rates.yaw, wrapped(before.yaw - earlier.yaw) / seconds);
     const float speed = rates.velocity.norm();
     if (speed > fastest) rates.velocity *= fastest / speed;
     return rates;
@@ -132,9 +149,10 @@ void foresee(const freespace::Freespace& freespace, const MapProfile& profile, W
             static_cast<float>(std::max(0.0, start + static_cast<double>(i) * step - last_time));
         Vec3f moved = travel(rates, seconds);
         if (moved.norm() > share * length) moved *= share * length / std::max(moved.norm(), 1e-6F);
-        const float turn = faded(seconds, tuning.turn_persistence);
+        const float turn = faded(seconds, rates.persistence);
+        const float yaw = std::clamp(rates.yaw * turn, -tuning.most_turn, tuning.most_turn);
         future.samples[i] = {last.eye + moved,
-                             {last.view.yaw + rates.yaw * turn, last.view.pitch + rates.pitch * turn}};
+                             {last.view.yaw + yaw, last.view.pitch + rates.pitch * turn}};
     }
 }
 

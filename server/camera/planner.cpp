@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "camera/reach.hpp"
 #include "camera/tuning.hpp"
 #include "freespace/distance.hpp"
+#include "freespace/slab.hpp"
 #include "freespace/visibility.hpp"
 
 namespace camdir::camera {
@@ -44,6 +46,11 @@ class Planning {
             s_.radius[i] = -1.0F;
         choose_directions();
         refine_path();
+        if (ahead_) for (std::size_t i = 0; i < std::min<std::size_t>(knot_, n_); ++i) {
+            const Vec3f f = direction_of(future_[i].view);
+            if (angle_between((future_[i].eye.cast<double>() - s_.path[i]).cast<float>(), f) > 60 * degree) ++bad_path;
+            ++all_path;
+        }
         aim();
         store();
     }
@@ -53,7 +60,7 @@ class Planning {
         const double dead = tuning.dead_zone * degree;
         const double tau = ahead_ ? tuning.heading_tau_ahead : tuning.heading_tau;
         std::fill_n(s_.weights.begin(), n_, 1.0);
-        const int rounds = ahead_ ? tuning.reweightings : 0;
+        const int rounds = ahead_ ? tuning.reweightings : tuning.reweightings_causal;
         for (int round = 0;; ++round) {
             solve_angles(tau, [&](std::size_t i) { return double{future_[i].view.yaw}; }, yaw_before(),
                          s_.yaw);
@@ -107,6 +114,28 @@ class Planning {
         return beam.clear ? length : std::max(0.0F, beam.free_length - inside_beam * profile_.unit);
     }
 
+    // Where the beam of sample i to its place on the path leaves the freespace, and which way it leaves.
+    struct Exit {
+        float free = 0.0F;  // length
+        Vec3f normal = Vec3f::Zero();
+    };
+    std::optional<Exit> blocked(std::size_t i, const Vec3f& direction, float length) {
+        const Vec3f& eye = future_[i].eye;
+        const freespace::Sight beam = freespace::sight(freespace_, eye, eye + length * direction, radius(i));
+        if (beam.clear) return std::nullopt;
+        Exit exit{std::max(0.0F, beam.free_length - inside_beam * profile_.unit), direction};
+        if (beam.triangle != freespace::none) {
+            const Vec3f point = eye + beam.free_length * direction;
+            freespace::SlabPoint best;
+            freespace::improve_range(freespace_.mesh(), point, beam.triangle, 1, best);
+            if (best.triangle != freespace::none) {
+                const Vec3f out = point - freespace::ball_at(freespace_.mesh(), best).centre.cast<float>();
+                if (out.norm() > 1e-3F) exit.normal = out.normalized();
+            }
+        }
+        return exit;
+    }
+
     void choose_directions() {
         knot_ = std::max<std::size_t>(
             1, static_cast<std::size_t>(std::lround((ahead_ ? tuning.knot_ahead : tuning.knot) / step_)));
@@ -129,7 +158,7 @@ class Planning {
                 }
                 if (tuning.good_weight > 0.0F && costs[c] < Programme::forbidden) {
                     const std::size_t middle = std::min(n_ - 1, k * knot_ + knot_ / 2);
-                    for (const std::size_t i : {k * knot_, middle}) {
+                    for (std::size_t i = k * knot_; i < std::min(n_, (k + 1) * knot_); i += 2) { (void)middle;
                         const Look view = future_[i].view;
                         const float off = angle_between(-direction_of(view), directions[c]) / degree;
                         const float over = std::max(0.0F, off - tuning.good_angle) / 10.0F;
@@ -149,7 +178,22 @@ class Planning {
             {s_.direction_costs.data(), knots}, costs, [&](std::size_t k, std::size_t c) {
                 return free_length(k * knot_, DirectionGrid::directions()[c], profile_.distance);
             });
+        if (choices.empty()) return head_on();
         set_targets(choices);
+        if (ahead_) for (std::size_t i = 0; i < std::min<std::size_t>(knot_, n_); ++i) {
+            const Vec3f f = direction_of(future_[i].view);
+            if (angle_between((future_[i].eye.cast<double>() - s_.targets[i]).cast<float>(), f) > 60 * degree) ++bad_target;
+            if (angle_between(-direction_of(behind(i)), f) > 60 * degree) ++bad_heading;
+        }
+    }
+
+    // Every path turns faster than the programme can: straight behind, as far as that is free.
+    void head_on() {
+        for (std::size_t i = 0; i < n_; ++i) {
+            const Vec3f direction = direction_of(behind(i));
+            s_.lengths[i] = free_length(i, direction, profile_.distance);
+            s_.targets[i] = s_.eyes[i] + s_.lengths[i] * direction.cast<double>();
+        }
     }
 
     struct Spot {
@@ -182,6 +226,7 @@ class Planning {
                 }
                 const float length = last ? a.length : a.length + share * (b.length - a.length);
                 s_.targets[i] = s_.eyes[i] + (length * direction_of(look)).cast<double>();
+                s_.lengths[i] = length;
             }
             a = b;
         }
@@ -195,7 +240,7 @@ class Planning {
         s_.smoother.solve(plan_.history[0].position, plan_.history[1].position, std::span(s_.path.data(), n_));
     }
     void raise(std::size_t i, double factor) {
-        const std::size_t reach = 2;
+        const auto reach = static_cast<std::size_t>(tuning.reach);
         for (std::size_t k = i >= reach ? i - reach : 0; k <= std::min(n_ - 1, i + reach); ++k)
             s_.weights[k] = std::min<double>(tuning.boost_limit, s_.weights[k] * factor);
     }
@@ -212,19 +257,35 @@ class Planning {
                 const float length = way.norm();
                 if (length < profile_.unit) continue;
                 const Vec3f direction = way / length;
-                const float free = free_length(i, direction, length);
-                if (free < length) {
+                if (const auto exit = blocked(i, direction, length)) {
                     changed = true;
+                    Vec3f offset = exit->free * direction;
+                    if (tuning.x1 > 0.0F) {
+                        const float depth = exit->normal.dot(way - offset);
+                        if (depth > tuning.x1 * (length - exit->free)) offset = way - depth * exit->normal;
+                    }
                     for (std::size_t k = i; k < std::min(n_, i + stride); ++k) {
-                        const Vec3d spot = (future_[k].eye + free * direction).cast<double>();
-                        s_.targets[k] = spot;
+                        s_.targets[k] = (future_[k].eye + offset).cast<double>();
+                        s_.lengths[k] = offset.norm();
                     }
                     raise(i, tuning.boost);
                 }
             }
+            if (tuning.x2 > 0.0F && round < tuning.radial_rounds) changed = keep_distance() || changed;
             if (tuning.hinge_boost > 0.0F) changed = keep_good() || changed;
             if (!changed) break;
         }
+    }
+    // Moves the goals out where the path cuts a corner, and in where it overshoots: at the same distance from
+    // the player, it turns as slowly as before.
+    bool keep_distance() {
+        for (std::size_t i = 0; i < n_; ++i) {
+            const Vec3d way = s_.path[i] - s_.eyes[i];
+            const double length = way.norm();
+            if (length < 1.0) continue;
+            s_.targets[i] += tuning.x2 * (s_.lengths[i] - length) / length * way;
+        }
+        return true;
     }
     // Raises the weights where the smoothed path is off the player's view or distance though its goal is not.
     bool keep_good() {
@@ -265,12 +326,23 @@ class Planning {
         std::fill_n(s_.weights.begin(), n_, 1.0);
         smooth_look(s_.pitch2, {plan_.history[0].look_pitch, plan_.history[1].look_pitch}, tau);
     }
+    // With a dead zone: small deviations are nearly free.
     void smooth_look(std::array<double, Future::capacity>& values, const std::array<double, 2>& before,
                      double tau) {
-        s_.smoother.factorise({s_.weights.data(), n_}, stiffness(tau, step_));
-        for (std::size_t i = 0; i < n_; ++i)
-            values[i] *= s_.weights[i];
-        s_.smoother.solve(before[0], before[1], std::span(values.data(), n_));
+        const double dead = tuning.look_dead * degree;
+        std::copy_n(s_.weights.begin(), n_, s_.base.begin());
+        std::copy_n(values.begin(), n_, s_.goals.begin());
+        for (int round = 0;; ++round) {
+            s_.smoother.factorise({s_.weights.data(), n_}, stiffness(tau, step_));
+            for (std::size_t i = 0; i < n_; ++i)
+                values[i] = s_.goals[i] * s_.weights[i];
+            s_.smoother.solve(before[0], before[1], std::span(values.data(), n_));
+            if (round == tuning.look_rounds) break;
+            for (std::size_t i = 0; i < n_; ++i) {
+                const double off = std::abs(values[i] - s_.goals[i]);
+                s_.weights[i] = s_.base[i] * (off <= dead ? 0.1 : 0.1 + (off - dead) / off * tuning.x3);
+            }
+        }
     }
 
     void store() {

@@ -47,6 +47,9 @@ struct PlanScratch {
     std::array<Vec3d, Future::capacity> eyes;
     std::array<Vec3d, Future::capacity> targets;
     std::array<Vec3d, Future::capacity> path;
+    std::array<double, Future::capacity> lengths;
+    std::array<double, Future::capacity> base;
+    std::array<double, Future::capacity> goals;
     std::array<double, Future::capacity> yaw2;
     std::array<double, Future::capacity> pitch2;
     std::array<float, Future::capacity> radius;

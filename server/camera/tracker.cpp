@@ -84,8 +84,8 @@ class Step {
         state_.look = turned(state_.look, kept ? look : wanted_look(), 1.0F, profile_.turn_limit * dt_);
         if (!kept) {
             ++guard_count;
-            state_.velocity = player_.velocity;
-            deviate(state_.plan, state_.position, player_.velocity, state_.look);
+            state_.velocity = tuning.guard_velocity * player_.velocity + (1.0F - tuning.guard_velocity) * state_.velocity;
+            deviate(state_.plan, state_.position, state_.velocity, state_.look);
         }
         return frame(*place, before, out_of_reach() ? std::uint32_t{searching} : 0U);
     }
