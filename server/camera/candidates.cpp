@@ -1,8 +1,170 @@
 #include "camera/candidates.hpp"
 
+#include <algorithm>
 #include <cmath>
 
+#include "camera/reach.hpp"
+#include "freespace/distance.hpp"
+#include "freespace/slab.hpp"
+#include "freespace/visibility.hpp"
+
 namespace camdir::camera {
+namespace {
+
+constexpr float beam_share = 4.0F / 3.0F;  // radius against the camera's minimum clearance
+constexpr float inside_eye_ball = 0.9F;
+
+constexpr float degree = radians_of_a_degree<float>;
+constexpr float angle_cost = 1.5F;
+constexpr float angle_cost_ahead = 2.0F;
+// A direction this far off the player's own view begins to show them from the side.
+constexpr float side_view = 50.0F * degree;
+constexpr float side_view_tolerance = 10.0F * degree;
+constexpr float side_view_cost = 0.7F;
+constexpr float side_view_limit = 2.0F;
+constexpr std::size_t side_view_stride = 2;  // samples
+constexpr float turn_cost = 0.2F;
+constexpr float turn_cost_ahead = 0.3F;
+constexpr float stretch_cost = 0.1F;
+constexpr float stretch_cost_ahead = 0.5F;
+constexpr float snap_angle = 13.0F * degree;  // of straight behind from the direction beside it
+constexpr float snap_length = 8.0F;           // units that it may be shorter
+
+float squared_share(float value, float tolerance) {
+    return (value / tolerance) * (value / tolerance);
+}
+
+class Choosing {
+  public:
+    Choosing(const MapProfile& profile, const History& history, Beams& beams, Plan& plan,
+             CandidateScratch& scratch)
+        : profile_(profile), beams_(beams), plan_(plan), scratch_(scratch) {
+        camera_ = (history[1].position - history[1].eye).cast<float>();
+        turn_cost_ = (plan.ahead ? turn_cost_ahead : turn_cost) * profile.weight_inertia_angle;
+    }
+
+    void run() {
+        const std::size_t knots =
+            std::min(Programme::knots, (plan_.count() - 1) / plan_.knot_spacing + 1);
+        for (std::size_t knot = 0; knot < knots; ++knot)
+            weigh_directions(knot);
+        const auto length = [this](std::size_t knot, std::size_t bin) {
+            return beams_.free_length(knot * plan_.knot_spacing, DirectionGrid::directions()[bin],
+                                      profile_.distance);
+        };
+        const auto choices =
+            scratch_.programme.solve({scratch_.direction_costs.data(), knots}, costs(), length);
+        if (choices.empty())
+            stay_behind();
+        else
+            set_goals(choices);
+    }
+
+  private:
+    struct Spot {
+        Look look;  // from the eye
+        float length;
+        bool behind;
+    };
+
+    [[nodiscard]] ProgrammeCosts costs() const {
+        ProgrammeCosts costs;
+        costs.length = profile_.distance;
+        costs.shortage *= profile_.weight_distance;
+        costs.close *= profile_.weight_distance;
+        costs.turn = turn_cost_;
+        costs.stretch =
+            (plan_.ahead ? stretch_cost_ahead : stretch_cost) * profile_.weight_inertia_distance;
+        costs.start_length = std::min(camera_.norm(), profile_.distance);
+        return costs;
+    }
+
+    void weigh_directions(std::size_t knot) {
+        const std::size_t first = knot * plan_.knot_spacing;
+        const std::size_t end = std::min(plan_.count(), first + plan_.knot_spacing);
+        const Vec3f behind = direction_of(plan_.behind(first, profile_.elevation));
+        const float cost = (plan_.ahead ? angle_cost_ahead : angle_cost) * profile_.weight_angle;
+        auto& costs = scratch_.direction_costs[knot];
+        for (std::size_t bin = 0; bin < costs.size(); ++bin) {
+            const float angle = angle_between(behind, DirectionGrid::directions()[bin]);
+            costs[bin] = angle > profile_.swing ? 2.0F * Programme::forbidden
+                                                : cost * squared_share(angle, profile_.angle_tolerance);
+        }
+        for (std::size_t i = first; i < end; i += side_view_stride)
+            add_side_view(direction_of(plan_.future[i].view), costs);
+        if (knot == 0 && camera_.norm() > profile_.unit) add_turn_from_camera(costs);
+    }
+    void add_side_view(const Vec3f& view, Programme::DirectionCosts& costs) const {
+        for (std::size_t bin = 0; bin < costs.size(); ++bin) {
+            if (costs[bin] >= Programme::forbidden) continue;
+            const float off =
+                angle_between(Vec3f(-view), DirectionGrid::directions()[bin]) - profile_.elevation - side_view;
+            if (off <= 0.0F) continue;
+            costs[bin] += side_view_cost * profile_.weight_angle *
+                          std::min(side_view_limit, squared_share(off, side_view_tolerance));
+        }
+    }
+    void add_turn_from_camera(Programme::DirectionCosts& costs) const {
+        for (std::size_t bin = 0; bin < costs.size(); ++bin) {
+            const float angle = angle_between(DirectionGrid::directions()[bin], camera_);
+            costs[bin] += turn_cost_ * squared_share(angle, DirectionGrid::spacing);
+        }
+    }
+
+    // Every path turns faster than the programme can.
+    void stay_behind() {
+        for (std::size_t i = 0; i < plan_.count(); ++i) {
+            const Vec3f direction = direction_of(plan_.behind(i, profile_.elevation));
+            set_goal(i, direction, beams_.free_length(i, direction, profile_.distance));
+        }
+    }
+
+    [[nodiscard]] Spot spot_of(std::size_t knot, const Programme::Choice& choice) {
+        const std::size_t i = knot * plan_.knot_spacing;
+        const Look behind = plan_.behind(i, profile_.elevation);
+        const Vec3f direction = direction_of(behind);
+        if (angle_between(direction, DirectionGrid::directions()[choice.bin]) < snap_angle) {
+            const float length = beams_.free_length(i, direction, profile_.distance);
+            if (length >= choice.length - snap_length * profile_.unit) return {behind, length, true};
+        }
+        return {DirectionGrid::look(choice.bin), choice.length, false};
+    }
+
+    void set_goals(std::span<const Programme::Choice> choices) {
+        Spot from = spot_of(0, choices[0]);
+        for (std::size_t knot = 0; knot < choices.size(); ++knot) {
+            const bool last = knot + 1 == choices.size();
+            const Spot to = last ? from : spot_of(knot + 1, choices[knot + 1]);
+            const std::size_t first = knot * plan_.knot_spacing;
+            const std::size_t end = last ? plan_.count() : first + plan_.knot_spacing;
+            for (std::size_t i = first; i < end; ++i) {
+                const float share =
+                    last ? 0.0F : static_cast<float>(i - first) / static_cast<float>(plan_.knot_spacing);
+                set_goal(i, direction_of(between(from, to, share, i)),
+                         from.length + share * (to.length - from.length));
+            }
+            from = to;
+        }
+    }
+    [[nodiscard]] Look between(const Spot& from, const Spot& to, float share, std::size_t i) const {
+        if (from.behind && to.behind) return plan_.behind(i, profile_.elevation);
+        return {from.look.yaw + share * wrapped(to.look.yaw - from.look.yaw),
+                from.look.pitch + share * (to.look.pitch - from.look.pitch)};
+    }
+    void set_goal(std::size_t i, const Vec3f& direction, float length) {
+        plan_.length[i] = length;
+        plan_.goal[i] = plan_.eye[i] + plan_.length[i] * direction.cast<double>();
+    }
+
+    const MapProfile& profile_;
+    Beams& beams_;
+    Plan& plan_;
+    CandidateScratch& scratch_;
+    Vec3f camera_;  // from the eye
+    float turn_cost_;
+};
+
+}  // namespace
 
 const std::array<Vec3f, DirectionGrid::size>& DirectionGrid::directions() {
     static const std::array<Vec3f, size> all = [] {
@@ -12,6 +174,41 @@ const std::array<Vec3f, DirectionGrid::size>& DirectionGrid::directions() {
         return list;
     }();
     return all;
+}
+
+float Beams::radius(std::size_t i) {
+    if (radius_[i] < 0.0F) {
+        const float clearance = freespace::distance_everywhere(freespace_, future_[i].eye).value;
+        radius_[i] =
+            std::max(0.0F, std::min(beam_share * profile_.minimum_clearance, inside_eye_ball * clearance));
+    }
+    return radius_[i];
+}
+
+float Beams::free_length(std::size_t i, const Vec3f& direction, float length) {
+    const Vec3f& eye = future_[i].eye;
+    const freespace::Sight beam = freespace::sight(freespace_, eye, eye + length * direction, radius(i));
+    return beam.clear ? length : std::max(0.0F, beam.free_length - inside_beam * profile_.unit);
+}
+
+std::optional<BeamEnd> Beams::end(std::size_t i, const Vec3f& direction, float length) {
+    const Vec3f& eye = future_[i].eye;
+    const freespace::Sight beam = freespace::sight(freespace_, eye, eye + length * direction, radius(i));
+    if (beam.clear) return std::nullopt;
+    BeamEnd end{std::max(0.0F, beam.free_length - inside_beam * profile_.unit), direction};
+    if (beam.triangle == freespace::none) return end;
+    const Vec3f point = eye + beam.free_length * direction;
+    freespace::SlabPoint last;
+    freespace::improve_range(freespace_.mesh(), point, beam.triangle, 1, last);
+    if (last.triangle == freespace::none) return end;
+    const Vec3d out = point.cast<double>() - freespace::ball_at(freespace_.mesh(), last).centre;
+    if (out.norm() > 0.0) end.normal = out.normalized().cast<float>();
+    return end;
+}
+
+void choose_directions(const MapProfile& profile, const History& history, Beams& beams, Plan& plan,
+                       CandidateScratch& scratch) {
+    Choosing(profile, history, beams, plan, scratch).run();
 }
 
 }  // namespace camdir::camera

@@ -3,13 +3,24 @@
 #include <algorithm>
 #include <cmath>
 
-#include "camera/tuning.hpp"
 #include "freespace/visibility.hpp"
 
 namespace camdir::camera {
 namespace {
 
-constexpr float fastest = 1e4F;  // map units/s: more is a jump
+constexpr float fastest_player = 1e4F;     // map units/s: more is a jump
+constexpr double velocity_span = 0.048;    // s over which the velocity is taken
+constexpr double turn_span = 0.016;        // s over which the turning is taken
+constexpr double shortest_horizon = 0.4;   // s
+constexpr double prediction_ahead = 0.4;   // s, after the recorded poses
+constexpr float run_persistence = 0.5F;    // s: how long players keep running
+constexpr float fall_persistence = 0.15F;  // s: how long they keep rising or falling
+constexpr float from_wall = 16.0F;         // units at which a wall stops them
+// How long players keep turning, s: a turn that has just begun, one at constant speed, one that slows down.
+constexpr float turn_begin = 0.13F;
+constexpr float turn_constant = 0.1F;
+constexpr float turn_end = 0.02F;
+constexpr float largest_turn = 2.0F;  // rad
 
 Look view_of(const Pose& pose, float near_yaw) {
     Look view = look_along(pose.orientation.normalized() * Vec3f::UnitX(), near_yaw);
@@ -69,27 +80,27 @@ struct Rates {
 // A turn that slows down is nearly over; one that gains speed has just begun.
 float persistence(float rate, float rate_before) {
     const float ratio = std::abs(rate) / std::max(std::abs(rate_before), 1e-3F);
-    if (rate * rate_before < 0.0F) return tuning.turn_end;
+    if (rate * rate_before < 0.0F) return turn_end;
     if (ratio < 1.0F) {
         const float share = std::clamp((ratio - 0.7F) / 0.25F, 0.0F, 1.0F);
-        return tuning.turn_end + share * (tuning.turn_persistence - tuning.turn_end);
+        return turn_end + share * (turn_constant - turn_end);
     }
     const float share = std::clamp((ratio - 1.05F) / 0.3F, 0.0F, 1.0F);
-    return tuning.turn_persistence + share * (tuning.turn_begin - tuning.turn_persistence);
+    return turn_constant + share * (turn_begin - turn_constant);
 }
 
 Rates rates_at(const Stretch& stretch, double time, float yaw) {
-    Rates rates{stretch.window[stretch.last].pose.velocity, 0.0F, 0.0F, tuning.turn_persistence};
+    Rates rates{stretch.window[stretch.last].pose.velocity, 0.0F, 0.0F, turn_constant};
     if (stretch.first == stretch.last) return rates;
-    const auto span_from = [&](float wanted) {
+    const auto span_from = [&](double wanted) {
         return std::max(stretch.begin(),
                         std::min(time - wanted, stretch.window[stretch.last - 1].time));
     };
-    const double moved_since = span_from(tuning.velocity_span);
+    const double moved_since = span_from(velocity_span);
     const auto sample = [&](double at) { return Reader(stretch, yaw).at(at); };
     const Future::Sample now = sample(time);
     rates.velocity = (now.eye - sample(moved_since).eye) / static_cast<float>(time - moved_since);
-    const double once = std::max(static_cast<double>(tuning.turn_span),
+    const double once = std::max(turn_span,
                                  time - stretch.window[stretch.last - 1].time);
     if (time - once < stretch.begin() - 1e-9) return rates;
     const Look before = sample(time - once).view;
@@ -99,7 +110,7 @@ Rates rates_at(const Stretch& stretch, double time, float yaw) {
     const Look earlier = sample(std::max(stretch.begin(), time - 2.0 * once)).view;
     rates.persistence = persistence(rates.yaw, wrapped(before.yaw - earlier.yaw) / seconds);
     const float speed = rates.velocity.norm();
-    if (speed > fastest) rates.velocity *= fastest / speed;
+    if (speed > fastest_player) rates.velocity *= fastest_player / speed;
     return rates;
 }
 
@@ -109,8 +120,8 @@ float faded(float seconds, float persistence) {
 }
 
 Vec3f travel(const Rates& rates, float seconds) {
-    const float run = faded(seconds, tuning.run_persistence);
-    const float fall = faded(seconds, tuning.fall_persistence);
+    const float run = faded(seconds, run_persistence);
+    const float fall = faded(seconds, fall_persistence);
     return rates.velocity.cwiseProduct(Vec3f(run, run, fall));
 }
 
@@ -120,7 +131,7 @@ void foresee(const freespace::Freespace& freespace, const MapProfile& profile, W
              double step, double horizon, float yaw, Future& future) {
     const Stretch stretch(window, static_cast<std::size_t>(index_at(window, start)));
     const double known = std::clamp(stretch.end() - start, 0.0, horizon);
-    const double whole = std::max(known + tuning.extend, static_cast<double>(tuning.horizon));
+    const double whole = std::max(known + prediction_ahead, shortest_horizon);
     future.start = start;
     future.step = step;
     future.count = std::min(Future::capacity, static_cast<std::size_t>(whole / step + 1e-6) + 1);
@@ -142,7 +153,7 @@ void foresee(const freespace::Freespace& freespace, const MapProfile& profile, W
     if (length > profile.unit) {
         const freespace::Sight free = freespace::sight(freespace, last.eye, last.eye + way);
         if (!free.clear)
-            share = std::max(0.0F, free.free_length - tuning.wall * profile.unit) / length;
+            share = std::max(0.0F, free.free_length - from_wall * profile.unit) / length;
     }
     for (std::size_t i = future.known; i < future.count; ++i) {
         const auto seconds =
@@ -150,7 +161,7 @@ void foresee(const freespace::Freespace& freespace, const MapProfile& profile, W
         Vec3f moved = travel(rates, seconds);
         if (moved.norm() > share * length) moved *= share * length / std::max(moved.norm(), 1e-6F);
         const float turn = faded(seconds, rates.persistence);
-        const float yaw = std::clamp(rates.yaw * turn, -tuning.most_turn, tuning.most_turn);
+        const float yaw = std::clamp(rates.yaw * turn, -largest_turn, largest_turn);
         future.samples[i] = {last.eye + moved,
                              {last.view.yaw + yaw, last.view.pitch + rates.pitch * turn}};
     }

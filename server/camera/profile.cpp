@@ -77,7 +77,7 @@ constexpr std::array keys = {
     ProfileKey{"framing_offset", degrees, -30.0F, 30.0F,
                "how far below the middle of the image the player's eye is shown", &Profile::framing_offset},
 };
-static_assert(keys.size() * sizeof(float) == sizeof(Profile), "every member has one key");
+static_assert(keys.size() * sizeof(float) + sizeof(Solver) == sizeof(Profile), "every number has one key");
 
 float scale(std::string_view unit, float profile_units_to_map) {
     if (unit == units || unit == units_per_second) return profile_units_to_map;

@@ -2,9 +2,13 @@
 // validation, its reference and the observers' overrides are made.
 #pragma once
 
+#include <cstdint>
 #include <span>
 
 namespace camdir::camera {
+
+// How a shot is solved: by planning over the player's future, or by the heuristic of the paper's section 5.3.
+enum class Solver : std::uint32_t { planner, paper };
 
 // Lengths are units of 0.0254 m and scale with the map's metres_per_unit; angles are degrees, as in JSON.
 // Weights multiply a term of the objective (section 3) and the individual move made for it (section 5.3).
@@ -40,6 +44,8 @@ struct Profile {
 
     float vertical_fov = 58.7F;
     float framing_offset = 0.0F;
+
+    Solver solver = Solver::planner;
 };
 
 struct ProfileKey {
@@ -51,7 +57,7 @@ struct ProfileKey {
     float Profile::*member;  // the default is the member's initialiser
 };
 
-// Every member of Profile once, in the order of the documentation.
+// Every number of Profile once, in the order of the documentation.
 [[nodiscard]] std::span<const ProfileKey> profile_keys();
 
 // The same profile in the units of a map: lengths in map units, angles in radians.

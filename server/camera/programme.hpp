@@ -7,7 +7,7 @@
 #include <functional>
 #include <span>
 
-#include "camera/candidates.hpp"
+#include "camera/directions.hpp"
 
 namespace camdir::camera {
 

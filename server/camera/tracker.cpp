@@ -6,14 +6,13 @@
 #include <optional>
 
 #include "camera/cut.hpp"
+#include "camera/guard.hpp"
 #include "camera/moves.hpp"
 #include "camera/objective.hpp"
 #include "camera/reach.hpp"
 #include "camera/regain.hpp"
 #include "camera/search.hpp"
 #include "camera/spot.hpp"
-#include "camera/tuning.hpp"
-#include "freespace/visibility.hpp"
 
 namespace camdir::camera {
 namespace {
@@ -35,7 +34,7 @@ float usable_frame(double dt) {
 class Step {
   public:
     Step(const freespace::Freespace& freespace, const Profile& profile, double dt, ShotState& state,
-         Scratch& scratch, Window window = {}, double time = 0.0, bool planned = false)
+         Scratch& scratch, Window window, double time)
         : freespace_(freespace),
           profile_(profile, freespace.metadata().metres_per_unit),
           dt_(usable_frame(dt)),
@@ -43,8 +42,7 @@ class Step {
           player_(state.player),
           scratch_(scratch),
           window_(window),
-          time_(time),
-          planned_(planned) {}
+          time_(time) {}
 
     Camera with_pose(const Pose& pose) {
         if (!state_.started || pose.discontinuity) {
@@ -55,7 +53,7 @@ class Step {
         if (!pose.alive) return come_to_rest();
         if (state_.lost_for > profile_.search_time_limit && player_.covered) return cut_to_player();
         if (state_.lost_for > 0.0F) return search();
-        return planned_ ? follow_plan() : keep_in_sight();
+        return profile_.solver == Solver::planner ? follow_plan() : keep_in_sight();
     }
 
     Camera without_pose() {
@@ -65,52 +63,27 @@ class Step {
     }
 
   private:
+    // The planner's step.
     Camera follow_plan() {
         const PlannedSample& planned =
-            next_sample(freespace_, profile_, window_, time_, dt_, 2.4, state_.plan, scratch_.plan);
+            next_sample(freespace_, profile_, window_, time_, dt_, state_.plan, scratch_.plan);
         const Vec3f wanted = planned.position.cast<float>();
-        const Look look{wrapped(static_cast<float>(planned.look_yaw)), static_cast<float>(planned.look_pitch)};
-        const auto place = guard(wanted);
-        if (!place) {
-            const Camera camera = search();
-            deviate(state_.plan, state_.position, player_.velocity, state_.look);
-            return camera;
-        }
+        const Look look{wrapped(static_cast<float>(planned.look_yaw)),
+                        static_cast<float>(planned.look_pitch)};
+        const auto place = guarded(freespace_, profile_, player_, motion(), start(), wanted);
+        if (!place) return search();
+        const bool as_planned = place->position == wanted;
         const Motion before = motion();
-        const bool kept = (place->position - wanted).norm() < 0.01F * profile_.unit;
-        state_.velocity = (place->position - state_.position) / dt_;
+        state_.velocity =
+            as_planned ? Vec3f((wanted - state_.position) / dt_) : player_.velocity;  // a rescue is no motion
         settle(*place);
         state_.lost_for = 0.0F;
-        state_.look = turned(state_.look, kept ? look : wanted_look(), 1.0F, profile_.turn_limit * dt_);
-        if (!kept) {
-            ++guard_count;
-            state_.velocity = tuning.guard_velocity * player_.velocity + (1.0F - tuning.guard_velocity) * state_.velocity;
-            deviate(state_.plan, state_.position, state_.velocity, state_.look);
-        }
+        state_.look = turned(state_.look, as_planned ? look : wanted_look(), 1.0F, profile_.turn_limit * dt_);
+        if (!as_planned) deviate_from_plan();
         return frame(*place, before, out_of_reach() ? std::uint32_t{searching} : 0U);
     }
 
-    // `wanted` when it keeps every promise; else pulled in; else what regains sight.
-    std::optional<Candidate> guard(const Vec3f& wanted) {
-        const auto fine = [&](const Vec3f& target) -> std::optional<Candidate> {
-            auto place = reach(freespace_, profile_, player_, start(), within_reach(target));
-            if (place && acceptable(profile_, *place)) return place;
-            return std::nullopt;
-        };
-        if (auto place = fine(wanted)) return place;
-        const Vec3f way = wanted - player_.anchor;
-        const float length = way.norm();
-        if (length > profile_.unit) {
-            const freespace::Sight beam = freespace::sight(freespace_, player_.anchor, wanted,
-                                                           beam_radius(profile_, player_), player_.slab);
-            const float free = std::max(0.0F, beam.free_length - inside_beam * profile_.unit);
-            for (const float share : {1.0F, 0.9F, 0.75F})
-                if (auto place = fine(player_.anchor + way * (share * std::min(free, length) / length)))
-                    return place;
-        }
-        return regain_sight(freespace_, profile_, player_, motion(), start(), wanted);
-    }
-
+    // The paper's step.
     Camera keep_in_sight() {
         const Spot spot = spot_to_move_to(freespace_, profile_, player_, state_.position, dt_, state_.spot);
         Vec3f position = state_.position;
@@ -170,7 +143,7 @@ class Step {
         state_.velocity = player_.velocity;
         state_.lost_for = 0.0F;
         state_.look = wanted_look();
-        restart(state_.plan, state_.position, state_.look, player_, dt_);
+        restart_plan(state_.plan, state_.position, state_.look, player_, dt_);
         return frame(spot, standing(), cut);
     }
 
@@ -181,9 +154,11 @@ class Step {
         settle(next);
         state_.lost_for = lost ? state_.lost_for + dt_ : 0.0F;
         turn();
-        if (planned_) deviate(state_.plan, state_.position, state_.velocity, state_.look);
+        deviate_from_plan();
         return frame(next, before, lost || out_of_reach() ? std::uint32_t{searching} : 0U);
     }
+
+    void deviate_from_plan() { deviate(state_.plan, state_.position, state_.velocity, state_.look); }
 
     void settle(const Candidate& place) {
         state_.position = place.position;
@@ -266,22 +241,24 @@ class Step {
     Scratch& scratch_;
     const Window window_;
     const double time_;
-    const bool planned_;
 };
 
 }  // namespace
 
 Camera step(const freespace::Freespace& freespace, const Profile& profile, Window window, double time,
-            bool planned, ShotState& state, Scratch& scratch) {
+            ShotState& state, Scratch& scratch) {
     const auto pose = pose_at(window, state.time, time);
-    Step one(freespace, profile, time - state.time, state, scratch, window, time, planned);
+    Step one(freespace, profile, time - state.time, state, scratch, window, time);
     state.time = time;
     return pose ? one.with_pose(*pose) : one.without_pose();
 }
 
 Camera step(const freespace::Freespace& freespace, const Profile& profile, const Pose* pose, double dt,
             ShotState& state, Scratch& scratch) {
-    Step one(freespace, profile, dt, state, scratch);
+    const double time = state.time + usable_frame(dt);
+    state.recent.add(time, pose);
+    Step one(freespace, profile, dt, state, scratch, state.recent.window(), time);
+    state.time = time;
     return pose != nullptr && usable(*pose) ? one.with_pose(*pose) : one.without_pose();
 }
 

@@ -1,4 +1,5 @@
-// The tracker: one shot, one player, one camera. The paper's section 5.3.
+// The tracker: one shot, one player, one camera. What it does in each situation of a match is the same for
+// both solvers: the planner, and the heuristic of the paper's section 5.3.
 #pragma once
 
 #include <cstdint>
@@ -24,10 +25,11 @@ struct ShotState {
     Vec3f velocity = Vec3f::Zero();
     std::uint32_t slab = freespace::none;  // of the position
     Look look;
-    double time = 0.0;   // of the last step, s
-    SpotMemory spot;     // of the paper's heuristic
-    PlanState plan;      // of the planner
     float lost_for = 0.0F;  // seconds since the player was last seen
+    double time = 0.0;      // s: of the last step
+    SpotMemory spot;        // of the paper's heuristic
+    PlanState plan;         // of the planner
+    RecentPoses recent;     // of steps by single poses
 };
 
 // Memory for the steps of any number of shots on one map, one after the other; one thread at a time.
@@ -38,9 +40,10 @@ class Scratch {
     PlanScratch plan;
 };
 
-// Moves the camera by one pose. `pose` is null when the player has none in this frame. `dt` is the time
-// since the shot's last step in seconds, by the game's clock; <= 0 or not finite counts as one frame of 60
-// Hz, anything else is limited to 1 ms .. 250 ms.
+// Moves the camera to `time`, later than the last step's, by the solver of the profile. The window holds the
+// poses of the player that are known: 0.2 s of history, and of what comes after `time` as much as a delay
+// lets be known (2.5 s are used); without any the shot is causal. The time since the last step counts as one
+// frame of 60 Hz where it is <= 0, and is limited to 1 ms .. 250 ms.
 //
 // Guarantees: the camera stays in freespace and moves through freespace, except in a step flagged `cut`,
 // which lands in freespace; never a number that is not finite; the same arguments give the same result.
@@ -52,11 +55,13 @@ class Scratch {
 //   dead player                glides to a stop, keeps looking; held once it stands
 //   eye in no slab             follows the last free point on the way to the eye
 //   not seen                   searches along the roadmap, after profile.search_time_limit a cut
+[[nodiscard]] Camera step(const freespace::Freespace& freespace, const Profile& profile, Window window,
+                          double time, ShotState& state, Scratch& scratch);
+
+// The same by one pose, `dt` seconds after the last step, for a causal shot: the state keeps what history it
+// needs. `pose` is null when the player has none in this frame. A `dt` that is not finite counts as one frame
+// too.
 [[nodiscard]] Camera step(const freespace::Freespace& freespace, const Profile& profile, const Pose* pose,
                           double dt, ShotState& state, Scratch& scratch);
-
-// The same at `time`, from poses around it.
-[[nodiscard]] Camera step(const freespace::Freespace& freespace, const Profile& profile, Window window,
-                          double time, bool planned, ShotState& state, Scratch& scratch);
 
 }  // namespace camdir::camera

@@ -57,4 +57,12 @@ std::optional<Pose> pose_at(Window window, double since, double time) {
     return pose;
 }
 
+void RecentPoses::add(double time, const Pose* pose) {
+    if (count_ == poses_.size())
+        std::move(poses_.begin() + 1, poses_.end(), poses_.begin());
+    else
+        ++count_;
+    poses_[count_ - 1] = {time, pose != nullptr ? *pose : Pose{}, pose != nullptr};
+}
+
 }  // namespace camdir::camera

@@ -1,6 +1,7 @@
 // What is known of a player in time: recorded poses, from some history to as far ahead as a delay allows.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 
@@ -31,5 +32,17 @@ using Window = std::span<const TimedPose>;
 
 // Whether poses `index` and `index` + 1 belong to one continuous stretch of a living player.
 [[nodiscard]] bool continuous(Window window, std::ptrdiff_t index);
+
+// The last poses of a shot that is given one after the other. A value.
+class RecentPoses {
+  public:
+    // At a later time than the last one's; null, or a pose that is not usable: the player has none.
+    void add(double time, const Pose* pose);
+    [[nodiscard]] Window window() const { return {poses_.data(), count_}; }
+
+  private:
+    std::array<TimedPose, 8> poses_;
+    std::size_t count_ = 0;
+};
 
 }  // namespace camdir::camera

@@ -1,0 +1,43 @@
+#include "camera/aim.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace camdir::camera {
+namespace {
+
+// Shares of the profile's time constant.
+constexpr double aim_share = 1.5;
+constexpr double aim_share_ahead = 2.5;
+constexpr double off_middle = 6.0 * radians_of_a_degree<double>;
+constexpr double off_middle_gain = 4.0;
+constexpr int off_middle_rounds = 2;
+constexpr float steepest_look = 86.0F * radians_of_a_degree<float>;
+constexpr double least_yaw_weight = 0.02;
+
+}  // namespace
+
+void aim(const MapProfile& profile, const History& history, Plan& plan) {
+    const std::size_t count = plan.count();
+    const double time_constant = (plan.ahead ? aim_share_ahead : aim_share) * profile.look_smoothing;
+    const int rounds = plan.ahead ? off_middle_rounds : 0;
+    double yaw = history[1].look_yaw;
+    for (std::size_t i = 0; i < count; ++i) {
+        const Vec3f way = (plan.eye[i] - plan.position[i]).cast<float>();
+        const Look look = look_along(way, static_cast<float>(yaw));
+        yaw += wrapped(look.yaw - static_cast<float>(yaw));
+        plan.wanted[i] = yaw;
+        plan.look_pitch[i] = std::clamp(look.pitch + profile.framing_offset, -steepest_look, steepest_look);
+        // Near the vertical a yaw moves the player little in the picture, but turns all of it.
+        const double level = std::cos(look.pitch);
+        plan.weights[i] = std::max(least_yaw_weight, level * level);
+    }
+    plan.smooth_with_dead_zone(time_constant, off_middle, off_middle_gain, rounds, history[0].look_yaw,
+                               history[1].look_yaw, plan.look_yaw);
+    std::copy_n(plan.look_pitch.begin(), count, plan.wanted.begin());
+    std::fill_n(plan.weights.begin(), count, 1.0);
+    plan.smooth_with_dead_zone(time_constant, off_middle, off_middle_gain, rounds, history[0].look_pitch,
+                               history[1].look_pitch, plan.look_pitch);
+}
+
+}  // namespace camdir::camera

@@ -1,0 +1,46 @@
+#include "camera/plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace camdir::camera {
+namespace {
+
+constexpr double steepest_view = 80.0 * radians_of_a_degree<double>;
+constexpr double weight_in_dead_zone = 0.1;
+
+}  // namespace
+
+Look Plan::behind(std::size_t i, float elevation) const {
+    const double pitch = std::clamp(-heading_pitch[i] + elevation, -steepest_view, steepest_view);
+    return {static_cast<float>(heading_yaw[i] + std::numbers::pi), static_cast<float>(pitch)};
+}
+
+void Plan::smooth(double time_constant, double before_last, double last, PerSample<double>& values) {
+    smoother.factorise({weights.data(), count()}, stiffness(time_constant, future.step));
+    for (std::size_t i = 0; i < count(); ++i)
+        values[i] = weights[i] * wanted[i];
+    smoother.solve(before_last, last, std::span(values.data(), count()));
+}
+
+void Plan::smooth_with_dead_zone(double time_constant, double dead_zone, double gain, int rounds,
+                                 double before_last, double last, PerSample<double>& values) {
+    std::copy_n(weights.begin(), count(), weights_before.begin());
+    smooth(time_constant, before_last, last, values);
+    for (int round = 0; round < rounds; ++round) {
+        for (std::size_t i = 0; i < count(); ++i) {
+            const double off = std::abs(values[i] - wanted[i]);
+            const double beyond = off > dead_zone ? gain * (off - dead_zone) / off : 0.0;
+            weights[i] = weights_before[i] * (weight_in_dead_zone + beyond);
+        }
+        smooth(time_constant, before_last, last, values);
+    }
+}
+
+double stiffness(double time_constant, double step) {
+    const double ratio = time_constant / step;
+    return ratio * ratio * ratio * ratio;
+}
+
+}  // namespace camdir::camera
