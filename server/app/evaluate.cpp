@@ -24,6 +24,8 @@ namespace camdir::app {
 namespace {
 
 constexpr const char* tracker = "tracker";
+constexpr const char* planner = "planner";
+constexpr const char* paper = "paper";
 
 struct EvaluateOptions {
     std::string freespace;
@@ -37,6 +39,8 @@ struct EvaluateOptions {
     std::string terms;
     std::string json;
     double output_hz = 0.0;  // 0 = the trace's own frames
+    double look_ahead = 0.0;
+    std::string solver;  // empty: the profile's
 
     [[nodiscard]] bool tracks() const { return judge.empty() && camera == tracker; }
 };
@@ -46,18 +50,26 @@ void check_usage(const EvaluateOptions& options) {
         throw CLI::RequiredError("FILE.vfs, or --camera with another camera than the tracker, or --judge");
     if (!options.tracks() && !options.config.empty())
         throw CLI::ValidationError("--config", "only the tracker has a profile");
+    if (!options.tracks() && (!options.solver.empty() || options.look_ahead > 0.0))
+        throw CLI::ValidationError("--solver and --look-ahead", "only the tracker has a solver");
     if (!options.tracks() && !options.terms.empty())
         throw CLI::ValidationError("--terms", "only the tracker has an objective");
     check_one_standard_output(
         {{"--cameras", options.cameras}, {"--terms", options.terms}, {"--json", options.json}});
 }
 
-Result<evaluation::Trace> read_trace(const EvaluateOptions& options) {
+struct Traces {
+    evaluation::Trace poses;   // as recorded
+    evaluation::Trace frames;  // the instants of the cameras
+};
+
+Result<Traces> read_traces(const EvaluateOptions& options) {
     auto trace = evaluation::read_trace(options.trace);
-    if (!trace || options.output_hz == 0.0) return trace;
+    if (!trace) return tl::unexpected(trace.error());
+    if (options.output_hz == 0.0) return Traces{*trace, *trace};
     auto resampled = evaluation::resample(*trace, options.output_hz);
     if (!resampled) return fail(options.trace + ": " + resampled.error().message);
-    return resampled;
+    return Traces{std::move(*trace), std::move(*resampled)};
 }
 
 struct SourceMap {
@@ -94,11 +106,13 @@ Result<camera::Profile> find_profile(const EvaluateOptions& options) {
     return fail(options.config + ": /profiles has no \"" + options.profile + "\"; it has" + names);
 }
 
-Result<evaluation::Recording> run_tracker(const EvaluateOptions& options, const evaluation::Trace& trace,
+Result<evaluation::Recording> run_tracker(const EvaluateOptions& options, const Traces& traces,
                                           std::uint64_t map_hash, ProgressLine& line,
                                           const std::stop_token& stop) {
-    const auto profile = find_profile(options);
+    auto profile = find_profile(options);
     if (!profile) return tl::unexpected(profile.error());
+    if (!options.solver.empty())
+        profile->solver = options.solver == planner ? camera::Solver::planner : camera::Solver::paper;
     const auto freespace = freespace::Freespace::open(options.freespace);
     if (!freespace) return tl::unexpected(freespace.error());
     if (freespace->metadata().source_hash != map_hash) {
@@ -107,21 +121,22 @@ Result<evaluation::Recording> run_tracker(const EvaluateOptions& options, const 
                   << options.map << '\n';
     }
     const auto show = [&](std::uint64_t done, std::uint64_t total) { line.show("tracking", done, total); };
-    return evaluation::record(*freespace, *profile, trace, show, stop);
+    return evaluation::record(*freespace, *profile, traces.poses, traces.frames, options.look_ahead, show,
+                              stop);
 }
 
 // The cameras to measure. Only the tracker's have objective terms and times.
-Result<evaluation::Recording> make_cameras(const EvaluateOptions& options, const evaluation::Trace& trace,
+Result<evaluation::Recording> make_cameras(const EvaluateOptions& options, const Traces& traces,
                                            const scene::Scene& scene, ProgressLine& line,
                                            const std::stop_token& stop) {
-    if (options.tracks()) return run_tracker(options, trace, scene.source_hash, line, stop);
+    if (options.tracks()) return run_tracker(options, traces, scene.source_hash, line, stop);
     evaluation::Recording recording;
     if (options.judge.empty()) {
         const auto peer = evaluation::find_peer(options.camera);
-        recording.cameras = evaluation::follow(*peer, trace, scene.metres_per_unit);
+        recording.cameras = evaluation::follow(*peer, traces.frames, scene.metres_per_unit);
         return recording;
     }
-    auto cameras = evaluation::read_cameras(options.judge, trace);
+    auto cameras = evaluation::read_cameras(options.judge, traces.frames);
     if (!cameras) return tl::unexpected(cameras.error());
     recording.cameras = std::move(*cameras);
     return recording;
@@ -135,7 +150,8 @@ void print(const EvaluateOptions& options, const evaluation::Trace& trace, const
     if (recording.step_nanoseconds.empty()) return;
     std::cerr << "cost             median "
               << std::llround(evaluation::percentile(recording.step_nanoseconds, 0.5)) << "  p99 "
-              << std::llround(evaluation::percentile(recording.step_nanoseconds, 0.99))
+              << std::llround(evaluation::percentile(recording.step_nanoseconds, 0.99)) << "  mean "
+              << std::llround(evaluation::mean(recording.step_nanoseconds))
               << " ns of CPU time an update\n";
 }
 
@@ -157,22 +173,23 @@ Result<void> evaluate(const EvaluateOptions& options) {
         return writable;
     ProgressLine line;
     line.show("reading " + options.trace, 0, 0);
-    const auto trace = read_trace(options);
-    if (!trace) return tl::unexpected(trace.error());
+    const auto traces = read_traces(options);
+    if (!traces) return tl::unexpected(traces.error());
+    const evaluation::Trace& trace = traces->frames;
     line.show("reading " + options.map, 0, 0);
     const auto map = open_map(options);
     if (!map) return tl::unexpected(map.error());
     const oracle::Oracle oracle(map->scene, map->point_radius);
     reading.reset();
-    const auto recording = make_cameras(options, *trace, map->scene, line, interruption.token());
+    const auto recording = make_cameras(options, *traces, map->scene, line, interruption.token());
     if (!recording) return tl::unexpected(recording.error());
     const auto explored = [&](std::uint64_t cells) { line.show("judging, cells explored", cells, 0); };
     const auto metrics =
-        evaluation::measure(map->scene, oracle, *trace, recording->cameras, explored, interruption.token());
+        evaluation::measure(map->scene, oracle, trace, recording->cameras, explored, interruption.token());
     if (!metrics) return tl::unexpected(metrics.error());
     line.clear();
-    print(options, *trace, *metrics, *recording);
-    return write_results(options, *trace, *metrics, *recording);
+    print(options, trace, *metrics, *recording);
+    return write_results(options, trace, *metrics, *recording);
 }
 
 }  // namespace
@@ -197,8 +214,15 @@ void add_evaluate(CLI::App& root, Run& run) {
         ->excludes(camera);
     command
         ->add_option("--output-hz", options->output_hz,
-                     "Steps per second, with interpolated poses; default: the trace's frames")
+                     "Cameras per second, judged against interpolated poses; default: the trace's frames")
         ->check(CLI::Range(1.0, 1000.0));
+    command
+        ->add_option("--look-ahead", options->look_ahead,
+                     "Seconds of each player's future that the camera knows, as with a delay; 0: causal")
+        ->capture_default_str()
+        ->check(CLI::Range(0.0, 120.0));
+    command->add_option("--solver", options->solver, "paper or planner; default: the profile's")
+        ->check(CLI::IsMember({paper, planner}));
     command->add_option("--cameras", options->cameras, "Write the cameras, CSV; - = standard output");
     command->add_option("--terms", options->terms, "Write the tracker's objective terms, CSV");
     command->add_option("--json", options->json, "Write the metrics, JSON; - = standard output");

@@ -7,8 +7,8 @@
 
 namespace camdir::camera {
 
-// How a shot is solved: by planning over the player's future, or by the heuristic of the paper's section 5.3.
-enum class Solver : std::uint32_t { planner, paper };
+// How a shot is solved: by the heuristic of the paper's section 5.3, or by planning over the player's future.
+enum class Solver : std::uint32_t { paper, planner };
 
 // Lengths are units of 0.0254 m and scale with the map's metres_per_unit; angles are degrees, as in JSON.
 // Weights multiply a term of the objective (section 3) and the individual move made for it (section 5.3).
@@ -45,7 +45,7 @@ struct Profile {
     float vertical_fov = 58.7F;
     float framing_offset = 0.0F;
 
-    Solver solver = Solver::planner;
+    Solver solver = Solver::paper;
 };
 
 struct ProfileKey {

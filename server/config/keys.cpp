@@ -5,6 +5,12 @@
 #include <charconv>
 #include <type_traits>
 
+namespace camdir::camera {
+
+NLOHMANN_JSON_SERIALIZE_ENUM(Solver, {{Solver::paper, "paper"}, {Solver::planner, "planner"}})
+
+}  // namespace camdir::camera
+
 namespace camdir::config {
 namespace {
 
@@ -31,8 +37,9 @@ Slot<T> in_map(T Map::*member) {
     return [=](const Target& target) -> T& { return target.map->*member; };
 }
 
-Slot<float> in_profile(float camera::Profile::*member) {
-    return [=](const Target& target) -> float& { return target.profile->*member; };
+template <class T>
+Slot<T> in_profile(T camera::Profile::*member) {
+    return [=](const Target& target) -> T& { return target.profile->*member; };
 }
 
 void add_dds(std::vector<Key>& table) {
@@ -228,6 +235,17 @@ void add_profiles(std::vector<Key>& table) {
                          {},
                          false,
                          true});
+    table.push_back({"/profiles/*",
+                     "solver",
+                     in_profile(&camera::Profile::solver),
+                     "`paper`: the heuristic of the paper's section 5.3; `planner`: planning over the player's "
+                     "future, recorded or predicted.",
+                     "",
+                     0,
+                     16,
+                     {"paper", "planner"},
+                     false,
+                     true});
 }
 
 void add_matches(std::vector<Key>& table) {
@@ -351,6 +369,8 @@ bool fits(const Key& key, const json& value) {
         return value.is_number_integer() && in_range(key, value.get<double>());
     } else if constexpr (std::is_floating_point_v<T>) {
         return value.is_number() && in_range(key, value.get<double>());
+    } else if constexpr (std::is_same_v<T, camera::Solver>) {
+        return holds_string(key, value);
     } else if constexpr (std::is_same_v<T, std::string>) {
         return holds_string(key, value) &&
                in_range(key, static_cast<double>(value.get_ref<const T&>().size()));
@@ -435,8 +455,8 @@ bool assign(const Key& key, const json& value, const Target& target) {
 }
 
 std::string type_name(const Key& key) {
-    static constexpr std::array names = {"boolean", "integer", "number",
-                                         "number",  "string",  "list of strings"};
+    static constexpr std::array names = {"boolean", "integer",         "number", "number",
+                                         "string",  "list of strings", "string"};
     return names[key.slot.index()];
 }
 

@@ -26,7 +26,7 @@ struct Key {
     std::string section;  // JSON pointer, "*" stands for any index or name: "/dds", "/maps/*", "/profiles/*"
     std::string name;
     std::variant<Slot<bool>, Slot<std::int64_t>, Slot<double>, Slot<float>, Slot<std::string>,
-                 Slot<std::vector<std::string>>>
+                 Slot<std::vector<std::string>>, Slot<camera::Solver>>
         slot;
     std::string help;
     std::string unit = {};

@@ -1,10 +1,13 @@
 #include "evaluation/recording.hpp"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cassert>
 #include <charconv>
 #include <ctime>
+#include <memory>
+#include <utility>
 
 #include "base/parallel.hpp"
 #include "camera/tracker.hpp"
@@ -13,6 +16,9 @@ namespace camdir::evaluation {
 namespace {
 
 constexpr std::uint64_t max_updates = 200'000'000;
+
+constexpr double history = 0.5;      // s of poses before a camera that it is given
+constexpr double same_time = 1e-9;  // s
 
 camera::Pose tracked(const TracePose& pose) {
     camera::Pose seen;
@@ -23,6 +29,43 @@ camera::Pose tracked(const TracePose& pose) {
     seen.discontinuity = pose.discontinuity;
     return seen;
 }
+
+double seconds(std::int64_t nanoseconds) {
+    return static_cast<double>(nanoseconds) * 1e-9;
+}
+
+// All poses of a player; times from `start`, ns.
+std::vector<camera::TimedPose> timed_poses(const Trace& trace, std::uint32_t player, std::int64_t start) {
+    std::vector<camera::TimedPose> poses;
+    poses.reserve(trace.frames.size());
+    const auto track = track_of(trace, player);
+    for (std::size_t frame = 0; frame < track.size(); ++frame) {
+        const bool present = track[frame] != absent;
+        poses.push_back({seconds(trace.frames[frame].time - start),
+                         present ? tracked(trace.poses[track[frame]]) : camera::Pose{}, present});
+    }
+    return poses;
+}
+
+// The part of a player's poses that is known at a time which ascends from call to call.
+class KnownPoses {
+  public:
+    KnownPoses(camera::Window all, double look_ahead) : all_(all), look_ahead_(look_ahead) {}
+
+    [[nodiscard]] camera::Window at(double time) {
+        while (end_ < all_.size() && all_[end_].time <= time + look_ahead_ + same_time)
+            ++end_;
+        while (first_ + 1 < end_ && all_[first_ + 1].time <= time - history)
+            ++first_;
+        return all_.subspan(first_, end_ - first_);
+    }
+
+  private:
+    camera::Window all_;
+    double look_ahead_;
+    std::size_t first_ = 0;
+    std::size_t end_ = 0;
+};
 
 CameraSample sampled(const camera::Camera& camera, bool cut) {
     return {camera.position.cast<double>(), camera.orientation.cast<double>().normalized(), cut};
@@ -38,32 +81,35 @@ double cpu_nanoseconds() {
 // Records one player at a time; several recorders may share a recording.
 class Recorder {
   public:
-    Recorder(const freespace::Freespace& freespace, const camera::Profile& profile, const Trace& trace,
-             Recording& recording)
+    Recorder(const freespace::Freespace& freespace, const camera::Profile& profile, const Trace& poses,
+             const Trace& trace, double look_ahead, Recording& recording)
         : freespace_(freespace),
           profile_(profile),
+          poses_(poses),
           trace_(trace),
+          look_ahead_(look_ahead),
           recording_(recording),
-          scratch_(freespace) {}
+          scratch_(std::make_unique<camera::Scratch>(freespace)) {}
 
     // Calls `keep_on` before every frame and stops when it returns false. `nanoseconds` has one element a
     // frame.
     template <class KeepOn>
     void follow(std::uint32_t player, double* nanoseconds, const KeepOn& keep_on) {
+        const std::int64_t start = std::min(poses_.frames.front().time, trace_.frames.front().time);
+        const auto poses = timed_poses(poses_, player, start);
+        KnownPoses known(poses, look_ahead_);
         camera::ShotState state;
         bool cut_unseen = false;  // a cut while the player had no pose: goes into the next row
         const auto track = track_of(trace_, player);
         for (std::size_t frame = 0; frame < track.size() && keep_on(); ++frame) {
-            const bool present = track[frame] != absent;
-            const camera::Pose pose = present ? tracked(trace_.poses[track[frame]]) : camera::Pose{};
-            const std::int64_t elapsed =
-                frame == 0 ? 0 : trace_.frames[frame].time - trace_.frames[frame - 1].time;
+            const double time = seconds(trace_.frames[frame].time - start);
+            const camera::Window window = known.at(time);
             const double before = cpu_nanoseconds();
-            const camera::Camera camera = camera::step(freespace_, profile_, present ? &pose : nullptr,
-                                                       static_cast<double>(elapsed) * 1e-9, state, scratch_);
+            const camera::Camera camera =
+                camera::step(freespace_, profile_, window, time, state, *scratch_);
             nanoseconds[frame] = cpu_nanoseconds() - before;
             cut_unseen = cut_unseen || (camera.flags & camera::cut) != 0;
-            if (!present) continue;
+            if (track[frame] == absent) continue;
             recording_.cameras[track[frame]] = sampled(camera, std::exchange(cut_unseen, false));
             recording_.terms[track[frame]] = camera.objective;
         }
@@ -72,9 +118,11 @@ class Recorder {
   private:
     const freespace::Freespace& freespace_;
     const camera::Profile& profile_;
+    const Trace& poses_;
     const Trace& trace_;
+    double look_ahead_;
     Recording& recording_;
-    camera::Scratch scratch_;
+    std::unique_ptr<camera::Scratch> scratch_;
 };
 
 void append(std::string& text, float value) {
@@ -87,7 +135,9 @@ void append(std::string& text, float value) {
 }  // namespace
 
 Result<Recording> record(const freespace::Freespace& freespace, const camera::Profile& profile,
-                         const Trace& trace, const ProgressSink& progress, const std::stop_token& stop) {
+                         const Trace& poses, const Trace& trace, double look_ahead,
+                         const ProgressSink& progress, const std::stop_token& stop) {
+    assert(look_ahead >= 0.0 && !poses.frames.empty());
     const std::size_t frames = trace.frames.size();
     const std::uint64_t total = std::uint64_t{frames} * trace.players.size();
     if (total > max_updates)
@@ -105,7 +155,7 @@ Result<Recording> record(const freespace::Freespace& freespace, const camera::Pr
         return !stop.stop_requested();
     };
     parallel_for(std::size_t{0}, trace.players.size(), [&](std::size_t i) {
-        Recorder recorder(freespace, profile, trace, recording);
+        Recorder recorder(freespace, profile, poses, trace, look_ahead, recording);
         recorder.follow(trace.players[i], recording.step_nanoseconds.data() + i * frames, keep_on);
     });
     if (stop.stop_requested()) return fail("interrupted", ErrorCode::interrupted);

@@ -1,4 +1,4 @@
-// The tracker over a whole trace, as the director would have run it live: one shot a player.
+// The tracker over a whole trace, as the director would have run it, live or delayed: one shot a player.
 #pragma once
 
 #include <cstdint>
@@ -23,11 +23,13 @@ struct Recording {
 // Steps done and steps in all. Called from several threads.
 using ProgressSink = std::function<void(std::uint64_t, std::uint64_t)>;
 
-// Steps a shot for each player through every frame, players in parallel; the cameras do not depend on the
-// number of threads. Fails with ErrorCode::interrupted soon after `stop` is requested.
+// Steps a shot for each player through every frame of `trace`, players in parallel; the cameras do not depend
+// on the number of threads. A camera knows the poses of `poses` (the same match, at its own rate) up to
+// `look_ahead` seconds (>= 0) after its frame; 0: it is causal. Fails with ErrorCode::interrupted soon after
+// `stop` is requested.
 [[nodiscard]] Result<Recording> record(const freespace::Freespace& freespace, const camera::Profile& profile,
-                                       const Trace& trace, const ProgressSink& progress,
-                                       const std::stop_token& stop);
+                                       const Trace& poses, const Trace& trace, double look_ahead,
+                                       const ProgressSink& progress, const std::stop_token& stop);
 
 // CSV with the header t_ms,player,visibility,distance,angle,inertia_distance,inertia_angle,safety,total and a
 // row for each pose of the trace: the objective's terms as they entered the sum.

@@ -50,17 +50,19 @@ TEST(Allocation, NoStepAllocates) {
     }
     poses[500].discontinuity = true;
 
-    Profile profile;
-    profile.search_time_limit = 3.0F;
-    Scratch scratch(freespace);
-    ShotState state;
-    int searched = 0;
-    const long before = allocations;
-    for (const Pose& pose : poses) {
-        searched += (step(freespace, profile, &pose, 1.0 / 60.0, state, scratch).flags & searching) != 0;
+    for (const Solver solver : {Solver::paper, Solver::planner}) {
+        Profile profile = solved_by(solver);
+        profile.search_time_limit = 3.0F;
+        Scratch scratch(freespace);
+        ShotState state;
+        int searched = 0;
+        const long before = allocations;
+        for (const Pose& pose : poses) {
+            searched += (step(freespace, profile, &pose, 1.0 / 60.0, state, scratch).flags & searching) != 0;
+        }
+        EXPECT_EQ(allocations - before, 0) << name_of(solver);
+        EXPECT_GT(searched, 10) << name_of(solver);
     }
-    EXPECT_EQ(allocations - before, 0);
-    EXPECT_GT(searched, 10);
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ TEST(ProfileKeys, NameEveryMemberOnceWithItsDefaultInRange) {
         EXPECT_LE(Profile{}.*key.member, key.maximum);
         EXPECT_STRNE(key.help, "");
     }
-    EXPECT_EQ(names.size() * sizeof(float), sizeof(Profile));
+    EXPECT_EQ(names.size() * sizeof(float) + sizeof(Solver), sizeof(Profile));
 }
 
 TEST(ProfileKeys, ScaleToTheMapsUnits) {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "walk.hpp"
 
@@ -27,10 +28,11 @@ INSTANTIATE_TEST_SUITE_P(Plans, EveryWorld,
 
 TEST_P(EveryWorld, RunningPlayerIsFollowedThroughFreespaceWithoutCuts) {
     const test::Plan plan = GetParam().plan();
-    for (const float rate : {60.0F, 20.0F}) {
+    for (const auto& [solver, rate] : {std::pair{Solver::paper, 60.0F}, std::pair{Solver::paper, 20.0F},
+                                       std::pair{Solver::planner, 60.0F}, std::pair{Solver::planner, 20.0F}}) {
         for (std::uint32_t seed = 1; seed <= 3; ++seed) {
-            SCOPED_TRACE(testing::Message() << "seed " << seed << " at " << rate << " Hz");
-            CheckedShot shot(plan);
+            SCOPED_TRACE(testing::Message() << name_of(solver) << ", seed " << seed << " at " << rate << " Hz");
+            CheckedShot shot(plan, solved_by(solver));
             Runner runner(plan, plan.eye('s'), seed);
             int seen = 0;
             const int frames = static_cast<int>(20.0F * rate);
@@ -49,8 +51,9 @@ TEST_P(EveryWorld, RunningPlayerIsFollowedThroughFreespaceWithoutCuts) {
 // Poses that no game should send: anywhere, in walls, not finite, missing, at odd times.
 TEST_P(EveryWorld, NonsenseNeverBreaksAPromise) {
     const test::Plan plan = GetParam().plan();
-    for (std::uint32_t seed = 1; seed <= 8; ++seed) {
-        SCOPED_TRACE(testing::Message() << "seed " << seed);
+    for (std::uint32_t seed = 1; seed <= 16; ++seed) {
+        const Solver solver = seed % 2 == 0 ? Solver::paper : Solver::planner;
+        SCOPED_TRACE(testing::Message() << name_of(solver) << ", seed " << seed);
         std::mt19937 random(seed);
         const auto between = [&](float low, float high) {
             return std::uniform_real_distribution<float>(low, high)(random);
@@ -61,7 +64,7 @@ TEST_P(EveryWorld, NonsenseNeverBreaksAPromise) {
                 0.0F, -0.0F, infinity, -infinity, 1e38F, 1e-38F, std::numeric_limits<float>::quiet_NaN()};
             return numbers[random() % std::size(numbers)];
         };
-        CheckedShot shot(plan);
+        CheckedShot shot(plan, solved_by(solver));
         Runner runner(plan, plan.eye('s'), seed);
         for (int i = 0; i < 400; ++i) {
             Pose pose = runner.next(1.0F / 60.0F);

@@ -28,6 +28,16 @@ Pose pose_at(const Vec3f& eye, float yaw, float pitch) {
     return pose;
 }
 
+Profile solved_by(Solver solver) {
+    Profile profile;
+    profile.solver = solver;
+    return profile;
+}
+
+const char* name_of(Solver solver) {
+    return solver == Solver::planner ? "planner" : "paper";
+}
+
 Runner::Runner(const test::Plan& plan, const Vec3f& eye, std::uint32_t seed)
     : plan_(plan), random_(seed), eye_(eye), ground_(eye.z()) {}
 

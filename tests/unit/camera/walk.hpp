@@ -12,6 +12,10 @@ namespace camdir::camera {
 // A pose of a living player who looks along `yaw` (radians).
 [[nodiscard]] Pose pose_at(const Vec3f& eye, float yaw, float pitch = 0.0F);
 
+// The default profile with this solver.
+[[nodiscard]] Profile solved_by(Solver solver);
+[[nodiscard]] const char* name_of(Solver solver);
+
 // A player who runs through the free cells of a plan, turns as fast as bots do, jumps, and stays as far from
 // the walls as a player's box.
 class Runner {

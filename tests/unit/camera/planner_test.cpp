@@ -1,0 +1,111 @@
+// The planner over windows of poses: with and without a recorded future, and at any output rate.
+#include "camera/planner.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "walk.hpp"
+
+namespace camdir::camera {
+namespace {
+
+std::vector<TimedPose> run(const test::Plan& plan, std::uint32_t seed, double rate, int poses) {
+    Runner runner(plan, plan.eye('s'), seed);
+    std::vector<TimedPose> list;
+    for (int i = 0; i < poses; ++i)
+        list.push_back({static_cast<double>(i) / rate, runner.next(static_cast<float>(1.0 / rate))});
+    return list;
+}
+
+struct Take {
+    std::vector<Camera> cameras;
+    std::vector<double> accelerations;  // largest last
+};
+
+// Cameras at `output_hz` from poses known up to `look_ahead` seconds ahead; checks each against the plan.
+Take take(const test::Plan& plan, const std::vector<TimedPose>& poses, double output_hz, double look_ahead,
+          std::size_t history = 60) {
+    const freespace::Freespace freespace = plan.freespace();
+    const Profile profile = solved_by(Solver::planner);
+    Scratch scratch(freespace);
+    ShotState state;
+    Take take;
+    const int frames = static_cast<int>(poses.back().time * output_hz);
+    for (int i = 0; i < frames; ++i) {
+        const double time = static_cast<double>(i) / output_hz;
+        const auto end = static_cast<std::size_t>(index_at(poses, time + look_ahead + 1e-9) + 1);
+        const auto now = static_cast<std::size_t>(index_at(poses, time) + 1);
+        const std::size_t first = now > history ? now - history : 0;
+        const Camera camera = step(freespace, profile, Window(poses).subspan(first, end - first), time, state,
+                                   scratch);
+        EXPECT_GE(plan.clearance(camera.position), 4.0F);
+        if (i > 0 && (camera.flags & cut) == 0) {
+            const Vec3f before = take.cameras.back().position;
+            EXPECT_TRUE(plan.segment_clear(before, camera.position));
+            EXPECT_LE((camera.position - before).norm(), profile.step_limit);
+        }
+        take.cameras.push_back(camera);
+        if (i >= 2) {
+            const Vec3f bend = take.cameras[static_cast<std::size_t>(i)].position -
+                               2.0F * take.cameras[static_cast<std::size_t>(i) - 1].position +
+                               take.cameras[static_cast<std::size_t>(i) - 2].position;
+            take.accelerations.push_back(bend.norm() * output_hz * output_hz);
+        }
+    }
+    std::sort(take.accelerations.begin(), take.accelerations.end());
+    return take;
+}
+
+TEST(Planner, KnowingTheFutureMovesMoreSmoothly) {
+    const test::Plan plan = test::figure_eight();
+    for (std::uint32_t seed = 1; seed <= 3; ++seed) {
+        const auto poses = run(plan, seed, 60.0, 1200);
+        const Take causal = take(plan, poses, 60.0, 0.0);
+        const Take ahead = take(plan, poses, 60.0, 1.0);
+        const std::size_t p95 = causal.accelerations.size() * 95 / 100;
+        EXPECT_LT(ahead.accelerations[p95], 0.8 * causal.accelerations[p95]);
+    }
+}
+
+TEST(Planner, GivesCamerasFasterAndSlowerThanPoses) {
+    const test::Plan plan = test::figure_eight();
+    for (const double output_hz : {20.0, 30.0, 60.0, 144.0, 240.0}) {
+        for (const double look_ahead : {0.0, 1.0, 2.0}) {
+            SCOPED_TRACE(testing::Message() << output_hz << " Hz, " << look_ahead << " s ahead");
+            const Take shots = take(plan, run(plan, 4, 20.0, 200), output_hz, look_ahead);
+            int cuts = 0;
+            for (const Camera& camera : shots.cameras)
+                cuts += (camera.flags & cut) != 0 ? 1 : 0;
+            EXPECT_EQ(cuts, 1);
+        }
+    }
+}
+
+TEST(Planner, DoesNotDependOnHistoryBeyondWhatItNeeds) {
+    const test::Plan plan = test::l_corridor();
+    const auto poses = run(plan, 6, 60.0, 400);
+    for (const double look_ahead : {0.0, 1.0}) {
+        const Take some = take(plan, poses, 60.0, look_ahead, 30);
+        const Take more = take(plan, poses, 60.0, look_ahead, 400);
+        for (std::size_t i = 0; i < some.cameras.size(); ++i)
+            ASSERT_EQ(some.cameras[i].position, more.cameras[i].position) << "frame " << i;
+    }
+}
+
+TEST(Planner, StandsStraightBehindAPlayerWhoStands) {
+    const test::Plan plan = test::figure_eight();
+    std::vector<TimedPose> poses;
+    for (int i = 0; i < 200; ++i)
+        poses.push_back({i / 60.0, pose_at(plan.eye(6, 7), 0.0F)});
+    for (const double look_ahead : {0.0, 1.0}) {
+        const Camera last = take(plan, poses, 60.0, look_ahead).cameras.back();
+        EXPECT_LT((last.position - (plan.eye(6, 7) - Vec3f(120.0F, 0.0F, 0.0F))).norm(), 2.0F);
+        EXPECT_LT(angle_between(last.orientation * Vec3f::UnitX(), Vec3f::UnitX()), 0.02F);
+    }
+}
+
+}  // namespace
+}  // namespace camdir::camera

@@ -1,0 +1,65 @@
+#include "camera/window.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <vector>
+
+#include "walk.hpp"
+
+namespace camdir::camera {
+namespace {
+
+// Five poses, a second apart, along the x axis.
+std::vector<TimedPose> five() {
+    std::vector<TimedPose> poses;
+    for (int i = 0; i < 5; ++i)
+        poses.push_back({static_cast<double>(i), pose_at(Vec3f(10.0F * static_cast<float>(i), 0.0F, 0.0F), 0.0F)});
+    return poses;
+}
+
+TEST(Window, InterpolatesWithinAStretch) {
+    const auto poses = five();
+    EXPECT_FALSE(pose_at(poses, 0.0, -0.5));
+    EXPECT_EQ(pose_at(poses, 0.0, 2.0)->eye.x(), 20.0F);
+    EXPECT_FLOAT_EQ(pose_at(poses, 0.0, 2.25)->eye.x(), 22.5F);
+    EXPECT_EQ(pose_at(poses, 0.0, 9.0)->eye.x(), 40.0F) << "the last one, however old";
+}
+
+TEST(Window, KeepsTheEarlierPoseAcrossABreak) {
+    for (int what = 0; what < 4; ++what) {
+        auto poses = five();
+        if (what == 0) poses[3].pose.discontinuity = true;
+        if (what == 1) poses[3].pose.alive = false;
+        if (what == 2) poses[3].present = false;
+        if (what == 3) poses[3].pose.eye.y() = std::numeric_limits<float>::quiet_NaN();
+        EXPECT_EQ(pose_at(poses, 0.0, 2.75)->eye.x(), 20.0F) << what;
+        EXPECT_EQ(pose_at(poses, 0.0, 3.0).has_value(), what < 2) << what;
+        EXPECT_FALSE(continuous(poses, 2)) << what;
+        EXPECT_TRUE(continuous(poses, 1)) << what;
+    }
+}
+
+TEST(Window, ReportsAJumpOnceEvenIfItsPoseWasSkipped) {
+    auto poses = five();
+    poses[2].pose.discontinuity = true;
+    EXPECT_FALSE(pose_at(poses, 0.5, 1.5)->discontinuity);
+    EXPECT_TRUE(pose_at(poses, 1.5, 3.5)->discontinuity);
+    EXPECT_FALSE(pose_at(poses, 3.5, 3.75)->discontinuity);
+}
+
+TEST(Window, RecentPosesKeepTheLastOnes) {
+    RecentPoses recent;
+    EXPECT_TRUE(recent.window().empty());
+    for (int i = 0; i < 20; ++i) {
+        const Pose pose = pose_at(Vec3f(static_cast<float>(i), 0.0F, 0.0F), 0.0F);
+        recent.add(i, i == 15 ? nullptr : &pose);
+    }
+    ASSERT_EQ(recent.window().size(), 8U);
+    EXPECT_EQ(recent.window().back().pose.eye.x(), 19.0F);
+    EXPECT_EQ(recent.window().front().time, 12.0);
+    EXPECT_FALSE(recent.window()[3].present);
+}
+
+}  // namespace
+}  // namespace camdir::camera
