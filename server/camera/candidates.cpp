@@ -97,8 +97,8 @@ class Choosing {
     void add_side_view(const Vec3f& view, Programme::DirectionCosts& costs) const {
         for (std::size_t bin = 0; bin < costs.size(); ++bin) {
             if (costs[bin] >= Programme::forbidden) continue;
-            const float off =
-                angle_between(Vec3f(-view), DirectionGrid::directions()[bin]) - profile_.elevation - side_view;
+            const float angle = angle_between(Vec3f(-view), DirectionGrid::directions()[bin]);
+            const float off = angle - std::abs(profile_.elevation) - side_view;
             if (off <= 0.0F) continue;
             costs[bin] += side_view_cost * profile_.weight_angle *
                           std::min(side_view_limit, squared_share(off, side_view_tolerance));

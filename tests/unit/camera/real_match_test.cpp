@@ -1,0 +1,97 @@
+// A recorded match on a real map: what every camera of both solvers must keep, by exact geometry.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <optional>
+
+#include "bake/bake.hpp"
+#include "evaluation/metrics.hpp"
+#include "evaluation/recording.hpp"
+#include "freespace/freespace.hpp"
+#include "oracle/oracle.hpp"
+#include "scene/load.hpp"
+
+namespace camdir::evaluation {
+namespace {
+
+constexpr const char* archive = "/usr/share/games/openarena/baseoa/pak1-maps.pk3";
+constexpr std::int64_t duration = 25'000'000'000;  // ns
+
+Trace beginning_of(Trace trace) {
+    std::size_t frames = 0;
+    while (frames < trace.frames.size() && trace.frames[frames].time - trace.frames[0].time < duration)
+        ++frames;
+    trace.frames.resize(frames);
+    trace.poses.resize(trace.frames.back().first_pose + trace.frames.back().pose_count);
+    return trace;
+}
+
+class RealMatch : public testing::Test {
+  protected:
+    static void SetUpTestSuite() {
+        if (!std::filesystem::exists(archive)) return;
+        auto scene = scene::load(std::string(archive) + ":maps/oa_dm1.bsp");
+        ASSERT_TRUE(scene) << scene.error().message;
+        const auto baked = bake::bake(*scene, {}, {}, {});
+        ASSERT_TRUE(baked) << baked.error().message;
+        auto freespace = freespace::Freespace::parse(freespace::encode(baked->contents), "oa_dm1");
+        ASSERT_TRUE(freespace) << freespace.error().message;
+        auto trace = read_trace(MATCH);
+        ASSERT_TRUE(trace) << trace.error().message;
+        scene_ = std::move(*scene);
+        freespace_ = std::move(*freespace);
+        trace_ = beginning_of(std::move(*trace));
+        oracle_.emplace(*scene_);
+    }
+    static void TearDownTestSuite() {
+        oracle_.reset();
+        freespace_.reset();
+        scene_.reset();
+    }
+    void SetUp() override {
+        if (!oracle_) GTEST_SKIP() << "needs the package openarena-081-maps";
+    }
+
+    [[nodiscard]] static Metrics measured(camera::Solver solver, double look_ahead) {
+        camera::Profile profile;
+        profile.solver = solver;
+        const auto recording =
+            record(*freespace_, profile, trace_, trace_, look_ahead, [](auto, auto) {}, {});
+        EXPECT_TRUE(recording);
+        return *measure(*scene_, *oracle_, trace_, recording->cameras, [](auto) {}, {});
+    }
+    static void expect_promises(const Metrics& metrics) {
+        EXPECT_GE(metrics.visible_head, 99.9);
+        EXPECT_EQ(metrics.in_solid, 0.0);
+        EXPECT_EQ(metrics.fly_through, 0.0);
+        EXPECT_EQ(metrics.pops, 0.0);
+        EXPECT_EQ(metrics.cuts, 0.0);
+        EXPECT_LE(metrics.max_rotation, 11.01);
+    }
+
+    static inline std::optional<scene::Scene> scene_;
+    static inline std::optional<freespace::Freespace> freespace_;
+    static inline std::optional<oracle::Oracle> oracle_;
+    static inline Trace trace_;
+};
+
+TEST_F(RealMatch, ThePapersHeuristicKeepsThePromises) {
+    expect_promises(measured(camera::Solver::paper, 0.0));
+}
+
+TEST_F(RealMatch, ThePlannerKeepsThePromisesAndIsBetter) {
+    const Metrics paper = measured(camera::Solver::paper, 0.0);
+    const Metrics causal = measured(camera::Solver::planner, 0.0);
+    const Metrics ahead = measured(camera::Solver::planner, 1.0);
+    expect_promises(causal);
+    expect_promises(ahead);
+    EXPECT_EQ(causal.clearance_lt4, 0.0);
+    EXPECT_EQ(ahead.clearance_lt4, 0.0);
+    EXPECT_GT(causal.good, paper.good);
+    EXPECT_LT(causal.acc.p95, paper.acc.p95);
+    EXPECT_LT(ahead.acc.p95, causal.acc.p95);
+    EXPECT_LT(ahead.ang_speed.p95, causal.ang_speed.p95);
+}
+
+}  // namespace
+}  // namespace camdir::evaluation
