@@ -151,8 +151,7 @@ void print(const EvaluateOptions& options, const evaluation::Trace& trace, const
     std::cerr << "cost             median "
               << std::llround(evaluation::percentile(recording.step_nanoseconds, 0.5)) << "  p99 "
               << std::llround(evaluation::percentile(recording.step_nanoseconds, 0.99)) << "  mean "
-              << std::llround(evaluation::mean(recording.step_nanoseconds))
-              << " ns of CPU time an update\n";
+              << std::llround(evaluation::mean(recording.step_nanoseconds)) << " ns of CPU time an update\n";
 }
 
 Result<void> write_results(const EvaluateOptions& options, const evaluation::Trace& trace,

@@ -44,8 +44,7 @@ class Choosing {
     }
 
     void run() {
-        const std::size_t knots =
-            std::min(Programme::knots, (plan_.count() - 1) / plan_.knot_spacing + 1);
+        const std::size_t knots = std::min(Programme::knots, (plan_.count() - 1) / plan_.knot_spacing + 1);
         for (std::size_t knot = 0; knot < knots; ++knot)
             weigh_directions(knot);
         const auto length = [this](std::size_t knot, std::size_t bin) {
@@ -73,8 +72,7 @@ class Choosing {
         costs.shortage *= profile_.weight_distance;
         costs.close *= profile_.weight_distance;
         costs.turn = turn_cost_;
-        costs.stretch =
-            (plan_.ahead ? stretch_cost_ahead : stretch_cost) * profile_.weight_inertia_distance;
+        costs.stretch = (plan_.ahead ? stretch_cost_ahead : stretch_cost) * profile_.weight_inertia_distance;
         costs.start_length = std::min(camera_.norm(), profile_.distance);
         return costs;
     }

@@ -16,8 +16,7 @@ struct DirectionGrid {
     static constexpr float lowest = -45.0F * radians_of_a_degree<float>;
 
     [[nodiscard]] static Look look(std::size_t bin) {
-        return {static_cast<float>(bin % yaws) * spacing,
-                lowest + static_cast<float>(bin / yaws) * spacing};
+        return {static_cast<float>(bin % yaws) * spacing, lowest + static_cast<float>(bin / yaws) * spacing};
     }
     // Unit vectors from the eye to the camera, by bin.
     [[nodiscard]] static const std::array<Vec3f, size>& directions();

@@ -93,15 +93,13 @@ Rates rates_at(const Stretch& stretch, double time, float yaw) {
     Rates rates{stretch.window[stretch.last].pose.velocity, 0.0F, 0.0F, turn_constant};
     if (stretch.first == stretch.last) return rates;
     const auto span_from = [&](double wanted) {
-        return std::max(stretch.begin(),
-                        std::min(time - wanted, stretch.window[stretch.last - 1].time));
+        return std::max(stretch.begin(), std::min(time - wanted, stretch.window[stretch.last - 1].time));
     };
     const double moved_since = span_from(velocity_span);
     const auto sample = [&](double at) { return Reader(stretch, yaw).at(at); };
     const Future::Sample now = sample(time);
     rates.velocity = (now.eye - sample(moved_since).eye) / static_cast<float>(time - moved_since);
-    const double once = std::max(turn_span,
-                                 time - stretch.window[stretch.last - 1].time);
+    const double once = std::max(turn_span, time - stretch.window[stretch.last - 1].time);
     if (time - once < stretch.begin() - 1e-9) return rates;
     const Look before = sample(time - once).view;
     const auto seconds = static_cast<float>(once);
@@ -152,8 +150,7 @@ void foresee(const freespace::Freespace& freespace, const MapProfile& profile, W
     const float length = way.norm();
     if (length > profile.unit) {
         const freespace::Sight free = freespace::sight(freespace, last.eye, last.eye + way);
-        if (!free.clear)
-            share = std::max(0.0F, free.free_length - from_wall * profile.unit) / length;
+        if (!free.clear) share = std::max(0.0F, free.free_length - from_wall * profile.unit) / length;
     }
     for (std::size_t i = future.known; i < future.count; ++i) {
         const auto seconds =
@@ -162,8 +159,7 @@ void foresee(const freespace::Freespace& freespace, const MapProfile& profile, W
         if (moved.norm() > share * length) moved *= share * length / std::max(moved.norm(), 1e-6F);
         const float turn = faded(seconds, rates.persistence);
         const float yaw = std::clamp(rates.yaw * turn, -largest_turn, largest_turn);
-        future.samples[i] = {last.eye + moved,
-                             {last.view.yaw + yaw, last.view.pitch + rates.pitch * turn}};
+        future.samples[i] = {last.eye + moved, {last.view.yaw + yaw, last.view.pitch + rates.pitch * turn}};
     }
 }
 

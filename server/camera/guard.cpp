@@ -17,8 +17,8 @@ std::optional<Candidate> guarded(const freespace::Freespace& freespace, const Ma
                                  const PlayerTrack& track, const Motion& motion, const Start& start,
                                  const Vec3f& wanted) {
     const auto fine = [&](const Vec3f& target) {
-        auto place = reach(freespace, profile, track, start,
-                           within_step(start.position, target, profile.step_limit));
+        auto place =
+            reach(freespace, profile, track, start, within_step(start.position, target, profile.step_limit));
         if (place && !acceptable(profile, *place)) place.reset();
         return place;
     };

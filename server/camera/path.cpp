@@ -5,7 +5,7 @@
 namespace camdir::camera {
 namespace {
 
-constexpr double smoothing_share = 1.4;  // of the profile's time constant
+constexpr double motion_share = 1.4;  // of the profile's time constant
 constexpr int rounds = 4;
 constexpr int rounds_ahead = 5;
 constexpr int distance_rounds = 3;
@@ -17,7 +17,7 @@ constexpr float least_slide = 0.1F;  // share of what is blocked that a slide mu
 void solve(const MapProfile& profile, const History& history, Plan& plan) {
     const std::size_t count = plan.count();
     plan.smoother.factorise({plan.weights.data(), count},
-                            stiffness(smoothing_share * profile.motion_smoothing, plan.future.step));
+                            stiffness(motion_share * profile.motion_smoothing, plan.future.step));
     for (std::size_t i = 0; i < count; ++i)
         plan.position[i] = plan.weights[i] * plan.goal[i];
     plan.smoother.solve(history[0].position, history[1].position, std::span(plan.position.data(), count));

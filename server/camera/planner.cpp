@@ -7,8 +7,8 @@
 namespace camdir::camera {
 namespace {
 
-constexpr double horizon = 2.5;        // s of a recorded future that are used
-constexpr double least_ahead = 0.3;    // s of a recorded future, or the plan is causal
+constexpr double horizon = 2.5;              // s of a recorded future that are used
+constexpr double least_ahead = 0.3;          // s of a recorded future, or the plan is causal
 constexpr double knot_interval = 0.15;       // s
 constexpr double knot_interval_ahead = 0.1;  // s
 constexpr double full_turn = 2.0 * std::numbers::pi;
@@ -69,8 +69,12 @@ void restart_plan(PlanState& state, const Vec3f& position, const Look& look, con
                   double dt) {
     const Look heading = look_along(track.heading, 0.0F);
     const Vec3d step = track.velocity.cast<double>() * dt;
-    state.history[1] = {position.cast<double>(), track.anchor.cast<double>(), heading.yaw, heading.pitch,
-                        look.yaw,                look.pitch};
+    state.history[1] = {position.cast<double>(),
+                        track.anchor.cast<double>(),
+                        heading.yaw,
+                        heading.pitch,
+                        look.yaw,
+                        look.pitch};
     state.history[0] = state.history[1];
     state.history[0].position -= step;
     state.history[0].eye -= step;

@@ -1,6 +1,6 @@
 // The receding-horizon planner: over the player's known or predicted future it chooses the directions to see
-// the player from, smooths the camera's path through them, bends it round what is in the way, and aims. A shot
-// without a recorded future is planned in the same way on a prediction.
+// the player from, smooths the camera's path through them, bends it round what is in the way, and aims. A
+// shot without a recorded future is planned in the same way on a prediction.
 #pragma once
 
 #include "camera/aim.hpp"

@@ -21,7 +21,6 @@ struct PlayerTrack {
     bool covered = false;                  // the anchor is the eye
 };
 
-
 // Begins anew at `pose`: after a cut in the player's motion. An eye in no slab is sought at the nearest free
 // point of the representation.
 void restart(const freespace::Freespace& freespace, const Pose& pose, PlayerTrack& track);

@@ -8,8 +8,8 @@ namespace camdir::camera {
 namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
-constexpr std::size_t yaws = DirectionGrid::yaws;
-constexpr std::size_t elevations = DirectionGrid::elevations;
+constexpr std::size_t grid_yaws = DirectionGrid::yaws;
+constexpr std::size_t grid_elevations = DirectionGrid::elevations;
 constexpr int yaw_reach = 2;
 
 float square(float value) {
@@ -19,14 +19,14 @@ float square(float value) {
 // Calls visit(bin, squared bins turned) for each direction that a step can lead to, and come from.
 template <class Visit>
 void for_each_neighbour(std::size_t bin, const Visit& visit) {
-    const auto yaw = static_cast<int>(bin % yaws);
-    const auto elevation = static_cast<int>(bin / yaws);
-    for (int e = std::max(0, elevation - 1); e <= std::min(static_cast<int>(elevations) - 1, elevation + 1);
-         ++e) {
+    const auto yaw = static_cast<int>(bin % grid_yaws);
+    const auto elevation = static_cast<int>(bin / grid_yaws);
+    for (int e = std::max(0, elevation - 1);
+         e <= std::min(static_cast<int>(grid_elevations) - 1, elevation + 1); ++e) {
         for (int turn = -yaw_reach; turn <= yaw_reach; ++turn) {
-            const auto y = static_cast<std::size_t>(yaw + turn + static_cast<int>(yaws)) % yaws;
+            const auto y = static_cast<std::size_t>(yaw + turn + static_cast<int>(grid_yaws)) % grid_yaws;
             const int rise = e - elevation;
-            visit(static_cast<std::size_t>(e) * yaws + y, static_cast<float>(turn * turn + rise * rise));
+            visit(static_cast<std::size_t>(e) * grid_yaws + y, static_cast<float>(turn * turn + rise * rise));
         }
     }
 }
@@ -46,14 +46,14 @@ void Programme::bound_from_behind(std::span<const DirectionCosts> direction_cost
     rest_[last].fill(0.0F);
     Row turned;
     for (std::size_t knot = last; knot-- > 0;) {
-        for (std::size_t elevation = 0; elevation < elevations; ++elevation) {
-            const std::size_t first = elevation * yaws;
-            std::array<float, yaws + 2 * yaw_reach> row;
+        for (std::size_t elevation = 0; elevation < grid_elevations; ++elevation) {
+            const std::size_t first = elevation * grid_yaws;
+            std::array<float, grid_yaws + 2 * yaw_reach> row;
             for (std::size_t i = 0; i < row.size(); ++i) {
-                const std::size_t bin = first + (i + yaws - yaw_reach) % yaws;
+                const std::size_t bin = first + (i + grid_yaws - yaw_reach) % grid_yaws;
                 row[i] = direction_costs[knot + 1][bin] + rest_[knot + 1][bin];
             }
-            for (std::size_t i = 0; i < yaws; ++i) {
+            for (std::size_t i = 0; i < grid_yaws; ++i) {
                 const float one = std::min(row[i + 1], row[i + 3]) + turn;
                 const float two = std::min(row[i], row[i + 4]) + 4.0F * turn;
                 turned[first + i] = std::min({row[i + 2], one, two});
@@ -61,8 +61,8 @@ void Programme::bound_from_behind(std::span<const DirectionCosts> direction_cost
         }
         for (std::size_t bin = 0; bin < turned.size(); ++bin) {
             float least = turned[bin];
-            if (bin >= yaws) least = std::min(least, turned[bin - yaws] + turn);
-            if (bin + yaws < turned.size()) least = std::min(least, turned[bin + yaws] + turn);
+            if (bin >= grid_yaws) least = std::min(least, turned[bin - grid_yaws] + turn);
+            if (bin + grid_yaws < turned.size()) least = std::min(least, turned[bin + grid_yaws] + turn);
             rest_[knot][bin] = least;
         }
     }
@@ -73,9 +73,8 @@ float Programme::best_arrival(std::size_t knot, std::size_t bin) {
     const float half = 0.5F * costs_.length;
     const float length = length_[knot][bin];
     if (knot == 0) {
-        return costs_.start_length < 0.0F
-                   ? 0.0F
-                   : costs_.stretch * square((length - costs_.start_length) / half);
+        return costs_.start_length < 0.0F ? 0.0F
+                                          : costs_.stretch * square((length - costs_.start_length) / half);
     }
     float least = infinity;
     for_each_neighbour(bin, [&](std::size_t from, float turned) {

@@ -12,11 +12,11 @@
 namespace camdir::camera {
 
 struct ProgrammeCosts {
-    float length = 120.0F;     // desired; directions are free this far at most
-    float shortage = 6.0F;     // times ((length - free length) / (length / 2))^2
-    float close = 3.0F;        // of a direction that is free for less than close_share of the length
-    float turn = 0.3F;         // times the square of bins turned between two knots
-    float stretch = 0.5F;      // times ((change of free length) / (length / 2))^2
+    float length = 120.0F;       // desired; directions are free this far at most
+    float shortage = 6.0F;       // times ((length - free length) / (length / 2))^2
+    float close = 3.0F;          // of a direction that is free for less than close_share of the length
+    float turn = 0.3F;           // times the square of bins turned between two knots
+    float stretch = 0.5F;        // times ((change of free length) / (length / 2))^2
     float start_length = -1.0F;  // of the camera before the first knot; negative: no cost of changing it
     static constexpr float close_share = 0.517F;
 };
@@ -61,7 +61,8 @@ class Programme {
     std::array<Row, knots> cost_;      // up to and with a choice, once it is closed; else infinity
     std::array<Row, knots> estimate_;  // of the whole path, of what is open
     std::array<std::array<std::uint8_t, DirectionGrid::size>, knots> parent_;
-    std::array<std::uint16_t, knots * DirectionGrid::size> heap_;  // open choices, the smallest estimate first
+    std::array<std::uint16_t, knots * DirectionGrid::size>
+        heap_;  // open choices, the smallest estimate first
     std::array<std::uint16_t, knots * DirectionGrid::size> place_;  // in the heap; unset
     std::size_t heap_size_ = 0;
     std::array<Choice, knots> choices_;

@@ -235,17 +235,18 @@ void add_profiles(std::vector<Key>& table) {
                          {},
                          false,
                          true});
-    table.push_back({"/profiles/*",
-                     "solver",
-                     in_profile(&camera::Profile::solver),
-                     "`paper`: the heuristic of the paper's section 5.3; `planner`: planning over the player's "
-                     "future, recorded or predicted.",
-                     "",
-                     0,
-                     16,
-                     {"paper", "planner"},
-                     false,
-                     true});
+    table.push_back(
+        {"/profiles/*",
+         "solver",
+         in_profile(&camera::Profile::solver),
+         "`paper`: the heuristic of the paper's section 5.3; `planner`: planning over the player's "
+         "future, recorded or predicted.",
+         "",
+         0,
+         16,
+         {"paper", "planner"},
+         false,
+         true});
 }
 
 void add_matches(std::vector<Key>& table) {

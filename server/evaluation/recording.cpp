@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::uint64_t max_updates = 200'000'000;
 
-constexpr double history = 0.5;      // s of poses before a camera that it is given
+constexpr double history = 0.5;     // s of poses before a camera that it is given
 constexpr double same_time = 1e-9;  // s
 
 camera::Pose tracked(const TracePose& pose) {
@@ -105,8 +105,7 @@ class Recorder {
             const double time = seconds(trace_.frames[frame].time - start);
             const camera::Window window = known.at(time);
             const double before = cpu_nanoseconds();
-            const camera::Camera camera =
-                camera::step(freespace_, profile_, window, time, state, *scratch_);
+            const camera::Camera camera = camera::step(freespace_, profile_, window, time, state, *scratch_);
             nanoseconds[frame] = cpu_nanoseconds() - before;
             cut_unseen = cut_unseen || (camera.flags & camera::cut) != 0;
             if (track[frame] == absent) continue;

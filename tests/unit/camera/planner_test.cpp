@@ -39,8 +39,8 @@ Take take(const test::Plan& plan, const std::vector<TimedPose>& poses, double ou
         const auto end = static_cast<std::size_t>(index_at(poses, time + look_ahead + 1e-9) + 1);
         const auto now = static_cast<std::size_t>(index_at(poses, time) + 1);
         const std::size_t first = now > history ? now - history : 0;
-        const Camera camera = step(freespace, profile, Window(poses).subspan(first, end - first), time, state,
-                                   scratch);
+        const Camera camera =
+            step(freespace, profile, Window(poses).subspan(first, end - first), time, state, scratch);
         EXPECT_GE(plan.clearance(camera.position), 4.0F);
         if (i > 0 && (camera.flags & cut) == 0) {
             const Vec3f before = take.cameras.back().position;

@@ -56,8 +56,8 @@ float step_cost(const Instance& instance, std::size_t knot, std::size_t from, st
     const int turned = std::min(turn, static_cast<int>(yaws) - turn);
     const int rise = std::abs(static_cast<int>(from / yaws) - static_cast<int>(to / yaws));
     if (turned > 2 || rise > 1) return infinity;
-    const float change = (instance.lengths[knot + 1][to] - instance.lengths[knot][from]) /
-                         (0.5F * instance.costs.length);
+    const float change =
+        (instance.lengths[knot + 1][to] - instance.lengths[knot][from]) / (0.5F * instance.costs.length);
     return instance.costs.turn * static_cast<float>(turned * turned + rise * rise) +
            instance.costs.stretch * change * change;
 }

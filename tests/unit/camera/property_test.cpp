@@ -28,10 +28,12 @@ INSTANTIATE_TEST_SUITE_P(Plans, EveryWorld,
 
 TEST_P(EveryWorld, RunningPlayerIsFollowedThroughFreespaceWithoutCuts) {
     const test::Plan plan = GetParam().plan();
-    for (const auto& [solver, rate] : {std::pair{Solver::paper, 60.0F}, std::pair{Solver::paper, 20.0F},
-                                       std::pair{Solver::planner, 60.0F}, std::pair{Solver::planner, 20.0F}}) {
+    for (const auto& [solver, rate] :
+         {std::pair{Solver::paper, 60.0F}, std::pair{Solver::paper, 20.0F}, std::pair{Solver::planner, 60.0F},
+          std::pair{Solver::planner, 20.0F}}) {
         for (std::uint32_t seed = 1; seed <= 3; ++seed) {
-            SCOPED_TRACE(testing::Message() << name_of(solver) << ", seed " << seed << " at " << rate << " Hz");
+            SCOPED_TRACE(testing::Message()
+                         << name_of(solver) << ", seed " << seed << " at " << rate << " Hz");
             CheckedShot shot(plan, solved_by(solver));
             Runner runner(plan, plan.eye('s'), seed);
             int seen = 0;

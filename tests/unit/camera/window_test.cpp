@@ -14,7 +14,8 @@ namespace {
 std::vector<TimedPose> five() {
     std::vector<TimedPose> poses;
     for (int i = 0; i < 5; ++i)
-        poses.push_back({static_cast<double>(i), pose_at(Vec3f(10.0F * static_cast<float>(i), 0.0F, 0.0F), 0.0F)});
+        poses.push_back(
+            {static_cast<double>(i), pose_at(Vec3f(10.0F * static_cast<float>(i), 0.0F, 0.0F), 0.0F)});
     return poses;
 }
 
