@@ -16,7 +16,7 @@ std::vector<TimedPose> run(const test::Plan& plan, std::uint32_t seed, double ra
     Runner runner(plan, plan.eye('s'), seed);
     std::vector<TimedPose> list;
     for (int i = 0; i < poses; ++i)
-        list.push_back({static_cast<double>(i) / rate, runner.next(static_cast<float>(1.0 / rate))});
+        list.push_back({static_cast<double>(i) / rate, runner.next(static_cast<float>(1.0 / rate)), true});
     return list;
 }
 
@@ -99,7 +99,7 @@ TEST(Planner, StandsStraightBehindAPlayerWhoStands) {
     const test::Plan plan = test::figure_eight();
     std::vector<TimedPose> poses;
     for (int i = 0; i < 200; ++i)
-        poses.push_back({i / 60.0, pose_at(plan.eye(6, 7), 0.0F)});
+        poses.push_back({i / 60.0, pose_at(plan.eye(6, 7), 0.0F), true});
     for (const double look_ahead : {0.0, 1.0}) {
         const Camera last = take(plan, poses, 60.0, look_ahead).cameras.back();
         EXPECT_LT((last.position - (plan.eye(6, 7) - Vec3f(120.0F, 0.0F, 0.0F))).norm(), 2.0F);

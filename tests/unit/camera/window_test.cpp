@@ -15,7 +15,7 @@ std::vector<TimedPose> five() {
     std::vector<TimedPose> poses;
     for (int i = 0; i < 5; ++i)
         poses.push_back(
-            {static_cast<double>(i), pose_at(Vec3f(10.0F * static_cast<float>(i), 0.0F, 0.0F), 0.0F)});
+            {static_cast<double>(i), pose_at(Vec3f(10.0F * static_cast<float>(i), 0.0F, 0.0F), 0.0F), true});
     return poses;
 }
 
