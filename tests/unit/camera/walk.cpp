@@ -12,9 +12,8 @@
 namespace camdir::camera {
 namespace {
 
-constexpr float pi = std::numbers::pi_v<float>;
 constexpr float run_speed = 320.0F;
-constexpr float turn_speed = 2.0F * pi;
+constexpr float turn_speed = 2.0F * std::numbers::pi_v<float>;
 constexpr float gravity = 800.0F;
 constexpr float jump_speed = 270.0F;
 constexpr float body = 15.0F;
@@ -43,7 +42,7 @@ Runner::Runner(const test::Plan& plan, const Vec3f& eye, std::uint32_t seed)
 
 Pose Runner::next(float dt) {
     std::uniform_real_distribution<float> share(0.0F, 1.0F);
-    if (share(random_) < 1.5F * dt) wanted_yaw_ = wrapped(2.0F * pi * share(random_));
+    if (share(random_) < 1.5F * dt) wanted_yaw_ = wrapped(2.0F * std::numbers::pi_v<float> * share(random_));
     if (share(random_) < 1.0F * dt) pitch_ = share(random_) - 0.5F;
     if (eye_.z() <= ground_ && share(random_) < 0.5F * dt) rise_ = jump_speed;
     const float turn = std::clamp(wrapped(wanted_yaw_ - yaw_), -turn_speed * dt, turn_speed * dt);
@@ -55,7 +54,7 @@ Pose Runner::next(float dt) {
     if (next.z() <= ground_) rise_ = 0.0F;
     if (plan_.clearance(next) < body) {
         next.head<2>() = eye_.head<2>();
-        wanted_yaw_ = wrapped(2.0F * pi * share(random_));
+        wanted_yaw_ = wrapped(2.0F * std::numbers::pi_v<float> * share(random_));
     }
     Pose pose = pose_at(next, yaw_, pitch_);
     pose.velocity = (next - eye_) / dt;
