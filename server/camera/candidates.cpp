@@ -3,16 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "camera/reach.hpp"
-#include "freespace/distance.hpp"
-#include "freespace/slab.hpp"
-#include "freespace/visibility.hpp"
-
 namespace camdir::camera {
 namespace {
-
-constexpr float beam_share = 4.0F / 3.0F;  // radius against the camera's minimum clearance
-constexpr float inside_eye_ball = 0.9F;
 
 constexpr float degree = radians_of_a_degree<float>;
 constexpr float angle_cost = 1.5F;
@@ -172,36 +164,6 @@ const std::array<Vec3f, DirectionGrid::size>& DirectionGrid::directions() {
         return list;
     }();
     return all;
-}
-
-float Beams::radius(std::size_t i) {
-    if (radius_[i] < 0.0F) {
-        const float clearance = freespace::distance_everywhere(freespace_, future_[i].eye).value;
-        radius_[i] =
-            std::max(0.0F, std::min(beam_share * profile_.minimum_clearance, inside_eye_ball * clearance));
-    }
-    return radius_[i];
-}
-
-float Beams::free_length(std::size_t i, const Vec3f& direction, float length) {
-    const Vec3f& eye = future_[i].eye;
-    const freespace::Sight beam = freespace::sight(freespace_, eye, eye + length * direction, radius(i));
-    return beam.clear ? length : std::max(0.0F, beam.free_length - inside_beam * profile_.unit);
-}
-
-std::optional<BeamEnd> Beams::end(std::size_t i, const Vec3f& direction, float length) {
-    const Vec3f& eye = future_[i].eye;
-    const freespace::Sight beam = freespace::sight(freespace_, eye, eye + length * direction, radius(i));
-    if (beam.clear) return std::nullopt;
-    BeamEnd end{std::max(0.0F, beam.free_length - inside_beam * profile_.unit), direction};
-    if (beam.triangle == freespace::none) return end;
-    const Vec3f point = eye + beam.free_length * direction;
-    freespace::SlabPoint last;
-    freespace::improve_range(freespace_.mesh(), point, beam.triangle, 1, last);
-    if (last.triangle == freespace::none) return end;
-    const Vec3d out = point.cast<double>() - freespace::ball_at(freespace_.mesh(), last).centre;
-    if (out.norm() > 0.0) end.normal = out.normalized().cast<float>();
-    return end;
 }
 
 void choose_directions(const MapProfile& profile, const History& history, Beams& beams, Plan& plan,

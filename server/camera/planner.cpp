@@ -31,16 +31,21 @@ void make_plan(const freespace::Freespace& freespace, const MapProfile& profile,
     plan.knot_spacing = static_cast<std::size_t>(std::max(1L, std::lround(knots)));
 
     smooth_heading(profile, state.history, plan);
-    Beams beams(freespace, profile, plan.future);
+    Beams beams(freespace, profile, plan.future, state.beams);
     choose_directions(profile, state.history, beams, plan, scratch.candidates);
     refine_path(profile, state.history, beams, plan);
     aim(profile, state.history, plan);
 
-    state.next = 0;
     state.count = samples_to_keep(plan);
     for (std::size_t i = 0; i < state.count; ++i)
         state.samples[i] = {plan.position[i],      plan.eye[i],      plan.heading_yaw[i],
                             plan.heading_pitch[i], plan.look_yaw[i], plan.look_pitch[i]};
+}
+
+// What follows the last sample is planned anew.
+void discard(PlanState& state) {
+    state.beams.advance(state.next);
+    state.count = state.next = 0;
 }
 
 // Keeps the yaws small, without a jump between the two samples.
@@ -78,7 +83,7 @@ void restart_plan(PlanState& state, const Vec3f& position, const Look& look, con
     state.history[0] = state.history[1];
     state.history[0].position -= step;
     state.history[0].eye -= step;
-    state.count = state.next = 0;
+    discard(state);
     state.step = dt;
 }
 
@@ -88,7 +93,7 @@ void deviate(PlanState& state, const Vec3f& position, const Vec3f& velocity, con
     state.history[0].position = last.position - state.step * velocity.cast<double>();
     last.look_yaw += wrapped(static_cast<float>(look.yaw - last.look_yaw));
     last.look_pitch = look.pitch;
-    state.count = state.next = 0;
+    discard(state);
 }
 
 const PlannedSample& next_sample(const freespace::Freespace& freespace, const MapProfile& profile,
@@ -96,10 +101,11 @@ const PlannedSample& next_sample(const freespace::Freespace& freespace, const Ma
                                  PlanScratch& scratch) {
     if (std::abs(dt - state.step) > same_step * dt) {
         resample(state.history, dt / state.step);
-        state.count = state.next = 0;
+        discard(state);
         state.step = dt;
     }
     if (state.next == state.count) {
+        discard(state);
         unwind(state.history);
         make_plan(freespace, profile, window, time, state, scratch);
     }

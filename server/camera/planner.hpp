@@ -4,6 +4,7 @@
 #pragma once
 
 #include "camera/aim.hpp"
+#include "camera/beams.hpp"
 #include "camera/candidates.hpp"
 #include "camera/heading.hpp"
 #include "camera/path.hpp"
@@ -21,6 +22,7 @@ struct PlanState {
     std::size_t count = 0;
     std::size_t next = 0;
     double step = 0.0;  // s, between samples
+    FreeBeams beams;
 };
 
 // Memory for planning, for any number of shots one after the other; one thread at a time.

@@ -1,0 +1,63 @@
+#include "camera/beams.hpp"
+
+#include <algorithm>
+
+#include "camera/reach.hpp"
+#include "freespace/distance.hpp"
+#include "freespace/slab.hpp"
+#include "freespace/visibility.hpp"
+
+namespace camdir::camera {
+namespace {
+
+constexpr float beam_share = 4.0F / 3.0F;  // radius against the camera's minimum clearance
+constexpr float inside_eye_ball = 0.9F;
+
+float widest(const MapProfile& profile) {
+    return beam_share * profile.minimum_clearance;
+}
+
+}  // namespace
+
+void FreeBeams::advance(std::size_t count) {
+    const std::size_t kept = beams_.size() - std::min(count, beams_.size());
+    std::copy(beams_.end() - static_cast<std::ptrdiff_t>(kept), beams_.end(), beams_.begin());
+    std::fill(beams_.begin() + static_cast<std::ptrdiff_t>(kept), beams_.end(), FreeBeam{});
+}
+
+float Beams::radius(std::size_t i) {
+    if (radius_[i] < 0.0F) {
+        const float clearance = freespace::distance_everywhere(freespace_, future_[i].eye).value;
+        radius_[i] = std::max(0.0F, std::min(widest(profile_), inside_eye_ball * clearance));
+    }
+    return radius_[i];
+}
+
+float Beams::free_length(std::size_t i, const Vec3f& direction, float length) {
+    const Vec3f& eye = future_[i].eye;
+    const freespace::Sight beam = freespace::sight(freespace_, eye, eye + length * direction, radius(i));
+    return beam.clear ? length : std::max(0.0F, beam.free_length - inside_beam * profile_.unit);
+}
+
+std::optional<BeamEnd> Beams::end(std::size_t i, const Vec3f& direction, float length) {
+    const Vec3f& eye = future_[i].eye;
+    const Vec3f goal = eye + length * direction;
+    FreeBeam& known = known_.of_sample(i);
+    if (known.covers(eye, goal, widest(profile_)) || known.covers(eye, goal, radius(i))) return std::nullopt;
+    const freespace::Sight beam = freespace::sight(freespace_, eye, goal, radius(i));
+    if (beam.clear) {
+        known = {eye, goal, beam.clearance};
+        return std::nullopt;
+    }
+    BeamEnd end{std::max(0.0F, beam.free_length - inside_beam * profile_.unit), direction};
+    if (beam.triangle == freespace::none) return end;
+    const Vec3f point = eye + beam.free_length * direction;
+    freespace::SlabPoint last;
+    freespace::improve_range(freespace_.mesh(), point, beam.triangle, 1, last);
+    if (last.triangle == freespace::none) return end;
+    const Vec3d out = point.cast<double>() - freespace::ball_at(freespace_.mesh(), last).centre;
+    if (out.norm() > 0.0) end.normal = out.normalized().cast<float>();
+    return end;
+}
+
+}  // namespace camdir::camera

@@ -1,0 +1,70 @@
+// Lines of sight from the eyes of a future, as thick beams, and what is known of them from earlier plans.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "camera/future.hpp"
+#include "camera/profile.hpp"
+#include "freespace/freespace.hpp"
+
+namespace camdir::camera {
+
+// A beam that was found free. It stays free for a radius while neither of its ends has moved by more than its
+// clearance exceeds that radius.
+struct FreeBeam {
+    Vec3f eye = Vec3f::Zero();
+    Vec3f end = Vec3f::Zero();
+    float clearance = -1.0F;  // along it; negative: nothing is known
+
+    [[nodiscard]] bool covers(const Vec3f& other_eye, const Vec3f& other_end, float radius) const {
+        const float spare = clearance - radius;
+        return spare >= 0.0F && (other_eye - eye).squaredNorm() <= spare * spare &&
+               (other_end - end).squaredNorm() <= spare * spare;
+    }
+};
+
+// The last beam of each sample of a plan that was found free. A value.
+class FreeBeams {
+  public:
+    [[nodiscard]] FreeBeam& of_sample(std::size_t i) { return beams_[i]; }
+    // Sample `count` becomes the first one.
+    void advance(std::size_t count);
+    void clear() { beams_.fill({}); }
+
+  private:
+    std::array<FreeBeam, Future::capacity> beams_;
+};
+
+// Where a beam from the player's eye ends before its goal.
+struct BeamEnd {
+    float free_length;
+    Vec3f normal;  // roughly of the obstacle: the way out of the last free ball, length 1
+};
+
+// Beams from the eyes of a future. Their radius is 4/3 of the clearance that the camera keeps, but less than
+// the eye's own clearance.
+class Beams {
+  public:
+    Beams(const freespace::Freespace& freespace, const MapProfile& profile, const Future& future,
+          FreeBeams& known)
+        : freespace_(freespace), profile_(profile), future_(future), known_(known) {
+        radius_.fill(-1.0F);
+    }
+
+    // How far the beam from the eye of sample i is free in a direction (unit), at most `length`.
+    [[nodiscard]] float free_length(std::size_t i, const Vec3f& direction, float length);
+    // None when the beam is free for `length`.
+    [[nodiscard]] std::optional<BeamEnd> end(std::size_t i, const Vec3f& direction, float length);
+
+  private:
+    float radius(std::size_t i);
+
+    const freespace::Freespace& freespace_;
+    const MapProfile& profile_;
+    const Future& future_;
+    FreeBeams& known_;
+    std::array<float, Future::capacity> radius_;  // negative: not asked yet
+};
+
+}  // namespace camdir::camera
