@@ -1,6 +1,7 @@
 #include "camera/beams.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "camera/reach.hpp"
 #include "freespace/distance.hpp"
@@ -12,6 +13,7 @@ namespace {
 
 constexpr float beam_share = 4.0F / 3.0F;  // radius against the camera's minimum clearance
 constexpr float inside_eye_ball = 0.9F;
+constexpr float cell_size = 16.0F;  // units
 
 float widest(const MapProfile& profile) {
     return beam_share * profile.minimum_clearance;
@@ -23,6 +25,19 @@ void FreeBeams::advance(std::size_t count) {
     const std::size_t kept = beams_.size() - std::min(count, beams_.size());
     std::copy(beams_.end() - static_cast<std::ptrdiff_t>(kept), beams_.end(), beams_.begin());
     std::fill(beams_.begin() + static_cast<std::ptrdiff_t>(kept), beams_.end(), FreeBeam{});
+}
+
+FreeLengths::Entry& FreeLengths::at(const Vec3f& eye, std::size_t bin, float cell_size) {
+    std::array<std::int32_t, 3> cell{};
+    std::uint32_t hash = static_cast<std::uint32_t>(bin);
+    for (int axis = 0; axis < 3; ++axis) {
+        cell[axis] = static_cast<std::int32_t>(std::floor(eye[axis] / cell_size));
+        hash = (hash ^ static_cast<std::uint32_t>(cell[axis])) * 0x9e3779b1U;
+        hash ^= hash >> 15U;
+    }
+    Entry& entry = entries_[hash % entries_.size()];
+    if (entry.cell != cell || entry.bin != bin) entry = {cell, static_cast<std::uint8_t>(bin), -1.0F};
+    return entry;
 }
 
 float Beams::radius(std::size_t i) {
@@ -37,6 +52,12 @@ float Beams::free_length(std::size_t i, const Vec3f& direction, float length) {
     const Vec3f& eye = future_[i].eye;
     const freespace::Sight beam = freespace::sight(freespace_, eye, eye + length * direction, radius(i));
     return beam.clear ? length : std::max(0.0F, beam.free_length - inside_beam * profile_.unit);
+}
+
+float Beams::free_length(std::size_t i, std::size_t bin) {
+    float& length = lengths_.at(future_[i].eye, bin, cell_size * profile_.unit).length;
+    if (length < 0.0F) length = free_length(i, DirectionGrid::directions()[bin], profile_.distance);
+    return length;
 }
 
 std::optional<BeamEnd> Beams::end(std::size_t i, const Vec3f& direction, float length) {

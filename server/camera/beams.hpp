@@ -2,8 +2,10 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 
+#include "camera/directions.hpp"
 #include "camera/future.hpp"
 #include "camera/profile.hpp"
 #include "freespace/freespace.hpp"
@@ -36,6 +38,23 @@ class FreeBeams {
     std::array<FreeBeam, Future::capacity> beams_;
 };
 
+// How far directions of the grid were found free from eyes nearby: of those in one cell of space, one asks for
+// all. A value, which forgets what it has no room for.
+class FreeLengths {
+  public:
+    // Where the entry of a direction from `eye` is or belongs.
+    struct Entry {
+        std::array<std::int32_t, 3> cell{};
+        std::uint8_t bin = 0;
+        float length = -1.0F;  // negative: none
+    };
+    [[nodiscard]] Entry& at(const Vec3f& eye, std::size_t bin, float cell_size);
+    void clear() { entries_.fill({}); }
+
+  private:
+    std::array<Entry, 1024> entries_;
+};
+
 // Where a beam from the player's eye ends before its goal.
 struct BeamEnd {
     float free_length;
@@ -47,13 +66,15 @@ struct BeamEnd {
 class Beams {
   public:
     Beams(const freespace::Freespace& freespace, const MapProfile& profile, const Future& future,
-          FreeBeams& known)
-        : freespace_(freespace), profile_(profile), future_(future), known_(known) {
+          FreeBeams& known, FreeLengths& lengths)
+        : freespace_(freespace), profile_(profile), future_(future), known_(known), lengths_(lengths) {
         radius_.fill(-1.0F);
     }
 
     // How far the beam from the eye of sample i is free in a direction (unit), at most `length`.
     [[nodiscard]] float free_length(std::size_t i, const Vec3f& direction, float length);
+    // The same for the profile's distance in a direction of the grid, from the eye of sample i or one nearby.
+    [[nodiscard]] float free_length(std::size_t i, std::size_t bin);
     // None when the beam is free for `length`.
     [[nodiscard]] std::optional<BeamEnd> end(std::size_t i, const Vec3f& direction, float length);
 
@@ -64,6 +85,7 @@ class Beams {
     const MapProfile& profile_;
     const Future& future_;
     FreeBeams& known_;
+    FreeLengths& lengths_;
     std::array<float, Future::capacity> radius_;  // negative: not asked yet
 };
 

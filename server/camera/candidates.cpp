@@ -26,6 +26,11 @@ float squared_share(float value, float tolerance) {
     return (value / tolerance) * (value / tolerance);
 }
 
+// Of what rounding may have left beyond 1. Exact enough for costs, unlike for small angles.
+float arc_cosine(float cosine) {
+    return std::acos(std::clamp(cosine, -1.0F, 1.0F));
+}
+
 class Choosing {
   public:
     Choosing(const MapProfile& profile, const History& history, Beams& beams, Plan& plan,
@@ -40,8 +45,7 @@ class Choosing {
         for (std::size_t knot = 0; knot < knots; ++knot)
             weigh_directions(knot);
         const auto length = [this](std::size_t knot, std::size_t bin) {
-            return beams_.free_length(knot * plan_.knot_spacing, DirectionGrid::directions()[bin],
-                                      profile_.distance);
+            return beams_.free_length(knot * plan_.knot_spacing, bin);
         };
         const auto choices =
             scratch_.programme.solve({scratch_.direction_costs.data(), knots}, costs(), length);
@@ -74,29 +78,34 @@ class Choosing {
         const std::size_t end = std::min(plan_.count(), first + plan_.knot_spacing);
         const Vec3f behind = direction_of(plan_.behind(first, profile_.elevation));
         const float cost = (plan_.ahead ? angle_cost_ahead : angle_cost) * profile_.weight_angle;
+        const float least_cosine = std::cos(profile_.swing);
         auto& costs = scratch_.direction_costs[knot];
         for (std::size_t bin = 0; bin < costs.size(); ++bin) {
-            const float angle = angle_between(behind, DirectionGrid::directions()[bin]);
-            costs[bin] = angle > profile_.swing ? 2.0F * Programme::forbidden
-                                                : cost * squared_share(angle, profile_.angle_tolerance);
+            const float cosine = behind.dot(directions_[bin]);
+            costs[bin] = cosine < least_cosine
+                             ? 2.0F * Programme::forbidden
+                             : cost * squared_share(arc_cosine(cosine), profile_.angle_tolerance);
         }
         for (std::size_t i = first; i < end; i += side_view_stride)
             add_side_view(direction_of(plan_.future[i].view), costs);
         if (knot == 0 && camera_.norm() > profile_.unit) add_turn_from_camera(costs);
     }
     void add_side_view(const Vec3f& view, Programme::DirectionCosts& costs) const {
+        const float begin = side_view + std::abs(profile_.elevation);
+        const float begin_cosine = std::cos(begin);
         for (std::size_t bin = 0; bin < costs.size(); ++bin) {
-            if (costs[bin] >= Programme::forbidden) continue;
-            const float angle = angle_between(Vec3f(-view), DirectionGrid::directions()[bin]);
-            const float off = angle - std::abs(profile_.elevation) - side_view;
-            if (off <= 0.0F) continue;
-            costs[bin] += side_view_cost * profile_.weight_angle *
-                          std::min(side_view_limit, squared_share(off, side_view_tolerance));
+            const float cosine = -view.dot(directions_[bin]);
+            if (costs[bin] >= Programme::forbidden || cosine >= begin_cosine) continue;
+            costs[bin] +=
+                side_view_cost * profile_.weight_angle *
+                std::min(side_view_limit, squared_share(arc_cosine(cosine) - begin, side_view_tolerance));
         }
     }
     void add_turn_from_camera(Programme::DirectionCosts& costs) const {
+        const Vec3f direction = camera_.normalized();
         for (std::size_t bin = 0; bin < costs.size(); ++bin) {
-            const float angle = angle_between(DirectionGrid::directions()[bin], camera_);
+            if (costs[bin] >= Programme::forbidden) continue;
+            const float angle = arc_cosine(direction.dot(directions_[bin]));
             costs[bin] += turn_cost_ * squared_share(angle, DirectionGrid::spacing);
         }
     }
@@ -113,7 +122,7 @@ class Choosing {
         const std::size_t i = knot * plan_.knot_spacing;
         const Look behind = plan_.behind(i, profile_.elevation);
         const Vec3f direction = direction_of(behind);
-        if (angle_between(direction, DirectionGrid::directions()[choice.bin]) < snap_angle) {
+        if (angle_between(direction, directions_[choice.bin]) < snap_angle) {
             const float length = beams_.free_length(i, direction, profile_.distance);
             if (length >= choice.length - snap_length * profile_.unit) return {behind, length, true};
         }
@@ -146,6 +155,7 @@ class Choosing {
         plan_.goal[i] = plan_.eye[i] + plan_.length[i] * direction.cast<double>();
     }
 
+    const std::array<Vec3f, DirectionGrid::size>& directions_ = DirectionGrid::directions();
     const MapProfile& profile_;
     Beams& beams_;
     Plan& plan_;

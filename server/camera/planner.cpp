@@ -31,7 +31,7 @@ void make_plan(const freespace::Freespace& freespace, const MapProfile& profile,
     plan.knot_spacing = static_cast<std::size_t>(std::max(1L, std::lround(knots)));
 
     smooth_heading(profile, state.history, plan);
-    Beams beams(freespace, profile, plan.future, state.beams);
+    Beams beams(freespace, profile, plan.future, state.free_beams, state.free_lengths);
     choose_directions(profile, state.history, beams, plan, scratch.candidates);
     refine_path(profile, state.history, beams, plan);
     aim(profile, state.history, plan);
@@ -44,7 +44,7 @@ void make_plan(const freespace::Freespace& freespace, const MapProfile& profile,
 
 // What follows the last sample is planned anew.
 void discard(PlanState& state) {
-    state.beams.advance(state.next);
+    state.free_beams.advance(state.next);
     state.count = state.next = 0;
 }
 

@@ -22,7 +22,8 @@ struct PlanState {
     std::size_t count = 0;
     std::size_t next = 0;
     double step = 0.0;  // s, between samples
-    FreeBeams beams;
+    FreeBeams free_beams;
+    FreeLengths free_lengths;
 };
 
 // Memory for planning, for any number of shots one after the other; one thread at a time.
