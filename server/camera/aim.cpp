@@ -7,9 +7,11 @@ namespace camdir::camera {
 namespace {
 
 // Shares of the profile's time constant.
-constexpr double aim_share = 1.5;
-constexpr double aim_share_ahead = 2.5;
-constexpr double off_middle = 6.0 * radians_of_a_degree<double>;
+constexpr double aim_share = 2.0;
+constexpr double aim_share_ahead = 3.0;
+// The player may be this far off the middle of the picture while the camera turns.
+constexpr double off_middle = 10.0 * radians_of_a_degree<double>;
+constexpr double off_middle_ahead = 8.0 * radians_of_a_degree<double>;
 constexpr double off_middle_gain = 4.0;
 constexpr int off_middle_rounds = 2;
 constexpr float steepest_look = 86.0F * radians_of_a_degree<float>;
@@ -20,7 +22,7 @@ constexpr double least_yaw_weight = 0.02;
 void aim(const MapProfile& profile, const History& history, Plan& plan) {
     const std::size_t count = plan.count();
     const double time_constant = (plan.ahead ? aim_share_ahead : aim_share) * profile.look_smoothing;
-    const int rounds = plan.ahead ? off_middle_rounds : 0;
+    const double dead_zone = plan.ahead ? off_middle_ahead : off_middle;
     double yaw = history[1].look_yaw;
     for (std::size_t i = 0; i < count; ++i) {
         const Vec3f way = (plan.eye[i] - plan.position[i]).cast<float>();
@@ -32,12 +34,12 @@ void aim(const MapProfile& profile, const History& history, Plan& plan) {
         const double level = std::cos(look.pitch);
         plan.weights[i] = std::max(least_yaw_weight, level * level);
     }
-    plan.smooth_with_dead_zone(time_constant, off_middle, off_middle_gain, rounds, history[0].look_yaw,
-                               history[1].look_yaw, plan.look_yaw);
+    plan.smooth_with_dead_zone(time_constant, dead_zone, off_middle_gain, off_middle_rounds,
+                               history[0].look_yaw, history[1].look_yaw, plan.look_yaw);
     std::copy_n(plan.look_pitch.begin(), count, plan.wanted.begin());
     std::fill_n(plan.weights.begin(), count, 1.0);
-    plan.smooth_with_dead_zone(time_constant, off_middle, off_middle_gain, rounds, history[0].look_pitch,
-                               history[1].look_pitch, plan.look_pitch);
+    plan.smooth_with_dead_zone(time_constant, dead_zone, off_middle_gain, off_middle_rounds,
+                               history[0].look_pitch, history[1].look_pitch, plan.look_pitch);
 }
 
 }  // namespace camdir::camera

@@ -38,8 +38,8 @@ class FreeBeams {
     std::array<FreeBeam, Future::capacity> beams_;
 };
 
-// How far directions of the grid were found free from eyes nearby: of those in one cell of space, one asks for
-// all. A value, which forgets what it has no room for.
+// How far directions of the grid were found free from eyes nearby: of those in one cell of space, one asks
+// for all. A value, which forgets what it has no room for.
 class FreeLengths {
   public:
     // Where the entry of a direction from `eye` is or belongs.

@@ -6,8 +6,8 @@ namespace camdir::camera {
 namespace {
 
 // Time constants, s, and shares of the profile's.
-constexpr double yaw_share = 1.0;
-constexpr double yaw_share_ahead = 2.0;
+constexpr double yaw_share = 1.2;
+constexpr double yaw_share_ahead = 1.5;
 constexpr double pitch_share = 2.0;
 constexpr double eye_smoothing = 0.03;
 constexpr double eye_smoothing_ahead = 0.05;

@@ -5,11 +5,11 @@
 namespace camdir::camera {
 namespace {
 
-constexpr double motion_share = 1.4;  // of the profile's time constant
+constexpr double motion_share = 1.45;  // of the profile's time constant
 constexpr int rounds = 4;
 constexpr int rounds_ahead = 5;
 constexpr int distance_rounds = 3;
-constexpr double distance_gain = 0.6;
+constexpr double distance_gain = 0.9;
 constexpr double raise = 8.0;  // of the weight of a sample whose line of sight is blocked
 constexpr double max_weight = 512.0;
 constexpr float least_slide = 0.1F;  // share of what is blocked that a slide must be to be worth it

@@ -45,7 +45,7 @@ struct Profile {
     float vertical_fov = 58.7F;
     float framing_offset = 0.0F;
 
-    Solver solver = Solver::paper;
+    Solver solver = Solver::planner;
 };
 
 struct ProfileKey {
