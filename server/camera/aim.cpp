@@ -40,6 +40,8 @@ void aim(const MapProfile& profile, const History& history, Plan& plan) {
     std::fill_n(plan.weights.begin(), count, 1.0);
     plan.smooth_with_dead_zone(time_constant, dead_zone, off_middle_gain, off_middle_rounds,
                                history[0].look_pitch, history[1].look_pitch, plan.look_pitch);
+    for (std::size_t i = 0; i < count; ++i)  // the smoother swings further than what it smooths
+        plan.look_pitch[i] = std::clamp<double>(plan.look_pitch[i], -steepest_look, steepest_look);
 }
 
 }  // namespace camdir::camera

@@ -55,9 +55,10 @@ constexpr std::array keys = {
                &Profile::swing},
     ProfileKey{"prediction", seconds, 0.0F, 1.0F,
                "how far ahead the player's motion is foreseen when a spot is chosen", &Profile::prediction},
-    ProfileKey{"iterations", number, 1.0F, 8.0F,
-               "moves tried in one step before the line of sight is restored by other means",
-               &Profile::iterations},
+    ProfileKey{
+        "iterations", number, 1.0F, 8.0F,
+        "moves that solver `paper` tries in one step before it restores the line of sight by other means",
+        &Profile::iterations},
     ProfileKey{"heading_smoothing", seconds, 0.0F, 2.0F,
                "time constant of the low-passed view direction that the camera stays behind",
                &Profile::heading_smoothing},

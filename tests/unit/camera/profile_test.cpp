@@ -9,6 +9,7 @@
 #include <numbers>
 #include <set>
 #include <string>
+#include <tuple>
 
 #include "walk.hpp"
 
@@ -25,8 +26,8 @@ const ProfileKey& key_named(const std::string& name) {
     return *std::find_if(keys.begin(), keys.end(), [&](const ProfileKey& key) { return key.name == name; });
 }
 
-Profile with(const std::string& name, float value) {
-    Profile profile;
+Profile with(const std::string& name, float value, Solver solver) {
+    Profile profile = solved_by(solver);
     profile.*key_named(name).member = value;
     return profile;
 }
@@ -117,13 +118,19 @@ bool differ(const Shown& a, const Shown& b) {
     return !std::equal(a.cameras.begin(), a.cameras.end(), b.cameras.begin(), b.cameras.end(), same);
 }
 
-TEST_P(EveryKey, ChangesTheCamera) {
-    const ProfileKey& key = GetParam();
+bool changes_the_camera(const ProfileKey& key, Solver solver) {
     const float usual = Profile{}.*key.member;
     const float less = std::max(0.3F * usual, key.minimum);
     const float more = std::min(usual == 0.0F ? 10.0F : 10.0F * usual, key.maximum);
-    const Shown shown = show({});
-    EXPECT_TRUE(differ(shown, show(with(key.name, less))) || differ(shown, show(with(key.name, more))));
+    const Shown shown = show(solved_by(solver));
+    return differ(shown, show(with(key.name, less, solver))) ||
+           differ(shown, show(with(key.name, more, solver)));
+}
+
+TEST_P(EveryKey, ChangesTheCamera) {
+    const ProfileKey& key = GetParam();
+    EXPECT_TRUE(changes_the_camera(key, Solver::paper));
+    EXPECT_EQ(changes_the_camera(key, Solver::planner), std::string(key.name) != "iterations");
 }
 
 // What a larger value makes larger.
@@ -202,16 +209,22 @@ void PrintTo(const Effect& effect, std::ostream* out) {
     *out << effect.key;
 }
 
-class EveryEffect : public testing::TestWithParam<Effect> {};
+std::string name_of_case(const testing::TestParamInfo<std::tuple<Solver, Effect>>& info) {
+    const auto& [solver, effect] = info.param;
+    return std::string(name_of(solver)) + "_" + effect.key + "_" + effect.what;
+}
 
-INSTANTIATE_TEST_SUITE_P(Profile, EveryEffect, testing::ValuesIn(effects), [](const auto& effect) {
-    return std::string(effect.param.key) + "_" + effect.param.what;
-});
+class EveryEffect : public testing::TestWithParam<std::tuple<Solver, Effect>> {};
+
+INSTANTIATE_TEST_SUITE_P(Profile, EveryEffect,
+                         testing::Combine(testing::Values(Solver::paper, Solver::planner),
+                                          testing::ValuesIn(effects)),
+                         name_of_case);
 
 TEST_P(EveryEffect, GoesTheRightWay) {
-    const Effect& effect = GetParam();
-    EXPECT_LT(mean(show(with(effect.key, effect.small)), effect.measure),
-              mean(show(with(effect.key, effect.large)), effect.measure));
+    const auto& [solver, effect] = GetParam();
+    EXPECT_LT(mean(show(with(effect.key, effect.small, solver)), effect.measure),
+              mean(show(with(effect.key, effect.large, solver)), effect.measure));
 }
 
 }  // namespace

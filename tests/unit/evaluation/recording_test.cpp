@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <vector>
 
 #include "camera/tracker.hpp"
 #include "tiny_trace.hpp"
@@ -52,7 +53,9 @@ TEST(Recording, IsTheTrackerStepByStep) {
     for (const std::uint32_t player : trace.players) {
         camera::ShotState state;
         camera::Scratch scratch(freespace);
+        std::vector<camera::TimedPose> window;
         for (std::size_t i = 0; i < trace.frames.size(); ++i) {
+            const double time = static_cast<double>(trace.frames[i].time - trace.frames[0].time) * 1e-9;
             const auto poses = trace.poses_of(trace.frames[i]);
             const auto found = std::find_if(poses.begin(), poses.end(),
                                             [&](const TracePose& pose) { return pose.player == player; });
@@ -62,8 +65,8 @@ TEST(Recording, IsTheTrackerStepByStep) {
                 pose.orientation = found->orientation.cast<float>().normalized();
                 pose.discontinuity = found->discontinuity;
             }
-            const camera::Camera camera = camera::step(freespace, {}, found != poses.end() ? &pose : nullptr,
-                                                       i == 0 ? 0.0 : 0.016, state, scratch);
+            window.push_back({time, pose, found != poses.end()});
+            const camera::Camera camera = camera::step(freespace, {}, window, time, state, scratch);
             if (found == poses.end()) continue;
             const std::size_t row = static_cast<std::size_t>(&*found - trace.poses.data());
             EXPECT_EQ(recording->cameras[row].position, camera.position.cast<double>());
