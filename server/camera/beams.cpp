@@ -27,17 +27,19 @@ void FreeBeams::advance(std::size_t count) {
     std::fill(beams_.begin() + static_cast<std::ptrdiff_t>(kept), beams_.end(), FreeBeam{});
 }
 
-FreeLengths::Entry& FreeLengths::at(const Vec3f& eye, std::size_t bin, float cell_size) {
-    std::array<std::int32_t, 3> cell{};
-    std::uint32_t hash = static_cast<std::uint32_t>(bin);
-    for (int axis = 0; axis < 3; ++axis) {
-        cell[axis] = static_cast<std::int32_t>(std::floor(eye[axis] / cell_size));
-        hash = (hash ^ static_cast<std::uint32_t>(cell[axis])) * 0x9e3779b1U;
-        hash ^= hash >> 15U;
-    }
+float& FreeLengths::at(const Vec3f& eye, std::size_t bin, float cell_size) {
+    std::uint64_t hash = 0;
+    const auto mix = [&hash](std::uint64_t value) {
+        hash = (hash ^ value) * 0x9e3779b97f4a7c15U;
+        hash ^= hash >> 32U;
+    };
+    mix(bin + 1);
+    for (const float coordinate : eye)
+        mix(static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(coordinate / cell_size))));
     Entry& entry = entries_[hash % entries_.size()];
-    if (entry.cell != cell || entry.bin != bin) entry = {cell, static_cast<std::uint8_t>(bin), -1.0F};
-    return entry;
+    const auto tag = static_cast<std::uint32_t>(hash >> 32U);
+    if (entry.tag != tag) entry = {tag, -1.0F};
+    return entry.length;
 }
 
 float Beams::radius(std::size_t i) {
@@ -55,7 +57,7 @@ float Beams::free_length(std::size_t i, const Vec3f& direction, float length) {
 }
 
 float Beams::free_length(std::size_t i, std::size_t bin) {
-    float& length = lengths_.at(future_[i].eye, bin, cell_size * profile_.unit).length;
+    float& length = lengths_.at(future_[i].eye, bin, cell_size * profile_.unit);
     if (length < 0.0F) length = free_length(i, DirectionGrid::directions()[bin], profile_.distance);
     return length;
 }

@@ -32,26 +32,24 @@ class FreeBeams {
     [[nodiscard]] FreeBeam& of_sample(std::size_t i) { return beams_[i]; }
     // Sample `count` becomes the first one.
     void advance(std::size_t count);
-    void clear() { beams_.fill({}); }
 
   private:
     std::array<FreeBeam, Future::capacity> beams_;
 };
 
 // How far directions of the grid were found free from eyes nearby: of those in one cell of space, one asks
-// for all. A value, which forgets what it has no room for.
+// for all. A value, which forgets what it has no room for. What it answers is a wish that the path's own
+// beams check: once in 2^32 times it may be another cell's.
 class FreeLengths {
   public:
-    // Where the entry of a direction from `eye` is or belongs.
-    struct Entry {
-        std::array<std::int32_t, 3> cell{};
-        std::uint8_t bin = 0;
-        float length = -1.0F;  // negative: none
-    };
-    [[nodiscard]] Entry& at(const Vec3f& eye, std::size_t bin, float cell_size);
-    void clear() { entries_.fill({}); }
+    // The length in a direction from `eye`, to be set by the caller where it is negative: not known.
+    [[nodiscard]] float& at(const Vec3f& eye, std::size_t bin, float cell_size);
 
   private:
+    struct Entry {
+        std::uint32_t tag = 0;
+        float length = -1.0F;
+    };
     std::array<Entry, 1024> entries_;
 };
 
