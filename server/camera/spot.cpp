@@ -89,19 +89,20 @@ class Fan {
 // A place that spots must be joined to by a free beam.
 struct Origin {
     Vec3f position;
-    std::uint32_t slab;
-    float beam_radius;
+    freespace::SightOrigin beams;
 };
 
 class SpotSearch {
   public:
     SpotSearch(const freespace::Freespace& freespace, const MapProfile& profile, const PlayerTrack& track)
-        : freespace_(freespace), profile_(profile), distance_weight_(profile.weight_distance) {
-        now_ = {track.anchor, track.slab, beam_radius(profile, track)};
-    }
+        : freespace_(freespace),
+          profile_(profile),
+          distance_weight_(profile.weight_distance),
+          beam_radius_(beam_radius(profile, track)),
+          now_(origin_at(track.anchor)) {}
     // A cut has no motion to pay for: nothing keeps it from a spot further round the player.
     void for_a_cut() { distance_weight_ *= cut_distance_weight; }
-    void foresee(const Vec3f& anchor) { later_ = Origin{anchor, now_.slab, now_.beam_radius}; }
+    void foresee(const Vec3f& anchor) { later_ = origin_at(anchor); }
 
     // Considers it; whether nothing is in its way at all.
     bool is_free(const FanDirection& candidate) {
@@ -125,10 +126,11 @@ class SpotSearch {
     [[nodiscard]] const Spot& best() const { return best_; }
 
   private:
+    [[nodiscard]] Origin origin_at(const Vec3f& anchor) const {
+        return {anchor, freespace::SightOrigin(freespace_, anchor, beam_radius_)};
+    }
     [[nodiscard]] float free_length(const Origin& from, const Vec3f& direction) const {
-        const freespace::Sight beam =
-            freespace::sight(freespace_, from.position, from.position + profile_.distance * direction,
-                             from.beam_radius, from.slab);
+        const freespace::Sight beam = from.beams.to(from.position + profile_.distance * direction);
         return beam.clear ? profile_.distance
                           : std::max(0.0F, beam.free_length - inside_beam * profile_.unit);
     }
@@ -139,6 +141,7 @@ class SpotSearch {
     const freespace::Freespace& freespace_;
     const MapProfile& profile_;
     float distance_weight_;
+    float beam_radius_;
     Origin now_;
     std::optional<Origin> later_;
     Spot best_{Vec3f::Zero(), std::numeric_limits<float>::infinity()};

@@ -63,7 +63,7 @@ std::string find_bounds_flaw(const Box3f& bounds, std::span<const Vertex> vertic
     return {};
 }
 
-std::string find_hints_flaw(const HintGrid& hints, std::size_t triangle_count) {
+std::string find_hints_flaw(const HintView& hints, std::size_t triangle_count) {
     // Counts up to 2^20 are exact as floats, and their product fits.
     constexpr std::uint32_t limit = 1U << 20U;
     std::uint64_t cells = 1;

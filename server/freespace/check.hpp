@@ -4,6 +4,7 @@
 #include <string>
 
 #include "freespace/freespace.hpp"
+#include "freespace/hints.hpp"
 
 namespace camdir::freespace {
 
@@ -21,6 +22,6 @@ inline constexpr std::uint32_t count_limit = 10'000;
 [[nodiscard]] std::string find_bounds_flaw(const Box3f& bounds, std::span<const Vertex> vertices);
 
 // Of the hints for a mesh of so many triangles.
-[[nodiscard]] std::string find_hints_flaw(const HintGrid& hints, std::size_t triangle_count);
+[[nodiscard]] std::string find_hints_flaw(const HintView& hints, std::size_t triangle_count);
 
 }  // namespace camdir::freespace

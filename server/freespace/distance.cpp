@@ -1,37 +1,22 @@
 #include "freespace/distance.hpp"
 
 #include "base/round_down.hpp"
-#include "freespace/search.hpp"
+#include "freespace/slab_octree.hpp"
 
 namespace camdir::freespace {
-namespace {
 
-Distance distance_at(const Freespace& freespace, const Vec3f& point, const SlabPoint& best) {
+Distance distance(const Freespace& freespace, const Vec3f& point, std::uint32_t /*previous*/) {
+    if (!point.allFinite()) return {};
+    const SlabPoint best = freespace.octree().best(point);
     if (best.triangle == none) return {};
-    const Ball ball = ball_at(freespace.mesh(), best);
+    const Ball ball = freespace.octree().ball(best);
     const double value = ball.radius - (point.cast<double>() - ball.centre).norm();
     if (!(value > 0.0)) return {};
     return {round_down(value), best.triangle};
 }
 
-}  // namespace
-
-Distance distance(const Freespace& freespace, const Vec3f& point, std::uint32_t previous) {
-    if (!point.allFinite()) return {};
-    SlabPoint best = uncovered;
-    improve_by_hints(freespace.mesh(), point, previous, best);
-    if (best.triangle != none && previous < freespace.triangles().size())
-        improve_by_ring(freespace, point, best.triangle, best);
-    if (best.triangle == none) improve_everywhere(freespace.mesh(), point, Effort{}, best);
-    return distance_at(freespace, point, best);
-}
-
 Distance distance_everywhere(const Freespace& freespace, const Vec3f& point) {
-    if (!point.allFinite()) return {};
-    SlabPoint best = uncovered;
-    improve_by_hints(freespace.mesh(), point, none, best);
-    improve_everywhere(freespace.mesh(), point, Effort{}, best);
-    return distance_at(freespace, point, best);
+    return distance(freespace, point);
 }
 
 }  // namespace camdir::freespace

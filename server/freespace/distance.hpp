@@ -8,22 +8,22 @@
 namespace camdir::freespace {
 
 struct Distance {
-    // A lower bound of the clearance of the point: the largest d_f(m) - |c - m| over the points m of
-    // the slabs looked at. -infinity when the point is in none of them, and for a point that is not finite.
+    // A lower bound of the clearance of the point: the largest d_f(m) - |c - m| over the points m of all
+    // slabs, but for a rounding of 1e-6 of the map's size. -infinity when the point is in no slab, and for a
+    // point that is not finite.
     float value = -std::numeric_limits<float>::infinity();
-    // The slab that gave it: the tracking state for the next query. `none` when nothing covers the point.
+    // The slab that gave it: none when nothing covers the point.
     std::uint32_t triangle = none;
 
     [[nodiscard]] bool covered() const { return value > 0.0F; }
 };
 
-// The free distance at `point`. `previous` is the slab of the preceding point, which makes the query
-// cheap when the point moved a little: it and its neighbours (sharing a vertex) are tried first; the
-// spatial index takes over when they do not cover the point. Thread-safe, does not allocate.
+// The free distance at `point`. The index knows the few slabs that can be the largest there, so that a known
+// slab of the preceding point (the paper's `previous`) makes no difference. Thread-safe; may make the octree.
 [[nodiscard]] Distance distance(const Freespace& freespace, const Vec3f& point,
                                 std::uint32_t previous = none);
 
-// The largest free distance over all slabs, by the spatial index alone.
+// The same without a preceding point.
 [[nodiscard]] Distance distance_everywhere(const Freespace& freespace, const Vec3f& point);
 
 }  // namespace camdir::freespace

@@ -5,11 +5,14 @@
 #include <cstring>
 
 #include "base/file.hpp"
+#include "base/lazy.hpp"
 #include "freespace/check.hpp"
 #include "freespace/freespace.hpp"
 #include "freespace/hints.hpp"
 #include "freespace/incidence.hpp"
 #include "freespace/index.hpp"
+#include "freespace/roadmap_graph.hpp"
+#include "freespace/slab_octree.hpp"
 #include "freespace_generated.h"
 
 namespace camdir::freespace {
@@ -22,6 +25,7 @@ namespace {
 constexpr std::uint32_t format_version = 2;
 constexpr flatbuffers::uoffset_t table_depth_limit = 4;
 constexpr flatbuffers::uoffset_t table_limit = count_limit + 1;  // the root and the counts
+constexpr float smallest_cell = 3.0F;                            // of the octree, in d0
 
 // ---- Writing ----
 
@@ -169,12 +173,9 @@ Vec3f to_vector(const wire::Point& p) {
     return {p.x(), p.y(), p.z()};
 }
 
-HintGrid view_hints(const wire::Freespace& root) {
+HintView view_hints(const wire::Freespace& root) {
     const wire::Extent& extent = *root.hint_extent();
-    return {to_vector(root.bounds()->min()),
-            root.hint_cell_size(),
-            {extent.x(), extent.y(), extent.z()},
-            view<std::uint32_t>(root.hints())};
+    return {root.hint_cell_size(), {extent.x(), extent.y(), extent.z()}, view<std::uint32_t>(root.hints())};
 }
 
 Metadata read_metadata(const wire::Freespace& root) {
@@ -204,15 +205,19 @@ struct Freespace::Storage {
     Metadata metadata;
     Box3f bounds;
     std::vector<SpawnPoint> spawn_points;
+    MeshView mesh;  // in file
     Incidence incidence;
-    std::vector<IndexNode> index;
-    MeshView mesh;  // into file, incidence and index
+    Lazy<SlabOctree> octree;
+    Lazy<RoadmapGraph> roadmap;
 
     explicit Storage(Bytes bytes) : file(std::move(bytes)) {}
 };
 
 Freespace::Freespace(std::shared_ptr<const Storage> storage)
-    : storage_(std::move(storage)), mesh_(storage_->mesh) {}
+    : storage_(std::move(storage)),
+      mesh_(storage_->mesh),
+      incident_triangles_(storage_->incidence.triangles),
+      incident_offsets_(storage_->incidence.offsets) {}
 
 Result<Freespace> Freespace::read(std::shared_ptr<Storage> storage, const std::string& name) {
     const std::span<const std::byte> bytes = storage->file;
@@ -223,16 +228,14 @@ Result<Freespace> Freespace::read(std::shared_ptr<Storage> storage, const std::s
     storage->bounds = {to_vector(root.bounds()->min()), to_vector(root.bounds()->max())};
     const auto vertices = view<Vertex>(root.vertices());
     const auto triangles = view<Triangle>(root.triangles());
-    const HintGrid hints = view_hints(root);
+    const HintView hints = view_hints(root);
     std::string flaw = find_metadata_flaw(storage->metadata, storage->spawn_points);
     if (flaw.empty()) flaw = find_mesh_flaw(vertices, triangles);
     if (flaw.empty()) flaw = find_bounds_flaw(storage->bounds, vertices);
     if (flaw.empty()) flaw = find_hints_flaw(hints, triangles.size());
     if (!flaw.empty()) return fail(name + ": is damaged: " + flaw);
     storage->incidence = build_incidence(vertices.size(), triangles);
-    storage->index = build_index(vertices, triangles);
-    storage->mesh = {vertices,       triangles, storage->incidence.offsets, storage->incidence.triangles,
-                     storage->index, hints};
+    storage->mesh = {vertices, triangles};
     return Freespace(std::move(storage));
 }
 
@@ -259,6 +262,15 @@ std::span<const SpawnPoint> Freespace::spawn_points() const {
     return storage_->spawn_points;
 }
 
+const SlabOctree& Freespace::octree() const {
+    return storage_->octree.get(
+        [&] { return SlabOctree(mesh_.vertices, mesh_.triangles, smallest_cell * metadata().d0); });
+}
+
+const RoadmapGraph& Freespace::roadmap() const {
+    return storage_->roadmap.get([&] { return RoadmapGraph(mesh_.vertices, mesh_.triangles); });
+}
+
 std::size_t Freespace::byte_size() const {
     return storage_->file.size();
 }
@@ -277,7 +289,7 @@ std::vector<std::byte> encode(const Contents& contents) {
         triangles.push_back({new_number[a], new_number[b], new_number[c]});
     }
     const std::vector<IndexNode> index = build_index(vertices, triangles);
-    const Hints hints = build_hints({vertices, triangles, {}, {}, index, {}}, bounds_of(vertices));
+    const Hints hints = build_hints({vertices, triangles}, index, bounds_of(vertices));
     const auto buffer = build_file(contents.metadata, contents.spawn_points, vertices, triangles, hints);
     const auto built = std::as_bytes(std::span(buffer.data(), buffer.size()));
     std::vector<std::byte> file(built.begin(), built.end());

@@ -36,10 +36,18 @@ inline Float4 square_root(Float4 x) {
 
 // Where one of the two is NaN, the second is taken.
 inline Float4 smaller(Float4 a, Float4 b) {
+#if defined(__SSE2__)
+    return reinterpret_cast<Float4>(_mm_min_ps(reinterpret_cast<__m128>(a), reinterpret_cast<__m128>(b)));
+#else
     return a < b ? a : b;
+#endif
 }
 inline Float4 larger(Float4 a, Float4 b) {
+#if defined(__SSE2__)
+    return reinterpret_cast<Float4>(_mm_max_ps(reinterpret_cast<__m128>(a), reinterpret_cast<__m128>(b)));
+#else
     return a > b ? a : b;
+#endif
 }
 
 // Bit k is set if lane k is.
@@ -48,6 +56,35 @@ inline unsigned bits(Mask4 mask) {
     return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(mask)));
 #else
     return (mask[0] & 1) | (mask[1] & 2) | (mask[2] & 4) | (mask[3] & 8);
+#endif
+}
+
+// The largest of the four.
+inline float largest(Float4 x) {
+    const Float4 pairs = larger(x, __builtin_shufflevector(x, x, 2, 3, 0, 1));
+    return larger(pairs, __builtin_shufflevector(pairs, pairs, 1, 0, 3, 2))[0];
+}
+
+// Converts four rows of four std::int8_t at `rows`, which need not be aligned.
+inline void convert(const void* rows, Float4 (&converted)[4]) {
+#if defined(__SSE2__)
+    const __m128i bytes = _mm_loadu_si128(static_cast<const __m128i*>(rows));
+    // Every number to the top of a lane, from where it is shifted down with its sign.
+    const __m128i low = _mm_unpacklo_epi8(bytes, bytes);
+    const __m128i high = _mm_unpackhi_epi8(bytes, bytes);
+    const auto floats = [](__m128i tops) {
+        return reinterpret_cast<Float4>(_mm_cvtepi32_ps(_mm_srai_epi32(tops, 24)));
+    };
+    converted[0] = floats(_mm_unpacklo_epi16(low, low));
+    converted[1] = floats(_mm_unpackhi_epi16(low, low));
+    converted[2] = floats(_mm_unpacklo_epi16(high, high));
+    converted[3] = floats(_mm_unpackhi_epi16(high, high));
+#else
+    std::int8_t numbers[4][lane_count];
+    std::memcpy(numbers, rows, sizeof numbers);
+    for (int row = 0; row < 4; ++row)
+        for (int k = 0; k < lane_count; ++k)
+            converted[row][k] = numbers[row][k];
 #endif
 }
 

@@ -75,36 +75,13 @@ struct Contents {
     std::vector<SpawnPoint> spawn_points;
 };
 
-struct IndexNode;
+class RoadmapGraph;
+class SlabOctree;
 
-// A coarse grid of the triangle to try first at a point. A wrong hint makes a query slower, not wrong.
-struct HintGrid {
-    Vec3f origin = Vec3f::Zero();  // the smallest corner
-    float cell_size = 1.0F;
-    std::array<std::uint32_t, 3> extent{};     // cells along x, y, z
-    std::span<const std::uint32_t> triangles;  // x fastest: the best slab for the cell's centre, or none
-
-    // The triangle of the point's cell; none outside the grid.
-    [[nodiscard]] std::uint32_t at(const Vec3f& point) const {
-        std::size_t cell = 0;
-        for (int axis = 2; axis >= 0; --axis) {
-            const float position = (point[axis] - origin[axis]) / cell_size;
-            const std::uint32_t count = extent[static_cast<std::size_t>(axis)];
-            if (!(position >= 0.0F && position < static_cast<float>(count))) return none;
-            cell = cell * count + static_cast<std::uint32_t>(position);
-        }
-        return triangles[cell];
-    }
-};
-
-// The mesh and what queries need beside it; does not own it.
+// Does not own the mesh.
 struct MeshView {
     std::span<const Vertex> vertices;
     std::span<const Triangle> triangles;
-    std::span<const std::uint32_t> incident_offsets;  // where a vertex's triangles begin; one more at the end
-    std::span<const std::uint32_t> incident_triangles;  // of each vertex, ascending
-    std::span<const IndexNode> index;                   // [0] is the root; empty without triangles
-    HintGrid hints;
 };
 
 // Immutable; all members are thread-safe, and so are the queries. Cheap to copy: copies share the storage,
@@ -113,10 +90,10 @@ struct MeshView {
 class Freespace {
   public:
     // Reads a MAP.vfs into memory, verifies it (identifier, version, size, hash, range of every reference,
-    // finite numbers), and makes incidence and query index in linear time. Changes to the file afterwards
-    // have no effect. Fails when the file cannot be read, is no MAP.vfs, is damaged or truncated, or was
-    // written by another version of the format; the message names the file. After a success no query leaves
-    // the arrays, whatever the bytes were.
+    // finite numbers), and makes the incidence in linear time. Changes to the file afterwards have no effect.
+    // Fails when the file cannot be read, is no MAP.vfs, is damaged or truncated, or was written by another
+    // version of the format; the message names the file. After a success no query leaves the arrays, whatever
+    // the bytes were.
     [[nodiscard]] static Result<Freespace> open(const std::filesystem::path& path);
 
     // The same from bytes in memory, which are kept. `name` stands for the path in messages.
@@ -133,10 +110,15 @@ class Freespace {
     [[nodiscard]] std::span<const Triangle> triangles() const { return mesh_.triangles; }
     // Triangles that have `vertex` (< vertices().size()) as a corner, ascending.
     [[nodiscard]] std::span<const std::uint32_t> incident(std::uint32_t vertex) const {
-        const std::uint32_t first = mesh_.incident_offsets[vertex];
-        return mesh_.incident_triangles.subspan(first, mesh_.incident_offsets[vertex + 1] - first);
+        const std::uint32_t first = incident_offsets_[vertex];
+        return incident_triangles_.subspan(first, incident_offsets_[vertex + 1] - first);
     }
     [[nodiscard]] const MeshView& mesh() const { return mesh_; }
+
+    // What the queries look up. Each is made when it is first asked for, which takes tens of milliseconds
+    // (others wait meanwhile) and allocates.
+    [[nodiscard]] const SlabOctree& octree() const;
+    [[nodiscard]] const RoadmapGraph& roadmap() const;
 
   private:
     struct Storage;
@@ -144,7 +126,10 @@ class Freespace {
     static Result<Freespace> read(std::shared_ptr<Storage> storage, const std::string& name);
 
     std::shared_ptr<const Storage> storage_;
-    MeshView mesh_;  // into storage_
+    // In storage_.
+    MeshView mesh_;
+    // Of each vertex its triangles, ascending; where they begin, and one more at the end.
+    std::span<const std::uint32_t> incident_triangles_, incident_offsets_;
 };
 
 // The bytes of a MAP.vfs, which `parse` accepts: adds bounds, hints, size and hash, and puts triangles and

@@ -10,7 +10,7 @@ namespace {
 
 constexpr float min_cells = 1'024.0F;
 // A hint need not be the best slab: one that is a tenth worse serves as well.
-constexpr Effort hint_effort{.slack = 0.1F};
+constexpr float hint_slack = 0.1F;
 
 float choose_cell_size(const MeshView& mesh, const Box3f& bounds) {
     const Vec3f size = bounds.sizes().cwiseMax(1.0F);
@@ -21,7 +21,7 @@ float choose_cell_size(const MeshView& mesh, const Box3f& bounds) {
 
 }  // namespace
 
-Hints build_hints(const MeshView& mesh, const Box3f& bounds) {
+Hints build_hints(const MeshView& mesh, std::span<const IndexNode> index, const Box3f& bounds) {
     Hints hints;
     if (mesh.triangles.empty()) return hints;
     hints.cell_size = choose_cell_size(mesh, bounds);
@@ -37,7 +37,7 @@ Hints build_hints(const MeshView& mesh, const Box3f& bounds) {
                 const Vec3f centre = bounds.min() + hints.cell_size * (cell + Vec3f::Constant(0.5F));
                 SlabPoint best = uncovered;
                 improve_range(mesh, centre, previous, 1, best);
-                improve_everywhere(mesh, centre, hint_effort, best);
+                improve_everywhere(mesh, index, centre, hint_slack, best);
                 hints.triangles.push_back(best.triangle);
                 if (best.triangle != none) previous = best.triangle;
             }

@@ -1,4 +1,5 @@
-// The query index: a tree of boxes over the triangles, four children a node.
+// A tree of boxes over the triangles, four children a node: the order of a MAP.vfs's triangles, and the index
+// that its hints are made by.
 #pragma once
 
 #include <cstdint>

@@ -1,20 +1,12 @@
 #include "freespace/roadmap.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "freespace/distance.hpp"
 
 namespace camdir::freespace {
 namespace {
-
-template <class Visit>
-void for_each_neighbour(const Freespace& freespace, std::uint32_t vertex, const Visit& visit) {
-    for (const std::uint32_t t : freespace.incident(vertex)) {
-        const auto [a, b, c] = freespace.triangles()[t];
-        for (const std::uint32_t corner : {a, b, c})
-            if (corner != vertex && on_roadmap(freespace.vertices()[corner])) visit(corner);
-    }
-}
 
 // The heap's order: the smallest estimate on top, ties by number.
 constexpr auto later = [](const auto& a, const auto& b) {
@@ -36,30 +28,15 @@ std::vector<RoadmapEdge> roadmap_edges(const Freespace& freespace) {
 }
 
 std::vector<std::uint32_t> roadmap_components(const Freespace& freespace) {
-    const auto vertices = freespace.vertices();
-    std::vector<std::uint32_t> component(vertices.size(), none);
-    std::vector<std::uint32_t> pending;
-    for (std::uint32_t seed = 0; seed < vertices.size(); ++seed) {
-        if (component[seed] != none || !on_roadmap(vertices[seed])) continue;
-        component[seed] = seed;
-        pending.push_back(seed);
-        while (!pending.empty()) {
-            const std::uint32_t vertex = pending.back();
-            pending.pop_back();
-            for_each_neighbour(freespace, vertex, [&](std::uint32_t neighbour) {
-                if (component[neighbour] != none) return;
-                component[neighbour] = seed;
-                pending.push_back(neighbour);
-            });
-        }
-    }
-    return component;
+    const auto components = freespace.roadmap().components();
+    return {components.begin(), components.end()};
 }
 
 RoadmapSearch::RoadmapSearch(const Freespace& freespace)
-    : freespace_(freespace), component_(roadmap_components(freespace)), labels_(freespace.vertices().size()) {
-    // Each vertex is expanded once, over two edges of each of its triangles.
-    open_.reserve(6 * freespace.triangles().size() + 3);
+    : freespace_(freespace), labels_(freespace.vertices().size()) {
+    (void)freespace.octree();
+    // Each vertex is expanded once, over each of its arcs.
+    open_.reserve(freespace.roadmap().arc_count() + 3);
     path_.vertices.reserve(freespace.vertices().size());
 }
 
@@ -81,24 +58,34 @@ const RoadmapPath& RoadmapSearch::find(const Vec3f& from, const Vec3f& to) {
     const EntryVertices start = entry_vertices(from);
     const EntryVertices goal = entry_vertices(to);
     if (start.count == 0 || goal.count == 0) return path_;
-    if (component_[start.vertices[0]] != component_[goal.vertices[0]]) return path_;
+    const auto components = freespace_.roadmap().components();
+    if (components[start.vertices[0]] != components[goal.vertices[0]]) return path_;
 
     begin_round();
+    const Goal bounds = goal_at(to, goal);
     for (const std::uint32_t vertex : start.span())
-        reach(vertex, none, (freespace_.vertices()[vertex].position() - from).norm(), to);
+        reach(vertex, none, (freespace_.vertices()[vertex].position() - from).norm(), bounds);
+    float best_length = std::numeric_limits<float>::infinity();
+    std::uint32_t last = none;
     while (!open_.empty()) {
         std::pop_heap(open_.begin(), open_.end(), later);
         const auto [estimate, vertex] = open_.back();
         open_.pop_back();
         if (labels_[vertex].closed) continue;
         labels_[vertex].closed = true;
-        // The estimate of a goal's entry vertex is its cost plus the distance to the goal: the path's length.
+        // No open vertex promises less than the best way to the goal yet.
+        if (estimate >= best_length) break;
         if (std::ranges::find(goal.span(), vertex) != goal.span().end()) {
-            trace(vertex, estimate);
-            break;
+            const float length =
+                labels_[vertex].cost + (freespace_.vertices()[vertex].position() - to).norm();
+            if (length < best_length) {
+                best_length = length;
+                last = vertex;
+            }
         }
-        expand(vertex, to);
+        expand(vertex, bounds);
     }
+    if (last != none) trace(last, best_length);
     return path_;
 }
 
@@ -109,21 +96,46 @@ void RoadmapSearch::begin_round() {
     round_ = 1;
 }
 
-void RoadmapSearch::reach(std::uint32_t vertex, std::uint32_t parent, float cost, const Vec3f& goal) {
+RoadmapSearch::Goal RoadmapSearch::goal_at(const Vec3f& point, const EntryVertices& entry) const {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    Goal goal{point, {}, {}};
+    for (int part = 0; part < 2; ++part) {
+        goal.least_sum[part] = broadcast(infinity);
+        goal.most_difference[part] = broadcast(-infinity);
+        for (const std::uint32_t vertex : entry.span()) {
+            const float rest = (freespace_.vertices()[vertex].position() - point).norm();
+            const Float4 distances = freespace_.roadmap().landmarks(vertex).part[part];
+            goal.least_sum[part] = smaller(goal.least_sum[part], distances + rest);
+            goal.most_difference[part] = larger(goal.most_difference[part], distances - rest);
+        }
+    }
+    return goal;
+}
+
+// What is left from a vertex to the goal is at least the straight line, and at least the difference of the
+// paths from a landmark to the two.
+float RoadmapSearch::least_rest(std::uint32_t vertex, const Goal& goal) const {
+    const float straight = (freespace_.vertices()[vertex].position() - goal.point).norm();
+    const RoadmapGraph::Landmarks& landmarks = freespace_.roadmap().landmarks(vertex);
+    Float4 bound = larger(goal.least_sum[0] - landmarks.part[0], landmarks.part[0] - goal.most_difference[0]);
+    bound = larger(bound, goal.least_sum[1] - landmarks.part[1]);
+    bound = larger(bound, landmarks.part[1] - goal.most_difference[1]);
+    // Not more than the truth by rounding.
+    return std::max(straight, largest(bound)) * (1.0F - 1e-5F);
+}
+
+void RoadmapSearch::reach(std::uint32_t vertex, std::uint32_t parent, float cost, const Goal& goal) {
     Label& label = labels_[vertex];
     if (label.round == round_ && (label.closed || label.cost <= cost)) return;
     label = {cost, parent, round_, false};
-    open_.push_back({cost + (freespace_.vertices()[vertex].position() - goal).norm(), vertex});
+    open_.push_back({cost + least_rest(vertex, goal), vertex});
     std::push_heap(open_.begin(), open_.end(), later);
 }
 
-void RoadmapSearch::expand(std::uint32_t vertex, const Vec3f& goal) {
-    const Vec3f position = freespace_.vertices()[vertex].position();
+void RoadmapSearch::expand(std::uint32_t vertex, const Goal& goal) {
     const float cost = labels_[vertex].cost;
-    for_each_neighbour(freespace_, vertex, [&](std::uint32_t neighbour) {
-        reach(neighbour, vertex, cost + (freespace_.vertices()[neighbour].position() - position).norm(),
-              goal);
-    });
+    for (const RoadmapGraph::Arc& arc : freespace_.roadmap().arcs(vertex))
+        reach(arc.to, vertex, cost + arc.length, goal);
 }
 
 void RoadmapSearch::trace(std::uint32_t last, float length) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "freespace/freespace.hpp"
+#include "freespace/roadmap_graph.hpp"
 
 namespace camdir::freespace {
 
@@ -31,8 +32,9 @@ struct RoadmapPath {
     std::vector<std::uint32_t> vertices;  // of V(S), in order; empty when not found
 };
 
-// A* over the roadmap. Owns the scratch memory of the search, so that repeated searches do not allocate. One
-// thread at a time; keeps the freespace alive.
+// A* over the roadmap, with bounds by landmarks (Goldberg and Harrelson, Computing the shortest path, 2005).
+// Owns the scratch memory of the search and makes what queries look up, so that neither searches nor queries
+// allocate afterwards. One thread at a time; keeps the freespace alive.
 //
 // Entry vertices: the slab with the largest free distance at a point is convex and holds the point and each
 // of its corners on the roadmap, so the segments to these corners lie in freespace. The path enters and
@@ -65,14 +67,23 @@ class RoadmapSearch {
         [[nodiscard]] std::span<const std::uint32_t> span() const { return {vertices.data(), count}; }
     };
 
+    // The end of the path. With d of an entry vertex's path from a landmark and e of its way to the end, for
+    // each landmark:
+    struct Goal {
+        Vec3f point;
+        Float4 least_sum[2];        // the smallest d + e
+        Float4 most_difference[2];  // the largest d - e
+    };
+
     [[nodiscard]] EntryVertices entry_vertices(const Vec3f& point) const;
+    [[nodiscard]] Goal goal_at(const Vec3f& point, const EntryVertices& entry) const;
+    [[nodiscard]] float least_rest(std::uint32_t vertex, const Goal& goal) const;
     void begin_round();
-    void reach(std::uint32_t vertex, std::uint32_t parent, float cost, const Vec3f& goal);
-    void expand(std::uint32_t vertex, const Vec3f& goal);
+    void reach(std::uint32_t vertex, std::uint32_t parent, float cost, const Goal& goal);
+    void expand(std::uint32_t vertex, const Goal& goal);
     void trace(std::uint32_t last, float length);
 
     Freespace freespace_;
-    std::vector<std::uint32_t> component_;
     std::vector<Label> labels_;
     std::vector<Open> open_;  // a heap, the smallest estimate first
     std::uint32_t round_ = 0;

@@ -57,54 +57,21 @@ std::size_t push_children(const IndexNode& node, const Vec3f& point, float to_be
 
 }  // namespace
 
-void improve_by_hints(const MeshView& mesh, const Vec3f& point, std::uint32_t previous, SlabPoint& best) {
-    std::array<std::uint32_t, 2> candidates{};
-    std::size_t count = 0;
-    const std::uint32_t hint = mesh.hints.at(point);
-    if (hint != none) candidates[count++] = hint;
-    if (previous < mesh.triangles.size() && previous != hint) candidates[count++] = previous;
-    improve(mesh, point, std::span(candidates).first(count), best);
-}
-
-void improve_by_hints_around(const MeshView& mesh, const Vec3f& point, SlabPoint& best) {
-    const float half = 0.5F * mesh.hints.cell_size;
-    std::array<std::uint32_t, 8> candidates{};
-    std::size_t count = 0;
-    for (const float x : {-half, half})
-        for (const float y : {-half, half})
-            for (const float z : {-half, half}) {
-                const std::uint32_t hint = mesh.hints.at(point + Vec3f(x, y, z));
-                if (hint != none) candidates[count++] = hint;
-            }
-    improve(mesh, point, std::span(candidates).first(count), best);
-}
-
-void improve_by_ring(const Freespace& freespace, const Vec3f& point, std::uint32_t triangle,
-                     SlabPoint& best) {
-    const auto [a, b, c] = freespace.triangles()[triangle];
-    for (const std::uint32_t corner : {a, b, c})
-        improve(freespace.mesh(), point, freespace.incident(corner), best);
-}
-
 // Depth first.
-void improve_everywhere(const MeshView& mesh, const Vec3f& point, const Effort& effort, SlabPoint& best) {
-    if (mesh.index.empty()) return;
+void improve_everywhere(const MeshView& mesh, std::span<const IndexNode> index, const Vec3f& point,
+                        float slack, SlabPoint& best) {
+    if (index.empty()) return;
     Stack stack;
     stack[0] = {std::numeric_limits<float>::infinity(), IndexChild::node(0)};
     std::size_t height = 1;
-    std::uint32_t leaves = 0;
     while (height > 0) {
-        const bool is_enough = best.value > effort.enough;
-        if (is_enough && leaves >= effort.leaves) break;
         const Candidate top = stack[--height];
-        const float to_beat = best.value + (is_enough ? effort.slack * std::max(best.value, 0.0F) : 0.0F);
+        const float to_beat = best.value + slack * std::max(best.value, 0.0F);
         if (!(top.bound > to_beat)) continue;
-        if (top.child.is_leaf()) {
-            ++leaves;
+        if (top.child.is_leaf())
             improve_range(mesh, point, top.child.first(), top.child.count(), best);
-        } else {
-            height = push_children(mesh.index[top.child.index()], point, to_beat, stack, height);
-        }
+        else
+            height = push_children(index[top.child.index()], point, to_beat, stack, height);
     }
 }
 

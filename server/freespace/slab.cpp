@@ -136,17 +136,6 @@ void improve_four(const MeshView& mesh, const Vec3x4& point, const std::uint32_t
 
 }  // namespace
 
-void improve(const MeshView& mesh, const Vec3f& point, std::span<const std::uint32_t> triangles,
-             SlabPoint& best) {
-    const Vec3x4 points = in_all_lanes(point);
-    for (std::size_t i = 0; i < triangles.size(); i += lane_count) {
-        std::uint32_t four[lane_count];
-        for (std::size_t k = 0; k < lane_count; ++k)
-            four[k] = triangles[std::min(i + k, triangles.size() - 1)];
-        improve_four(mesh, points, four, best);
-    }
-}
-
 void improve_range(const MeshView& mesh, const Vec3f& point, std::uint32_t first, std::uint32_t count,
                    SlabPoint& best) {
     const Vec3x4 points = in_all_lanes(point);
@@ -159,14 +148,18 @@ void improve_range(const MeshView& mesh, const Vec3f& point, std::uint32_t first
 }
 
 Ball ball_at(const MeshView& mesh, const SlabPoint& point) {
-    const Triangle& triangle = mesh.triangles[point.triangle];
-    const Vertex& a = mesh.vertices[triangle.a];
-    const Vertex& b = mesh.vertices[triangle.b];
-    const Vertex& c = mesh.vertices[triangle.c];
-    // u + v may exceed 1 by a rounding.
-    const double scale = std::max(1.0, static_cast<double>(point.u) + point.v);
-    const double u = point.u / scale;
-    const double v = point.v / scale;
+    return ball_at(mesh.vertices, mesh.triangles[point.triangle], point);
+}
+
+Ball ball_at(std::span<const Vertex> vertices, const Triangle& corners, const SlabPoint& point) {
+    const Vertex& a = vertices[corners.a];
+    const Vertex& b = vertices[corners.b];
+    const Vertex& c = vertices[corners.c];
+    // Rounding may have left u or v below 0, or their sum above 1.
+    const double sum = std::max(point.u, 0.0F) + double{std::max(point.v, 0.0F)};
+    const double scale = std::max(1.0, sum);
+    const double u = std::max(point.u, 0.0F) / scale;
+    const double v = std::max(point.v, 0.0F) / scale;
     const double w = std::max(0.0, 1.0 - u - v);
     return {
         w * a.position().cast<double>() + u * b.position().cast<double>() + v * c.position().cast<double>(),

@@ -25,11 +25,7 @@ struct SlabPoint {
 // The start of a search: only slabs that contain the point improve it.
 inline constexpr SlabPoint uncovered{.value = 0.0F};
 
-// Replaces `best` by the best point of the given triangles if its value is larger.
-void improve(const MeshView& mesh, const Vec3f& point, std::span<const std::uint32_t> triangles,
-             SlabPoint& best);
-
-// The same over triangles first .. first + count - 1.
+// Replaces `best` by the best point of triangles first .. first + count - 1 if its value is larger.
 void improve_range(const MeshView& mesh, const Vec3f& point, std::uint32_t first, std::uint32_t count,
                    SlabPoint& best);
 
@@ -39,5 +35,7 @@ struct Ball {
     double radius;
 };
 [[nodiscard]] Ball ball_at(const MeshView& mesh, const SlabPoint& point);
+// The same where a, b, c are the given corners of the point's triangle.
+[[nodiscard]] Ball ball_at(std::span<const Vertex> vertices, const Triangle& corners, const SlabPoint& point);
 
 }  // namespace camdir::freespace

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "base/round_down.hpp"
-#include "freespace/search.hpp"
+#include "freespace/slab_octree.hpp"
 
 namespace camdir::freespace {
 namespace {
@@ -15,10 +16,6 @@ constexpr int ball_limit = 128;
 // The march ends when no ball carries it on by this share of the last ball's radius, or of the segment where
 // that is shorter.
 constexpr double least_gain = 0.01;
-// Once a ball carries on, the search for a better one is limited: a slightly smaller one carries nearly as
-// far.
-constexpr float sight_slack = 0.25F;
-constexpr std::uint32_t sight_leaves = 32;
 // Shrinks a ball before the exit from it is computed, so that rounding never places the exit outside of it.
 constexpr double shrink = 1.0 - 1e-9;
 
@@ -57,87 +54,78 @@ struct BallOnSegment {
 // Where on [begin, end] the march should change from ball `from` to ball `to`: near the point where both give
 // the same clearance. `from` is the better one at `begin`, `to` at `end`. Any answer is safe.
 double changeover(const BallOnSegment& from, const BallOnSegment& to, double begin, double end) {
-    double low = begin;
-    double high = end;
-    for (int i = 0; i < 4; ++i) {
-        const double middle = 0.5 * (low + high);
-        (from.clearance(middle) > to.clearance(middle) ? low : high) = middle;
-    }
-    return high;
+    const double ahead = from.clearance(begin) - to.clearance(begin);
+    const double behind = to.clearance(end) - from.clearance(end);
+    return ahead > 0.0 && behind > 0.0 ? begin + (end - begin) * (ahead / (ahead + behind)) : end;
 }
 
-// A ball of the march and the slab that it comes from.
-struct Step {
-    std::uint32_t triangle;
-    BallOnSegment ball;
-
-    // Contains the sphere at t, and carries it to the end or by more than `gain`.
-    [[nodiscard]] bool carries_on(const Sweep& sweep, double t, double gain) const {
-        const double exit = ball.exit(sweep.radius);
-        return ball.clearance(t) > sweep.radius && (exit >= sweep.length || exit - t > gain);
-    }
-};
-
-// A ball that contains the sphere at t and carries it on by more than `gain`. What is tried grows until one
-// does; the search ends without one only if no clearance at t exceeds the sphere's radius by more than
-// `gain`, but for rounding.
-std::optional<Step> find_step(const Freespace& freespace, const Sweep& sweep, double t, double gain,
-                              std::uint32_t previous) {
-    const MeshView& mesh = freespace.mesh();
-    const Vec3f point = sweep.at(t);
-    SlabPoint best = uncovered;
-    best.value = static_cast<float>(sweep.radius);
-    std::optional<Step> step;
-    const auto found = [&] {
-        if (best.triangle == none) return false;
-        step = Step{best.triangle, BallOnSegment(sweep, ball_at(mesh, best))};
-        return step->carries_on(sweep, t, gain);
-    };
-    improve_by_hints(mesh, point, previous, best);
-    if (found()) return step;
-    improve_by_hints_around(mesh, point, best);
-    if (found()) return step;
-    const Effort effort{static_cast<float>(sweep.radius + gain), sight_slack, sight_leaves};
-    improve_everywhere(mesh, point, effort, best);
-    if (found()) return step;
-    return std::nullopt;
+// The slab point that leaves the most room at the segment's point t; none without room for the sphere.
+SlabPoint roomiest(const SlabOctree& octree, const Sweep& sweep, double t) {
+    return octree.best(sweep.at(t), static_cast<float>(sweep.radius));
 }
 
-Sight march(const Freespace& freespace, const Sweep& sweep, std::uint32_t previous) {
+// Carries the sphere at t to the end, or on by more than `gain`.
+bool carries_on(const BallOnSegment& ball, const Sweep& sweep, double t, double gain) {
+    const double exit = ball.exit(sweep.radius);
+    return ball.clearance(t) > sweep.radius && (exit >= sweep.length || exit - t > gain);
+}
+
+// `next`: the slab point for the next ball.
+Sight march(const SlabOctree& octree, const Sweep& sweep, SlabPoint next) {
     Sight sight;
-    std::optional<Step> step = find_step(freespace, sweep, 0.0, 0.0, previous);
-    if (!step) return sight;
+    std::optional<BallOnSegment> last;
+    double entered = 0.0;  // where the last ball was entered
     double reached = 0.0;  // free up to here
-    double clearance = step->ball.clearance(0.0);
-    for (int i = 0; i < ball_limit; ++i) {
-        const BallOnSegment ball = step->ball;
-        sight.triangle = step->triangle;
-        const double entered = reached;
+    double gain = 0.0;
+    double clearance = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < ball_limit && next.triangle != none; ++i) {
+        const BallOnSegment ball(sweep, octree.ball(next));
+        if (!carries_on(ball, sweep, reached, gain)) break;
+        const double change = last ? changeover(*last, ball, entered, reached) : 0.0;
+        if (last) clearance = std::min(clearance, last->clearance(change));
+        clearance = std::min(clearance, ball.clearance(change));
+        sight.triangle = next.triangle;
+        entered = reached;
         reached = std::min(ball.exit(sweep.radius), sweep.length);
+        last = ball;
         sight.clear = reached == sweep.length;
         if (sight.clear) break;
-        const double gain = least_gain * std::min(ball.radius, sweep.length);
-        step = find_step(freespace, sweep, reached, gain, sight.triangle);
-        if (!step) break;
-        const double change = changeover(ball, step->ball, entered, reached);
-        clearance = std::min({clearance, ball.clearance(change), step->ball.clearance(change)});
+        gain = least_gain * std::min(ball.radius, sweep.length);
+        next = roomiest(octree, sweep, reached);
     }
-    if (step) clearance = std::min(clearance, step->ball.clearance(reached));
+    if (!last) return sight;
+    clearance = std::min(clearance, last->clearance(reached));
     sight.free_length = sight.clear ? static_cast<float>(sweep.length) : round_down(reached);
-    sight.clearance = round_down(step ? std::max(clearance, 0.0) : sweep.radius);
+    sight.clearance = round_down(sight.clear ? std::max(clearance, 0.0) : sweep.radius);
     return sight;
+}
+
+bool is_radius(float radius) {
+    return std::isfinite(radius) && radius >= 0.0F;
+}
+
+Sweep sweep_of(const Vec3f& from, const Vec3f& to, float radius) {
+    const Vec3d start = from.cast<double>();
+    const Vec3d span = to.cast<double>() - start;
+    const double length = span.norm();
+    return {start, length > 0.0 ? Vec3d(span / length) : Vec3d::UnitX(), length, radius};
 }
 
 }  // namespace
 
+SightOrigin::SightOrigin(const Freespace& freespace, const Vec3f& from, float radius)
+    : octree_(&freespace.octree()), from_(from), radius_(radius) {
+    if (from.allFinite() && is_radius(radius)) first_ = octree_->best(from, radius);
+}
+
+Sight SightOrigin::to(const Vec3f& end) const {
+    if (first_.triangle == none || !end.allFinite()) return {};
+    return march(*octree_, sweep_of(from_, end, radius_), first_);
+}
+
 Sight sight(const Freespace& freespace, const Vec3f& from, const Vec3f& to, float radius,
-            std::uint32_t previous) {
-    if (!from.allFinite() || !to.allFinite() || !std::isfinite(radius) || radius < 0.0F) return {};
-    const Vec3d start = from.cast<double>();
-    const Vec3d span = to.cast<double>() - start;
-    const double length = span.norm();
-    const Vec3d direction = length > 0.0 ? Vec3d(span / length) : Vec3d::UnitX();
-    return march(freespace, {start, direction, length, radius}, previous);
+            std::uint32_t /*previous*/) {
+    return SightOrigin(freespace, from, radius).to(to);
 }
 
 }  // namespace camdir::freespace

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "freespace/freespace.hpp"
+#include "freespace/slab.hpp"
 
 namespace camdir::freespace {
 
@@ -13,10 +14,11 @@ struct Sight {
     std::uint32_t triangle = none;  // slab of the last free point: tracking state of its end
 };
 
-// Marches from ball to ball of the representation along the segment. `radius` > 0, map units, asks for a
-// sphere of that radius that is swept along the segment, 0 for the line itself. `previous` is the slab of
-// `from`, if known. Points that are not finite and radii that are negative or not finite give a blocked Sight
-// of free length 0. Thread-safe, does not allocate, deterministic.
+// Marches from ball to ball of the representation along the segment, each the one with the largest clearance
+// where the last ends. `radius` > 0, map units, asks for a sphere of that radius that is swept along the
+// segment, 0 for the line itself. `previous`, the slab of `from`, makes no difference. Points that are not
+// finite and radii that are negative or not finite give a blocked Sight of free length 0. Thread-safe; may
+// make the octree; deterministic.
 //
 // What is reported free lies in the slabs, but for a relative rounding of 1e-7. Blocked means not proved
 // free: an obstacle, a place that no slab covers, a pinch where no ball carries on by 1 % of the last ball's
@@ -30,5 +32,21 @@ struct Sight {
 // on ten maps, 4 to 11 % of the free segments from points with a free distance below 64 to any point.
 [[nodiscard]] Sight sight(const Freespace& freespace, const Vec3f& from, const Vec3f& to, float radius = 0.0F,
                           std::uint32_t previous = none);
+
+// Sights of one radius from one point, which share their first ball. Needs the freespace for as long as it is
+// asked.
+class SightOrigin {
+  public:
+    SightOrigin(const Freespace& freespace, const Vec3f& from, float radius);
+
+    // The same as sight() says.
+    [[nodiscard]] Sight to(const Vec3f& end) const;
+
+  private:
+    const SlabOctree* octree_;
+    Vec3f from_;
+    float radius_;
+    SlabPoint first_;
+};
 
 }  // namespace camdir::freespace

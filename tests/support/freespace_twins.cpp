@@ -78,6 +78,17 @@ double sampled_clearance(const freespace::Freespace& freespace, const Vec3d& fro
     return smallest;
 }
 
+double exact_free_length(const freespace::Freespace& freespace, const Vec3d& from, const Vec3d& to,
+                         double radius, double room) {
+    const double length = (to - from).norm();
+    for (double t = 0.0; t < length;) {
+        const double spare = exact_distance(freespace, from + (to - from) * (t / length)) - radius - room;
+        if (spare <= 0.0) return t;
+        t += std::max(spare, 0.01 * room);
+    }
+    return length;
+}
+
 std::vector<double> roadmap_distances(const freespace::Freespace& freespace,
                                       const std::vector<std::uint32_t>& starts,
                                       const std::vector<double>& costs) {

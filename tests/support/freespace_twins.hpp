@@ -19,6 +19,11 @@ namespace camdir::test {
 [[nodiscard]] double sampled_clearance(const freespace::Freespace& freespace, const Vec3d& from,
                                        const Vec3d& to, double step);
 
+// How far along a segment the exact_distance exceeds radius + `room` everywhere; the segment's length if to
+// its end. Walks by the exact distance, which changes by no more than the way.
+[[nodiscard]] double exact_free_length(const freespace::Freespace& freespace, const Vec3d& from,
+                                       const Vec3d& to, double radius, double room);
+
 // Length of the shortest path over the roadmap between vertices, by Dijkstra's algorithm in its simplest
 // form. starts[i] is entered at cost[i]. Infinity: not reached.
 [[nodiscard]] std::vector<double> roadmap_distances(const freespace::Freespace& freespace,

@@ -16,7 +16,7 @@ constexpr double spawn_share = 0.5;  // of that above the offset, which a spawn 
 
 CoveringSlab find_covering_slab(std::span<const freespace::Vertex> vertices,
                                 std::span<const freespace::Triangle> triangles, const Vec3d& point) {
-    const freespace::MeshView mesh{vertices, triangles, {}, {}, {}, {}};
+    const freespace::MeshView mesh{vertices, triangles};
     freespace::SlabPoint best;
     freespace::improve_range(mesh, point.cast<float>(), 0, static_cast<std::uint32_t>(triangles.size()),
                              best);

@@ -13,20 +13,21 @@ namespace {
 struct Mesh {
     std::vector<Vertex> vertices;
     std::vector<Triangle> triangles;
-    HintGrid hints;
+    HintView hints;
     std::vector<std::uint32_t> hint_triangles;
 
     Mesh() {
         std::mt19937 random(9);
         const Freespace freespace = test::make_freespace(test::random_contents(random, 12, 9, 0));
-        const MeshView& mesh = freespace.mesh();
-        vertices.assign(mesh.vertices.begin(), mesh.vertices.end());
-        triangles.assign(mesh.triangles.begin(), mesh.triangles.end());
-        hints = mesh.hints;
-        hint_triangles.assign(hints.triangles.begin(), hints.triangles.end());
+        vertices.assign(freespace.vertices().begin(), freespace.vertices().end());
+        triangles.assign(freespace.triangles().begin(), freespace.triangles().end());
+        const Hints made =
+            build_hints({vertices, triangles}, build_index(vertices, triangles), freespace.bounds());
+        hints = {made.cell_size, made.extent, {}};
+        hint_triangles = made.triangles;
     }
     [[nodiscard]] std::string flaw() const {
-        HintGrid grid = hints;
+        HintView grid = hints;
         grid.triangles = hint_triangles;
         const std::string flaw = find_mesh_flaw(vertices, triangles);
         return flaw.empty() ? find_hints_flaw(grid, triangles.size()) : flaw;

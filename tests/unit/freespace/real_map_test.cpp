@@ -10,11 +10,13 @@
 #include <random>
 
 #include "bake/bake.hpp"
+#include "evaluation/trace.hpp"
 #include "freespace/distance.hpp"
 #include "freespace/visibility.hpp"
 #include "oracle/oracle.hpp"
 #include "scene/load.hpp"
 #include "support/freespace_meshes.hpp"
+#include "support/freespace_twins.hpp"
 
 namespace camdir::freespace {
 namespace {
@@ -88,6 +90,23 @@ TEST_P(RealMap, DistanceNeverExceedsTheClearance) {
         exact += clearance;
     }
     EXPECT_GT(reported, GetParam().tightness * exact);
+}
+
+// Within 2 % of the largest of all slabs is what cameras need; the index is far better.
+TEST_P(RealMap, DistanceIsTheLargestOfAllSlabs) {
+    std::vector<Vec3f> points;
+    const auto trace = evaluation::read_trace(CAMDIR_DEMO_TRACE);
+    ASSERT_TRUE(trace) << trace.error().message;
+    for (std::size_t i = 0; i < trace->poses.size(); i += trace->poses.size() / 40)
+        points.push_back(trace->poses[i].eye.cast<float>());
+    for (int i = 0; i < 40; ++i)
+        points.push_back(test::covered_point(random_, *freespace_));
+    for (const Vec3f& point : points) {
+        const double exact = test::exact_distance(*freespace_, point.cast<double>());
+        const Distance found = distance(*freespace_, point);
+        ASSERT_LE(found.value, exact + 1e-6) << point.transpose();
+        ASSERT_TRUE(exact <= 0.01 || found.value >= 0.999 * exact) << point.transpose();
+    }
 }
 
 TEST_P(RealMap, NothingIsSeenThroughAWallAndLittleIsMissed) {

@@ -15,6 +15,7 @@ namespace {
 using test::covered_point;
 using test::make_freespace;
 using test::random_contents;
+using test::random_point;
 using test::sampled_clearance;
 using test::square_contents;
 
@@ -114,6 +115,62 @@ TEST(Sight, SeesWhatTheSlabsCover) {
         missed += sight(freespace, from, to).clear ? 0 : 1;
     }
     EXPECT_EQ(missed, 0) << "of " << visible;
+}
+
+// Where more room is left than a march needs to go on, it goes on.
+TEST(Sight, IsAsLongAsTheTwinSays) {
+    constexpr double room = 0.7;  // more than 1 % of the largest free distance
+    int compared = 0;
+    for (unsigned seed = 1; seed <= 6; ++seed) {
+        SCOPED_TRACE(testing::Message() << "seed " << seed);
+        std::mt19937 random(seed);
+        const Freespace freespace = make_freespace(random_contents(random, 10, 10, 30));
+        for (int i = 0; i < 10; ++i) {
+            const Vec3f from = covered_point(random, freespace);
+            const Vec3f to = covered_point(random, freespace);
+            const float radius = i % 2 == 0 ? 0.0F : 4.0F;
+            const double expected =
+                test::exact_free_length(freespace, from.cast<double>(), to.cast<double>(), radius, room);
+            const Sight seen = sight(freespace, from, to, radius);
+            ASSERT_GE(seen.free_length, expected * (1.0 - 1e-6))
+                << from.transpose() << ", " << to.transpose();
+            ASSERT_TRUE(seen.clear || expected < (to - from).norm());
+            compared += expected > 0.0 ? 1 : 0;
+        }
+    }
+    EXPECT_GT(compared, 30);
+}
+
+TEST(SightOrigin, SeesWhatSightSees) {
+    std::mt19937 random(17);
+    const Freespace freespace = make_freespace(random_contents(random, 14, 14, 40));
+    for (int i = 0; i < 200; ++i) {
+        const Vec3f from = random_point(random, freespace);
+        std::vector<Vec3f> ends;
+        for (int k = 0; k < 32; ++k)
+            ends.push_back(random_point(random, freespace));
+        ends[3] = from;
+        ends[5].y() = NAN;
+        const float radius = i % 3 == 0 ? 0.0F : 4.0F;
+        const SightOrigin origin(freespace, from, radius);
+        for (const Vec3f& end : ends) {
+            const Sight seen = origin.to(end);
+            const Sight expected = sight(freespace, from, end, radius);
+            ASSERT_EQ(seen.clear, expected.clear);
+            ASSERT_EQ(seen.free_length, expected.free_length);
+            ASSERT_EQ(seen.clearance, expected.clearance);
+            ASSERT_EQ(seen.triangle, expected.triangle);
+        }
+    }
+}
+
+TEST(SightOrigin, OfStrangeInputSeesNothing) {
+    const Freespace freespace = make_freespace(square_contents());
+    const Vec3f end(60, 50, 0);
+    EXPECT_FALSE(SightOrigin(freespace, {NAN, 0, 0}, 0.0F).to(end).clear);
+    EXPECT_FALSE(SightOrigin(freespace, {50, 50, 0}, -1.0F).to(end).clear);
+    EXPECT_FALSE(SightOrigin(freespace, {50, 50, 0}, NAN).to(end).clear);
+    EXPECT_TRUE(SightOrigin(freespace, {50, 50, 0}, 0.0F).to(end).clear);
 }
 
 // Large balls that nearly touch an oblique plane, as above open ground: near the plane the boxes of the index
