@@ -15,6 +15,7 @@ build_packages=(
     libcpp-httplib-dev prometheus-cpp-dev libsystemd-dev  # health, metrics, service notification
     libgtest-dev libgmock-dev librapidcheck-dev  # tests
     libqhull-dev                             # benchmarks: the paper's Voronoi engine
+    libbullet-dev                            # benchmarks: sweeps beside the project's queries
 )
 # The map of the demo.
 map_packages=(openarena-081-maps)
