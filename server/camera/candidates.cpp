@@ -9,6 +9,9 @@ namespace {
 constexpr float degree = radians_of_a_degree<float>;
 constexpr float angle_cost = 1.5F;
 constexpr float angle_cost_ahead = 2.0F;
+// From this far above the spot behind the player, the floor begins to fill the picture.
+constexpr float view_from_above = 25.0F * degree;
+constexpr float view_from_above_tolerance = 20.0F * degree;
 // A direction this far off the player's own view begins to show them from the side.
 constexpr float side_view = 50.0F * degree;
 constexpr float side_view_tolerance = 10.0F * degree;
@@ -76,7 +79,8 @@ class Choosing {
     void weigh_directions(std::size_t knot) {
         const std::size_t first = knot * plan_.knot_spacing;
         const std::size_t end = std::min(plan_.count(), first + plan_.knot_spacing);
-        const Vec3f behind = direction_of(plan_.behind(first, profile_.elevation));
+        const Look look_behind = plan_.behind(first, profile_.elevation);
+        const Vec3f behind = direction_of(look_behind);
         const float cost = (plan_.ahead ? angle_cost_ahead : angle_cost) * profile_.weight_angle;
         const float least_cosine = std::cos(profile_.swing);
         auto& costs = scratch_.direction_costs[knot];
@@ -86,9 +90,17 @@ class Choosing {
                              ? 2.0F * Programme::forbidden
                              : cost * squared_share(arc_cosine(cosine), profile_.angle_tolerance);
         }
+        add_view_from_above(look_behind.pitch, costs);
         for (std::size_t i = first; i < end; i += side_view_stride)
             add_side_view(direction_of(plan_.future[i].view), costs);
         if (knot == 0 && camera_.norm() > profile_.unit) add_turn_from_camera(costs);
+    }
+    void add_view_from_above(float behind, Programme::DirectionCosts& costs) const {
+        const float begin = std::max(0.0F, behind) + view_from_above;
+        for (std::size_t bin = 0; bin < costs.size(); ++bin) {
+            const float above = std::max(0.0F, DirectionGrid::look(bin).pitch - begin);
+            costs[bin] += profile_.weight_angle * squared_share(above, view_from_above_tolerance);
+        }
     }
     void add_side_view(const Vec3f& view, Programme::DirectionCosts& costs) const {
         const float begin = side_view + std::abs(profile_.elevation);
