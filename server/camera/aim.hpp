@@ -6,8 +6,8 @@
 
 namespace camdir::camera {
 
-// Sets the plan's look angles: from its positions to the player's smoothed eye, smoothed. With a recorded
-// future the player may be a little off the middle of the picture.
+// Sets the plan's look angles: from its positions to the player's smoothed eye, smoothed. The
+// player may be a little off the middle of the picture.
 void aim(const MapProfile& profile, const History& history, Plan& plan);
 
 }  // namespace camdir::camera

@@ -22,9 +22,17 @@ float widest(const MapProfile& profile) {
 }  // namespace
 
 void FreeBeams::advance(std::size_t count) {
+    if (count == 0) return;
     const std::size_t kept = beams_.size() - std::min(count, beams_.size());
     std::copy(beams_.end() - static_cast<std::ptrdiff_t>(kept), beams_.end(), beams_.begin());
     std::fill(beams_.begin() + static_cast<std::ptrdiff_t>(kept), beams_.end(), FreeBeam{});
+}
+
+void FreeLengths::use(float longest, float radius) {
+    if (longest == longest_ && radius == radius_) return;
+    *this = {};
+    longest_ = longest;
+    radius_ = radius;
 }
 
 float& FreeLengths::at(const Vec3f& eye, std::size_t bin, float cell_size) {

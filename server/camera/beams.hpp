@@ -42,6 +42,8 @@ class FreeBeams {
 // beams check: once in 2^32 times it may be another cell's.
 class FreeLengths {
   public:
+    // What the lengths depend on besides the place; another one forgets them all.
+    void use(float longest, float radius);
     // The length in a direction from `eye`, to be set by the caller where it is negative: not known.
     [[nodiscard]] float& at(const Vec3f& eye, std::size_t bin, float cell_size);
 
@@ -51,6 +53,8 @@ class FreeLengths {
         float length = -1.0F;
     };
     std::array<Entry, 1024> entries_;
+    float longest_ = 0.0F;
+    float radius_ = 0.0F;
 };
 
 // Where a beam from the player's eye ends before its goal.
@@ -67,6 +71,7 @@ class Beams {
           FreeBeams& known, FreeLengths& lengths)
         : freespace_(freespace), profile_(profile), future_(future), known_(known), lengths_(lengths) {
         radius_.fill(-1.0F);
+        lengths_.use(profile.distance, profile.minimum_clearance);
     }
 
     // How far the beam from the eye of sample i is free in a direction (unit), at most `length`.

@@ -17,7 +17,7 @@ constexpr float side_view = 50.0F * degree;
 constexpr float side_view_tolerance = 10.0F * degree;
 constexpr float side_view_cost = 0.7F;
 constexpr float side_view_limit = 2.0F;
-constexpr std::size_t side_view_stride = 2;  // samples
+constexpr double side_view_interval = 1.0 / 30.0;  // s, between the samples that are weighed
 constexpr float turn_cost = 0.25F;
 constexpr float turn_cost_ahead = 0.3F;
 constexpr float stretch_cost = 0.1F;
@@ -91,8 +91,11 @@ class Choosing {
                              : cost * squared_share(arc_cosine(cosine), profile_.angle_tolerance);
         }
         add_view_from_above(look_behind.pitch, costs);
-        for (std::size_t i = first; i < end; i += side_view_stride)
-            add_side_view(direction_of(plan_.future[i].view), costs);
+        const double samples = side_view_interval / plan_.future.step;
+        const auto stride = static_cast<std::size_t>(std::max(1L, std::lround(samples)));
+        const auto share = static_cast<float>(static_cast<double>(stride) / samples);
+        for (std::size_t i = first; i < end; i += stride)
+            add_side_view(direction_of(plan_.future[i].view), share, costs);
         if (knot == 0 && camera_.norm() > profile_.unit) add_turn_from_camera(costs);
     }
     void add_view_from_above(float behind, Programme::DirectionCosts& costs) const {
@@ -102,14 +105,14 @@ class Choosing {
             costs[bin] += profile_.weight_angle * squared_share(above, view_from_above_tolerance);
         }
     }
-    void add_side_view(const Vec3f& view, Programme::DirectionCosts& costs) const {
+    void add_side_view(const Vec3f& view, float share, Programme::DirectionCosts& costs) const {
         const float begin = side_view + std::abs(profile_.elevation);
         const float begin_cosine = std::cos(begin);
         for (std::size_t bin = 0; bin < costs.size(); ++bin) {
             const float cosine = -view.dot(directions_[bin]);
             if (costs[bin] >= Programme::forbidden || cosine >= begin_cosine) continue;
             costs[bin] +=
-                side_view_cost * profile_.weight_angle *
+                share * side_view_cost * profile_.weight_angle *
                 std::min(side_view_limit, squared_share(arc_cosine(cosine) - begin, side_view_tolerance));
         }
     }

@@ -2,17 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "freespace/visibility.hpp"
 
 namespace camdir::camera {
 namespace {
 
-constexpr float fastest_player = 1e4F;     // map units/s: more is a jump
-constexpr double velocity_span = 0.048;    // s over which the velocity is taken
-constexpr double turn_span = 0.016;        // s over which the turning is taken
-constexpr double shortest_horizon = 0.4;   // s
-constexpr double prediction_ahead = 0.4;   // s, after the recorded poses
+constexpr float fastest_player = 1e4F;   // units/s: more is a jump
+constexpr double velocity_span = 0.048;  // s over which the velocity is taken
+constexpr double turn_span = 0.016;      // s over which the turning is taken
+// s that are predicted after the recorded poses: more for cameras that move more smoothly, whose path would
+// not know its goals.
+constexpr double least_prediction = 0.4;
+constexpr double most_prediction = 2.5;
+constexpr double prediction_share = 3.6;   // of the profile's time constant of motion
 constexpr float run_persistence = 0.5F;    // s: how long players keep running
 constexpr float fall_persistence = 0.15F;  // s: how long they keep rising or falling
 constexpr float from_wall = 16.0F;         // units at which a wall stops them
@@ -21,6 +25,7 @@ constexpr float turn_begin = 0.13F;
 constexpr float turn_constant = 0.1F;
 constexpr float turn_end = 0.02F;
 constexpr float largest_turn = 2.0F;  // rad
+constexpr float steepest_view = 0.5F * std::numbers::pi_v<float>;
 
 Look view_of(const Pose& pose, float near_yaw) {
     Look view = look_along(pose.orientation.normalized() * Vec3f::UnitX(), near_yaw);
@@ -89,8 +94,15 @@ float persistence(float rate, float rate_before) {
     return turn_constant + share * (turn_begin - turn_constant);
 }
 
-Rates rates_at(const Stretch& stretch, double time, float yaw) {
-    Rates rates{stretch.window[stretch.last].pose.velocity, 0.0F, 0.0F, turn_constant};
+Vec3f limited(const Vec3f& velocity, float unit) {
+    const float speed = velocity.stableNorm();
+    const float limit = fastest_player * unit;
+    return speed > limit ? Vec3f(velocity * (limit / speed)) : velocity;
+}
+
+// `unit`: in map units.
+Rates rates_at(const Stretch& stretch, double time, float yaw, float unit) {
+    Rates rates{limited(stretch.window[stretch.last].pose.velocity, unit), 0.0F, 0.0F, turn_constant};
     if (stretch.first == stretch.last) return rates;
     const auto span_from = [&](double wanted) {
         return std::max(stretch.begin(), std::min(time - wanted, stretch.window[stretch.last - 1].time));
@@ -98,7 +110,8 @@ Rates rates_at(const Stretch& stretch, double time, float yaw) {
     const double moved_since = span_from(velocity_span);
     const auto sample = [&](double at) { return Reader(stretch, yaw).at(at); };
     const Future::Sample now = sample(time);
-    rates.velocity = (now.eye - sample(moved_since).eye) / static_cast<float>(time - moved_since);
+    rates.velocity =
+        limited((now.eye - sample(moved_since).eye) / static_cast<float>(time - moved_since), unit);
     const double once = std::max(turn_span, time - stretch.window[stretch.last - 1].time);
     if (time - once < stretch.begin() - 1e-9) return rates;
     const Look before = sample(time - once).view;
@@ -107,8 +120,6 @@ Rates rates_at(const Stretch& stretch, double time, float yaw) {
     rates.pitch = (now.view.pitch - before.pitch) / seconds;
     const Look earlier = sample(std::max(stretch.begin(), time - 2.0 * once)).view;
     rates.persistence = persistence(rates.yaw, wrapped(before.yaw - earlier.yaw) / seconds);
-    const float speed = rates.velocity.norm();
-    if (speed > fastest_player) rates.velocity *= fastest_player / speed;
     return rates;
 }
 
@@ -129,8 +140,9 @@ void foresee(const freespace::Freespace& freespace, const MapProfile& profile, W
              double step, double horizon, float yaw, Future& future) {
     const Stretch stretch(window, static_cast<std::size_t>(index_at(window, start)));
     const double known = std::clamp(stretch.end() - start, 0.0, horizon);
-    const double whole = std::max(known + prediction_ahead, shortest_horizon);
-    future.start = start;
+    const double predicted =
+        std::clamp(prediction_share * profile.motion_smoothing, least_prediction, most_prediction);
+    const double whole = known + predicted;
     future.step = step;
     future.count = std::min(Future::capacity, static_cast<std::size_t>(whole / step + 1e-6) + 1);
     future.known = std::min(future.count, static_cast<std::size_t>(known / step + 1e-6) + 1);
@@ -143,7 +155,7 @@ void foresee(const freespace::Freespace& freespace, const MapProfile& profile, W
 
     const double last_time = std::min(stretch.end(), start + horizon);
     const Future::Sample last = reader.at(last_time);
-    const Rates rates = rates_at(stretch, last_time, last.view.yaw);
+    const Rates rates = rates_at(stretch, last_time, last.view.yaw, profile.unit);
     const auto longest = static_cast<float>(start + static_cast<double>(future.count - 1) * step - last_time);
     const Vec3f way = travel(rates, longest);
     float share = 1.0F;  // of the way that walls leave
@@ -159,7 +171,8 @@ void foresee(const freespace::Freespace& freespace, const MapProfile& profile, W
         if (moved.norm() > share * length) moved *= share * length / std::max(moved.norm(), 1e-6F);
         const float turn = faded(seconds, rates.persistence);
         const float yaw = std::clamp(rates.yaw * turn, -largest_turn, largest_turn);
-        future.samples[i] = {last.eye + moved, {last.view.yaw + yaw, last.view.pitch + rates.pitch * turn}};
+        const float pitch = std::clamp(last.view.pitch + rates.pitch * turn, -steepest_view, steepest_view);
+        future.samples[i] = {last.eye + moved, {last.view.yaw + yaw, pitch}};
     }
 }
 

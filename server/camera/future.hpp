@@ -18,7 +18,6 @@ struct Future {
         Look view;  // yaw without jumps by a whole turn from one sample to the next
     };
 
-    double start = 0.0;     // s: of sample 0, by the clock of the window
     double step = 0.0;      // s
     std::size_t count = 0;  // >= 1
     std::size_t known = 0;  // samples from recorded poses

@@ -11,7 +11,7 @@ constexpr double yaw_share_ahead = 1.5;
 constexpr double pitch_share = 2.0;
 constexpr double eye_smoothing = 0.03;
 constexpr double eye_smoothing_ahead = 0.05;
-// With a recorded future, glances to the side are not followed.
+// With a recorded future, short glances to the side are followed less.
 constexpr double glance = 17.5 * radians_of_a_degree<double>;
 constexpr double glance_gain = 2.0;
 constexpr int glance_rounds = 3;

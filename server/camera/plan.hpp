@@ -24,6 +24,7 @@ using History = std::array<PlannedSample, 2>;
 
 struct Plan {
     static constexpr std::size_t capacity = Future::capacity;
+    static_assert(capacity <= Smoother::capacity);
     template <class Value>
     using PerSample = std::array<Value, capacity>;
 
@@ -50,7 +51,8 @@ struct Plan {
 
     // A smoothed curve through wanted[i] with weights[i], after two values of history.
     void smooth(double time_constant, double before_last, double last, PerSample<double>& values);
-    // The same; deviations beyond `dead_zone` weigh 10 times those within and more, in `rounds` reweightings.
+    // The same; deviations within `dead_zone` weigh a tenth, and those beyond the more the further they are,
+    // up to `gain` more, in `rounds` reweightings.
     void smooth_with_dead_zone(double time_constant, double dead_zone, double gain, int rounds,
                                double before_last, double last, PerSample<double>& values);
 };

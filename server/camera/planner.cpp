@@ -12,7 +12,9 @@ constexpr double least_ahead = 0.3;          // s of a recorded future, or the p
 constexpr double knot_interval = 0.15;       // s
 constexpr double knot_interval_ahead = 0.1;  // s
 constexpr double full_turn = 2.0 * std::numbers::pi;
-constexpr double same_step = 1e-3;  // relative
+// Relative. Time stamps may be rounded to milliseconds: that is no reason to drop what is planned.
+constexpr double same_step = 1e-3;
+constexpr double same_step_while_planned = 0.1;
 
 // A causal plan is made anew with every sample, one with a recorded future from knot to knot: a plan that
 // begins off the grid of knots would choose other directions.
@@ -70,19 +72,19 @@ void resample(History& history, double ratio) {
 
 }  // namespace
 
-void restart_plan(PlanState& state, const Vec3f& position, const Look& look, const PlayerTrack& track,
-                  double dt) {
+void restart_plan(PlanState& state, const CameraMotion& camera, const PlayerTrack& track, double dt) {
     const Look heading = look_along(track.heading, 0.0F);
-    const Vec3d step = track.velocity.cast<double>() * dt;
-    state.history[1] = {position.cast<double>(),
+    state.history[1] = {camera.position.cast<double>(),
                         track.anchor.cast<double>(),
                         heading.yaw,
                         heading.pitch,
-                        look.yaw,
-                        look.pitch};
+                        camera.look.yaw,
+                        camera.look.pitch};
     state.history[0] = state.history[1];
-    state.history[0].position -= step;
-    state.history[0].eye -= step;
+    state.history[0].position -= dt * camera.velocity.cast<double>();
+    state.history[0].eye -= dt * track.velocity.cast<double>();
+    state.history[0].look_yaw -= wrapped(camera.look.yaw - camera.look_before.yaw);
+    state.history[0].look_pitch = camera.look_before.pitch;
     discard(state);
     state.step = dt;
 }
@@ -91,15 +93,20 @@ void deviate(PlanState& state, const Vec3f& position, const Vec3f& velocity, con
     PlannedSample& last = state.history[1];
     last.position = position.cast<double>();
     state.history[0].position = last.position - state.step * velocity.cast<double>();
-    last.look_yaw += wrapped(static_cast<float>(look.yaw - last.look_yaw));
-    last.look_pitch = look.pitch;
+    const double yaw = wrapped(static_cast<float>(look.yaw - last.look_yaw));
+    const double pitch = look.pitch - last.look_pitch;
+    for (PlannedSample& sample : state.history) {
+        sample.look_yaw += yaw;
+        sample.look_pitch += pitch;
+    }
     discard(state);
 }
 
 const PlannedSample& next_sample(const freespace::Freespace& freespace, const MapProfile& profile,
                                  Window window, double time, double dt, PlanState& state,
                                  PlanScratch& scratch) {
-    if (std::abs(dt - state.step) > same_step * dt) {
+    const double tolerance = state.next < state.count ? same_step_while_planned : same_step;
+    if (std::abs(dt - state.step) > tolerance * dt) {
         resample(state.history, dt / state.step);
         discard(state);
         state.step = dt;

@@ -32,11 +32,18 @@ struct PlanScratch {
     CandidateScratch candidates;
 };
 
-// Starts a plan's history where the camera stands, as if it had moved along with the player.
-void restart_plan(PlanState& state, const Vec3f& position, const Look& look, const PlayerTrack& track,
-                  double dt);
+// A camera that no plan made, and the view of the one before it.
+struct CameraMotion {
+    Vec3f position;
+    Vec3f velocity;
+    Look look_before;
+    Look look;
+};
 
-// The last camera was not where the plan wanted it: the plan goes on from there.
+// Plans begin anew from this camera, which follows the player as they are now.
+void restart_plan(PlanState& state, const CameraMotion& camera, const PlayerTrack& track, double dt);
+
+// The guard moved the last camera off the plan, which goes on from there, turning as it was.
 void deviate(PlanState& state, const Vec3f& position, const Vec3f& velocity, const Look& look);
 
 // The next sample of the plan, `dt` after the last one, at `time`, at which the window has a usable pose of a

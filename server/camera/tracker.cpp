@@ -38,6 +38,7 @@ class Step {
         : freespace_(freespace),
           profile_(profile, freespace.metadata().metres_per_unit),
           dt_(usable_frame(dt)),
+          look_before_(state.look),
           state_(state),
           player_(state.player),
           scratch_(scratch),
@@ -78,8 +79,9 @@ class Step {
             as_planned ? Vec3f((wanted - state_.position) / dt_) : player_.velocity;  // a rescue is no motion
         settle(*place);
         state_.lost_for = 0.0F;
-        state_.look = turned(state_.look, as_planned ? look : wanted_look(), 1.0F, profile_.turn_limit * dt_);
-        if (!as_planned) deviate_from_plan();
+        const Look wanted_look = as_planned ? look : moved_along(look, wanted, place->position);
+        state_.look = turned(state_.look, wanted_look, 1.0F, profile_.turn_limit * dt_);
+        if (!as_planned) deviate(state_.plan, state_.position, state_.velocity, state_.look);
         return frame(*place, before, out_of_reach() ? std::uint32_t{searching} : 0U);
     }
 
@@ -143,7 +145,7 @@ class Step {
         state_.velocity = player_.velocity;
         state_.lost_for = 0.0F;
         state_.look = wanted_look();
-        restart_plan(state_.plan, state_.position, state_.look, player_, dt_);
+        restart_plan(state_.plan, {state_.position, state_.velocity, state_.look, state_.look}, player_, dt_);
         return frame(spot, standing(), cut);
     }
 
@@ -154,11 +156,14 @@ class Step {
         settle(next);
         state_.lost_for = lost ? state_.lost_for + dt_ : 0.0F;
         turn();
-        deviate_from_plan();
+        plan_from_here();
         return frame(next, before, lost || out_of_reach() ? std::uint32_t{searching} : 0U);
     }
 
-    void deviate_from_plan() { deviate(state_.plan, state_.position, state_.velocity, state_.look); }
+    void plan_from_here() {
+        restart_plan(state_.plan, {state_.position, state_.velocity, look_before_, state_.look}, player_,
+                     dt_);
+    }
 
     void settle(const Candidate& place) {
         state_.position = place.position;
@@ -167,7 +172,7 @@ class Step {
 
     Camera hold(std::uint32_t flags) {
         state_.velocity = Vec3f::Zero();
-        deviate_from_plan();
+        plan_from_here();
         const auto place = look_up(freespace_, profile_, player_, state_.position, state_.slab);
         const Candidate uncovered{state_.position, freespace::none, 0.0F, 0.0F};
         return frame(place ? *place : uncovered, standing(), flags | held);
@@ -215,6 +220,14 @@ class Step {
         return look;
     }
 
+    // A view that shows the player at the same place of the picture from another position.
+    [[nodiscard]] Look moved_along(const Look& look, const Vec3f& from, const Vec3f& to) const {
+        const Look old_way = look_along(player_.eye - from, look.yaw);
+        const Look way = look_along(player_.eye - to, old_way.yaw);
+        return {wrapped(look.yaw + way.yaw - old_way.yaw),
+                std::clamp(look.pitch + way.pitch - old_way.pitch, -quarter_turn, quarter_turn)};
+    }
+
     void turn() {
         const float share =
             profile_.look_smoothing > 0.0F ? 1.0F - std::exp(-dt_ / profile_.look_smoothing) : 1.0F;
@@ -237,6 +250,7 @@ class Step {
     const freespace::Freespace& freespace_;
     const MapProfile profile_;
     const float dt_;
+    const Look look_before_;
     ShotState& state_;
     PlayerTrack& player_;
     Scratch& scratch_;

@@ -26,8 +26,8 @@ using Window = std::span<const TimedPose>;
 [[nodiscard]] std::ptrdiff_t index_at(Window window, double time);
 
 // The pose at `time`: interpolated between its neighbours within a continuous stretch, else the one before.
-// None when there is none, or none that is usable. `discontinuity` says that the player came to it, after
-// `since`, by a respawn, a teleport or out of an absence.
+// None when there is none, or none that is usable. `discontinuity` says that a pose after `since` had it:
+// the player came by a respawn or teleport.
 [[nodiscard]] std::optional<Pose> pose_at(Window window, double since, double time);
 
 // Whether poses `index` and `index` + 1 belong to one continuous stretch of a living player.
@@ -41,7 +41,7 @@ class RecentPoses {
     [[nodiscard]] Window window() const { return {poses_.data(), count_}; }
 
   private:
-    std::array<TimedPose, 8> poses_;
+    std::array<TimedPose, 64> poses_;
     std::size_t count_ = 0;
 };
 

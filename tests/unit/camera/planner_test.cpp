@@ -95,6 +95,58 @@ TEST(Planner, DoesNotDependOnHistoryBeyondWhatItNeeds) {
     }
 }
 
+// A player who was lost without a sign: the rotation of the search does not carry the view past them.
+TEST(Planner, KeepsThePlayerInThePictureAfterASearch) {
+    const test::Plan plan = test::figure_eight();
+    int found = 0;
+    for (std::uint32_t seed = 1; seed <= 12; ++seed) {
+        CheckedShot shot(plan, solved_by(Solver::planner));
+        bool searched = false;
+        bool approaching = false;
+        int frames_in_view = 0;
+        for (const std::uint32_t part : {seed, seed + 100}) {
+            Runner runner(plan, plan.eye(part == seed ? 's' : 't'), part);
+            for (int i = 0; i < 240; ++i) {
+                const Pose pose = runner.next(1.0F / 60.0F);
+                const Camera camera = shot.step(pose);
+                const bool searches = (camera.flags & searching) != 0;
+                if (searched && !searches && (camera.flags & cut) == 0) approaching = true;
+                searched = searches;
+                const float off =
+                    angle_between(camera.orientation * Vec3f::UnitX(), pose.eye - camera.position);
+                if (approaching && off < 0.3F) {
+                    approaching = false;
+                    frames_in_view = 20;
+                    ++found;
+                }
+                if (searches || frames_in_view-- <= 0) continue;
+                EXPECT_LT(off, 0.6F) << "seed " << seed << ", frame " << i;
+            }
+        }
+    }
+    EXPECT_GT(found, 3);
+}
+
+// By poses one after the other, as live, or with all that is known of the last half second.
+TEST(Planner, NeedsNoMoreHistoryThanItKeeps) {
+    const test::Plan plan = test::figure_eight();
+    const freespace::Freespace freespace = plan.freespace();
+    for (const double hz : {60.0, 240.0}) {
+        const auto poses = run(plan, 8, hz, 600);
+        const Profile profile = solved_by(Solver::planner);
+        Scratch scratch(freespace);
+        const auto live = std::make_unique<ShotState>();
+        const auto window = std::make_unique<ShotState>();
+        for (std::size_t i = 0; i < poses.size(); ++i) {
+            const Camera one =
+                step(freespace, profile, &poses[i].pose, i == 0 ? 0.0 : 1.0 / hz, *live, scratch);
+            const Camera other =
+                step(freespace, profile, Window(poses).first(i + 1), poses[i].time, *window, scratch);
+            ASSERT_LT((one.position - other.position).norm(), 0.1F) << hz << " Hz, frame " << i;
+        }
+    }
+}
+
 TEST(Planner, StandsStraightBehindAPlayerWhoStands) {
     const test::Plan plan = test::figure_eight();
     std::vector<TimedPose> poses;

@@ -52,14 +52,14 @@ TEST(Window, ReportsAJumpOnceEvenIfItsPoseWasSkipped) {
 TEST(Window, RecentPosesKeepTheLastOnes) {
     RecentPoses recent;
     EXPECT_TRUE(recent.window().empty());
-    for (int i = 0; i < 20; ++i) {
+    for (int i = 0; i < 100; ++i) {
         const Pose pose = pose_at(Vec3f(static_cast<float>(i), 0.0F, 0.0F), 0.0F);
-        recent.add(i, i == 15 ? nullptr : &pose);
+        recent.add(i, i == 40 ? nullptr : &pose);
     }
-    ASSERT_EQ(recent.window().size(), 8U);
-    EXPECT_EQ(recent.window().back().pose.eye.x(), 19.0F);
-    EXPECT_EQ(recent.window().front().time, 12.0);
-    EXPECT_FALSE(recent.window()[3].present);
+    ASSERT_EQ(recent.window().size(), 64U);
+    EXPECT_EQ(recent.window().back().pose.eye.x(), 99.0F);
+    EXPECT_EQ(recent.window().front().time, 36.0);
+    EXPECT_FALSE(recent.window()[4].present);
 }
 
 }  // namespace
