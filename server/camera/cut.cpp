@@ -23,7 +23,7 @@ std::optional<Candidate> roadmap_spot(const freespace::Freespace& freespace, con
         const Vec3f position = freespace.vertices()[corner].position();
         const float distance = (position - track.anchor).norm();
         if (nearest && distance >= least) continue;
-        const std::optional<Candidate> candidate = look_up(freespace, profile, track, position, track.slab);
+        const std::optional<Candidate> candidate = look_up(freespace, profile, track, position);
         if (!candidate || !acceptable(profile, *candidate)) continue;
         nearest = candidate;
         least = distance;
@@ -38,7 +38,7 @@ Candidate landing(const freespace::Freespace& freespace, const MapProfile& profi
     const Spot spot = spot_to_cut_to(freespace, profile, track);
     for (const float share : shares) {
         const Vec3f place = track.anchor + share * spot.offset;
-        const auto candidate = look_up(freespace, profile, track, place, track.slab);
+        const auto candidate = look_up(freespace, profile, track, place);
         if (candidate && acceptable(profile, *candidate)) return *candidate;
     }
     if (const auto candidate = roadmap_spot(freespace, profile, track)) return *candidate;

@@ -34,22 +34,21 @@ std::optional<Candidate> reach(const freespace::Freespace& freespace, const MapP
                                const PlayerTrack& track, const Start& start, const Vec3f& target) {
     const freespace::Sight way = freespace::sight(freespace, start.position, target, 0.0F, start.slab);
     if (!way.clear) return std::nullopt;
-    return look_up(freespace, profile, track, target, way.triangle);
+    return look_up(freespace, profile, track, target);
 }
 
 std::optional<Candidate> reach_shortened(const freespace::Freespace& freespace, const MapProfile& profile,
                                          const PlayerTrack& track, const Start& start, const Vec3f& target) {
     const freespace::Sight way = freespace::sight(freespace, start.position, target, 0.0F, start.slab);
-    if (way.clear) return look_up(freespace, profile, track, target, way.triangle);
+    if (way.clear) return look_up(freespace, profile, track, target);
     const Vec3f direction = (target - start.position).normalized();
     return reach(freespace, profile, track, start, start.position + 0.5F * way.free_length * direction);
 }
 
 std::optional<Candidate> look_up(const freespace::Freespace& freespace, const MapProfile& profile,
-                                 const PlayerTrack& track, const Vec3f& position, std::uint32_t near_slab) {
-    freespace::Distance free = freespace::distance(freespace, position, near_slab);
+                                 const PlayerTrack& track, const Vec3f& position) {
+    const freespace::Distance free = freespace::distance(freespace, position);
     if (!free.covered()) return std::nullopt;
-    if (free.value < profile.minimum_clearance) free = freespace::distance_everywhere(freespace, position);
     return Candidate{position, free.triangle, free.value,
                      sight_clearance(freespace, profile, track, position, free.triangle)};
 }

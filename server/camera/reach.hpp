@@ -36,6 +36,6 @@ struct Start {
 // The candidate with its distances looked up; none when no slab covers it.
 [[nodiscard]] std::optional<Candidate> look_up(const freespace::Freespace& freespace,
                                                const MapProfile& profile, const PlayerTrack& track,
-                                               const Vec3f& position, std::uint32_t near_slab);
+                                               const Vec3f& position);
 
 }  // namespace camdir::camera

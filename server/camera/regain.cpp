@@ -78,7 +78,7 @@ std::optional<Candidate> regain_sight(const freespace::Freespace& freespace, con
         const Vec3f place = within_step(start.position, target, profile.step_limit);
         choice.consider(reach_shortened(freespace, profile, track, start, place));
     };
-    choice.consider(look_up(freespace, profile, track, start.position, start.slab));
+    choice.consider(look_up(freespace, profile, track, start.position));
     consider(start.position + track.move);
     for (const float angle : swings) {
         consider(swung(freespace, profile, track, wanted, angle));

@@ -173,7 +173,7 @@ class Step {
     Camera hold(std::uint32_t flags) {
         state_.velocity = Vec3f::Zero();
         plan_from_here();
-        const auto place = look_up(freespace_, profile_, player_, state_.position, state_.slab);
+        const auto place = look_up(freespace_, profile_, player_, state_.position);
         const Candidate uncovered{state_.position, freespace::none, 0.0F, 0.0F};
         return frame(place ? *place : uncovered, standing(), flags | held);
     }

@@ -120,7 +120,8 @@ float RoadmapSearch::least_rest(std::uint32_t vertex, const Goal& goal) const {
     Float4 bound = larger(goal.least_sum[0] - landmarks.part[0], landmarks.part[0] - goal.most_difference[0]);
     bound = larger(bound, goal.least_sum[1] - landmarks.part[1]);
     bound = larger(bound, landmarks.part[1] - goal.most_difference[1]);
-    // Not more than the truth by rounding.
+    // Not more than the truth, but for the rounding of the landmarks' sums: by so much a path may be longer
+    // than the shortest.
     return std::max(straight, largest(bound)) * (1.0F - 1e-5F);
 }
 

@@ -20,10 +20,15 @@ constexpr std::size_t max_rivals = 8;
 // common face is rounded.
 constexpr float overlap = 1e-3F;
 
-// Slab evaluations that a build may take.
+// Slab evaluations that a build may take, each of which is kept for a while in the worst case: fewer for each
+// slab of a huge mesh, and never so many that the lists' offsets overflow.
 std::size_t work_limit(std::size_t triangle_count) {
     constexpr std::size_t reduced_mesh = 1U << 14U;
-    return (1U << 16U) + 512 * std::min(triangle_count, reduced_mesh) + 64 * triangle_count;
+    constexpr std::size_t large = 1U << 25U;
+    constexpr std::size_t largest = 1U << 28U;
+    const std::size_t wanted =
+        (1U << 16U) + 512 * std::min(triangle_count, reduced_mesh) + 64 * triangle_count;
+    return std::min(wanted, std::max(large, std::min(12 * triangle_count, largest)));
 }
 
 // The eight corners of a cell, relative to its centre.
@@ -120,8 +125,8 @@ class SlabOctreeBuilder {
         const float magnitude =
             std::max(reach.min().cwiseAbs().maxCoeff(), reach.max().cwiseAbs().maxCoeff());
         const float size = reach.sizes().maxCoeff();
-        smallest_ = std::max(
-            {smallest_cell, size / static_cast<float>(1U << (max_levels - 1)), magnitude * 1e-5F, 1e-30F});
+        smallest_ = std::max({std::min(smallest_cell, size / 256.0F),
+                              size / static_cast<float>(1U << (max_levels - 1)), magnitude * 1e-5F, 1e-30F});
         while (smallest_ * static_cast<float>(1U << levels_) <= size)
             ++levels_;
         octree_.origin_ = reach.min();

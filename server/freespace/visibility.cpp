@@ -46,7 +46,7 @@ struct BallOnSegment {
     }
     // Where the sphere leaves the ball, if the ball contains it somewhere on the segment.
     [[nodiscard]] double exit(double sphere_radius) const {
-        const double reach = radius * shrink - sphere_radius;
+        const double reach = std::max(radius * shrink - sphere_radius, 0.0);
         return along + std::sqrt(std::max(reach * reach - offset2, 0.0));
     }
 };

@@ -113,7 +113,15 @@ void Loader::bake_and_open(const config::Map& map, const std::stop_token& stop) 
 }
 
 void Loader::open(const config::Map& map, double bake_seconds) {
-    auto opened = guarded(map.file, [&] { return freespace::Freespace::open(map.file); });
+    // With what its queries look up: no match's worker must wait for that, or run out of memory.
+    auto opened = guarded(map.file, [&] {
+        auto freespace = freespace::Freespace::open(map.file);
+        if (freespace) {
+            static_cast<void>(freespace->octree());
+            static_cast<void>(freespace->roadmap());
+        }
+        return freespace;
+    });
     if (!opened) return set_failed(map, opened.error());
     spdlog::info("map {}: {} vertices, {} triangles", map.name, opened->vertices().size(),
                  opened->triangles().size());

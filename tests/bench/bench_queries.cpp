@@ -233,7 +233,7 @@ class Bench {
         row("roadmap path", path, "found " + std::to_string(found) + " of " + std::to_string(half));
     }
 
-    // 24 around the eye at 8 and the rest upwards, as a camera asks.
+    // 16 around the eye and 16 above, as a camera asks.
     static std::vector<Vec3f> bundle_of(const Vec3f& eye) {
         std::vector<Vec3f> ends;
         for (int i = 0; i < bundle_size; ++i) {
