@@ -283,6 +283,18 @@ void add_matches(std::vector<Key>& table) {
                      {},
                      false,
                      true});
+    table.push_back(
+        {section,
+         "minimum_delay_s",
+         slot(&Matches::minimum_delay_s),
+         "Delay of everything that observers receive, unless the match's own is longer. A match takes "
+         "a longer one at once, a shorter one with its next epoch.",
+         "s",
+         0,
+         120,
+         {},
+         false,
+         true});
     table.push_back({section,
                      "automatic_hold_s",
                      slot(&Matches::automatic_hold_s),
@@ -323,6 +335,9 @@ void add_limits(std::vector<Key>& table) {
         {section, "players", slot(&Limits::players), "Players of a match that are tracked.", "", 1, 256});
     table.push_back({section, "observers", slot(&Limits::observers), "Observers of a match.", "", 1, 65536});
     table.push_back({section, "shots", slot(&Limits::shots), "Cameras of a match.", "", 1, 256});
+    table.push_back({section, "delay_mib", slot(&Limits::delay_mib),
+                     "Memory for the delay of a match. A match that needs more is refused.", "MiB", 1,
+                     65536});
     table.push_back({section, "workers", slot(&Limits::workers),
                      "Threads that compute cameras; 0: one per core.", "", 0, 1024});
 }
@@ -403,7 +418,8 @@ const std::vector<Section>& sections() {
         {"/profiles",
          "Camera profiles by name; observers request a profile by its name and may override its keys. "
          "`default` always exists. Units are 0.0254 m on every map. Reloaded by SIGHUP."},
-        {"/matches", "Lifetime of matches, and the choice of automatic targets. Reloaded by SIGHUP."},
+        {"/matches",
+         "Lifetime and delay of matches, and the choice of automatic targets. Reloaded by SIGHUP."},
         {"/limits", "Whatever exceeds a limit is refused. Takes effect at a restart."},
         {"/log", "Written to standard error. `level` is reloaded by SIGHUP."}};
     return list;

@@ -14,7 +14,8 @@
 namespace camdir::director {
 namespace {
 
-constexpr std::chrono::milliseconds housekeeping_period{20};
+// Also the longest time for which the first message of a delay waits unseen.
+constexpr std::int64_t housekeeping_ns = 20'000'000;
 
 std::size_t worker_count(const config::Limits& limits) {
     if (limits.workers > 0) return static_cast<std::size_t>(limits.workers);
@@ -36,6 +37,7 @@ struct Director::Impl {
     struct Entry {
         std::unique_ptr<Match> match;
         bool has_server = false;
+        MatchInfo info;  // the newest, while there is a game server
     };
 
     Impl(const config::Config& configuration, const MapLibrary& library, Publisher& results);
@@ -43,6 +45,9 @@ struct Director::Impl {
     // With the mutex held, shared or exclusively.
     Match* find(const std::string& match_id) const;
     void post(Match& match, Message message);
+    // Of the game server: through the match's delay.
+    void deliver(Match& match, Message message);
+    void deliver(Match& match, const PoseFrame& frame);
     std::size_t count(bool has_server) const;
 
     // With the mutex held exclusively.
@@ -51,7 +56,9 @@ struct Director::Impl {
 
     // Returns false when there is no such match.
     bool post_to(const std::string& match_id, Message message);
+    bool deliver_to(const std::string& match_id, Message message);
     void run_housekeeping(const std::stop_token& stop);
+    std::int64_t release_due();
     std::vector<std::string> notify_silent();
     void retire(const std::vector<std::string>& match_ids);
     bool remove_abandoned(const std::string& match_id, Match& match);
@@ -91,6 +98,43 @@ void Director::Impl::post(Match& match, Message message) {
     pool.schedule(match);
 }
 
+void Director::Impl::deliver(Match& match, Message message) {
+    const bool event = std::holds_alternative<MatchEvent>(message);
+    switch (match.delay().put(message, now_ns())) {
+        case DelayBuffer::Admission::undelayed:
+            return post(match, std::move(message));
+        case DelayBuffer::Admission::delayed:
+            return;
+        case DelayBuffer::Admission::refused_now:
+            return post(match, DelayChanged{});
+        case DelayBuffer::Admission::refused:
+            if (event) match.counters().add(Counter::drop_delay);
+    }
+}
+
+void Director::Impl::deliver(Match& match, const PoseFrame& frame) {
+    const std::int64_t now = now_ns();
+    switch (match.delay().put(frame, now)) {
+        case DelayBuffer::Admission::undelayed:
+            match.inbox().put(frame, now);
+            return pool.schedule(match);
+        case DelayBuffer::Admission::delayed:
+            return;
+        case DelayBuffer::Admission::refused_now:
+            return post(match, DelayChanged{});
+        case DelayBuffer::Admission::refused:
+            match.counters().add(Counter::drop_delay);
+    }
+}
+
+bool Director::Impl::deliver_to(const std::string& match_id, Message message) {
+    const std::shared_lock lock(mutex);
+    Match* match = find(match_id);
+    if (match == nullptr) return false;
+    deliver(*match, std::move(message));
+    return true;
+}
+
 bool Director::Impl::post_to(const std::string& match_id, Message message) {
     const std::shared_lock lock(mutex);
     Match* match = find(match_id);
@@ -116,17 +160,34 @@ Director::Impl::Entry* Director::Impl::find_or_add(const std::string& match_id) 
 
 void Director::Impl::end(Entry& entry) {
     entry.has_server = false;
-    post(*entry.match, MatchEnded{});
+    deliver(*entry.match, MatchEnded{});
 }
 
 void Director::Impl::run_housekeeping(const std::stop_token& stop) {
     std::mutex own;
     std::unique_lock lock(own);
+    std::int64_t next_check = now_ns() + housekeeping_ns;
     while (!stop.stop_requested()) {
-        wake.wait_for(lock, stop, housekeeping_period, [] { return false; });
+        const std::chrono::nanoseconds until(std::min(release_due(), next_check));
+        wake.wait_until(lock, stop, std::chrono::steady_clock::time_point(until), [] { return false; });
+        if (now_ns() < next_check) continue;
+        next_check = now_ns() + housekeeping_ns;
         const auto leaving = notify_silent();
         if (!leaving.empty()) retire(leaving);
     }
+}
+
+// Returns when the next is due, of what waits now.
+std::int64_t Director::Impl::release_due() {
+    std::int64_t next = DelayBuffer::never;
+    const std::shared_lock lock(mutex);
+    const std::int64_t now = now_ns();
+    for (auto& [match_id, entry] : matches) {
+        const DelayBuffer::Released released = entry.match->delay().release(now, entry.match->inbox());
+        if (released.any) pool.schedule(*entry.match);
+        next = std::min(next, released.next_due);
+    }
+    return next;
 }
 
 // Notifies matches that are without poses. Returns those that may have to be retired.
@@ -186,13 +247,23 @@ bool Director::receive(const MatchInfo& info) {
         if (known != nullptr) impl_->post(*known, MatchRefused{too_many_matches(limits)});
         return false;
     }
+    if (!entry->has_server || info.epoch >= entry->info.epoch) entry->info = info;
     entry->has_server = true;
-    impl_->post(*entry->match, info);
+    Match& match = *entry->match;
+    const bool changed = match.delay().announce(info.epoch, info.spectator_delay_s, now_ns());
+    impl_->deliver(match, info);
+    if (changed) impl_->post(match, DelayChanged{});
     return true;
 }
 
 void Director::server_lost(const std::string& match_id) {
-    impl_->post_to(match_id, ServerLost{});
+    {
+        const std::shared_lock lock(impl_->mutex);
+        Match* match = impl_->find(match_id);
+        if (match == nullptr) return;
+        if (match->delay().state().refusal.empty()) return impl_->deliver(*match, ServerLost{});
+    }
+    match_ended(match_id);  // nothing of it was shown
 }
 
 void Director::match_ended(const std::string& match_id) {
@@ -201,16 +272,14 @@ void Director::match_ended(const std::string& match_id) {
 }
 
 void Director::receive(const std::string& match_id, const PoseFrame& frame) {
-    const std::int64_t now = now_ns();
     const std::shared_lock lock(impl_->mutex);
     Match* match = impl_->find(match_id);
     if (match == nullptr) return impl_->unmatched.add(Counter::drop_unknown_match);
-    match->inbox().put(frame, now);
-    impl_->pool.schedule(*match);
+    impl_->deliver(*match, frame);
 }
 
 void Director::receive(const std::string& match_id, const MatchEvent& event) {
-    if (!impl_->post_to(match_id, event)) impl_->unmatched.add(Counter::drop_unknown_match);
+    if (!impl_->deliver_to(match_id, event)) impl_->unmatched.add(Counter::drop_unknown_match);
 }
 
 void Director::receive(const ObserverRequest& request) {
@@ -244,8 +313,14 @@ void Director::reconfigure(const config::Config& config) {
     if (!impl_->accepting) return;
     next->limits = impl_->config->limits;  // queues and workers were sized by them at the start
     impl_->config = std::move(next);
-    for (auto& [match_id, entry] : impl_->matches)
-        impl_->post(*entry.match, Reconfigured{impl_->config});
+    for (auto& [match_id, entry] : impl_->matches) {
+        Match& match = *entry.match;
+        impl_->post(match, Reconfigured{impl_->config});
+        if (!match.delay().set_minimum(config.matches.minimum_delay_s, now_ns())) continue;
+        // A refused match has dropped it. It is of an epoch that goes on in all others.
+        if (entry.has_server) impl_->deliver(match, entry.info);
+        impl_->post(match, DelayChanged{});
+    }
 }
 
 Statistics Director::statistics() const {

@@ -13,9 +13,9 @@
 
 namespace camdir::director {
 
-// Takes messages in, runs the trackers on a pool of workers (one strand per match, the newest pose frame
-// wins) and passes results to the publisher. All members are thread-safe. The Ingress calls never wait for a
-// tracker. `maps` and `publisher` must outlive the director.
+// Takes messages in, delays what game servers send (delay_buffer.hpp), runs the trackers on a pool of workers
+// (one strand per match, the newest pose frame wins) and passes results to the publisher. All members are
+// thread-safe. The Ingress calls never wait for a tracker. `maps` and `publisher` must outlive the director.
 class Director final : public Ingress {
   public:
     Director(const config::Config& config, const MapLibrary& maps, Publisher& publisher);
@@ -41,10 +41,10 @@ class Director final : public Ingress {
     // All matches, each as of one instant. Waits for the workers, at most `timeout`; matches that have not
     // answered by then are marked.
     [[nodiscard]] View view(std::chrono::milliseconds timeout) const;
-    // Waits until everything received before the call has been processed.
+    // Waits until everything received before the call has been processed, except what is not due yet.
     void flush();
-    // Processes what was received, then stops the workers. Later calls are ignored, and nothing more is
-    // published.
+    // Processes what was received, except what is not due yet, then stops the workers. Later calls are
+    // ignored, and nothing more is published.
     void drain();
 
   private:

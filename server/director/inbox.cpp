@@ -53,6 +53,7 @@ void Inbox::put(const PoseFrame& frame, std::int64_t received_ns) {
         if (superseded_.epoch == frame.epoch) carry_discontinuities(superseded_, waiting_.frame);
     }
     waiting_.has_frame = true;
+    waiting_.messages_before_frame = waiting_.messages.size();
     waiting_.received_ns = received_ns;
 }
 

@@ -25,6 +25,7 @@ struct RequestEnded {
     std::string observer_id;
 };
 struct MapsChanged {};
+struct DelayChanged {};  // see DelayBuffer::announce
 struct Reconfigured {
     std::shared_ptr<const config::Config> config;
 };
@@ -32,8 +33,9 @@ struct ViewRequest {
     std::shared_ptr<std::promise<MatchView>> answer;
 };
 
-using Message = std::variant<MatchInfo, ServerLost, PosesMissing, MatchEnded, MatchRefused, MatchEvent,
-                             ObserverRequest, RequestEnded, MapsChanged, Reconfigured, ViewRequest>;
+using Message =
+    std::variant<MatchInfo, ServerLost, PosesMissing, MatchEnded, MatchRefused, MatchEvent, ObserverRequest,
+                 RequestEnded, MapsChanged, DelayChanged, Reconfigured, ViewRequest>;
 
 // Keeps messages in their order of arrival, and only the newest pose frame. Events and what observers ask for
 // are bounded, and drops are counted. Messages about the match itself are never dropped, and neither are the
@@ -55,7 +57,8 @@ class Inbox {
         std::vector<Message> messages;
         bool has_frame = false;
         PoseFrame frame;
-        std::int64_t received_ns = 0;  // steady clock
+        std::size_t messages_before_frame = 0;
+        std::int64_t received_ns = 0;  // steady clock; of a delayed frame: when it was due
     };
 
     // Moves everything that waits into `content`, whose memory is reused.

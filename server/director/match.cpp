@@ -1,10 +1,12 @@
 #include "director/match.hpp"
 
+#include <spdlog/fmt/chrono.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <ctime>
 #include <limits>
 #include <utility>
 #include <variant>
@@ -33,6 +35,11 @@ std::int64_t silence_after_ns(const MatchInfo& info, const config::Matches& rule
                                      1e9);
 }
 
+std::time_t utc_second_after(std::int64_t ns) {
+    const auto then = std::chrono::system_clock::now() + std::chrono::nanoseconds(ns);
+    return std::chrono::system_clock::to_time_t(std::chrono::ceil<std::chrono::seconds>(then));
+}
+
 // Saturates: game times are arbitrary.
 std::int64_t latest_event_time(std::int64_t frame_time) {
     constexpr std::int64_t max = std::numeric_limits<std::int64_t>::max();
@@ -47,17 +54,27 @@ Match::Match(std::string match_id, std::shared_ptr<const config::Config> config,
       maps_(maps),
       publisher_(publisher),
       inbox_(2 * static_cast<std::size_t>(config->limits.observers) + max_view_requests, counters_),
+      delay_(static_cast<std::size_t>(config->limits.delay_mib) << 20U),
       config_(std::move(config)),
       missing_map_(no_server),
-      requests_(match_id_, publisher, counters_) {}
+      requests_(match_id_, publisher, counters_) {
+    delay_.set_minimum(config_->matches.minimum_delay_s, now_ns());
+}
 
 // Only running out of memory throws in here, and that ends the process.
 void Match::turn() noexcept {  // NOLINT(bugprone-exception-escape)
     inbox_.take(content_);
-    for (Message& message : content_.messages)
+    const std::span messages(content_.messages);
+    if (!content_.has_frame) return handle_all(messages);
+    handle_all(messages.first(content_.messages_before_frame));
+    process(content_.frame, content_.received_ns);
+    handle_all(messages.subspan(content_.messages_before_frame));
+}
+
+void Match::handle_all(std::span<Message> messages) {
+    for (Message& message : messages)
         std::visit([this](auto& content) { handle(content); }, message);
     if (reconcile_needed_) reconcile();
-    if (content_.has_frame) process(content_.frame, content_.received_ns);
 }
 
 void Match::handle(MatchInfo& info) {
@@ -78,6 +95,8 @@ void Match::begin_epoch() {
     last_epoch_ = info_->epoch;
     roster_.clear();
     attention_.clear();
+    timeline_.clear();
+    foreseen_ = 0;
     requests_.restart_shots();
     has_last_frame_ = false;
     after_silence_ = false;
@@ -147,6 +166,16 @@ void Match::handle(const MapsChanged& /*changed*/) {
     if (info_) attach_map();
 }
 
+void Match::handle(const DelayChanged& /*changed*/) {
+    const DelayBuffer::State delay = delay_.state();
+    if (delay.refusal.empty())
+        spdlog::info("match {}: shown with a delay of {:.4g} s", match_id_, delay.delay_s);
+    else
+        spdlog::warn("match {}: refused: {}", match_id_, delay.refusal);
+    last_pose_ns_ = std::max(last_pose_ns_.load(), delay.resumes_at);  // until then there are none
+    reconcile_needed_ = true;
+}
+
 void Match::handle(const Reconfigured& changed) {
     config_ = changed.config;
     if (info_) silence_limit_ns_ = silence_after_ns(*info_, config_->matches);
@@ -201,11 +230,28 @@ void Match::detach_map(std::string reason) {
 void Match::reconcile() {
     reconcile_needed_ = false;
     const bool holds = liveness_ == Liveness::silent || liveness_ == Liveness::lost;
-    requests_.reconcile({*config_, roster_, last_epoch_, refusal_, missing_map_,
+    const DelayBuffer::State delay = delay_.state();
+    const std::string waiting = waiting_for_delay(delay);
+    waits_for_delay_ = !waiting.empty();
+    // Of an epoch that is not shown yet: observers know it from the game server.
+    const bool early = (waits_for_delay_ && !info_) || !delay.refusal.empty();
+    requests_.reconcile({*config_, roster_, early ? delay.epoch : last_epoch_,
+                         refusal_.empty() ? delay.refusal : refusal_,
+                         waits_for_delay_ ? waiting : missing_map_,
                          holds ? "the game server is silent: the camera holds" : ""});
     observer_count_ = requests_.observers();
     shot_count_ = requests_.shots().size();
     abandoned_.store(!info_ && requests_.observers() == 0, std::memory_order_release);
+}
+
+// When the cameras begin, or go on after the delay has grown; empty when the delay is over.
+std::string Match::waiting_for_delay(const DelayBuffer::State& delay) const {
+    const std::int64_t now = now_ns();
+    std::int64_t until = delay.resumes_at;
+    if (!info_ && delay.next_due != DelayBuffer::never) until = std::max(until, delay.next_due);
+    if (!delay.refusal.empty() || until <= now) return {};
+    return fmt::format("shown with a delay of {:.4g} s: the cameras begin at {:%Y-%m-%d %H:%M:%S} UTC",
+                       delay.delay_s, fmt::gmtime(utc_second_after(until - now)));
 }
 
 bool Match::poses_missing(std::int64_t now_ns) const {
@@ -222,12 +268,13 @@ void Match::add_gauges(Statistics& sum) const {
     sum.silent_matches += liveness == Liveness::silent || liveness == Liveness::lost ? 1 : 0;
     sum.observers += observer_count_;
     sum.shots += shot_count_;
+    sum.delayed_bytes += delay_.state().bytes;
 }
 
 std::string Match::state() const {
     switch (liveness_.load()) {
         case Liveness::none:
-            return "no game server";
+            return waits_for_delay_ ? "filling the delay" : "no game server";
         case Liveness::lost:
             return "game server lost";
         case Liveness::silent:
@@ -244,11 +291,11 @@ void Match::handle(const ViewRequest& wanted) {
     view.match_id = match_id_;
     view.answered = true;
     view.state = state();
+    view.delay_s = delay_.state().delay_s;
     if (info_) {
         view.epoch = info_->epoch;
         view.map_name = info_->map_name;
         view.rate_hz = info_->rate_hz;
-        view.spectator_delay_s = info_->spectator_delay_s;
         view.players = info_->players.size();
     }
     view.last_pose_number = last_number_;

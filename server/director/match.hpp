@@ -4,15 +4,18 @@
 #include <atomic>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 
 #include "director/attention.hpp"
+#include "director/delay_buffer.hpp"
 #include "director/inbox.hpp"
 #include "director/map_library.hpp"
 #include "director/ports.hpp"
 #include "director/requests.hpp"
 #include "director/roster.hpp"
+#include "director/timeline.hpp"
 #include "director/worker_pool.hpp"
 
 namespace camdir::director {
@@ -24,6 +27,8 @@ class Match final : public Strand {
           Publisher& publisher);
 
     [[nodiscard]] Inbox& inbox() { return inbox_; }
+    // Of what the game server sends; it leaves to the inbox.
+    [[nodiscard]] DelayBuffer& delay() { return delay_; }
     [[nodiscard]] MatchCounters& counters() { return counters_; }
     [[nodiscard]] const MatchCounters& counters() const { return counters_; }
 
@@ -34,8 +39,10 @@ class Match final : public Strand {
     [[nodiscard]] bool poses_missing(std::int64_t now_ns) const;
     // The game server's liveliness is lost, and there has been no pose for `ns`.
     [[nodiscard]] bool server_lost_for(std::int64_t ns, std::int64_t now_ns) const;
-    // Neither game server nor observers, as of the last turn.
-    [[nodiscard]] bool abandoned() const { return abandoned_.load(std::memory_order_acquire); }
+    // Neither game server nor observers, as of the last turn, and nothing waits to be shown.
+    [[nodiscard]] bool abandoned() const {
+        return abandoned_.load(std::memory_order_acquire) && !delay_.waits();
+    }
 
   private:
     // Poses arrive; they have stopped; the game server's liveliness is lost; there is no game server.
@@ -43,6 +50,7 @@ class Match final : public Strand {
 
     void turn() noexcept override;  // NOLINT(bugprone-exception-escape)
 
+    void handle_all(std::span<Message> messages);
     void handle(MatchInfo& info);
     void handle(const ServerLost& lost);
     void handle(const PosesMissing& missing);
@@ -52,6 +60,7 @@ class Match final : public Strand {
     void handle(const ObserverRequest& request);
     void handle(const RequestEnded& ended);
     void handle(const MapsChanged& changed);
+    void handle(const DelayChanged& changed);
     void handle(const Reconfigured& changed);
     void handle(const ViewRequest& wanted);
 
@@ -63,18 +72,24 @@ class Match final : public Strand {
     void detach_map(std::string reason);
     void reconcile();
     [[nodiscard]] std::string state() const;
+    [[nodiscard]] std::string waiting_for_delay(const DelayBuffer::State& delay) const;
 
     void process(const PoseFrame& frame, std::int64_t received_ns);
     [[nodiscard]] bool accept(const PoseFrame& frame);
     void record(const PoseFrame& frame);
+    [[nodiscard]] bool foresee(const PoseFrame& frame);
     void move_cameras(const PoseFrame& frame, double dt);
     [[nodiscard]] ShotCamera move_camera(Shot& shot, const PoseFrame& frame, double dt);
+    // `seen`: the player's pose in this frame, null when there is none.
+    [[nodiscard]] camera::Camera step_by_pose(Shot& shot, const PlayerPose* seen, double dt);
+    [[nodiscard]] camera::Camera step_by_timeline(Shot& shot, const PlayerPose* seen);
 
     const std::string match_id_;
     const MapLibrary& maps_;
     Publisher& publisher_;
     MatchCounters counters_;
     Inbox inbox_;
+    DelayBuffer delay_;
 
     // Written by the strand, read by any thread.
     std::atomic<Liveness> liveness_{Liveness::none};
@@ -98,12 +113,16 @@ class Match final : public Strand {
     Attention attention_;
     Requests requests_;
     bool reconcile_needed_ = false;
+    bool waits_for_delay_ = false;  // what observers are told
 
     std::uint64_t last_epoch_ = 0;  // also of a match that is over
     bool has_last_frame_ = false;   // the frame before is of the same epoch, and no silence was between
     bool after_silence_ = false;    // there was a silence: players may be anywhere by now
     std::uint32_t last_number_ = 0;
     std::int64_t last_time_ = 0;
+    Timeline timeline_;
+    std::uint64_t foreseen_ = 0;  // position in the delay buffer of what follows in the timeline
+    bool by_timeline_ = false;    // the cameras move over the timeline
     std::uint32_t next_camera_frame_ = 0;
     CameraFrame cameras_;
 };

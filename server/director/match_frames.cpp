@@ -1,6 +1,7 @@
 // Match: from pose frames to camera frames.
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <chrono>
 
 #include "director/clock.hpp"
@@ -10,6 +11,10 @@ namespace camdir::director {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+constexpr double max_ahead_s = 2.5;       // that the planner uses
+constexpr double arrival_jitter_s = 0.1;  // of poses
+constexpr double first_step_s = 1.0 / 60.0;
 
 std::int64_t ns(Clock::duration duration) {
     return duration / std::chrono::nanoseconds(1);
@@ -31,7 +36,11 @@ void Match::process(const PoseFrame& frame, std::int64_t received_ns) {
     if (!accept(frame)) return;
     const double dt = has_last_frame_ ? seconds_between(last_time_, frame.frame_time) : 0.0;
     record(frame);
-    if (reconcile_needed_) reconcile();
+    if (reconcile_needed_ || waits_for_delay_) reconcile();
+    if (foresee(frame) != by_timeline_) {
+        by_timeline_ = !by_timeline_;
+        requests_.restart_shots();
+    }
     if (!freespace_) return counters_.add(Counter::drop_waiting);
     if (!requests_.shots().empty()) {
         move_cameras(frame, dt);
@@ -72,6 +81,28 @@ void Match::record(const PoseFrame& frame) {
     if (roster_.take_changed()) reconcile_needed_ = true;
 }
 
+// Enters into the timeline what the delay lets be known at this frame; false when it holds nothing. What has
+// surely arrived by now is all that counts: the same poses give the same cameras, however punctual.
+bool Match::foresee(const PoseFrame& frame) {
+    const double ahead = std::clamp(delay_.state().delay_s - arrival_jitter_s, 0.0, max_ahead_s);
+    const auto add = [&](const PoseFrame& later) {
+        if (later.epoch != frame.epoch) return later.epoch < frame.epoch;
+        // A timeline begins with this frame or an earlier one.
+        const double reach = timeline_.empty() ? 0.0 : ahead;
+        if (seconds_between(frame.frame_time, later.frame_time) > reach) return false;
+        return timeline_.add(later, tracked(later, config_->limits));
+    };
+    if (!delay_.look_ahead(foreseen_, add)) return false;
+    if (!timeline_.covers(frame.frame_time)) {  // the game's clock has jumped
+        if (!timeline_.empty()) requests_.restart_shots();
+        timeline_.clear();
+        delay_.look_ahead(foreseen_, add);
+    }
+    if (!timeline_.covers(frame.frame_time)) return false;
+    timeline_.show(frame.frame_time);
+    return true;
+}
+
 void Match::move_cameras(const PoseFrame& frame, double dt) {
     cameras_.epoch = frame.epoch;
     cameras_.frame_number = next_camera_frame_++;
@@ -101,9 +132,7 @@ ShotCamera Match::move_camera(Shot& shot, const PoseFrame& frame, double dt) {
     shot.target = target;
 
     const PlayerPose* seen = roster_.pose(target);
-    const camera::Pose pose = seen != nullptr ? tracker_pose(*seen, after_silence_) : camera::Pose{};
-    const camera::Camera camera =
-        camera::step(*freespace_, shot.profile, seen != nullptr ? &pose : nullptr, dt, shot.state, *scratch_);
+    const camera::Camera camera = by_timeline_ ? step_by_timeline(shot, seen) : step_by_pose(shot, seen, dt);
 
     if ((camera.flags & camera::cut) != 0) counters_.add(Counter::cuts);
     if ((camera.flags & camera::searching) != 0 && (shot.flags & camera::searching) == 0)
@@ -111,6 +140,19 @@ ShotCamera Match::move_camera(Shot& shot, const PoseFrame& frame, double dt) {
     shot.flags = camera.flags;
     return {shot.camera_id,      target,           camera.position, camera.orientation,
             camera.vertical_fov, camera.clearance, camera.flags};
+}
+
+camera::Camera Match::step_by_pose(Shot& shot, const PlayerPose* seen, double dt) {
+    const camera::Pose pose = seen != nullptr ? tracker_pose(*seen, after_silence_) : camera::Pose{};
+    return camera::step(*freespace_, shot.profile, seen != nullptr ? &pose : nullptr, dt, shot.state,
+                        *scratch_);
+}
+
+camera::Camera Match::step_by_timeline(Shot& shot, const PlayerPose* seen) {
+    if (after_silence_ && seen != nullptr) shot.state = {};
+    if (!shot.state.started) shot.state.time = timeline_.shown() - first_step_s;
+    return camera::step(*freespace_, shot.profile, timeline_.window(shot.target), timeline_.shown(),
+                        shot.state, *scratch_);
 }
 
 }  // namespace camdir::director

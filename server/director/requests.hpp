@@ -42,7 +42,7 @@ struct RequestContext {
     const Roster& roster;
     std::uint64_t epoch = 0;
     std::string refusal;      // why all requests are refused; empty when they are not
-    std::string missing_map;  // why the match has no map; empty when it has one
+    std::string missing_map;  // why the match has no map, or is not shown yet; empty when it is
     std::string remark;       // reason in the status of accepted requests
 };
 

@@ -30,6 +30,7 @@ enum class Counter : std::size_t {
     drop_players,      // poses beyond limits.players, duplicate players
     drop_events,       // the match's queue of events was full
     drop_messages,     // the match's queue of other messages was full
+    drop_delay,        // of a match whose delay is refused
     refused_matches,
     refused_requests,
     map_hash_mismatches,
@@ -47,12 +48,14 @@ struct Durations {
 
 struct Statistics {
     std::array<std::uint64_t, counter_count> counters{};
-    Durations step;     // one tracker step of one shot
-    Durations latency;  // from the receipt of a pose frame until its cameras are published
+    Durations step;  // one tracker step of one shot
+    Durations
+        latency;  // from the receipt of a pose frame, or when it is due, until its cameras are published
     std::uint64_t matches = 0;
     std::uint64_t silent_matches = 0;
     std::uint64_t observers = 0;
     std::uint64_t shots = 0;
+    std::uint64_t delayed_bytes = 0;  // memory of what waits until it is due
 
     [[nodiscard]] std::uint64_t operator[](Counter counter) const {
         return counters[static_cast<std::size_t>(counter)];
@@ -80,9 +83,10 @@ struct MatchView {
     bool answered = false;  // false: no answer within the time allowed, the rest is empty
     std::uint64_t epoch = 0;
     std::string map_name;
-    std::string state;  // "running", "waiting for map", "silent", "game server lost", "no game server"
+    std::string state;  // "running", "waiting for map", "filling the delay", "silent", "game server lost",
+                        // "no game server"
     float rate_hz = 0.0F;
-    float spectator_delay_s = 0.0F;
+    double delay_s = 0.0;  // in force: the greater of the match's own and the operator's
     std::uint64_t players = 0;
     std::uint32_t last_pose_number = 0;
     std::vector<ShotView> shots;

@@ -57,7 +57,8 @@ MetricFamily drops(const Statistics& statistics) {
         {Counter::drop_waiting, "no_map"},
         {Counter::drop_players, "players"},
         {Counter::drop_events, "events"},
-        {Counter::drop_messages, "control"}};
+        {Counter::drop_messages, "control"},
+        {Counter::drop_delay, "delay_refused"}};
     MetricFamily result = counter_family("dropped_total", "Input that was dropped, by reason.");
     for (const auto& [reason, label] : reasons)
         add_metric(result, static_cast<double>(statistics[reason]), {{"reason", label}});
@@ -102,9 +103,13 @@ std::vector<MetricFamily> director_metrics(const Statistics& s) {
             gauge("silent_matches", "Matches that are silent.", s.silent_matches),
             gauge("observers", "Observers.", s.observers),
             gauge("shots", "Shots, each with a camera.", s.shots),
+            gauge("delayed_bytes", "Memory of what waits for its delay.", s.delayed_bytes),
             histogram("step_seconds", "Duration of one tracker step of one shot.", s.step),
-            histogram("latency_seconds", "Time from receiving a pose frame to publishing its cameras.",
-                      s.latency)};
+            histogram(
+                "latency_seconds",
+                "Time from receiving a pose frame, or from when it is due after the delay, to publishing its "
+                "cameras.",
+                s.latency)};
 }
 
 std::vector<MetricFamily> map_metrics(const std::map<std::string, director::MapEntry>& maps) {

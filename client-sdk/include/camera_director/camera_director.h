@@ -164,7 +164,7 @@ typedef struct cdir_match_info {
     uint32_t struct_size;
     float metres_per_unit;   /* > 0: length of one map unit in metres */
     float rate_hz;           /* > 0: pose frames per second that the game server intends to publish */
-    float spectator_delay_s; /* >= 0: delay that observers should keep; passed on to them, not enforced */
+    float spectator_delay_s; /* 0 to 120: directors publish the match so late, not this description of it */
     uint64_t epoch;          /* open and restart: 0 = taken from the system clock, which makes it greater
                                 than those of earlier processes; update: ignored */
     uint64_t map_hash;       /* xxh3-64 of the map file's bytes; 0 = unknown */

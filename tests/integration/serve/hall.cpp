@@ -40,6 +40,8 @@ Server::Server(std::uint32_t domain, const Options& options) {
                           << options.participant_index << R"(, "strength": )" << options.strength
                           << R"(, "director_id": )" << options.director_id << R"(, "lease_ms": 1000},
         "http": {"enabled": false},
+        "matches": {"minimum_delay_s": )"
+                          << options.minimum_delay_s << R"(},
         "maps": [{"name": "hall", "file": "hall.vfs"}, {"name": "yard", "file": "yard.vfs"}]})";
     process_ = std::make_unique<ChildProcess>(
         std::vector<std::string>{CAMDIR_BIN_DIR "/camera-director", "serve", "--config", config.string()});

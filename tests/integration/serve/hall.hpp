@@ -26,6 +26,7 @@ class Server {
         std::int64_t participant_index = 0;
         std::int64_t strength = 100;
         std::int64_t director_id = 1;
+        double minimum_delay_s = 0.0;
     };
     Server(std::uint32_t domain, const Options& options);
     explicit Server(std::uint32_t domain) : Server(domain, Options{}) {}

@@ -55,6 +55,17 @@ TEST_F(InboxTest, TheNewestFrameWins) {
     EXPECT_FALSE(content_.has_frame);
 }
 
+TEST_F(InboxTest, AFrameKeepsItsPlaceAmongTheMessages) {
+    inbox_.put(MatchInfo{});
+    inbox_.put(frame(1, 1), 10);
+    inbox_.put(MatchEvent{});
+    inbox_.put(frame(1, 2), 20);
+    inbox_.put(MatchEnded{});
+    inbox_.take(content_);
+    EXPECT_EQ(content_.messages.size(), 3U);
+    EXPECT_EQ(content_.messages_before_frame, 2U);
+}
+
 TEST_F(InboxTest, ANewEpochWinsWhateverItsNumber) {
     inbox_.put(frame(1, 900), 1);
     inbox_.put(frame(2, 1), 2);

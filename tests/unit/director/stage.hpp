@@ -12,6 +12,8 @@
 
 namespace camdir::director {
 
+inline constexpr std::int64_t ms = 1'000'000;  // in ns
+
 // Keeps everything that is published. Thread-safe.
 class MemoryPublisher final : public Publisher {
   public:

@@ -14,6 +14,7 @@ TEST(Status, ShowsMapsMatchesShotsAndObservers) {
     match.match_id = "cup \"7\"";
     match.answered = true;
     match.state = "running";
+    match.delay_s = 90.0;
     match.shots.push_back({5, 2, false, "default", 3, 2});
     match.shots.push_back({6, director::no_player, true, "default", 1, 0});
     match.observers.push_back(
@@ -29,6 +30,7 @@ TEST(Status, ShowsMapsMatchesShotsAndObservers) {
     EXPECT_EQ(page["maps"][0]["state"], "failed");
     EXPECT_EQ(page["maps"][0]["reason"], "damaged");
     EXPECT_EQ(page["matches"][0]["match_id"], "cup \"7\"");
+    EXPECT_EQ(page["matches"][0]["delay_s"], 90.0);
     EXPECT_EQ(page["matches"][0]["shots"][0]["target"], 2);
     EXPECT_TRUE(page["matches"][0]["shots"][1]["target"].is_null());
     EXPECT_EQ(page["matches"][0]["observers"][0]["state"], "waiting for player");

@@ -1,0 +1,71 @@
+#include "director/timeline.hpp"
+
+#include <algorithm>
+
+#include "director/clock.hpp"
+#include "director/roster.hpp"
+
+namespace camdir::director {
+namespace {
+
+constexpr double max_step_back_s = 1.0;
+constexpr double history_s = 0.25;
+constexpr std::ptrdiff_t worth_moving = 32;  // poses
+
+camera::Pose camera_pose(const PlayerPose& pose) {
+    return {pose.eye, pose.orientation, pose.velocity, (pose.flags & pose_alive) != 0,
+            (pose.flags & pose_discontinuity) != 0};
+}
+
+}  // namespace
+
+void Timeline::clear() {
+    empty_ = true;
+    shown_ = newest_ = 0.0;
+    players_.clear();
+}
+
+double Timeline::seconds(std::int64_t frame_time) const {
+    return seconds_between(start_, frame_time);
+}
+
+bool Timeline::add(const PoseFrame& frame, std::span<const PlayerPose> poses) {
+    if (empty_) start_ = frame.frame_time;
+    const double time = seconds(frame.frame_time);
+    if (!empty_ && time < newest_ - max_step_back_s) return false;
+    if (!empty_ && time <= newest_) return true;
+    empty_ = false;
+    newest_ = time;
+    for (const PlayerPose& pose : poses) {
+        if ((pose.flags & pose_spectator) != 0) continue;
+        std::vector<camera::TimedPose>& track = players_[pose.player_id];
+        if (track.empty() || track.back().time < time) track.push_back({time, camera_pose(pose), true});
+    }
+    for (auto& [player, track] : players_)
+        if (track.back().time < time && track.back().present) track.push_back({time, {}, false});
+    return true;
+}
+
+bool Timeline::covers(std::int64_t frame_time) const {
+    const double time = seconds(frame_time);
+    return !empty_ && time >= shown_ - max_step_back_s && time <= newest_;
+}
+
+void Timeline::show(std::int64_t frame_time) {
+    shown_ = std::max(shown_, seconds(frame_time));
+    const double oldest = shown_ - history_s;
+    for (auto player = players_.begin(); player != players_.end();) {
+        auto& track = player->second;
+        const std::ptrdiff_t stale = camera::index_at(track, oldest);  // the one before `oldest` stays
+        if (stale >= worth_moving) track.erase(track.begin(), track.begin() + stale);
+        const bool gone = !track.back().present && track.back().time < oldest;
+        player = gone ? players_.erase(player) : std::next(player);
+    }
+}
+
+camera::Window Timeline::window(std::uint32_t player) const {
+    const auto found = players_.find(player);
+    return found == players_.end() ? camera::Window() : camera::Window(found->second);
+}
+
+}  // namespace camdir::director

@@ -1,0 +1,97 @@
+#include "director/timeline.hpp"
+
+#include <gtest/gtest.h>
+
+#include "director/roster.hpp"
+#include "stage.hpp"
+
+namespace camdir::director {
+namespace {
+
+struct Seen {
+    std::uint32_t id;
+    std::uint32_t flags = pose_alive;
+};
+
+class TimelineTest : public testing::Test {
+  protected:
+    bool add(std::int64_t time_ms, const std::vector<Seen>& players = {{1}}) {
+        PoseFrame frame;
+        frame.frame_time = time_ms * ms;
+        for (const auto& [id, flags] : players)
+            frame.poses.push_back({id, Vec3f(static_cast<float>(time_ms), 0.0F, 0.0F), Quatf::Identity(),
+                                   Vec3f::Zero(), flags});
+        return timeline_.add(frame, frame.poses);
+    }
+
+    Timeline timeline_;
+};
+
+TEST_F(TimelineTest, HoldsThePosesInTime) {
+    EXPECT_FALSE(timeline_.covers(5000 * ms));
+    for (std::int64_t time = 5000; time <= 7500; time += 50)
+        EXPECT_TRUE(add(time));
+    EXPECT_TRUE(timeline_.covers(5000 * ms));
+    EXPECT_TRUE(timeline_.covers(7500 * ms));
+    EXPECT_FALSE(timeline_.covers(7501 * ms));
+    timeline_.show(5100 * ms);
+    EXPECT_DOUBLE_EQ(timeline_.shown(), 0.1);
+    const camera::Window window = timeline_.window(1);
+    ASSERT_EQ(window.size(), 51U);
+    EXPECT_DOUBLE_EQ(window.front().time, 0.0);
+    EXPECT_DOUBLE_EQ(window.back().time, 2.5);
+    EXPECT_EQ(window.back().pose.eye.x(), 7500.0F);
+    EXPECT_TRUE(timeline_.window(2).empty());
+}
+
+TEST_F(TimelineTest, ForgetsWhatIsOver) {
+    for (std::int64_t time = 0; time <= 60000; time += 20) {
+        add(time, time < 10000 ? std::vector<Seen>{{1}, {2}} : std::vector<Seen>{{1}});
+        if (time >= 1000) timeline_.show((time - 1000) * ms);
+    }
+    const camera::Window window = timeline_.window(1);
+    EXPECT_LE(window.front().time, timeline_.shown() - 0.25);
+    EXPECT_GE(window.front().time, timeline_.shown() - 1.0);
+    EXPECT_LE(window.size(), 100U);
+    EXPECT_TRUE(timeline_.window(2).empty());
+}
+
+TEST_F(TimelineTest, KnowsWhenAPlayerIsAbsent) {
+    add(0, {{1}, {2}});
+    add(50, {{2}});
+    add(100, {{1, pose_alive | pose_spectator}, {2}});
+    add(150, {{1, pose_alive | pose_discontinuity}, {2}, {2}});
+    const camera::Window window = timeline_.window(1);
+    ASSERT_EQ(window.size(), 3U);
+    EXPECT_FALSE(window[1].present);
+    EXPECT_DOUBLE_EQ(window[1].time, 0.05);
+    EXPECT_TRUE(window[2].present);
+    EXPECT_TRUE(window[2].pose.discontinuity);
+    EXPECT_EQ(timeline_.window(2).size(), 4U);
+}
+
+TEST_F(TimelineTest, AClockThatStandsStillAddsNothing) {
+    EXPECT_TRUE(add(5000));
+    EXPECT_TRUE(add(5000));
+    EXPECT_TRUE(add(4500));
+    EXPECT_EQ(timeline_.window(1).size(), 1U);
+    timeline_.show(5000 * ms);
+    EXPECT_TRUE(timeline_.covers(4500 * ms));
+    timeline_.show(4500 * ms);
+    EXPECT_DOUBLE_EQ(timeline_.shown(), 0.0);
+}
+
+TEST_F(TimelineTest, AClockThatGoesBackBeginsAnotherTimeline) {
+    add(5000);
+    timeline_.show(5000 * ms);
+    EXPECT_FALSE(add(3900));
+    EXPECT_FALSE(timeline_.covers(3900 * ms));
+    timeline_.clear();
+    EXPECT_TRUE(add(3900));
+    EXPECT_TRUE(timeline_.covers(3900 * ms));
+    EXPECT_TRUE(add(90000)) << "ahead it may jump";
+    EXPECT_EQ(timeline_.window(1).size(), 2U);
+}
+
+}  // namespace
+}  // namespace camdir::director
