@@ -72,8 +72,8 @@ TEST(Planner, KnowingTheFutureMovesMoreSmoothly) {
 
 TEST(Planner, GivesCamerasFasterAndSlowerThanPoses) {
     const test::Plan plan = test::figure_eight();
-    for (const double output_hz : {20.0, 30.0, 60.0, 144.0, 240.0}) {
-        for (const double look_ahead : {0.0, 1.0, 2.0}) {
+    for (const double output_hz : {20.0, 60.0, 240.0}) {
+        for (const double look_ahead : {0.0, 2.0}) {
             SCOPED_TRACE(testing::Message() << output_hz << " Hz, " << look_ahead << " s ahead");
             const Take shots = take(plan, run(plan, 4, 20.0, 200), output_hz, look_ahead);
             int cuts = 0;

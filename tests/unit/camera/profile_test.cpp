@@ -71,7 +71,7 @@ test::Plan loops_and_cell() {
                        "##################"});
 }
 
-// A match in sixteen seconds: running, a jump to where the camera does not see, running on, running so fast
+// A match in thirteen seconds: running, a jump to where the camera does not see, running on, running so fast
 // round corners that the camera has to hurry, and a jump to where it cannot go.
 struct Shown {
     std::vector<Camera> cameras;
@@ -88,7 +88,7 @@ Shown show(const Profile& profile) {
         float pace;
     };
     for (const Leg& leg :
-         {Leg{'s', 240, 1.0F}, Leg{'t', 240, 1.0F}, Leg{'s', 360, 4.0F}, Leg{'x', 120, 1.0F}}) {
+         {Leg{'s', 150, 1.0F}, Leg{'t', 150, 1.0F}, Leg{'s', 360, 4.0F}, Leg{'x', 110, 1.0F}}) {
         Runner runner(plan, plan.eye(leg.place), 7);
         for (int i = 0; i < leg.frames; ++i) {
             shown.poses.push_back(runner.next(leg.pace / 60.0F));
@@ -130,8 +130,8 @@ bool changes_the_camera(const ProfileKey& key, Solver solver) {
 
 TEST_P(EveryKey, ChangesTheCamera) {
     const ProfileKey& key = GetParam();
-    EXPECT_TRUE(changes_the_camera(key, Solver::paper));
-    EXPECT_EQ(changes_the_camera(key, Solver::planner), std::string(key.name) != "iterations");
+    const bool of_paper_alone = std::string(key.name) == "iterations";
+    EXPECT_TRUE(changes_the_camera(key, of_paper_alone ? Solver::paper : Solver::planner));
 }
 
 // What a larger value makes larger.

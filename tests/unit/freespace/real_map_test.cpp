@@ -97,9 +97,9 @@ TEST_P(RealMap, DistanceIsTheLargestOfAllSlabs) {
     std::vector<Vec3f> points;
     const auto trace = evaluation::read_trace(CAMDIR_DEMO_TRACE);
     ASSERT_TRUE(trace) << trace.error().message;
-    for (std::size_t i = 0; i < trace->poses.size(); i += trace->poses.size() / 40)
+    for (std::size_t i = 0; i < trace->poses.size(); i += trace->poses.size() / 10)
         points.push_back(trace->poses[i].eye.cast<float>());
-    for (int i = 0; i < 40; ++i)
+    for (int i = 0; i < 10; ++i)
         points.push_back(test::covered_point(random_, *freespace_));
     for (const Vec3f& point : points) {
         const double exact = test::exact_distance(*freespace_, point.cast<double>());
