@@ -52,7 +52,7 @@ float& FreeLengths::at(const Vec3f& eye, std::size_t bin, float cell_size) {
 
 float Beams::radius(std::size_t i) {
     if (radius_[i] < 0.0F) {
-        const float clearance = freespace::distance_everywhere(freespace_, future_[i].eye).value;
+        const float clearance = freespace::distance(freespace_, future_[i].eye).value;
         radius_[i] = std::max(0.0F, std::min(widest(profile_), inside_eye_ball * clearance));
     }
     return radius_[i];

@@ -14,11 +14,10 @@ constexpr std::array pulled_in = {1.0F, 0.9F, 0.75F};  // shares of the free lin
 }  // namespace
 
 std::optional<Candidate> guarded(const freespace::Freespace& freespace, const MapProfile& profile,
-                                 const PlayerTrack& track, const Motion& motion, const Start& start,
-                                 const Vec3f& wanted) {
+                                 const PlayerTrack& track, const Motion& motion, const Vec3f& wanted) {
     const auto fine = [&](const Vec3f& target) {
-        auto place =
-            reach(freespace, profile, track, start, within_step(start.position, target, profile.step_limit));
+        auto place = reach(freespace, profile, track, motion.position,
+                           within_step(motion.position, target, profile.step_limit));
         if (place && !acceptable(profile, *place)) place.reset();
         return place;
     };
@@ -27,14 +26,14 @@ std::optional<Candidate> guarded(const freespace::Freespace& freespace, const Ma
     const float length = arm.norm();
     if (length > profile.unit) {
         const freespace::Sight beam =
-            freespace::sight(freespace, track.anchor, wanted, beam_radius(profile, track), track.slab);
+            freespace::sight(freespace, track.anchor, wanted, beam_radius(profile, track));
         const float free =
             beam.clear ? length : std::max(0.0F, beam.free_length - inside_beam * profile.unit);
         for (const float share : pulled_in) {
             if (auto place = fine(track.anchor + arm * (share * free / length))) return place;
         }
     }
-    return regain_sight(freespace, profile, track, motion, start, wanted);
+    return regain_sight(freespace, profile, track, motion, wanted);
 }
 
 }  // namespace camdir::camera

@@ -13,6 +13,6 @@ namespace camdir::camera {
 // else what regain_sight() finds. None when the player cannot be seen from anywhere in reach.
 [[nodiscard]] std::optional<Candidate> guarded(const freespace::Freespace& freespace,
                                                const MapProfile& profile, const PlayerTrack& track,
-                                               const Motion& motion, const Start& start, const Vec3f& wanted);
+                                               const Motion& motion, const Vec3f& wanted);
 
 }  // namespace camdir::camera

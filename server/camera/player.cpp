@@ -54,7 +54,7 @@ Vec3f rotation_between(const Vec3f& from, const Vec3f& to) {
 }
 
 void settle(const freespace::Freespace& freespace, const Vec3f& anchor, PlayerTrack& track) {
-    const freespace::Distance found = freespace::distance(freespace, anchor, track.slab);
+    const freespace::Distance found = freespace::distance(freespace, anchor);
     if (!found.covered()) return;
     track.anchor = anchor;
     track.slab = found.triangle;
@@ -106,14 +106,14 @@ void follow(const freespace::Freespace& freespace, const MapProfile& profile, co
     track.view = view;
     track.heading = rotated_towards(track.heading, view, smoothing_share(dt, profile.heading_smoothing));
 
-    const freespace::Distance found = freespace::distance(freespace, pose.eye, track.slab);
+    const freespace::Distance found = freespace::distance(freespace, pose.eye);
     track.covered = found.covered();
     if (track.covered) {
         track.anchor = pose.eye;
         track.slab = found.triangle;
         track.clearance = found.value;
     } else {
-        const freespace::Sight way = freespace::sight(freespace, track.anchor, pose.eye, 0.0F, track.slab);
+        const freespace::Sight way = freespace::sight(freespace, track.anchor, pose.eye);
         const Vec3f direction = (pose.eye - track.anchor).normalized();
         settle(freespace, track.anchor + inside_surface * way.free_length * direction, track);
     }
@@ -137,8 +137,7 @@ Vec3f predicted_anchor(const freespace::Freespace& freespace, const MapProfile& 
     const Vec3f way = track.velocity.cwiseProduct(times);
     const float length = way.norm();
     if (!(length > 1e-3F)) return track.anchor;
-    const freespace::Sight free =
-        freespace::sight(freespace, track.anchor, track.anchor + way, 0.0F, track.slab);
+    const freespace::Sight free = freespace::sight(freespace, track.anchor, track.anchor + way);
     return track.anchor + way * (inside_surface * std::min(free.free_length, length) / length);
 }
 

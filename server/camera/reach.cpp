@@ -13,13 +13,13 @@ constexpr float inside_ball = 0.9F;  // share of a ball's radius in which a beam
 // A beam knows the clearance around a line of sight far better than a line does: the widest beam that matters
 // first, then the narrowest that counts.
 float sight_clearance(const freespace::Freespace& freespace, const MapProfile& profile,
-                      const PlayerTrack& track, const Vec3f& position, std::uint32_t slab) {
+                      const PlayerTrack& track, const Vec3f& position) {
     const float wide = beam_radius(profile, track);
-    if (freespace::sight(freespace, position, track.anchor, wide, slab).clear) {
+    if (freespace::sight(freespace, position, track.anchor, wide).clear) {
         return wide;
     }
     const float narrow = std::min(profile.visibility_threshold, wide);
-    const freespace::Sight line = freespace::sight(freespace, position, track.anchor, narrow, slab);
+    const freespace::Sight line = freespace::sight(freespace, position, track.anchor, narrow);
     return line.clear ? std::max(line.clearance, narrow) : 0.0F;
 }
 
@@ -31,18 +31,18 @@ float beam_radius(const MapProfile& profile, const PlayerTrack& track) {
 }
 
 std::optional<Candidate> reach(const freespace::Freespace& freespace, const MapProfile& profile,
-                               const PlayerTrack& track, const Start& start, const Vec3f& target) {
-    const freespace::Sight way = freespace::sight(freespace, start.position, target, 0.0F, start.slab);
+                               const PlayerTrack& track, const Vec3f& start, const Vec3f& target) {
+    const freespace::Sight way = freespace::sight(freespace, start, target);
     if (!way.clear) return std::nullopt;
     return look_up(freespace, profile, track, target);
 }
 
 std::optional<Candidate> reach_shortened(const freespace::Freespace& freespace, const MapProfile& profile,
-                                         const PlayerTrack& track, const Start& start, const Vec3f& target) {
-    const freespace::Sight way = freespace::sight(freespace, start.position, target, 0.0F, start.slab);
+                                         const PlayerTrack& track, const Vec3f& start, const Vec3f& target) {
+    const freespace::Sight way = freespace::sight(freespace, start, target);
     if (way.clear) return look_up(freespace, profile, track, target);
-    const Vec3f direction = (target - start.position).normalized();
-    return reach(freespace, profile, track, start, start.position + 0.5F * way.free_length * direction);
+    const Vec3f direction = (target - start).normalized();
+    return reach(freespace, profile, track, start, start + 0.5F * way.free_length * direction);
 }
 
 std::optional<Candidate> look_up(const freespace::Freespace& freespace, const MapProfile& profile,
@@ -50,7 +50,7 @@ std::optional<Candidate> look_up(const freespace::Freespace& freespace, const Ma
     const freespace::Distance free = freespace::distance(freespace, position);
     if (!free.covered()) return std::nullopt;
     return Candidate{position, free.triangle, free.value,
-                     sight_clearance(freespace, profile, track, position, free.triangle)};
+                     sight_clearance(freespace, profile, track, position)};
 }
 
 }  // namespace camdir::camera

@@ -17,21 +17,15 @@ namespace camdir::camera {
 // How far before the end of a free beam a place lies, in units of 0.0254 m.
 inline constexpr float inside_beam = 2.0F;
 
-// Where a step starts.
-struct Start {
-    Vec3f position;
-    std::uint32_t slab;
-};
-
-// `target`, if the whole step to it is free.
+// `target`, if the whole step from `start` to it is free.
 [[nodiscard]] std::optional<Candidate> reach(const freespace::Freespace& freespace, const MapProfile& profile,
-                                             const PlayerTrack& track, const Start& start,
+                                             const PlayerTrack& track, const Vec3f& start,
                                              const Vec3f& target);
 
 // The same, and when the step leaves the freespace on its way the point half-way to where it leaves.
 [[nodiscard]] std::optional<Candidate> reach_shortened(const freespace::Freespace& freespace,
                                                        const MapProfile& profile, const PlayerTrack& track,
-                                                       const Start& start, const Vec3f& target);
+                                                       const Vec3f& start, const Vec3f& target);
 
 // The candidate with its distances looked up; none when no slab covers it.
 [[nodiscard]] std::optional<Candidate> look_up(const freespace::Freespace& freespace,

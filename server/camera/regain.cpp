@@ -54,8 +54,8 @@ class Choice {
 Vec3f swung(const freespace::Freespace& freespace, const MapProfile& profile, const PlayerTrack& track,
             const Vec3f& wanted, float angle) {
     const Vec3f arm = Eigen::AngleAxisf(angle, Vec3f::UnitZ()) * (wanted - track.anchor);
-    const freespace::Sight beam = freespace::sight(freespace, track.anchor, track.anchor + arm,
-                                                   beam_radius(profile, track), track.slab);
+    const freespace::Sight beam =
+        freespace::sight(freespace, track.anchor, track.anchor + arm, beam_radius(profile, track));
     if (beam.clear) return track.anchor + arm;
     return track.anchor + std::max(0.0F, beam.free_length - inside_beam * profile.unit) * arm.normalized();
 }
@@ -71,21 +71,20 @@ bool acceptable(const MapProfile& profile, const Candidate& candidate) {
 }
 
 std::optional<Candidate> regain_sight(const freespace::Freespace& freespace, const MapProfile& profile,
-                                      const PlayerTrack& track, const Motion& motion, const Start& start,
-                                      const Vec3f& wanted) {
+                                      const PlayerTrack& track, const Motion& motion, const Vec3f& wanted) {
     Choice choice(profile, track, motion);
     const auto consider = [&](const Vec3f& target) {
-        const Vec3f place = within_step(start.position, target, profile.step_limit);
-        choice.consider(reach_shortened(freespace, profile, track, start, place));
+        const Vec3f place = within_step(motion.position, target, profile.step_limit);
+        choice.consider(reach_shortened(freespace, profile, track, motion.position, place));
     };
-    choice.consider(look_up(freespace, profile, track, start.position));
-    consider(start.position + track.move);
+    choice.consider(look_up(freespace, profile, track, motion.position));
+    consider(motion.position + track.move);
     for (const float angle : swings) {
         consider(swung(freespace, profile, track, wanted, angle));
     }
-    const Vec3f old_line_of_sight = track.anchor - track.move - start.position;
+    const Vec3f old_line_of_sight = track.anchor - track.move - motion.position;
     for (const float share : retreats) {
-        consider(start.position + share * old_line_of_sight);
+        consider(motion.position + share * old_line_of_sight);
     }
     return choice.best();
 }

@@ -20,8 +20,7 @@ namespace camdir::camera {
 // was free) the one of least cost that sees the player, of those with the minimum clearance if there are any.
 [[nodiscard]] std::optional<Candidate> regain_sight(const freespace::Freespace& freespace,
                                                     const MapProfile& profile, const PlayerTrack& track,
-                                                    const Motion& motion, const Start& start,
-                                                    const Vec3f& wanted);
+                                                    const Motion& motion, const Vec3f& wanted);
 
 // `target`, or the point of the segment to it that is `limit` away from `start`.
 [[nodiscard]] Vec3f within_step(const Vec3f& start, const Vec3f& target, float limit);

@@ -7,15 +7,14 @@
 namespace camdir::camera {
 
 Vec3f next_on_the_way(const freespace::Freespace& freespace, const MapProfile& profile,
-                      const PlayerTrack& track, const Start& start, freespace::RoadmapSearch& roadmap) {
-    const freespace::RoadmapPath& path = roadmap.find(start.position, track.anchor);
-    if (!path.found) return start.position;
+                      const PlayerTrack& track, const Vec3f& start, freespace::RoadmapSearch& roadmap) {
+    const freespace::RoadmapPath& path = roadmap.find(start, track.anchor);
+    if (!path.found) return start;
     if (path.vertices.empty()) return track.anchor;
     Vec3f next = freespace.vertices()[path.vertices.front()].position();
     for (std::size_t i = 1; i < path.vertices.size(); i *= 2) {
         const Vec3f vertex = freespace.vertices()[path.vertices[i]].position();
-        if (!freespace::sight(freespace, start.position, vertex, profile.minimum_clearance, start.slab).clear)
-            break;
+        if (!freespace::sight(freespace, start, vertex, profile.minimum_clearance).clear) break;
         next = vertex;
     }
     return next;

@@ -11,7 +11,7 @@ namespace camdir::camera {
 // that the camera sees; the paper's second vertex when it sees no further. The camera's own position when
 // there is no way.
 [[nodiscard]] Vec3f next_on_the_way(const freespace::Freespace& freespace, const MapProfile& profile,
-                                    const PlayerTrack& track, const Start& start,
+                                    const PlayerTrack& track, const Vec3f& start,
                                     freespace::RoadmapSearch& roadmap);
 
 }  // namespace camdir::camera

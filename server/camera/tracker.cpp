@@ -71,7 +71,7 @@ class Step {
         const Vec3f wanted = planned.position.cast<float>();
         const Look look{wrapped(static_cast<float>(planned.look_yaw)),
                         static_cast<float>(planned.look_pitch)};
-        const auto place = guarded(freespace_, profile_, player_, motion(), start(), wanted);
+        const auto place = guarded(freespace_, profile_, player_, motion(), wanted);
         if (!place) return search();
         const bool as_planned = place->position == wanted;
         const Motion before = motion();
@@ -79,8 +79,8 @@ class Step {
             as_planned ? Vec3f((wanted - state_.position) / dt_) : player_.velocity;  // a rescue is no motion
         settle(*place);
         state_.lost_for = 0.0F;
-        const Look wanted_look = as_planned ? look : moved_along(look, wanted, place->position);
-        state_.look = turned(state_.look, wanted_look, 1.0F, profile_.turn_limit * dt_);
+        const Look aimed = as_planned ? look : moved_along(look, wanted, place->position);
+        state_.look = turned(state_.look, aimed, 1.0F, profile_.turn_limit * dt_);
         if (!as_planned) deviate(state_.plan, state_.position, state_.velocity, state_.look);
         return frame(*place, before, out_of_reach() ? std::uint32_t{searching} : 0U);
     }
@@ -93,12 +93,12 @@ class Step {
         for (int i = 0; i < static_cast<int>(profile_.iterations); ++i) {
             wanted =
                 within_reach(position + average_when_seen(profile_, moves(spot, position), speed(), dt_));
-            const auto reached = reach_shortened(freespace_, profile_, player_, start(), wanted);
+            const auto reached = reach_shortened(freespace_, profile_, player_, state_.position, wanted);
             if (!reached) break;
             if (acceptable(profile_, *reached)) return move_to(*reached);
             position = reached->position;
         }
-        const auto seen = regain_sight(freespace_, profile_, player_, motion(), start(), wanted);
+        const auto seen = regain_sight(freespace_, profile_, player_, motion(), wanted);
         if (!seen) return search();
         const Camera camera = move_to(*seen);
         state_.velocity = player_.velocity;  // a rescue is no motion to go on with
@@ -108,15 +108,15 @@ class Step {
     Camera search() {
         const Spot spot = spot_to_move_to(freespace_, profile_, player_, state_.position, dt_, state_.spot);
         Moves all = moves(spot, state_.position);
-        all.visibility =
-            next_on_the_way(freespace_, profile_, player_, start(), scratch_.roadmap) - state_.position;
+        all.visibility = next_on_the_way(freespace_, profile_, player_, state_.position, scratch_.roadmap) -
+                         state_.position;
         const float urgency = std::min(greatest_urgency, std::exp(profile_.search_growth * state_.lost_for));
         const Vec3f move = average_when_lost(profile_, all, urgency, dt_);
         // Where the average would scrape along an obstacle, straight to the roadmap, however narrow its way
         // is.
         std::optional<Candidate> next;
         for (const Vec3f& wanted : {move, all.visibility}) {
-            next = reach_shortened(freespace_, profile_, player_, start(),
+            next = reach_shortened(freespace_, profile_, player_, state_.position,
                                    within_reach(state_.position + wanted));
             if (next && next->clearance >= profile_.minimum_clearance) break;
         }
@@ -131,7 +131,7 @@ class Step {
         const Vec3f velocity = state_.velocity * std::exp(-dt_ / profile_.motion_smoothing);
         if (velocity.norm() > at_rest * profile_.unit) {
             const Vec3f wanted = within_reach(state_.position + velocity * dt_);
-            const auto reached = reach(freespace_, profile_, player_, start(), wanted);
+            const auto reached = reach(freespace_, profile_, player_, state_.position, wanted);
             if (reached && reached->clearance >= profile_.minimum_clearance) return move_to(*reached);
         }
         turn();
@@ -239,7 +239,6 @@ class Step {
         return !player_.covered && (player_.eye - player_.anchor).norm() > 0.5F * profile_.distance;
     }
 
-    [[nodiscard]] Start start() const { return {state_.position, state_.slab}; }
     [[nodiscard]] Motion motion() const { return {state_.position, state_.velocity, dt_}; }
     [[nodiscard]] Motion standing() const { return {state_.position, Vec3f::Zero(), dt_}; }
     [[nodiscard]] float speed() const { return state_.velocity.norm(); }

@@ -48,6 +48,8 @@ struct Director::Impl {
     // Of the game server: through the match's delay.
     void deliver(Match& match, Message message);
     void deliver(Match& match, const PoseFrame& frame);
+    // Whether it passes the delay at once; `counts` where it is refused.
+    bool passes(Match& match, DelayBuffer::Admission admission, bool counts);
     std::size_t count(bool has_server) const;
 
     // With the mutex held exclusively.
@@ -56,7 +58,6 @@ struct Director::Impl {
 
     // Returns false when there is no such match.
     bool post_to(const std::string& match_id, Message message);
-    bool deliver_to(const std::string& match_id, Message message);
     void run_housekeeping(const std::stop_token& stop);
     std::int64_t release_due();
     std::vector<std::string> notify_silent();
@@ -99,40 +100,21 @@ void Director::Impl::post(Match& match, Message message) {
 }
 
 void Director::Impl::deliver(Match& match, Message message) {
-    const bool event = std::holds_alternative<MatchEvent>(message);
-    switch (match.delay().put(message, now_ns())) {
-        case DelayBuffer::Admission::undelayed:
-            return post(match, std::move(message));
-        case DelayBuffer::Admission::delayed:
-            return;
-        case DelayBuffer::Admission::refused_now:
-            return post(match, DelayChanged{});
-        case DelayBuffer::Admission::refused:
-            if (event) match.counters().add(Counter::drop_delay);
-    }
+    const bool counts = std::holds_alternative<MatchEvent>(message);
+    if (passes(match, match.delay().put(message, now_ns()), counts)) post(match, std::move(message));
 }
 
 void Director::Impl::deliver(Match& match, const PoseFrame& frame) {
     const std::int64_t now = now_ns();
-    switch (match.delay().put(frame, now)) {
-        case DelayBuffer::Admission::undelayed:
-            match.inbox().put(frame, now);
-            return pool.schedule(match);
-        case DelayBuffer::Admission::delayed:
-            return;
-        case DelayBuffer::Admission::refused_now:
-            return post(match, DelayChanged{});
-        case DelayBuffer::Admission::refused:
-            match.counters().add(Counter::drop_delay);
-    }
+    if (!passes(match, match.delay().put(frame, now), true)) return;
+    match.inbox().put(frame, now);
+    pool.schedule(match);
 }
 
-bool Director::Impl::deliver_to(const std::string& match_id, Message message) {
-    const std::shared_lock lock(mutex);
-    Match* match = find(match_id);
-    if (match == nullptr) return false;
-    deliver(*match, std::move(message));
-    return true;
+bool Director::Impl::passes(Match& match, DelayBuffer::Admission admission, bool counts) {
+    if (admission == DelayBuffer::Admission::refused_now) post(match, DelayChanged{});
+    if (admission == DelayBuffer::Admission::refused && counts) match.counters().add(Counter::drop_delay);
+    return admission == DelayBuffer::Admission::undelayed;
 }
 
 bool Director::Impl::post_to(const std::string& match_id, Message message) {
@@ -279,7 +261,10 @@ void Director::receive(const std::string& match_id, const PoseFrame& frame) {
 }
 
 void Director::receive(const std::string& match_id, const MatchEvent& event) {
-    if (!impl_->deliver_to(match_id, event)) impl_->unmatched.add(Counter::drop_unknown_match);
+    const std::shared_lock lock(impl_->mutex);
+    Match* match = impl_->find(match_id);
+    if (match == nullptr) return impl_->unmatched.add(Counter::drop_unknown_match);
+    impl_->deliver(*match, event);
 }
 
 void Director::receive(const ObserverRequest& request) {

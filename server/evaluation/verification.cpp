@@ -20,8 +20,7 @@ void verify_spawn_points(const freespace::Freespace& freespace, const scene::Sce
         result.components += component[vertex] == vertex ? 1 : 0;
     std::vector<std::uint32_t> entries;
     for (const scene::SpawnPoint& spawn : scene.spawn_points) {
-        const freespace::Distance distance =
-            freespace::distance_everywhere(freespace, spawn.eye.cast<float>());
+        const freespace::Distance distance = freespace::distance(freespace, spawn.eye.cast<float>());
         if (!distance.covered()) continue;
         // A corner off the roadmap has the component `none`, the largest number.
         const auto& [a, b, c] = freespace.triangles()[distance.triangle];

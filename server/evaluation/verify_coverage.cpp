@@ -34,9 +34,8 @@ class Sampler {
             const Vec3d part(random.uniform(), random.uniform(), random.uniform());
             const Vec3f point = (box_.min() + part.cwiseProduct(box_.sizes())).cast<float>();
             if (!grid_.joined(point.cast<double>())) continue;
-            samples.push_back(
-                {job_.oracle.clearance(point.cast<double>()),
-                 static_cast<double>(freespace::distance_everywhere(job_.freespace, point).value)});
+            samples.push_back({job_.oracle.clearance(point.cast<double>()),
+                               static_cast<double>(freespace::distance(job_.freespace, point).value)});
         }
         return samples;
     }

@@ -5,7 +5,7 @@
 
 namespace camdir::freespace {
 
-Distance distance(const Freespace& freespace, const Vec3f& point, std::uint32_t /*previous*/) {
+Distance distance(const Freespace& freespace, const Vec3f& point) {
     if (!point.allFinite()) return {};
     const SlabPoint best = freespace.octree().best(point);
     if (best.triangle == none) return {};
@@ -13,10 +13,6 @@ Distance distance(const Freespace& freespace, const Vec3f& point, std::uint32_t 
     const double value = ball.radius - (point.cast<double>() - ball.centre).norm();
     if (!(value > 0.0)) return {};
     return {round_down(value), best.triangle};
-}
-
-Distance distance_everywhere(const Freespace& freespace, const Vec3f& point) {
-    return distance(freespace, point);
 }
 
 }  // namespace camdir::freespace

@@ -18,12 +18,8 @@ struct Distance {
     [[nodiscard]] bool covered() const { return value > 0.0F; }
 };
 
-// The free distance at `point`. The index knows the few slabs that can be the largest there, so that a known
-// slab of the preceding point (the paper's `previous`) makes no difference. Thread-safe; may make the octree.
-[[nodiscard]] Distance distance(const Freespace& freespace, const Vec3f& point,
-                                std::uint32_t previous = none);
-
-// The same without a preceding point.
-[[nodiscard]] Distance distance_everywhere(const Freespace& freespace, const Vec3f& point);
+// The free distance at `point`: the octree lists the few slabs that can give the largest there. Thread-safe;
+// may make the octree.
+[[nodiscard]] Distance distance(const Freespace& freespace, const Vec3f& point);
 
 }  // namespace camdir::freespace

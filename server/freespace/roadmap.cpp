@@ -42,7 +42,7 @@ RoadmapSearch::RoadmapSearch(const Freespace& freespace)
 
 RoadmapSearch::EntryVertices RoadmapSearch::entry_vertices(const Vec3f& point) const {
     EntryVertices entry;
-    const Distance slab = distance_everywhere(freespace_, point);
+    const Distance slab = distance(freespace_, point);
     if (!slab.covered()) return entry;
     const auto [a, b, c] = freespace_.triangles()[slab.triangle];
     for (const std::uint32_t corner : {a, b, c})

@@ -123,8 +123,7 @@ Sight SightOrigin::to(const Vec3f& end) const {
     return march(*octree_, sweep_of(from_, end, radius_), first_);
 }
 
-Sight sight(const Freespace& freespace, const Vec3f& from, const Vec3f& to, float radius,
-            std::uint32_t /*previous*/) {
+Sight sight(const Freespace& freespace, const Vec3f& from, const Vec3f& to, float radius) {
     return SightOrigin(freespace, from, radius).to(to);
 }
 

@@ -11,14 +11,13 @@ struct Sight {
     // How far from `from` it is proved free, map units; the segment's length if clear.
     float free_length = 0.0F;
     float clearance = 0.0F;         // lower bound of the clearance along the free part; > 0 when clear
-    std::uint32_t triangle = none;  // slab of the last free point: tracking state of its end
+    std::uint32_t triangle = none;  // slab of the last free point
 };
 
 // Marches from ball to ball of the representation along the segment, each the one with the largest clearance
 // where the last ends. `radius` > 0, map units, asks for a sphere of that radius that is swept along the
-// segment, 0 for the line itself. `previous`, the slab of `from`, makes no difference. Points that are not
-// finite and radii that are negative or not finite give a blocked Sight of free length 0. Thread-safe; may
-// make the octree; deterministic.
+// segment, 0 for the line itself. Points that are not finite and radii that are negative or not finite give a
+// blocked Sight of free length 0. Thread-safe; may make the octree; deterministic.
 //
 // What is reported free lies in the slabs, but for a relative rounding of 1e-7. Blocked means not proved
 // free: an obstacle, a place that no slab covers, a pinch where no ball carries on by 1 % of the last ball's
@@ -30,8 +29,8 @@ struct Sight {
 // blocked, of free sweeps of radius 5 over 120 units 0.03 to 3.1 %, and of those that the slabs cover at most
 // 0.21 %; none at its start. Near the obstacles it is more, because the slabs do not reach into every corner:
 // on ten maps, 4 to 11 % of the free segments from points with a free distance below 64 to any point.
-[[nodiscard]] Sight sight(const Freespace& freespace, const Vec3f& from, const Vec3f& to, float radius = 0.0F,
-                          std::uint32_t previous = none);
+[[nodiscard]] Sight sight(const Freespace& freespace, const Vec3f& from, const Vec3f& to,
+                          float radius = 0.0F);
 
 // Sights of one radius from one point, which share their first ball. Needs the freespace for as long as it is
 // asked.

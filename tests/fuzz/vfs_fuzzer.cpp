@@ -54,7 +54,7 @@ void query(const freespace::Freespace& freespace) {
         points.push_back(vertex.position());
     freespace::RoadmapSearch roadmap(freespace);
     for (const Vec3f& from : points) {
-        const freespace::Distance near = freespace::distance(freespace, from, 0);
+        const freespace::Distance near = freespace::distance(freespace, from);
         assert(!std::isnan(near.value));
         for (const Vec3f& to : points) {
             const freespace::Sight sight = freespace::sight(freespace, from, to);

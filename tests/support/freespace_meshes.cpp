@@ -96,7 +96,7 @@ Vec3f random_point(std::mt19937& random, const freespace::Freespace& freespace) 
 Vec3f covered_point(std::mt19937& random, const freespace::Freespace& freespace) {
     while (true) {
         const Vec3f point = random_point(random, freespace);
-        if (freespace::distance_everywhere(freespace, point).covered()) return point;
+        if (freespace::distance(freespace, point).covered()) return point;
     }
 }
 

@@ -43,7 +43,7 @@ TEST(CloudBake, RoomsCentreHasTheDistanceToItsWallsLessD0) {
     EXPECT_NEAR(d0, scene.point_spacing, 1e-6);
     EXPECT_LT(d0, 1.5 * spacing);
 
-    const auto centre = freespace::distance_everywhere(baked, room.center().cast<float>());
+    const auto centre = freespace::distance(baked, room.center().cast<float>());
     const double truth = distance_to(scene.points, room.center()) - d0;
     EXPECT_LE(centre.value, truth + 1e-4);
     EXPECT_GE(centre.value, truth - 0.03);
@@ -77,11 +77,11 @@ TEST(CloudBake, WithoutSeedsTheLargestPartStaysAndSaysWhereItIs) {
     const freespace::Freespace largest = bake_of(scene_of(points));
     ASSERT_EQ(largest.spawn_points().size(), 1U);
     EXPECT_TRUE(room.contains(largest.spawn_points()[0].eye.cast<double>()));
-    EXPECT_FALSE(freespace::distance_everywhere(largest, other.center().cast<float>()).covered());
+    EXPECT_FALSE(freespace::distance(largest, other.center().cast<float>()).covered());
 
     const freespace::Freespace seeded = bake_of(scene_of(points, {other.center()}));
-    EXPECT_TRUE(freespace::distance_everywhere(seeded, other.center().cast<float>()).covered());
-    EXPECT_FALSE(freespace::distance_everywhere(seeded, room.center().cast<float>()).covered());
+    EXPECT_TRUE(freespace::distance(seeded, other.center().cast<float>()).covered());
+    EXPECT_FALSE(freespace::distance(seeded, room.center().cast<float>()).covered());
 }
 
 TEST(CloudBake, SaysWhatItWasMadeFrom) {

@@ -128,8 +128,7 @@ TEST(Beams, RememberNothingThatIsNotFree) {
             EXPECT_EQ(remembered->free_length, asked->free_length);
             EXPECT_EQ(remembered->normal, asked->normal);
         } else {
-            const float radius =
-                std::min(6.0F, 0.8F * freespace::distance_everywhere(freespace, pose.eye).value);
+            const float radius = std::min(6.0F, 0.8F * freespace::distance(freespace, pose.eye).value);
             EXPECT_GE(exact_clearance(plan, pose.eye, pose.eye + 90.0F * back), radius - 1e-3F);
             if (known->of_sample(0).eye != pose.eye) ++spared;
         }

@@ -66,16 +66,15 @@ CheckedShot::CheckedShot(const test::Plan& plan, const Profile& profile)
     : plan_(plan), freespace_(plan.freespace()), profile_(profile), scratch_(freespace_) {}
 
 Camera CheckedShot::step(const Pose* pose, double dt) {
-    const std::uint32_t slab = state_.slab;
     const Camera camera = camera::step(freespace_, profile_, pose, dt, state_, scratch_);
-    check(camera, pose, slab);
+    check(camera, pose);
     position_ = camera.position;
     placed_ = true;
     cuts_ += (camera.flags & cut) != 0 ? 1 : 0;
     return camera;
 }
 
-void CheckedShot::check(const Camera& camera, const Pose* pose, std::uint32_t slab) {
+void CheckedShot::check(const Camera& camera, const Pose* pose) {
     ASSERT_TRUE(camera.position.allFinite());
     ASSERT_TRUE(camera.orientation.coeffs().allFinite());
     const ObjectiveTerms& c = camera.objective;
@@ -90,7 +89,7 @@ void CheckedShot::check(const Camera& camera, const Pose* pose, std::uint32_t sl
     EXPECT_GT(camera.clearance, 0.0F);
     EXPECT_LE(camera.clearance, plan_.clearance(camera.position) + 1e-3F);
     if (placed_ && (camera.flags & cut) == 0 && camera.position != position_) {
-        EXPECT_TRUE(freespace::sight(freespace_, position_, camera.position, 0.0F, slab).clear);
+        EXPECT_TRUE(freespace::sight(freespace_, position_, camera.position).clear);
         EXPECT_TRUE(plan_.segment_clear(position_, camera.position));
         EXPECT_LE((camera.position - position_).norm(), profile_.step_limit * 1.001F);
     }

@@ -50,8 +50,7 @@ class CheckedShot {
     [[nodiscard]] int cuts() const { return cuts_; }
 
   private:
-    // `slab`: of the camera before the step.
-    void check(const Camera& camera, const Pose* pose, std::uint32_t slab);
+    void check(const Camera& camera, const Pose* pose);
 
     const test::Plan& plan_;
     freespace::Freespace freespace_;

@@ -49,7 +49,6 @@ TEST(Distance, EmptyMeshAndStrangePointsAreUncovered) {
     const Freespace freespace = make_freespace(square_contents());
     for (const float strange : {NAN, INFINITY, -INFINITY, 1e30F})
         EXPECT_FALSE(distance(freespace, Vec3f(50, strange, 0)).covered()) << strange;
-    EXPECT_NEAR(distance(freespace, {50, 50, 0}, 12345).value, 40.0F, 1e-4F) << "a slab of another map";
 }
 
 TEST(Distance, IsTheExactMaximumOverRandomMeshes) {
@@ -80,23 +79,6 @@ TEST(Distance, StaysPreciseFarFromTheOrigin) {
         const float found = distance(freespace, point).value;
         ASSERT_LE(found, exact + 1e-9);
         ASSERT_GE(found, exact > 1e-3 ? exact - 1e-3 : -INFINITY);
-    }
-}
-
-TEST(Distance, DoesNotDependOnThePreviousSlab) {
-    std::mt19937 random(3);
-    const Freespace freespace = make_freespace(random_contents(random, 14, 10, 40));
-    const auto triangle_count = static_cast<std::uint32_t>(freespace.triangles().size());
-    for (int i = 0; i < 2'000; ++i) {
-        const Vec3f point = random_point(random, freespace);
-        const Distance cold = distance(freespace, point);
-        const Distance tracked =
-            distance(freespace, point, static_cast<std::uint32_t>(random()) % triangle_count);
-        const Distance everywhere = distance_everywhere(freespace, point);
-        ASSERT_EQ(tracked.value, cold.value);
-        ASSERT_EQ(tracked.triangle, cold.triangle);
-        ASSERT_EQ(everywhere.value, cold.value);
-        ASSERT_EQ(everywhere.triangle, cold.triangle);
     }
 }
 

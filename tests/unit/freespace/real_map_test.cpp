@@ -65,7 +65,7 @@ class RealMap : public testing::TestWithParam<Expected> {
         std::uniform_real_distribution<float> offset(-reach, reach);
         while (true) {
             const Vec3f to = from + Vec3f(offset(random_), offset(random_), offset(random_));
-            if ((to - from).norm() <= reach && distance_everywhere(*freespace_, to).covered()) return to;
+            if ((to - from).norm() <= reach && distance(*freespace_, to).covered()) return to;
         }
     }
 

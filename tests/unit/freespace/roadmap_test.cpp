@@ -25,7 +25,7 @@ double gap(const Freespace& freespace, const Vec3f& point, std::uint32_t vertex)
 
 std::vector<std::uint32_t> entry_vertices(const Freespace& freespace, const Vec3f& point) {
     std::vector<std::uint32_t> vertices;
-    const Distance slab = distance_everywhere(freespace, point);
+    const Distance slab = distance(freespace, point);
     if (!slab.covered()) return vertices;
     const auto [a, b, c] = freespace.triangles()[slab.triangle];
     for (const std::uint32_t v : {a, b, c})
