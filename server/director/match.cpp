@@ -62,12 +62,12 @@ Match::Match(std::string match_id, std::shared_ptr<const config::Config> config,
 }
 
 // Only running out of memory throws in here, and that ends the process.
-void Match::turn() noexcept {  // NOLINT(bugprone-exception-escape)
+void Match::turn(Turn& turn) noexcept {  // NOLINT(bugprone-exception-escape)
     inbox_.take(content_);
     const std::span messages(content_.messages);
     if (!content_.has_frame) return handle_all(messages);
     handle_all(messages.first(content_.messages_before_frame));
-    process(content_.frame, content_.received_ns);
+    process(content_.frame, content_.received_ns, turn);
     handle_all(messages.subspan(content_.messages_before_frame));
 }
 
@@ -197,7 +197,7 @@ void Match::attach_map() {
     if (freespace_ && entry->generation == map_generation_) return;
     freespace_ = entry->freespace;
     map_generation_ = entry->generation;
-    scratch_ = std::make_unique<camera::Scratch>(*freespace_);
+    scratch_.clear();
     requests_.restart_shots();
 }
 
@@ -222,7 +222,7 @@ void Match::wait_for_map(std::string reason) {
 void Match::detach_map(std::string reason) {
     missing_map_ = std::move(reason);
     freespace_.reset();
-    scratch_.reset();
+    scratch_.clear();
     requests_.restart_shots();
     reconcile_needed_ = true;
 }

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "director/attention.hpp"
 #include "director/delay_buffer.hpp"
@@ -48,7 +49,7 @@ class Match final : public Strand {
     // Poses arrive; they have stopped; the game server's liveliness is lost; there is no game server.
     enum class Liveness { running, silent, lost, none };
 
-    void turn() noexcept override;  // NOLINT(bugprone-exception-escape)
+    void turn(Turn& turn) noexcept override;  // NOLINT(bugprone-exception-escape)
 
     void handle_all(std::span<Message> messages);
     void handle(MatchInfo& info);
@@ -74,15 +75,20 @@ class Match final : public Strand {
     [[nodiscard]] std::string state() const;
     [[nodiscard]] std::string waiting_for_delay(const DelayBuffer::State& delay) const;
 
-    void process(const PoseFrame& frame, std::int64_t received_ns);
+    void process(const PoseFrame& frame, std::int64_t received_ns, Turn& turn);
     [[nodiscard]] bool accept(const PoseFrame& frame);
     void record(const PoseFrame& frame);
     [[nodiscard]] bool foresee(const PoseFrame& frame);
-    void move_cameras(const PoseFrame& frame, double dt);
-    [[nodiscard]] ShotCamera move_camera(Shot& shot, const PoseFrame& frame, double dt);
+    void move_cameras(const PoseFrame& frame, double dt, Turn& turn);
+    void choose_target(Shot& shot, const PoseFrame& frame);
+    // Shots move at the same time: it changes nothing of the match but the shot, the scratch and the
+    // counters.
+    [[nodiscard]] ShotCamera move_camera(Shot& shot, double dt, camera::Scratch& scratch);
     // `seen`: the player's pose in this frame, null when there is none.
-    [[nodiscard]] camera::Camera step_by_pose(Shot& shot, const PlayerPose* seen, double dt);
-    [[nodiscard]] camera::Camera step_by_timeline(Shot& shot, const PlayerPose* seen);
+    [[nodiscard]] camera::Camera step_by_pose(Shot& shot, const PlayerPose* seen, double dt,
+                                              camera::Scratch& scratch) const;
+    [[nodiscard]] camera::Camera step_by_timeline(Shot& shot, const PlayerPose* seen,
+                                                  camera::Scratch& scratch) const;
 
     const std::string match_id_;
     const MapLibrary& maps_;
@@ -108,7 +114,7 @@ class Match final : public Strand {
     std::pair<std::uint64_t, std::uint64_t> reported_mismatch_;  // hashes: the game server's, the baked map's
     std::uint64_t map_generation_ = 0;
     std::optional<freespace::Freespace> freespace_;
-    std::unique_ptr<camera::Scratch> scratch_;
+    std::vector<std::unique_ptr<camera::Scratch>> scratch_;  // by lane; null where no shot has moved yet
     Roster roster_;
     Attention attention_;
     Requests requests_;

@@ -15,6 +15,7 @@ using Clock = std::chrono::steady_clock;
 constexpr double max_ahead_s = 2.5;       // that the planner uses
 constexpr double arrival_jitter_s = 0.1;  // of poses
 constexpr double first_step_s = 1.0 / 60.0;
+constexpr std::size_t shots_per_worker = 8;  // that take longer than to wake a worker for them
 
 std::int64_t ns(Clock::duration duration) {
     return duration / std::chrono::nanoseconds(1);
@@ -32,7 +33,7 @@ std::span<const PlayerPose> tracked(const PoseFrame& frame, const config::Limits
 
 }  // namespace
 
-void Match::process(const PoseFrame& frame, std::int64_t received_ns) {
+void Match::process(const PoseFrame& frame, std::int64_t received_ns, Turn& turn) {
     if (!accept(frame)) return;
     const double dt = has_last_frame_ ? seconds_between(last_time_, frame.frame_time) : 0.0;
     record(frame);
@@ -43,7 +44,7 @@ void Match::process(const PoseFrame& frame, std::int64_t received_ns) {
     }
     if (!freespace_) return counters_.add(Counter::drop_waiting);
     if (!requests_.shots().empty()) {
-        move_cameras(frame, dt);
+        move_cameras(frame, dt, turn);
         publisher_.publish(match_id_, cameras_);
         counters_.latency.add(ns(Clock::now().time_since_epoch()) - received_ns);
     }
@@ -103,25 +104,29 @@ bool Match::foresee(const PoseFrame& frame) {
     return true;
 }
 
-void Match::move_cameras(const PoseFrame& frame, double dt) {
+void Match::move_cameras(const PoseFrame& frame, double dt, Turn& turn) {
     cameras_.epoch = frame.epoch;
     cameras_.frame_number = next_camera_frame_++;
     cameras_.pose_number = frame.frame_number;
     cameras_.frame_time = frame.frame_time;
     cameras_.source_time = frame.source_time;
-    cameras_.cameras.clear();
-    auto before = Clock::now();
-    for (Shot& shot : requests_.shots()) {
-        cameras_.cameras.push_back(move_camera(shot, frame, dt));
-        const auto after = Clock::now();
-        counters_.step.add(ns(after - before));
-        before = after;
-    }
+
+    std::vector<Shot>& shots = requests_.shots();
+    for (Shot& shot : shots)
+        choose_target(shot, frame);
+    cameras_.cameras.resize(shots.size());
+    scratch_.resize(turn.lanes());
+    turn.share(shots.size(), shots_per_worker, [&](std::size_t lane, std::size_t i) {
+        if (!scratch_[lane]) scratch_[lane] = std::make_unique<camera::Scratch>(*freespace_);
+        const auto before = Clock::now();
+        cameras_.cameras[i] = move_camera(shots[i], dt, *scratch_[lane]);
+        counters_.step.add(ns(Clock::now() - before));
+    });
     counters_.add(Counter::camera_frames);
     counters_.add(Counter::cameras, cameras_.cameras.size());
 }
 
-ShotCamera Match::move_camera(Shot& shot, const PoseFrame& frame, double dt) {
+void Match::choose_target(Shot& shot, const PoseFrame& frame) {
     std::uint32_t target = shot.key.target;
     if (target == no_player) {
         attention_.choose(shot.automatic, shot.key.group, tracked(frame, config_->limits), roster_,
@@ -130,29 +135,33 @@ ShotCamera Match::move_camera(Shot& shot, const PoseFrame& frame, double dt) {
     }
     if (target != shot.target) shot.state = {};  // a fresh state starts with a cut
     shot.target = target;
+}
 
-    const PlayerPose* seen = roster_.pose(target);
-    const camera::Camera camera = by_timeline_ ? step_by_timeline(shot, seen) : step_by_pose(shot, seen, dt);
+ShotCamera Match::move_camera(Shot& shot, double dt, camera::Scratch& scratch) {
+    const PlayerPose* seen = roster_.pose(shot.target);
+    const camera::Camera camera =
+        by_timeline_ ? step_by_timeline(shot, seen, scratch) : step_by_pose(shot, seen, dt, scratch);
 
     if ((camera.flags & camera::cut) != 0) counters_.add(Counter::cuts);
     if ((camera.flags & camera::searching) != 0 && (shot.flags & camera::searching) == 0)
         counters_.add(Counter::searches);
     shot.flags = camera.flags;
-    return {shot.camera_id,      target,           camera.position, camera.orientation,
+    return {shot.camera_id,      shot.target,      camera.position, camera.orientation,
             camera.vertical_fov, camera.clearance, camera.flags};
 }
 
-camera::Camera Match::step_by_pose(Shot& shot, const PlayerPose* seen, double dt) {
+camera::Camera Match::step_by_pose(Shot& shot, const PlayerPose* seen, double dt,
+                                   camera::Scratch& scratch) const {
     const camera::Pose pose = seen != nullptr ? tracker_pose(*seen, after_silence_) : camera::Pose{};
     return camera::step(*freespace_, shot.profile, seen != nullptr ? &pose : nullptr, dt, shot.state,
-                        *scratch_);
+                        scratch);
 }
 
-camera::Camera Match::step_by_timeline(Shot& shot, const PlayerPose* seen) {
+camera::Camera Match::step_by_timeline(Shot& shot, const PlayerPose* seen, camera::Scratch& scratch) const {
     if (after_silence_ && seen != nullptr) shot.state = {};
     if (!shot.state.started) shot.state.time = timeline_.shown() - first_step_s;
     return camera::step(*freespace_, shot.profile, timeline_.window(shot.target), timeline_.shown(),
-                        shot.state, *scratch_);
+                        shot.state, scratch);
 }
 
 }  // namespace camdir::director

@@ -21,24 +21,26 @@ constexpr std::size_t word_bits = 64;
 WorkerPool::WorkerPool(std::size_t workers, std::size_t capacity)
     : slots_(capacity, nullptr), ready_((capacity + word_bits - 1) / word_bits) {
     assert(workers > 0 && capacity > 0);
-    [[maybe_unused]] const int failed = ::sem_init(&turns_, 0, 0);
+    [[maybe_unused]] const int failed = ::sem_init(&wanted_, 0, 0);
     assert(failed == 0);
-    for (std::size_t i = 0; i < workers; ++i) {
-        Worker& worker = *workers_.emplace_back(std::make_unique<Worker>());
-        worker.thread = std::thread([this, &worker] { work(worker); });
-        ::pthread_setname_np(worker.thread.native_handle(), ("worker-" + std::to_string(i)).c_str());
+    for (std::size_t i = 0; i < workers; ++i)
+        workers_.emplace_back(std::make_unique<Worker>())->lane = i + 1;
+    for (const auto& worker : workers_) {  // which look at each other
+        worker->thread = std::thread([this, &worker] { work(*worker); });
+        const std::string name = "worker-" + std::to_string(worker->lane - 1);
+        ::pthread_setname_np(worker->thread.native_handle(), name.c_str());
     }
 }
 
 WorkerPool::~WorkerPool() {
     stop();
-    ::sem_destroy(&turns_);
+    ::sem_destroy(&wanted_);
 }
 
 void WorkerPool::stop() {
     if (stopping_.exchange(true)) return;
     for (std::size_t i = 0; i < workers_.size(); ++i)
-        ::sem_post(&turns_);
+        ::sem_post(&wanted_);
     for (const auto& worker : workers_)
         worker->thread.join();
 }
@@ -71,25 +73,55 @@ void WorkerPool::schedule(Strand& strand) {
 
 void WorkerPool::mark_ready(std::size_t slot) {
     ready_[slot / word_bits].fetch_or(std::uint64_t{1} << slot % word_bits, std::memory_order_release);
-    ::sem_post(&turns_);
+    ::sem_post(&wanted_);
 }
 
 void WorkerPool::work(Worker& worker) {
     for (;;) {
-        while (::sem_wait(&turns_) != 0)
+        while (::sem_wait(&wanted_) != 0)
             assert(errno == EINTR);
-        Strand* strand = claim();
-        if (strand == nullptr) return;
-        run(worker, *strand);
+        worker.began_ns.store(now_ns(), std::memory_order_relaxed);
+        if (claim_call()) {  // before strands: it shortens a turn that goes on
+            help(worker);
+        } else {
+            Strand* strand = claim();
+            if (strand == nullptr) return;
+            run(worker, *strand);
+        }
+        worker.began_ns.store(0, std::memory_order_relaxed);
     }
 }
 
+bool WorkerPool::claim_call() {
+    std::size_t calls = calls_.load(std::memory_order_acquire);
+    while (calls != 0)
+        if (calls_.compare_exchange_weak(calls, calls - 1, std::memory_order_acq_rel)) return true;
+    return false;
+}
+
+void WorkerPool::help(Worker& worker) {
+    for (const auto& other : workers_)
+        other->shared.help(worker.lane);
+}
+
+void WorkerPool::call_helpers(std::size_t count) {
+    calls_.fetch_add(count, std::memory_order_release);
+    for (std::size_t i = 0; i < count; ++i)
+        ::sem_post(&wanted_);
+}
+
+void Turn::share(std::size_t count, std::size_t share, const SharedWork::Item& item) {
+    worker_.shared.begin(count, item);
+    const std::size_t worth = (count + share - 1) / share;
+    if (worth > 1) pool_.call_helpers(std::min(worth, pool_.workers_.size()) - 1);
+    worker_.shared.finish();
+}
+
 void WorkerPool::run(Worker& worker, Strand& strand) {
-    worker.turn_began_ns.store(now_ns(), std::memory_order_relaxed);
     const std::size_t slot = strand.slot_;
     const std::uint32_t seen = strand.pending_.load(std::memory_order_acquire);
-    strand.turn();
-    worker.turn_began_ns.store(0, std::memory_order_relaxed);
+    Turn turn(*this, worker);
+    strand.turn(turn);
     // As soon as nothing is pending the strand may be destroyed.
     if (strand.pending_.fetch_sub(seen, std::memory_order_acq_rel) != seen) mark_ready(slot);
 }
@@ -125,7 +157,7 @@ Strand* WorkerPool::claim_in(std::size_t word, std::uint64_t mask) {
 bool WorkerPool::responsive(std::chrono::nanoseconds limit) const {
     const std::int64_t now = now_ns();
     return std::all_of(workers_.begin(), workers_.end(), [&](const auto& worker) {
-        const std::int64_t began = worker->turn_began_ns.load(std::memory_order_relaxed);
+        const std::int64_t began = worker->began_ns.load(std::memory_order_relaxed);
         return began == 0 || now - began <= limit.count();
     });
 }

@@ -1,4 +1,5 @@
-// A pool of threads that runs strands: pieces of work of which each is run by one thread at a time.
+// A pool of threads that runs strands: pieces of work of which each is run by one thread at a time, with the
+// help of idle ones.
 #pragma once
 
 #include <semaphore.h>
@@ -10,7 +11,11 @@
 #include <thread>
 #include <vector>
 
+#include "director/shared_work.hpp"
+
 namespace camdir::director {
+
+class Turn;
 
 // Work that at most one worker does at a time.
 class Strand {
@@ -25,14 +30,14 @@ class Strand {
 
     // Processes what is pending. It may leave some of it if it schedules the strand again. An exception is a
     // bug and ends the process.
-    virtual void turn() noexcept = 0;
+    virtual void turn(Turn& turn) noexcept = 0;
 
     std::atomic<std::uint32_t> pending_{0};  // schedule() calls not yet covered by a finished turn
     std::size_t slot_ = 0;
 };
 
 // Strands with work are bits that the workers claim round robin: a strand waits for at most one turn of every
-// other strand. Scheduling takes no lock and allocates nothing.
+// other strand, and of what other turns share. Scheduling takes no lock and allocates nothing.
 class WorkerPool {
   public:
     // `capacity` is the largest number of attached strands. Both arguments must be greater than 0.
@@ -61,12 +66,19 @@ class WorkerPool {
     void stop();
 
   private:
+    friend class Turn;
+
     struct alignas(64) Worker {
         std::thread thread;
-        std::atomic<std::int64_t> turn_began_ns{0};  // steady clock; 0 = idle
+        std::size_t lane = 0;                   // when it helps others: from 1
+        std::atomic<std::int64_t> began_ns{0};  // a turn, or helping; steady clock; 0 = idle
+        SharedWork shared;                      // of its turn
     };
 
     void work(Worker& worker);
+    bool claim_call();
+    void help(Worker& worker);
+    void call_helpers(std::size_t count);
     void run(Worker& worker, Strand& strand);
     Strand* claim();
     Strand* claim_in(std::size_t word, std::uint64_t mask);
@@ -75,9 +87,27 @@ class WorkerPool {
     std::vector<Strand*> slots_;
     std::vector<std::atomic<std::uint64_t>> ready_;  // one bit per slot
     std::atomic<std::size_t> next_{0};               // slot at which the round continues
-    sem_t turns_;                                    // one permit per ready bit
+    std::atomic<std::size_t> calls_{0};              // for help, that no worker has followed
+    sem_t wanted_;                                   // one permit per ready bit and per call
     std::atomic<bool> stopping_{false};
     std::vector<std::unique_ptr<Worker>> workers_;
+};
+
+// What a strand may ask of the pool during its turn.
+class Turn {
+  public:
+    // Does `item` for every number below `count`, with the help of idle workers, of which each should find
+    // `share` > 0 items to do. Every lane is less than lanes().
+    void share(std::size_t count, std::size_t share, const SharedWork::Item& item);
+
+    [[nodiscard]] std::size_t lanes() const { return pool_.workers_.size() + 1; }
+
+  private:
+    friend class WorkerPool;
+    Turn(WorkerPool& pool, WorkerPool::Worker& worker) : pool_(pool), worker_(worker) {}
+
+    WorkerPool& pool_;
+    WorkerPool::Worker& worker_;
 };
 
 }  // namespace camdir::director

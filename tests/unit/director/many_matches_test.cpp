@@ -25,6 +25,17 @@ void fill(Stage& stage, int matches) {
     stage.director.flush();
 }
 
+// So many shots of one match that its turns share them.
+void crowd(Stage& stage, int match) {
+    for (int i = 0; i < 60; ++i) {
+        ObserverRequest wanted = Stage::request("crowd-" + std::to_string(i),
+                                                1 + static_cast<std::uint32_t>(i) % 3, name_of(match));
+        wanted.overrides = R"({"distance": )" + std::to_string(40 + i) + "}";
+        stage.director.receive(wanted);
+    }
+    stage.director.flush();
+}
+
 void append(std::string& bytes, const CameraFrame& frame) {
     const auto add = [&](const auto& value) {
         bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
@@ -53,6 +64,7 @@ std::string cameras_with(std::int64_t workers) {
     stage.maps.set_ready("square", test::make_freespace(test::random_contents(random, 12, 12, 40)));
     const freespace::Freespace space = *stage.maps.find("square")->freespace;
     fill(stage, matches);
+    crowd(stage, 0);
     for (std::uint32_t number = 1; number <= 60; ++number) {
         for (int match = 0; match < matches; ++match) {
             PoseFrame frame = Stage::poses(number);
@@ -69,6 +81,7 @@ std::string cameras_with(std::int64_t workers) {
     for (int match = 0; match < matches; ++match) {
         const auto frames = stage.publisher.frames(name_of(match));
         EXPECT_EQ(frames.size(), 60U);
+        EXPECT_EQ(frames.back().cameras.size(), match == 0 ? 63U : 3U);
         for (const CameraFrame& frame : frames)
             append(cameras, frame);
     }

@@ -2,21 +2,25 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <atomic>
 #include <functional>
 #include <future>
-#include <mutex>
-#include <string>
+#include <memory>
+#include <thread>
+#include <vector>
 
 namespace camdir::director {
 namespace {
 
 class FunctionStrand final : public Strand {
   public:
-    explicit FunctionStrand(std::function<void()> work) : work_(std::move(work)) {}
+    explicit FunctionStrand(std::function<void()> work) : work_([work](Turn& /*turn*/) { work(); }) {}
+    explicit FunctionStrand(std::function<void(Turn&)> work) : work_(std::move(work)) {}
 
   private:
-    void turn() noexcept override { work_(); }
-    std::function<void()> work_;
+    void turn(Turn& turn) noexcept override { work_(turn); }
+    std::function<void(Turn&)> work_;
 };
 
 TEST(WorkerPool, AScheduledStrandGetsATurnThatBeginsLater) {
@@ -120,6 +124,57 @@ TEST(WorkerPool, DetectsAWorkerThatHangs) {
     WorkerPool::wait_idle(strand);
     while (!pool.responsive(std::chrono::milliseconds(1)))
         std::this_thread::yield();
+    pool.detach(strand);
+}
+
+TEST(WorkerPool, EveryItemOfATurnIsDoneOnceByOneWorkerOnALane) {
+    constexpr std::size_t strands = 5;
+    WorkerPool pool(4, strands);
+    std::atomic<int> faults{0};
+    std::vector<std::unique_ptr<FunctionStrand>> sharing;
+    std::vector<std::size_t> turns(strands);
+    for (std::size_t s = 0; s < strands; ++s) {
+        sharing.push_back(std::make_unique<FunctionStrand>([&, s](Turn& turn) {
+            const std::size_t count = ++turns[s] % 97;
+            std::vector<int> done(count);  // not atomic, so that the thread sanitizer reports a race
+            std::vector<std::atomic<int>> inside(turn.lanes());
+            turn.share(count, 3, [&](std::size_t lane, std::size_t item) {
+                faults += inside.at(lane).fetch_add(1);
+                ++done.at(item);
+                inside[lane].fetch_sub(1);
+            });
+            faults += static_cast<int>(count) - static_cast<int>(std::count(done.begin(), done.end(), 1));
+        }));
+        ASSERT_TRUE(pool.attach(*sharing.back()));
+    }
+    for (std::size_t i = 0; i < 2'000; ++i) {
+        for (const auto& strand : sharing)
+            pool.schedule(*strand);
+        if (i % 10 == 0) WorkerPool::wait_idle(*sharing[i / 10 % strands]);
+    }
+    for (std::size_t s = 0; s < strands; ++s) {
+        WorkerPool::wait_idle(*sharing[s]);
+        EXPECT_GT(turns[s], 30U);
+        pool.detach(*sharing[s]);
+    }
+    EXPECT_EQ(faults, 0);
+}
+
+TEST(WorkerPool, IdleWorkersHelp) {
+    WorkerPool pool(3, 1);
+    std::atomic<int> together{0};
+    FunctionStrand strand([&](Turn& turn) {
+        // Ends only when three threads are in it at once.
+        turn.share(3, 1, [&](std::size_t /*lane*/, std::size_t /*item*/) {
+            ++together;
+            while (together < 3)
+                std::this_thread::yield();
+        });
+    });
+    ASSERT_TRUE(pool.attach(strand));
+    pool.schedule(strand);
+    WorkerPool::wait_idle(strand);
+    EXPECT_EQ(together, 3);
     pool.detach(strand);
 }
 
