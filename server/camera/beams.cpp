@@ -51,11 +51,18 @@ float& FreeLengths::at(const Vec3f& eye, std::size_t bin, float cell_size) {
 }
 
 float Beams::radius(std::size_t i) {
-    if (radius_[i] < 0.0F) {
-        const float clearance = freespace::distance(freespace_, future_[i].eye).value;
-        radius_[i] = std::max(0.0F, std::min(widest(profile_), inside_eye_ball * clearance));
-    }
+    if (radius_[i] < 0.0F) radius_[i] = radius_from(future_[i].eye);
     return radius_[i];
+}
+
+float Beams::radius_from(const Vec3f& eye) {
+    const float widest_radius = widest(profile_);
+    // Between two places clearance changes by no more than their distance.
+    const float least_clearance = clearance_ - (eye - clear_eye_).norm();
+    if (inside_eye_ball * least_clearance >= widest_radius) return widest_radius;
+    clear_eye_ = eye;
+    clearance_ = freespace::distance(freespace_, eye).value;
+    return std::max(0.0F, std::min(widest_radius, inside_eye_ball * clearance_));
 }
 
 float Beams::free_length(std::size_t i, const Vec3f& direction, float length) {

@@ -83,6 +83,7 @@ class Beams {
 
   private:
     float radius(std::size_t i);
+    float radius_from(const Vec3f& eye);
 
     const freespace::Freespace& freespace_;
     const MapProfile& profile_;
@@ -90,6 +91,8 @@ class Beams {
     FreeBeams& known_;
     FreeLengths& lengths_;
     std::array<float, Future::capacity> radius_;  // negative: not asked yet
+    Vec3f clear_eye_ = Vec3f::Zero();             // the last eye whose clearance was looked up
+    float clearance_ = -1.0F;
 };
 
 }  // namespace camdir::camera

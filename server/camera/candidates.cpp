@@ -6,33 +6,13 @@
 namespace camdir::camera {
 namespace {
 
-constexpr float degree = radians_of_a_degree<float>;
-constexpr float angle_cost = 1.5F;
-constexpr float angle_cost_ahead = 2.0F;
-// From this far above the spot behind the player, the floor begins to fill the picture.
-constexpr float view_from_above = 25.0F * degree;
-constexpr float view_from_above_tolerance = 20.0F * degree;
-// A direction this far off the player's own view begins to show them from the side.
-constexpr float side_view = 50.0F * degree;
-constexpr float side_view_tolerance = 10.0F * degree;
-constexpr float side_view_cost = 0.7F;
-constexpr float side_view_limit = 2.0F;
-constexpr double side_view_interval = 1.0 / 30.0;  // s, between the samples that are weighed
 constexpr float turn_cost = 0.25F;
 constexpr float turn_cost_ahead = 0.3F;
 constexpr float stretch_cost = 0.1F;
 constexpr float stretch_cost_ahead = 0.5F;
-constexpr float snap_angle = 13.0F * degree;  // of straight behind from the direction beside it
-constexpr float snap_length = 8.0F;           // units that it may be shorter
-
-float squared_share(float value, float tolerance) {
-    return (value / tolerance) * (value / tolerance);
-}
-
-// Of what rounding may have left beyond 1. Exact enough for costs, unlike for small angles.
-float arc_cosine(float cosine) {
-    return std::acos(std::clamp(cosine, -1.0F, 1.0F));
-}
+constexpr float snap_angle =
+    13.0F * radians_of_a_degree<float>;  // of straight behind from the direction beside it
+constexpr float snap_length = 8.0F;      // units that it may be shorter
 
 class Choosing {
   public:
@@ -45,13 +25,14 @@ class Choosing {
 
     void run() {
         const std::size_t knots = std::min(Programme::knots, (plan_.count() - 1) / plan_.knot_spacing + 1);
+        auto& direction_costs = scratch_.direction_costs;
         for (std::size_t knot = 0; knot < knots; ++knot)
-            weigh_directions(knot);
+            weigh_directions(profile_, plan_, knot * plan_.knot_spacing, direction_costs[knot]);
+        if (camera_.norm() > profile_.unit) add_turn(camera_.normalized(), turn_cost_, direction_costs[0]);
         const auto length = [this](std::size_t knot, std::size_t bin) {
             return beams_.free_length(knot * plan_.knot_spacing, bin);
         };
-        const auto choices =
-            scratch_.programme.solve({scratch_.direction_costs.data(), knots}, costs(), length);
+        const auto choices = scratch_.programme.solve({direction_costs.data(), knots}, costs(), length);
         if (choices.empty())
             stay_behind();
         else
@@ -74,55 +55,6 @@ class Choosing {
         costs.stretch = (plan_.ahead ? stretch_cost_ahead : stretch_cost) * profile_.weight_inertia_distance;
         costs.start_length = std::min(camera_.norm(), profile_.distance);
         return costs;
-    }
-
-    void weigh_directions(std::size_t knot) {
-        const std::size_t first = knot * plan_.knot_spacing;
-        const std::size_t end = std::min(plan_.count(), first + plan_.knot_spacing);
-        const Look look_behind = plan_.behind(first, profile_.elevation);
-        const Vec3f behind = direction_of(look_behind);
-        const float cost = (plan_.ahead ? angle_cost_ahead : angle_cost) * profile_.weight_angle;
-        const float least_cosine = std::cos(profile_.swing);
-        auto& costs = scratch_.direction_costs[knot];
-        for (std::size_t bin = 0; bin < costs.size(); ++bin) {
-            const float cosine = behind.dot(directions_[bin]);
-            costs[bin] = cosine < least_cosine
-                             ? 2.0F * Programme::forbidden
-                             : cost * squared_share(arc_cosine(cosine), profile_.angle_tolerance);
-        }
-        add_view_from_above(look_behind.pitch, costs);
-        const double samples = side_view_interval / plan_.future.step;
-        const auto stride = static_cast<std::size_t>(std::max(1L, std::lround(samples)));
-        const auto share = static_cast<float>(static_cast<double>(stride) / samples);
-        for (std::size_t i = first; i < end; i += stride)
-            add_side_view(direction_of(plan_.future[i].view), share, costs);
-        if (knot == 0 && camera_.norm() > profile_.unit) add_turn_from_camera(costs);
-    }
-    void add_view_from_above(float behind, Programme::DirectionCosts& costs) const {
-        const float begin = std::max(0.0F, behind) + view_from_above;
-        for (std::size_t bin = 0; bin < costs.size(); ++bin) {
-            const float above = std::max(0.0F, DirectionGrid::look(bin).pitch - begin);
-            costs[bin] += profile_.weight_angle * squared_share(above, view_from_above_tolerance);
-        }
-    }
-    void add_side_view(const Vec3f& view, float share, Programme::DirectionCosts& costs) const {
-        const float begin = side_view + std::abs(profile_.elevation);
-        const float begin_cosine = std::cos(begin);
-        for (std::size_t bin = 0; bin < costs.size(); ++bin) {
-            const float cosine = -view.dot(directions_[bin]);
-            if (costs[bin] >= Programme::forbidden || cosine >= begin_cosine) continue;
-            costs[bin] +=
-                share * side_view_cost * profile_.weight_angle *
-                std::min(side_view_limit, squared_share(arc_cosine(cosine) - begin, side_view_tolerance));
-        }
-    }
-    void add_turn_from_camera(Programme::DirectionCosts& costs) const {
-        const Vec3f direction = camera_.normalized();
-        for (std::size_t bin = 0; bin < costs.size(); ++bin) {
-            if (costs[bin] >= Programme::forbidden) continue;
-            const float angle = arc_cosine(direction.dot(directions_[bin]));
-            costs[bin] += turn_cost_ * squared_share(angle, DirectionGrid::spacing);
-        }
     }
 
     // Every path turns faster than the programme can.

@@ -13,7 +13,7 @@ namespace camdir::camera {
 
 struct CandidateScratch {
     Programme programme;
-    std::array<Programme::DirectionCosts, Programme::knots> direction_costs;
+    std::array<DirectionCosts, Programme::knots> direction_costs;
 };
 
 // Chooses a direction and a length for each knot of the plan, and sets goals and lengths of all samples from

@@ -7,7 +7,7 @@
 #include <functional>
 #include <span>
 
-#include "camera/directions.hpp"
+#include "camera/direction_costs.hpp"
 
 namespace camdir::camera {
 
@@ -29,8 +29,6 @@ struct ProgrammeCosts {
 class Programme {
   public:
     static constexpr std::size_t knots = 26;
-    static constexpr float forbidden = 1e9F;  // cost of a direction that must not be used
-    using DirectionCosts = std::array<float, DirectionGrid::size>;
     struct Choice {
         std::uint8_t bin = 0;
         float length = 0.0F;

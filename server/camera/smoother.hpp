@@ -8,6 +8,7 @@
 #include <cassert>
 #include <cstddef>
 #include <span>
+#include <utility>
 
 namespace camdir::camera {
 
@@ -20,19 +21,24 @@ class Smoother {
         count_ = weights.size();
         stiffness_ = stiffness;
         assert(count_ > 0 && count_ <= capacity);
+        double first_before = 0.0;  // L D's: rows' subdiagonals before they are divided by the pivot
+        double second_before = 0.0;
+        double second_before_last = 0.0;
         for (std::size_t i = 0; i < count_; ++i) {
             const Row row = second_differences(i);
             double diagonal = weights[i] + stiffness * row.diagonal;
             double first = stiffness * row.first;
             const double second = stiffness * row.second;
             if (i >= 1) {
-                diagonal -= lower1_[i - 1] * lower1_[i - 1] * pivot_[i - 1];
-                first -= lower1_[i - 1] * lower2_[i - 1] * pivot_[i - 1];
+                diagonal -= lower1_[i - 1] * first_before;
+                first -= lower2_[i - 1] * first_before;
             }
-            if (i >= 2) diagonal -= lower2_[i - 2] * lower2_[i - 2] * pivot_[i - 2];
-            pivot_[i] = diagonal;
-            lower1_[i] = first / diagonal;
-            lower2_[i] = second / diagonal;
+            if (i >= 2) diagonal -= lower2_[i - 2] * second_before_last;
+            inverse_pivot_[i] = 1.0 / diagonal;
+            lower1_[i] = first * inverse_pivot_[i];
+            lower2_[i] = second * inverse_pivot_[i];
+            first_before = first;
+            second_before_last = std::exchange(second_before, second);
         }
     }
 
@@ -48,7 +54,7 @@ class Smoother {
             if (i >= 2) values[i] -= lower2_[i - 2] * values[i - 2];
         }
         for (std::size_t i = count_; i-- > 0;) {
-            values[i] /= pivot_[i];
+            values[i] *= inverse_pivot_[i];
             if (i + 1 < count_) values[i] -= lower1_[i] * values[i + 1];
             if (i + 2 < count_) values[i] -= lower2_[i] * values[i + 2];
         }
@@ -68,7 +74,7 @@ class Smoother {
 
     std::size_t count_ = 0;
     double stiffness_ = 0.0;
-    std::array<double, capacity> pivot_;
+    std::array<double, capacity> inverse_pivot_;
     std::array<double, capacity> lower1_;  // L(i + 1, i)
     std::array<double, capacity> lower2_;  // L(i + 2, i)
 };

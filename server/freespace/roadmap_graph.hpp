@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "freespace/float4.hpp"
+#include "base/float4.hpp"
 #include "freespace/freespace.hpp"
 
 namespace camdir::freespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "freespace/float4.hpp"
+#include "base/float4.hpp"
 #include "freespace/index.hpp"
 
 namespace camdir::freespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "freespace/float4.hpp"
+#include "base/float4.hpp"
 
 namespace camdir::freespace {
 namespace {

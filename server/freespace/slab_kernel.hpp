@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "freespace/float4.hpp"
+#include "base/float4.hpp"
 #include "freespace/slab_frame.hpp"
 
 namespace camdir::freespace {

@@ -16,8 +16,8 @@ constexpr std::size_t yaws = DirectionGrid::yaws;
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
 struct Instance {
-    std::vector<Programme::DirectionCosts> direction_costs;  // by knot
-    std::vector<Programme::DirectionCosts> lengths;
+    std::vector<DirectionCosts> direction_costs;  // by knot
+    std::vector<DirectionCosts> lengths;
     ProgrammeCosts costs;
 };
 
@@ -30,7 +30,7 @@ Instance random_instance(std::mt19937& random, std::size_t knots, float blocked)
     instance.direction_costs.resize(knots);
     instance.lengths.resize(knots);
     for (std::size_t knot = 0; knot < knots; ++knot) {
-        instance.direction_costs[knot].fill(2.0F * Programme::forbidden);
+        instance.direction_costs[knot].fill(2.0F * forbidden);
         for (std::size_t bin = 0; bin < DirectionGrid::size; ++bin)
             instance.lengths[knot][bin] = share(random) < blocked ? 120.0F * share(random) : 120.0F;
         for (std::size_t k = 0; k < 8; ++k) {
@@ -80,7 +80,7 @@ float least_cost_of_all(const Instance& instance, std::vector<std::size_t>& path
     if (path.size() == instance.direction_costs.size()) return cost_of(instance, path);
     float least = infinity;
     for (std::size_t bin = 0; bin < DirectionGrid::size; ++bin) {
-        if (instance.direction_costs[path.size()][bin] >= Programme::forbidden) continue;
+        if (instance.direction_costs[path.size()][bin] >= forbidden) continue;
         path.push_back(bin);
         least = std::min(least, least_cost_of_all(instance, path));
         path.pop_back();
@@ -110,12 +110,12 @@ TEST(Programme, FindsTheLeastOfAllPaths) {
 
 TEST(Programme, AsksForALengthOnceAndForFewWhereNothingIsInTheWay) {
     const auto programme = std::make_unique<Programme>();
-    std::vector<Programme::DirectionCosts> direction_costs(10);
+    std::vector<DirectionCosts> direction_costs(10);
     for (auto& costs : direction_costs) {
         for (std::size_t bin = 0; bin < costs.size(); ++bin)
             costs[bin] = 0.1F * static_cast<float>(bin % yaws + bin / yaws);
     }
-    std::vector<Programme::DirectionCosts> asked(10);
+    std::vector<DirectionCosts> asked(10);
     for (auto& row : asked)
         row.fill(0.0F);
     int total = 0;
@@ -130,10 +130,10 @@ TEST(Programme, AsksForALengthOnceAndForFewWhereNothingIsInTheWay) {
 
 TEST(Programme, HasNoPathThroughForbiddenKnots) {
     const auto programme = std::make_unique<Programme>();
-    std::vector<Programme::DirectionCosts> direction_costs(3);
+    std::vector<DirectionCosts> direction_costs(3);
     for (auto& costs : direction_costs)
         costs.fill(0.0F);
-    direction_costs[1].fill(2.0F * Programme::forbidden);
+    direction_costs[1].fill(2.0F * forbidden);
     const auto length = [](std::size_t, std::size_t) { return 120.0F; };
     EXPECT_TRUE(programme->solve(direction_costs, {}, length).empty());
 }

@@ -10,7 +10,7 @@
 #include <emmintrin.h>
 #endif
 
-namespace camdir::freespace {
+namespace camdir {
 
 inline constexpr int lane_count = 4;
 using Float4 = float __attribute__((vector_size(16)));
@@ -24,6 +24,10 @@ inline Float4 load(const float* values) {
     Float4 loaded;
     std::memcpy(&loaded, values, sizeof loaded);
     return loaded;
+}
+
+inline void store(Float4 values, float* to) {
+    std::memcpy(to, &values, sizeof values);
 }
 
 inline Float4 square_root(Float4 x) {
@@ -100,4 +104,4 @@ inline void transpose(Float4& a, Float4& b, Float4& c, Float4& d) {
     d = __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7);
 }
 
-}  // namespace camdir::freespace
+}  // namespace camdir
