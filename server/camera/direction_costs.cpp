@@ -103,9 +103,9 @@ void weigh_directions(const MapProfile& profile, const Plan& plan, std::size_t f
     }
     add_view_from_above(look_behind.pitch, profile.weight_angle, costs);
 
-    const double samples = side_view_interval / plan.future.step;
-    const auto stride = static_cast<std::size_t>(std::max(1L, std::lround(samples)));
-    const float share = static_cast<float>(static_cast<double>(stride) / samples);
+    const std::size_t stride = plan.samples_in(side_view_interval);
+    const auto share =
+        static_cast<float>(static_cast<double>(stride) * plan.future.step / side_view_interval);
     const std::size_t end = std::min(plan.count(), first + plan.knot_spacing);
     for (std::size_t i = first; i < end; i += stride)
         add_side_view(direction_of(plan.future[i].view), side_view + std::abs(profile.elevation),

@@ -12,6 +12,10 @@ constexpr double weight_in_dead_zone = 0.1;
 
 }  // namespace
 
+std::size_t Plan::samples_in(double seconds) const {
+    return static_cast<std::size_t>(std::max(1L, std::lround(seconds / future.step)));
+}
+
 Look Plan::behind(std::size_t i, float elevation) const {
     const double pitch = std::clamp(-heading_pitch[i] + elevation, -steepest_view, steepest_view);
     return {static_cast<float>(heading_yaw[i] + std::numbers::pi), static_cast<float>(pitch)};

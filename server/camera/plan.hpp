@@ -46,6 +46,8 @@ struct Plan {
     PerSample<double> wanted;
 
     [[nodiscard]] std::size_t count() const { return future.count; }
+    // At least 1.
+    [[nodiscard]] std::size_t samples_in(double seconds) const;
     // Where the camera stands from the player when it is straight behind; `elevation` above that, rad.
     [[nodiscard]] Look behind(std::size_t i, float elevation) const;
 

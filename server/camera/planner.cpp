@@ -29,8 +29,7 @@ void make_plan(const freespace::Freespace& freespace, const MapProfile& profile,
     foresee(freespace, profile, window, time, state.step, horizon,
             static_cast<float>(state.history[1].heading_yaw), plan.future);
     plan.ahead = static_cast<double>(plan.future.known) * state.step > least_ahead;
-    const double knots = (plan.ahead ? knot_interval_ahead : knot_interval) / state.step;
-    plan.knot_spacing = static_cast<std::size_t>(std::max(1L, std::lround(knots)));
+    plan.knot_spacing = plan.samples_in(plan.ahead ? knot_interval_ahead : knot_interval);
 
     smooth_heading(profile, state.history, plan);
     Beams beams(freespace, profile, plan.future, state.free_beams, state.free_lengths);
