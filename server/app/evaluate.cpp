@@ -48,8 +48,8 @@ struct EvaluateOptions {
 void check_usage(const EvaluateOptions& options) {
     if (options.tracks() && options.freespace.empty())
         throw CLI::RequiredError("FILE.vfs, or --camera with another camera than the tracker, or --judge");
-    if (!options.tracks() && !options.config.empty())
-        throw CLI::ValidationError("--config", "only the tracker has a profile");
+    if (!options.tracks() && (!options.config.empty() || options.profile != "default"))
+        throw CLI::ValidationError("--config and --profile", "only the tracker has a profile");
     if (!options.tracks() && (!options.solver.empty() || options.look_ahead > 0.0))
         throw CLI::ValidationError("--solver and --look-ahead", "only the tracker has a solver");
     if (!options.tracks() && !options.terms.empty())
@@ -95,15 +95,15 @@ Result<SourceMap> open_map(const EvaluateOptions& options) {
 }
 
 Result<camera::Profile> find_profile(const EvaluateOptions& options) {
-    if (options.config.empty()) return camera::Profile{};
-    const auto config = config::load(options.config);
+    const auto config = options.config.empty() ? config::parse("{}", "", "") : config::load(options.config);
     if (!config) return tl::unexpected(config.error());
     const auto found = config->profiles.find(options.profile);
     if (found != config->profiles.end()) return found->second;
     std::string names;
     for (const auto& [name, profile] : config->profiles)
         names += " " + name;
-    return fail(options.config + ": /profiles has no \"" + options.profile + "\"; it has" + names);
+    return fail((options.config.empty() ? "--profile" : options.config + ": /profiles") + ": there is no \"" +
+                options.profile + "\"; there are" + names);
 }
 
 Result<evaluation::Recording> run_tracker(const EvaluateOptions& options, const Traces& traces,
@@ -201,10 +201,9 @@ void add_evaluate(CLI::App& root, Run& run) {
     command->add_option("--map", options->map, "The source map: a file, or archive.pk3:maps/name.bsp")
         ->required();
     command->add_option("--trace", options->trace, "The recorded match, CSV or CSV.gz")->required();
-    auto* config = command->add_option("--config", options->config, "Configuration that has the profile");
-    command->add_option("--profile", options->profile, "The tracker's profile")
-        ->capture_default_str()
-        ->needs(config);
+    command->add_option("--config", options->config,
+                        "Configuration that has the profile; default: those that ship");
+    command->add_option("--profile", options->profile, "The tracker's profile")->capture_default_str();
     auto* camera =
         command->add_option("--camera", options->camera, "tracker, or a camera to compare with: eye, rigid")
             ->capture_default_str()

@@ -86,10 +86,49 @@ float scale(std::string_view unit, float profile_units_to_map) {
     return 1.0F;
 }
 
+constexpr Profile broadcast() {
+    Profile profile;
+    profile.heading_smoothing = 0.5F;
+    profile.motion_smoothing = 0.08F;
+    profile.look_smoothing = 0.1F;
+    profile.angle_tolerance = 60.0F;
+    profile.swing = 85.0F;
+    profile.weight_inertia_angle = 4.0F;
+    profile.weight_inertia_distance = 3.0F;
+    return profile;
+}
+
+constexpr Profile close() {
+    Profile profile;
+    profile.distance = 70.0F;
+    profile.distance_tolerance = 30.0F;
+    return profile;
+}
+
+constexpr Profile tactical() {
+    Profile profile;
+    profile.distance = 260.0F;
+    profile.distance_tolerance = 110.0F;
+    profile.elevation = 35.0F;
+    return profile;
+}
+
+constexpr std::array shipped = {
+    ShippedProfile{"default", "behind the player, for every game", Profile{}},
+    ShippedProfile{"broadcast", "slow turns for long watching, best with a delay of 2 s or more",
+                   broadcast()},
+    ShippedProfile{"close", "near the player", close()},
+    ShippedProfile{"tactical", "far above, to see who is around", tactical()},
+};
+
 }  // namespace
 
 std::span<const ProfileKey> profile_keys() {
     return keys;
+}
+
+std::span<const ShippedProfile> shipped_profiles() {
+    return shipped;
 }
 
 MapProfile::MapProfile(const Profile& profile, float metres_per_unit)

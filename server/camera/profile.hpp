@@ -60,6 +60,15 @@ struct ProfileKey {
 // Every number of Profile once, in the order of the documentation.
 [[nodiscard]] std::span<const ProfileKey> profile_keys();
 
+struct ShippedProfile {
+    const char* name;
+    const char* use;  // what it is for, for the documentation
+    Profile profile;
+};
+
+// The profiles that every director has, `default` first.
+[[nodiscard]] std::span<const ShippedProfile> shipped_profiles();
+
 // The same profile in the units of a map: lengths in map units, angles in radians.
 struct MapProfile : Profile {
     MapProfile(const Profile& profile, float metres_per_unit);

@@ -146,10 +146,66 @@ void read_profiles(const json& object, Config& config, ValidationErrors& errors)
     }
 }
 
+// [least, most] of a number, a list of its choices of a string; errors are added, and nothing is stored then.
+void read_override(const Key& key, const std::string& pointer, const json& value, OverrideRanges& ranges,
+                   ValidationErrors& errors) {
+    const auto numbers = [&] {
+        return value.size() == 2 && value[0].is_number() && value[1].is_number() && key.minimum <= value[0] &&
+               value[0] <= value[1] && value[1] <= key.maximum;
+    };
+    const auto choices = [&] {
+        return !value.empty() && std::all_of(value.begin(), value.end(), [&](const json& choice) {
+            return std::find(key.choices.begin(), key.choices.end(), choice) != key.choices.end();
+        });
+    };
+    const bool of_numbers = key.choices.empty();
+    if (!value.is_array() || !(of_numbers ? numbers() : choices()))
+        errors.add(pointer, value,
+                   of_numbers ? "[least, most], each " + expected(key) : "a list, each " + expected(key));
+    else if (of_numbers)
+        ranges[key.name] = {value[0].get<double>(), value[1].get<double>(), {}};
+    else
+        ranges[key.name] = {0.0, 0.0, value.get<std::vector<std::string>>()};
+}
+
+void read_overrides(const json& object, Config& config, ValidationErrors& errors) {
+    if (!object.is_object()) return errors.add("/overrides", object, "an object of ranges by key");
+    OverrideRanges& ranges = config.overrides.emplace();
+    for (const auto& [name, value] : object.items()) {
+        const std::string pointer = "/overrides/" + escaped(name);
+        if (const Key* key = find_key("/profiles/*", name))
+            read_override(*key, pointer, value, ranges, errors);
+        else
+            errors.add(pointer + ": " + unknown(name, names_in("/profiles/*")));
+    }
+}
+
+// Whether a key's valid value lies within what may be overridden.
+void check_override(const std::string& name, const json& value, const OverrideRanges& ranges,
+                    ValidationErrors& errors) {
+    const auto range = ranges.find(name);
+    if (range == ranges.end()) {
+        std::string known;
+        for (const auto& [key, allowed] : ranges)
+            known += (known.empty() ? "" : ", ") + key;
+        return errors.add("/" + name +
+                          ": may not be overridden here; may be: " + (known.empty() ? "nothing" : known));
+    }
+    const auto& [least, most, choices] = range->second;
+    if (!value.is_number()) {
+        if (std::find(choices.begin(), choices.end(), value) != choices.end()) return;
+        return errors.add("/" + name, value, "one of " + json(choices).dump() + ", the choice here");
+    }
+    if (value < least || most < value)
+        errors.add("/" + name, value,
+                   "a number from " + json(least).dump() + " to " + json(most).dump() + ", the range here");
+}
+
 void read_section(const std::string& name, const json& value, Config& config, ValidationErrors& errors) {
     const std::string pointer = "/" + name;
     if (pointer == "/maps") return read_maps(value, config, errors);
     if (pointer == "/profiles") return read_profiles(value, config, errors);
+    if (pointer == "/overrides") return read_overrides(value, config, errors);
     read_object(pointer, pointer, value, {&config, nullptr, nullptr}, errors);
 }
 
@@ -184,7 +240,8 @@ Result<Config> parse(const std::string& text, const std::string& name, const fs:
     const auto root = parse_json(text);
     if (!root) return fail(name + ": " + root.error().message);
     Config config;
-    config.profiles["default"];
+    for (const auto& [profile_name, use, profile] : camera::shipped_profiles())
+        config.profiles.emplace(profile_name, profile);
     ValidationErrors errors;
     read_root(*root, config, errors);
     check_references(config, errors);
@@ -201,13 +258,17 @@ Result<Config> load(const fs::path& file) {
                  file.parent_path());
 }
 
-Result<camera::Profile> override_profile(const camera::Profile& base, const std::string& overrides) {
+Result<camera::Profile> override_profile(const camera::Profile& base, const std::string& overrides,
+                                         const std::optional<OverrideRanges>& ranges) {
     camera::Profile profile = base;
     if (overrides.empty()) return profile;
     const auto object = parse_json(overrides);
     if (!object) return fail(object.error().message);
     ValidationErrors errors;
     read_object("/profiles/*", "", *object, {nullptr, nullptr, &profile}, errors);
+    if (ranges && errors.none())
+        for (const auto& [name, value] : object->items())
+            check_override(name, value, *ranges, errors);
     if (!errors.none()) return fail(errors.joined("", "; "));
     return profile;
 }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -58,6 +59,18 @@ struct Map {
     bool operator==(const Map&) const = default;
 };
 
+// How far observers may override a key of a profile.
+struct OverrideRange {
+    double least = 0.0;  // of a number
+    double most = 0.0;
+    std::vector<std::string> choices;  // of a string
+
+    bool operator==(const OverrideRange&) const = default;
+};
+
+// By key of a profile; what is not in it cannot be overridden.
+using OverrideRanges = std::map<std::string, OverrideRange>;
+
 struct Matches {
     std::string default_profile = "default";
     std::int64_t silence_frames = 30;  // a match without poses for silence_frames / rate_hz is silent
@@ -86,7 +99,8 @@ struct Config {
     Dds dds;
     Http http;
     std::vector<Map> maps;                            // names are distinct
-    std::map<std::string, camera::Profile> profiles;  // always has "default"
+    std::map<std::string, camera::Profile> profiles;  // always has those that ship (camera/profile.hpp)
+    std::optional<OverrideRanges> overrides;          // none: every key, within its own range
     Matches matches;
     Limits limits;
     Log log;
@@ -102,7 +116,8 @@ struct Config {
 
 // An observer's overrides: a JSON object with keys of a profile, or empty. The error is one line.
 [[nodiscard]] Result<camera::Profile> override_profile(const camera::Profile& base,
-                                                       const std::string& overrides);
+                                                       const std::string& overrides,
+                                                       const std::optional<OverrideRanges>& ranges);
 
 // JSON pointers of the keys that differ and need a restart to take effect.
 [[nodiscard]] std::vector<std::string> changes_for_restart(const Config& running, const Config& loaded);

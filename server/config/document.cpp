@@ -51,6 +51,13 @@ ordered object_schema(const std::string& section) {
     return schema;
 }
 
+// How far a key of a profile may be overridden.
+ordered override_schema(const Key& key) {
+    if (!key.choices.empty()) return {{"type", "array"}, {"minItems", 1}, {"items", {{"enum", key.choices}}}};
+    const ordered number = {{"type", "number"}, {"minimum", key.minimum}, {"maximum", key.maximum}};
+    return {{"type", "array"}, {"minItems", 2}, {"maxItems", 2}, {"items", number}};
+}
+
 ordered section_schema(const Section& section) {
     ordered schema = {{"description", section.help}};
     if (section.pointer == "/maps") {
@@ -60,6 +67,11 @@ ordered section_schema(const Section& section) {
         schema["type"] = "object";
         schema["propertyNames"] = {{"minLength", 1}, {"maxLength", 31}};
         schema["additionalProperties"] = object_schema("/profiles/*");
+    } else if (section.pointer == "/overrides") {
+        schema["type"] = "object";
+        schema["additionalProperties"] = false;
+        for (const Key& key : keys())
+            if (key.section == "/profiles/*") schema["properties"][key.name] = override_schema(key);
     } else {
         schema.update(object_schema(section.pointer));
     }
@@ -109,10 +121,12 @@ std::string reference() {
     for (const Section& section : sections()) {
         const bool list = section.pointer == "/maps" || section.pointer == "/profiles";
         page += "### `" + section.pointer.substr(1) + "`\n\n" + section.help + "\n\n";
-        page += "| key | type | default | range | unit | meaning |\n|---|---|---|---|---|---|\n";
+        std::string rows;
         for (const Key& key : keys())
-            if (key.section == section.pointer + (list ? "/*" : "")) page += row(key);
-        page += "\n";
+            if (key.section == section.pointer + (list ? "/*" : "")) rows += row(key);
+        if (rows.empty()) continue;
+        page +=
+            "| key | type | default | range | unit | meaning |\n|---|---|---|---|---|---|\n" + rows + "\n";
     }
     return page;
 }

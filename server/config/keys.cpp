@@ -408,6 +408,16 @@ std::string range(const Key& key) {
     return number(key.minimum) + " to " + number(key.maximum) + (key.zero_is_default ? ", or 0" : "");
 }
 
+// What each shipped profile is for.
+std::string shipped() {
+    std::string text = "Always there:";
+    const auto profiles = camera::shipped_profiles();
+    for (const camera::ShippedProfile& profile : profiles)
+        text += std::string(" `") + profile.name + "`, " + profile.use +
+                (&profile == &profiles.back() ? ". " : ";");
+    return text;
+}
+
 }  // namespace
 
 const std::vector<Section>& sections() {
@@ -416,8 +426,15 @@ const std::vector<Section>& sections() {
         {"/http", "Health, readiness, metrics and status. Takes effect at a restart."},
         {"/maps", "The list of maps that are served. Reloaded by SIGHUP."},
         {"/profiles",
-         "Camera profiles by name; observers request a profile by its name and may override its keys. "
-         "`default` always exists. Units are 0.0254 m on every map. Reloaded by SIGHUP."},
+         "Camera profiles by name; observers request a profile by its name and may override its keys. " +
+             shipped() +
+             "What a file says of these changes single keys of them; in other profiles, a key that is not "
+             "given is `default`'s as it ships. Units are 0.0254 m on every map. Reloaded by SIGHUP."},
+        {"/overrides",
+         "How far observers may override a profile: by key `[least, most]`, of `solver` the choices; keys "
+         "that "
+         "are not named cannot be overridden. Without this section, all can, within their ranges: "
+         "`\"overrides\": {\"distance\": [80, 200], \"vertical_fov\": [40, 90]}`. Reloaded by SIGHUP."},
         {"/matches",
          "Lifetime and delay of matches, and the choice of automatic targets. Reloaded by SIGHUP."},
         {"/limits", "Whatever exceeds a limit is refused. Takes effect at a restart."},

@@ -109,7 +109,7 @@ void Requests::resolve(Observer& observer, const config::Config& config) {
         observer.error = "there is no profile " + quoted(name) + "; known: " + known_profiles(config);
         return;
     }
-    auto profile = config::override_profile(base->second, request.overrides);
+    auto profile = config::override_profile(base->second, request.overrides, config.overrides);
     if (!profile)
         observer.error = "overrides: " + profile.error().message;
     else

@@ -136,6 +136,7 @@ void Service::reload() {
         spdlog::warn("{}: {} takes effect after a restart", file_.string(), pointer);
     config_.maps = std::move(loaded->maps);
     config_.profiles = std::move(loaded->profiles);
+    config_.overrides = std::move(loaded->overrides);
     config_.matches = std::move(loaded->matches);
     config_.log.level = std::move(loaded->log.level);
     set_log_level(config_.log);

@@ -14,7 +14,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         assert(config->profiles.contains(config->matches.default_profile) && config->limits.matches >= 1);
     else
         assert(!config.error().message.empty());
-    const auto profile = override_profile({}, text);
+    const auto profile = override_profile({}, text, config ? config->overrides : std::nullopt);
     assert(profile ? profile->distance > 0.0F : !profile.error().message.empty());
     return 0;
 }

@@ -157,21 +157,73 @@ TEST(Config, SurvivesMutations) {
 TEST(Overrides, ChangeWhatTheyName) {
     camera::Profile base;
     base.distance = 200.0F;
-    const auto profile = override_profile(base, R"({"vertical_fov": 40})");
+    const auto profile = override_profile(base, R"({"vertical_fov": 40})", std::nullopt);
     ASSERT_TRUE(profile) << profile.error().message;
     EXPECT_EQ(profile->distance, 200.0F);
     EXPECT_EQ(profile->vertical_fov, 40.0F);
-    EXPECT_EQ(override_profile(base, "")->distance, 200.0F);
+    EXPECT_EQ(override_profile(base, "", std::nullopt)->distance, 200.0F);
 }
 
 TEST(Overrides, AreRefusedInOneLine) {
-    const auto profile = override_profile({}, R"({"distanse": 1, "vertical_fov": 1000})");
+    const auto profile = override_profile({}, R"({"distanse": 1, "vertical_fov": 1000})", std::nullopt);
     ASSERT_FALSE(profile);
     EXPECT_THAT(profile.error().message,
                 AllOf(HasSubstr("/distanse: unknown key, did you mean \"distance\"?"),
                       HasSubstr("; /vertical_fov: 1000: expected a number from"), Not(HasSubstr("\n"))));
-    EXPECT_FALSE(override_profile({}, "[]"));
-    EXPECT_FALSE(override_profile({}, "{"));
+    EXPECT_FALSE(override_profile({}, "[]", std::nullopt));
+    EXPECT_FALSE(override_profile({}, "{", std::nullopt));
+}
+
+TEST(Overrides, KeepToTheRangesOfTheFile) {
+    const Config config = good(R"({"overrides": {"distance": [80, 200], "solver": ["planner"]}})");
+    const auto refusal = [&](const std::string& overrides) {
+        const auto profile = override_profile({}, overrides, config.overrides);
+        return profile ? "" : profile.error().message;
+    };
+    for (const char* allowed : {"", "{}", R"({"distance": 80})", R"({"distance": 200, "solver": "planner"})"})
+        EXPECT_EQ(refusal(allowed), "") << allowed;
+    EXPECT_EQ(refusal(R"({"distance": 79.5})"),
+              "/distance: 79.5: expected a number from 80.0 to 200.0, the range here");
+    EXPECT_EQ(refusal(R"({"distance": 201})"),
+              "/distance: 201: expected a number from 80.0 to 200.0, the range here");
+    EXPECT_EQ(refusal(R"({"solver": "paper"})"),
+              R"(/solver: "paper": expected one of ["planner"], the choice here)");
+    EXPECT_EQ(refusal(R"({"elevation": 1})"),
+              "/elevation: may not be overridden here; may be: distance, solver");
+
+    const Config nothing = good(R"({"overrides": {}})");
+    EXPECT_EQ(override_profile({}, R"({"distance": 100})", nothing.overrides).error().message,
+              "/distance: may not be overridden here; may be: nothing");
+}
+
+TEST(Overrides, RangesThatMakeNoSenseAreErrors) {
+    EXPECT_EQ(problem(R"({"overrides": 3})"), "test: /overrides: 3: expected an object of ranges by key");
+    for (const char* range :
+         {"5", "[]", "[80]", "[80, 90, 100]", "[90, 80]", "[1, 80]", "[80, 3000]", R"(["a", "b"])"})
+        EXPECT_THAT(problem(std::string(R"({"overrides": {"distance": )") + range + "}}"),
+                    AllOf(HasSubstr("test: /overrides/distance: "),
+                          HasSubstr("expected [least, most], each a number from 20 to 2000")))
+            << range;
+    for (const char* choices : {"5", "[]", R"(["plan"])", "[1, 2]"})
+        EXPECT_THAT(problem(std::string(R"({"overrides": {"solver": )") + choices + "}}"),
+                    HasSubstr("test: /overrides/solver: "))
+            << choices;
+    EXPECT_THAT(problem(R"({"overrides": {"distanse": [80, 90]}})"),
+                HasSubstr("test: /overrides/distanse: unknown key, did you mean \"distance\"?"));
+}
+
+TEST(Profiles, ThatShipAreThereAndAFileChangesSingleKeysOfThem) {
+    const Config config = good(R"({"profiles": {"tactical": {"vertical_fov": 80}}})");
+    for (const auto& [name, use, profile] : camera::shipped_profiles()) {
+        const auto found = config.profiles.find(name);
+        ASSERT_NE(found, config.profiles.end()) << name;
+        EXPECT_EQ(found->second.distance, profile.distance) << name;
+        for (const camera::ProfileKey& key : camera::profile_keys()) {
+            EXPECT_GE(profile.*key.member, key.minimum) << name << ' ' << key.name;
+            EXPECT_LE(profile.*key.member, key.maximum) << name << ' ' << key.name;
+        }
+    }
+    EXPECT_EQ(config.profiles.at("tactical").vertical_fov, 80.0F);
 }
 
 TEST(Changes, NamesOnlyKeysThatNeedARestart) {
