@@ -299,9 +299,10 @@ typedef struct cdir_shot_request {
     uint32_t struct_size;
     uint32_t target;       /* player id or CDIR_CHOOSE_TARGET */
     const uint32_t* group; /* group_count players among whom the director chooses; null = all */
-    const char* profile;   /* camera profile of the director's configuration, up to 31 bytes; null or "" =
-                              its default */
-    const char* overrides; /* JSON object with a profile's keys, up to 1023 bytes; null or "" = none */
+    const char* profile;   /* "default", "broadcast", "close", "tactical", or another one of the director's
+                              configuration, up to 31 bytes; null or "" = the one that it chooses */
+    const char* overrides; /* JSON object with a profile's keys, up to 1023 bytes; null or "" = none. The
+                              director's operator may narrow them. */
     uint32_t group_count;  /* <= CDIR_MAX_PLAYERS */
     uint32_t reserved;
 } cdir_shot_request;
