@@ -1,0 +1,73 @@
+// The cameras of whole runs, bit for bit: the same for every compiler, optimisation and sanitizer.
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "walk.hpp"
+
+namespace camdir::camera {
+namespace {
+
+// FNV-1a.
+class Hash {
+  public:
+    template <class Value>
+    void add(const Value& value) {
+        unsigned char bytes[sizeof value];
+        std::memcpy(bytes, &value, sizeof value);
+        for (const unsigned char byte : bytes)
+            value_ = (value_ ^ byte) * 0x100000001b3U;
+    }
+    [[nodiscard]] std::uint64_t value() const { return value_; }
+
+  private:
+    std::uint64_t value_ = 0xcbf29ce484222325U;
+};
+
+std::uint64_t hash_of_run(const test::Plan& plan, Solver solver, double rate, double look_ahead) {
+    const freespace::Freespace freespace = plan.freespace();
+    Runner runner(plan, plan.eye('s'), 7);
+    std::vector<TimedPose> poses;
+    for (int i = 0; i < static_cast<int>(6.0 * rate); ++i)
+        poses.push_back({i / rate, runner.next(static_cast<float>(1.0 / rate)), true});
+
+    Hash hash;
+    Scratch scratch(freespace);
+    ShotState state;
+    state.time = -1.0 / rate;
+    const auto ahead = static_cast<std::size_t>(look_ahead * rate);
+    for (std::size_t i = 0; i + ahead < poses.size(); ++i) {
+        const std::size_t first = i - std::min<std::size_t>(i, 20);
+        const Camera camera =
+            step(freespace, solved_by(solver), Window(poses).subspan(first, i + ahead + 1 - first),
+                 poses[i].time, state, scratch);
+        for (const float number : camera.position)
+            hash.add(number);
+        for (const float number : camera.orientation.coeffs())
+            hash.add(number);
+        hash.add(camera.clearance);
+        hash.add(camera.flags);
+    }
+    return hash.value();
+}
+
+struct GoldenRun {
+    const char* name;
+    Solver solver;
+    double rate;
+    double look_ahead;
+    std::uint64_t hash;
+};
+
+// Whoever changes cameras on purpose puts the new hashes here.
+TEST(Golden, CamerasAreTheSameWhateverCompilesThem) {
+    for (const auto& [name, solver, rate, look_ahead, hash] :
+         {GoldenRun{"paper", Solver::paper, 60.0, 0.0, 0x5eea353a20ab6744},
+          GoldenRun{"planner", Solver::planner, 60.0, 0.0, 0x1d69c9019d80ea85},
+          GoldenRun{"planner, 20 Hz", Solver::planner, 20.0, 0.0, 0x69f5d6343fc4b22d},
+          GoldenRun{"planner, 1 s", Solver::planner, 60.0, 1.0, 0x7f642938298f6f27}})
+        EXPECT_EQ(hash_of_run(test::figure_eight(), solver, rate, look_ahead), hash) << name;
+}
+
+}  // namespace
+}  // namespace camdir::camera
