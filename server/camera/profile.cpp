@@ -107,9 +107,15 @@ constexpr Profile close() {
 
 constexpr Profile tactical() {
     Profile profile;
-    profile.distance = 260.0F;
-    profile.distance_tolerance = 110.0F;
+    profile.distance = 220.0F;
+    profile.distance_tolerance = 90.0F;
     profile.elevation = 35.0F;
+    profile.heading_smoothing = 0.8F;
+    profile.motion_smoothing = 0.15F;
+    profile.look_smoothing = 0.08F;
+    profile.angle_tolerance = 90.0F;
+    profile.swing = 120.0F;
+    profile.weight_inertia_angle = 4.0F;
     return profile;
 }
 
@@ -118,7 +124,7 @@ constexpr std::array shipped = {
     ShippedProfile{"broadcast", "slow turns for long watching, best with a delay of 2 s or more",
                    broadcast()},
     ShippedProfile{"close", "near the player", close()},
-    ShippedProfile{"tactical", "far above, to see who is around", tactical()},
+    ShippedProfile{"tactical", "calm and from above, to see who is around", tactical()},
 };
 
 }  // namespace
