@@ -1,6 +1,7 @@
 #include "game_match.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstring>
 #include <vector>
@@ -108,6 +109,7 @@ void GameMatch::restart(const cdir_match_info& info, std::span<const cdir_player
     info_ = restarted;
     next_frame_number_ = 0;
     last_frame_time_.reset();
+    discontinuities_.clear();
 }
 
 void GameMatch::announce(cdir_match_info& info, std::span<const cdir_player> players) {
@@ -133,12 +135,21 @@ std::uint64_t GameMatch::epoch() const {
     return info_.epoch;
 }
 
+std::uint32_t GameMatch::count_discontinuities(std::uint32_t player, std::uint32_t flags) {
+    std::uint32_t& count = discontinuities_[player];
+    if ((flags & CDIR_POSE_DISCONTINUITY) != 0) ++count;
+    return count;
+}
+
 void GameMatch::publish(const cdir_pose_frame& frame) {
     check(frame);
     const std::lock_guard lock(mutex_);
     require(!last_frame_time_ || frame.frame_time >= *last_frame_time_,
             "frame_time went back within the epoch: restart the match");
     const std::size_t n = frame.player_count;
+    std::array<std::uint32_t, CDIR_MAX_PLAYERS> discontinuities;
+    for (std::size_t i = 0; i < n; ++i)
+        discontinuities[i] = count_discontinuities(frame.player_id[i], frame.flags[i]);
     camera_director_PoseFrame sample{};
     copy_string(sample.match_id, match_id_.c_str());
     sample.epoch = info_.epoch;
@@ -150,6 +161,7 @@ void GameMatch::publish(const cdir_pose_frame& frame) {
     borrow(sample.orientation, frame.orientation, 4 * n);
     borrow(sample.velocity, frame.velocity, frame.velocity == nullptr ? 0 : 3 * n);
     borrow(sample.flags, frame.flags, n);
+    borrow(sample.discontinuities, discontinuities.data(), n);
     check_written("PoseFrame", dds_write(pose_writer_.get(), &sample));
     ++next_frame_number_;
     last_frame_time_ = frame.frame_time;

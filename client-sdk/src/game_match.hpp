@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <unordered_map>
 
 #include "context.hpp"
 
@@ -33,13 +34,16 @@ class GameMatch {
 
   private:
     void announce(cdir_match_info& info, std::span<const cdir_player> players);
+    // The player's, up to and with a pose with these flags.
+    [[nodiscard]] std::uint32_t count_discontinuities(std::uint32_t player, std::uint32_t flags);
 
     std::shared_ptr<const Context> context_;
     mutable std::mutex mutex_;
     std::string match_id_;
     cdir_match_info info_;  // as last announced, with its epoch
     std::uint32_t next_frame_number_ = 0;
-    std::optional<std::int64_t> last_frame_time_;  // in this epoch
+    std::optional<std::int64_t> last_frame_time_;                       // in this epoch
+    std::unordered_map<std::uint32_t, std::uint32_t> discontinuities_;  // by player, in this epoch
     Entity publisher_;
     Entity info_writer_;
     Entity pose_writer_;

@@ -43,7 +43,8 @@ std::optional<ValidationError> check(const camera_director_PoseFrame& sample) {
     if (count > director::max_players) return ValidationError::too_many;
     if (sample.eye._length != 3 * count || sample.orientation._length != 4 * count ||
         (sample.velocity._length != 3 * count && sample.velocity._length != 0) ||
-        sample.flags._length != count) {
+        sample.flags._length != count ||
+        (sample.discontinuities._length != count && sample.discontinuities._length != 0)) {
         return ValidationError::array_length;
     }
     if (!finite(elements(sample.eye)) || !finite(elements(sample.orientation)) ||
@@ -117,6 +118,8 @@ std::optional<ValidationError> decode(const camera_director_PoseFrame& sample, d
         pose.velocity = Vec3f::Zero();
         if (sample.velocity._length != 0) pose.velocity = vector(elements(sample.velocity), i);
         pose.flags = sample.flags._buffer[i];
+        pose.discontinuities.reset();
+        if (sample.discontinuities._length != 0) pose.discontinuities = sample.discontinuities._buffer[i];
     }
     return std::nullopt;
 }

@@ -50,7 +50,7 @@ class Inbox {
     void put(Message message);
 
     // Replaces a frame that no worker has taken. Its discontinuity flags are carried over to the new frame of
-    // the same epoch, so that no respawn is lost.
+    // the same epoch, so that no respawn is lost: not every game server counts them (see Continuity).
     void put(const PoseFrame& frame, std::int64_t received_ns);
 
     struct Content {

@@ -94,6 +94,7 @@ void Match::begin_epoch() {
                  info_->rate_hz);
     last_epoch_ = info_->epoch;
     roster_.clear();
+    continuity_.clear();
     attention_.clear();
     timeline_.clear();
     foreseen_ = 0;

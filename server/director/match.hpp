@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "director/attention.hpp"
+#include "director/continuity.hpp"
 #include "director/delay_buffer.hpp"
 #include "director/inbox.hpp"
 #include "director/map_library.hpp"
@@ -75,8 +76,9 @@ class Match final : public Strand {
     [[nodiscard]] std::string state() const;
     [[nodiscard]] std::string waiting_for_delay(const DelayBuffer::State& delay) const;
 
-    void process(const PoseFrame& frame, std::int64_t received_ns, Turn& turn);
+    void process(PoseFrame& frame, std::int64_t received_ns, Turn& turn);
     [[nodiscard]] bool accept(const PoseFrame& frame);
+    void mark_discontinuities(PoseFrame& frame);
     void record(const PoseFrame& frame);
     [[nodiscard]] bool foresee(const PoseFrame& frame);
     void move_cameras(const PoseFrame& frame, double dt, Turn& turn);
@@ -116,6 +118,7 @@ class Match final : public Strand {
     std::optional<freespace::Freespace> freespace_;
     std::vector<std::unique_ptr<camera::Scratch>> scratch_;  // by lane; null where no shot has moved yet
     Roster roster_;
+    Continuity continuity_;
     Attention attention_;
     Requests requests_;
     bool reconcile_needed_ = false;

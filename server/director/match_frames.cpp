@@ -33,8 +33,9 @@ std::span<const PlayerPose> tracked(const PoseFrame& frame, const config::Limits
 
 }  // namespace
 
-void Match::process(const PoseFrame& frame, std::int64_t received_ns, Turn& turn) {
+void Match::process(PoseFrame& frame, std::int64_t received_ns, Turn& turn) {
     if (!accept(frame)) return;
+    mark_discontinuities(frame);
     const double dt = has_last_frame_ ? seconds_between(last_time_, frame.frame_time) : 0.0;
     record(frame);
     if (reconcile_needed_ || waits_for_delay_) reconcile();
@@ -63,6 +64,12 @@ bool Match::accept(const PoseFrame& frame) {
     if (has_last_frame_ && static_cast<std::int32_t>(frame.frame_number - last_number_) <= 0)
         return dropped(Counter::drop_old_frame);
     return true;
+}
+
+// Also where the frame that declared them has not been processed.
+void Match::mark_discontinuities(PoseFrame& frame) {
+    for (PlayerPose& pose : frame.poses)
+        if (continuity_.broken(pose)) pose.flags |= pose_discontinuity;
 }
 
 void Match::record(const PoseFrame& frame) {

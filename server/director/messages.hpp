@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,7 @@ struct PlayerPose {
     Quatf orientation = Quatf::Identity();
     Vec3f velocity = Vec3f::Zero();
     std::uint32_t flags = 0;  // 1 alive, 2 discontinuity since the last frame, 4 spectator
+    std::optional<std::uint32_t> discontinuities = {};  // in this epoch, modulo 2^32
 };
 
 struct PoseFrame {

@@ -12,9 +12,8 @@ constexpr double max_step_back_s = 1.0;
 constexpr double history_s = 0.25;
 constexpr std::ptrdiff_t worth_moving = 32;  // poses
 
-camera::Pose camera_pose(const PlayerPose& pose) {
-    return {pose.eye, pose.orientation, pose.velocity, (pose.flags & pose_alive) != 0,
-            (pose.flags & pose_discontinuity) != 0};
+camera::Pose camera_pose(const PlayerPose& pose, bool discontinuity) {
+    return {pose.eye, pose.orientation, pose.velocity, (pose.flags & pose_alive) != 0, discontinuity};
 }
 
 }  // namespace
@@ -22,6 +21,7 @@ camera::Pose camera_pose(const PlayerPose& pose) {
 void Timeline::clear() {
     empty_ = true;
     shown_ = newest_ = 0.0;
+    continuity_.clear();
     players_.clear();
 }
 
@@ -39,7 +39,8 @@ bool Timeline::add(const PoseFrame& frame, std::span<const PlayerPose> poses) {
     for (const PlayerPose& pose : poses) {
         if ((pose.flags & pose_spectator) != 0) continue;
         std::vector<camera::TimedPose>& track = players_[pose.player_id];
-        if (track.empty() || track.back().time < time) track.push_back({time, camera_pose(pose), true});
+        if (track.empty() || track.back().time < time)
+            track.push_back({time, camera_pose(pose, continuity_.broken(pose)), true});
     }
     for (auto& [player, track] : players_)
         if (track.back().time < time && track.back().present) track.push_back({time, {}, false});

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "camera/window.hpp"
+#include "director/continuity.hpp"
 #include "director/messages.hpp"
 
 namespace camdir::director {
@@ -38,6 +39,7 @@ class Timeline {
     std::int64_t start_ = 0;
     double newest_ = 0.0;
     double shown_ = 0.0;
+    Continuity continuity_;
     std::map<std::uint32_t, std::vector<camera::TimedPose>> players_;
 };
 

@@ -239,6 +239,7 @@ const camera_director_PoseFrame& RawPoseFrame::sample() {
     point(sample_.orientation, orientation);
     point(sample_.velocity, velocity);
     point(sample_.flags, flags);
+    point(sample_.discontinuities, discontinuities);
     return sample_;
 }
 

@@ -73,8 +73,9 @@ class RawPoseFrame {
     RawPoseFrame(const std::string& match_id, std::uint64_t epoch, std::uint32_t frame_number,
                  std::uint32_t count);
 
-    // The vectors may be changed; sample() points to them until the next change.
-    std::vector<std::uint32_t> player_id, flags;
+    // The vectors may be changed; sample() points to them until the next change. At first there are no
+    // discontinuities: the sender does not count them.
+    std::vector<std::uint32_t> player_id, flags, discontinuities;
     std::vector<float> eye, orientation, velocity;
     [[nodiscard]] const camera_director_PoseFrame& sample();
 

@@ -228,6 +228,8 @@ static inline cdir_pose_frame cdir_pose_frame_default(void) {
 CDIR_API cdir_status cdir_orientation_from_angles(const float* angles, float* orientation) CDIR_NOEXCEPT;
 
 /* Publishes one frame, best effort: a director that falls behind gets the newest. Never waits for a receiver.
+ * No discontinuity is lost with a frame: the library counts them by player within the epoch, and every frame
+ * carries the counts.
  * Costs one system call per director; a game that cannot afford them in its frame calls this from a thread of
  * its own. */
 CDIR_API cdir_status cdir_match_publish_poses(cdir_match match, const cdir_pose_frame* frame) CDIR_NOEXCEPT;

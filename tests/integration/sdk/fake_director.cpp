@@ -116,11 +116,17 @@ dds_entity_t FakeDirector::topic(const dds_topic_descriptor_t& type, const char*
 
 std::optional<ReceivedPoses> FakeDirector::take_poses() {
     const auto use = [](const camera_director_PoseFrame& sample) {
-        return ReceivedPoses{sample.match_id,         sample.epoch,
-                             sample.frame_number,     sample.frame_time,
-                             sample.source_time,      copied(sample.player_id),
-                             copied(sample.eye),      copied(sample.orientation),
-                             copied(sample.velocity), copied(sample.flags)};
+        return ReceivedPoses{sample.match_id,
+                             sample.epoch,
+                             sample.frame_number,
+                             sample.frame_time,
+                             sample.source_time,
+                             copied(sample.player_id),
+                             copied(sample.eye),
+                             copied(sample.orientation),
+                             copied(sample.velocity),
+                             copied(sample.flags),
+                             copied(sample.discontinuities)};
     };
     return take<camera_director_PoseFrame>(pose_reader_, camera_director_PoseFrame_desc, use);
 }

@@ -27,6 +27,7 @@ struct ReceivedPoses {
     std::vector<float> orientation;
     std::vector<float> velocity;
     std::vector<std::uint32_t> flags;
+    std::vector<std::uint32_t> discontinuities;
 };
 
 struct ReceivedInfo {

@@ -86,6 +86,34 @@ TEST_F(GameServer, PosesArriveAsTheyWerePublished) {
     EXPECT_THAT(poses->player_id, IsEmpty());
 }
 
+TEST_F(GameServer, DiscontinuitiesAreCountedByPlayerWithinAnEpoch) {
+    cd::Match match(context_, info());
+    FakeDirector director(shared_domain, match_id_);
+    ASSERT_TRUE(eventually([&] { return match.director_count() == 1; }));
+    std::int64_t time = 0;
+    const auto publish = [&](std::vector<std::uint32_t> ids, std::vector<std::uint32_t> flags) {
+        const std::vector<float> eye(3 * ids.size());
+        std::vector<float> orientation;
+        for (std::size_t i = 0; i < ids.size(); ++i)
+            orientation.insert(orientation.end(), {0.0F, 0.0F, 0.0F, 1.0F});
+        match.publish(cd::PoseFrame{
+            .frame_time = ++time, .player_id = ids, .eye = eye, .orientation = orientation, .flags = flags});
+        std::optional<ReceivedPoses> poses;
+        EXPECT_TRUE(eventually([&] { return (poses = director.take_poses()).has_value(); }));
+        return poses ? poses->discontinuities : std::vector<std::uint32_t>{};
+    };
+    constexpr std::uint32_t alive = CDIR_POSE_ALIVE;
+    constexpr std::uint32_t jumped = CDIR_POSE_ALIVE | CDIR_POSE_DISCONTINUITY;
+    EXPECT_THAT(publish({7, 300}, {alive, jumped}), ElementsAre(0, 1));
+    EXPECT_THAT(publish({7, 300}, {alive, alive}), ElementsAre(0, 1));
+    EXPECT_THAT(publish({300}, {jumped}), ElementsAre(2));
+    EXPECT_THAT(publish({300, 7}, {alive, jumped}), ElementsAre(2, 1)) << "whatever their order";
+    EXPECT_THAT(publish({}, {}), IsEmpty());
+    EXPECT_THAT(publish({7}, {alive}), ElementsAre(1)) << "also after an absence";
+    match.restart(info());
+    EXPECT_THAT(publish({7, 300}, {jumped, alive}), ElementsAre(1, 0));
+}
+
 TEST_F(GameServer, RefusedFrameIsNotCounted) {
     cd::Match match(context_, info());
     FakeDirector director(shared_domain, match_id_);

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <csignal>
 #include <limits>
@@ -181,6 +182,46 @@ TEST_F(MatchTest, MalformedSamplesAreDroppedWithAReason) {
 
     EXPECT_TRUE(sees_own_camera(observer)) << "the other match continues";
     EXPECT_FALSE(server_.process().wait_for(std::chrono::milliseconds(0))) << server_.log();
+}
+
+// Written with the DDS API, to leave out the one frame that declares it.
+TEST_F(MatchTest, ATeleportIsACutAlsoWhenItsFrameIsLost) {
+    RawPeer game(domain_.id(), "raw");
+    char map_name[] = "hall";
+    camera_director_MatchInfo info = raw_match_info("raw", 1);
+    info.map_name = map_name;
+    game.write(info);
+    Observer observer(context_, "raw", "anna");
+    observer.request({.target = 0});
+
+    std::uint32_t number = 0;
+    float place = 0.0F;
+    std::uint32_t discontinuities = 3;
+    // Plays on until a camera frame is `wanted`.
+    const auto play_until = [&](const auto& wanted) {
+        std::array<camera_director::Camera, CDIR_MAX_CAMERAS> cameras;
+        return eventually([&] {
+            RawPoseFrame frame("raw", 1, ++number, 1);
+            frame.eye = {place, 0.0F, 0.0F};
+            frame.discontinuities = {discontinuities};
+            game.write(frame.sample());
+            while (const auto taken = observer.next_frame(cameras))
+                if (taken->camera_count > 0 && wanted(*taken, cameras[0])) return true;
+            return false;
+        });
+    };
+    ASSERT_TRUE(play_until([](const auto& frame, const auto& /*camera*/) { return frame.frame_number > 20; }))
+        << server_.log();
+
+    const std::uint32_t lost = ++number;
+    place = 500.0F;
+    ++discontinuities;
+    int frames = 0;
+    EXPECT_TRUE(play_until([&](const auto& frame, const auto& camera) {
+        if (frame.pose_number < lost) return false;
+        EXPECT_EQ((camera.flags & CDIR_CAMERA_CUT) != 0, frames == 0) << frame.pose_number - lost;
+        return ++frames == 5;
+    }));
 }
 
 TEST_F(MatchTest, SigtermDrainsAndWithdrawsTheStatuses) {

@@ -28,6 +28,8 @@ RawPoseFrame random_frame(std::uint32_t count, std::uint32_t seed) {
         value = 300.0F * normal(random);
     for (std::uint32_t& flags : frame.flags)
         flags = random() & 7U;
+    for (std::uint32_t i = 0; i < count; ++i)
+        frame.discontinuities.push_back(static_cast<std::uint32_t>(random()));
     for (std::uint32_t i = 0; i < count; ++i) {
         const Eigen::Vector4f quaternion(normal(random), normal(random), normal(random), normal(random));
         Eigen::Vector4f::Map(&frame.orientation[4 * i]) = quaternion.normalized();
@@ -39,6 +41,7 @@ RC_GTEST_PROP(DecodePoseFrame, KeepsEveryNumberOfAValidFrame, (std::uint32_t see
     const std::uint32_t count = *rc::gen::inRange<std::uint32_t>(0, 257);
     RawPoseFrame frame = random_frame(count, seed);
     if (seed % 3 == 0) frame.velocity.clear();
+    if (seed % 5 == 0) frame.discontinuities.clear();
     director::PoseFrame message;
     message.poses.resize(seed % 300);  // left over from another frame
     RC_ASSERT(!decode(frame.sample(), message));
@@ -51,6 +54,8 @@ RC_GTEST_PROP(DecodePoseFrame, KeepsEveryNumberOfAValidFrame, (std::uint32_t see
         const director::PlayerPose& pose = message.poses[i];
         RC_ASSERT(pose.player_id == frame.player_id[i]);
         RC_ASSERT(pose.flags == frame.flags[i]);
+        RC_ASSERT(pose.discontinuities.has_value() == !frame.discontinuities.empty());
+        RC_ASSERT(frame.discontinuities.empty() || pose.discontinuities == frame.discontinuities[i]);
         RC_ASSERT(pose.eye == Vec3f(&frame.eye[3 * i]));
         RC_ASSERT(pose.velocity ==
                   (frame.velocity.empty() ? Vec3f(Vec3f::Zero()) : Vec3f(&frame.velocity[3 * i])));
@@ -79,9 +84,11 @@ RC_GTEST_PROP(DecodePoseFrame, RefusesArraysThatDisagree, (std::uint32_t seed)) 
         const std::size_t was = values.size();
         while (values.size() == was)
             values.resize(random() % 1200);
-        if (&values == static_cast<void*>(&frame.velocity) && values.empty()) values.resize(1);
+        const bool may_be_empty = &values == static_cast<void*>(&frame.velocity) ||
+                                  &values == static_cast<void*>(&frame.discontinuities);
+        if (may_be_empty && values.empty()) values.resize(count + 1);
     };
-    switch (random() % 4) {
+    switch (random() % 5) {
         case 0:
             other_length(frame.eye);
             break;
@@ -90,6 +97,9 @@ RC_GTEST_PROP(DecodePoseFrame, RefusesArraysThatDisagree, (std::uint32_t seed)) 
             break;
         case 2:
             other_length(frame.velocity);
+            break;
+        case 3:
+            other_length(frame.discontinuities);
             break;
         default:
             other_length(frame.flags);

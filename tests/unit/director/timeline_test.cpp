@@ -70,6 +70,28 @@ TEST_F(TimelineTest, KnowsWhenAPlayerIsAbsent) {
     EXPECT_EQ(timeline_.window(2).size(), 4U);
 }
 
+TEST_F(TimelineTest, KnowsOfATeleportWhoseFrameWasLost) {
+    const auto add_counted = [&](std::int64_t time_ms, std::uint32_t discontinuities) {
+        PoseFrame frame;
+        frame.frame_time = time_ms * ms;
+        frame.poses.push_back(
+            {1, Vec3f::Zero(), Quatf::Identity(), Vec3f::Zero(), pose_alive, discontinuities});
+        return timeline_.add(frame, frame.poses);
+    };
+    add_counted(0, 4);
+    add_counted(50, 4);
+    add_counted(50, 5);  // the clock stands still: not a frame of the timeline
+    add_counted(100, 5);
+    add_counted(150, 5);
+    const camera::Window window = timeline_.window(1);
+    ASSERT_EQ(window.size(), 4U);
+    for (std::size_t i = 0; i < 4; ++i)
+        EXPECT_EQ(window[i].pose.discontinuity, i == 2) << i;
+    timeline_.clear();
+    add_counted(0, 6);
+    EXPECT_FALSE(timeline_.window(1)[0].pose.discontinuity);
+}
+
 TEST_F(TimelineTest, AClockThatStandsStillAddsNothing) {
     EXPECT_TRUE(add(5000));
     EXPECT_TRUE(add(5000));

@@ -1,0 +1,18 @@
+#include "director/continuity.hpp"
+
+#include <utility>
+
+#include "director/roster.hpp"
+
+namespace camdir::director {
+
+bool Continuity::broken(const PlayerPose& pose) {
+    const bool declared = (pose.flags & pose_discontinuity) != 0;
+    if (!pose.discontinuities) return declared;
+    const std::uint32_t count = *pose.discontinuities;
+    if (counts_.size() >= max_known && !counts_.contains(pose.player_id)) counts_.clear();
+    const auto last = counts_.try_emplace(pose.player_id, count).first;
+    return std::exchange(last->second, count) != count || declared;
+}
+
+}  // namespace camdir::director
