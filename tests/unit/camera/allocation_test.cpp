@@ -1,42 +1,8 @@
-// step() does not allocate. Counts every allocation of the program.
+// step() does not allocate.
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
-#include <new>
-
+#include "support/allocations.hpp"
 #include "walk.hpp"
-
-namespace {
-
-std::atomic<long> allocations = 0;
-
-void* counted(std::size_t size) {
-    ++allocations;
-    if (void* memory = std::malloc(size)) return memory;
-    throw std::bad_alloc();
-}
-
-}  // namespace
-
-void* operator new(std::size_t size) {
-    return counted(size);
-}
-void* operator new[](std::size_t size) {
-    return counted(size);
-}
-void operator delete(void* memory) noexcept {
-    std::free(memory);
-}
-void operator delete[](void* memory) noexcept {
-    std::free(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept {
-    std::free(memory);
-}
-void operator delete[](void* memory, std::size_t) noexcept {
-    std::free(memory);
-}
 
 namespace camdir::camera {
 namespace {
@@ -56,11 +22,11 @@ TEST(Allocation, NoStepAllocates) {
         Scratch scratch(freespace);
         ShotState state;
         int searched = 0;
-        const long before = allocations;
+        const long before = test::allocations();
         for (const Pose& pose : poses) {
             searched += (step(freespace, profile, &pose, 1.0 / 60.0, state, scratch).flags & searching) != 0;
         }
-        EXPECT_EQ(allocations - before, 0) << name_of(solver);
+        EXPECT_EQ(test::allocations() - before, 0) << name_of(solver);
         EXPECT_GT(searched, 10) << name_of(solver);
     }
 }
