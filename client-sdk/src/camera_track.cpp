@@ -1,10 +1,5 @@
 #include "camera_track.hpp"
 
-#include <Eigen/Core>
-#include <Eigen/Geometry>
-#include <algorithm>
-#include <limits>
-
 namespace camdir::sdk {
 
 namespace {
@@ -17,32 +12,18 @@ cdir_view view_of(std::int64_t time, std::uint32_t segment, const cdir_camera& c
     return view;
 }
 
-// Clearance decreases at most by the distance travelled from either end. In double, because a float's square
-// can overflow.
-float clearance_between(const cdir_camera& a, const cdir_camera& b, float share) {
-    using Vector = Eigen::Map<const Eigen::Vector3f>;
-    const double distance = (Vector(b.position).cast<double>() - Vector(a.position).cast<double>()).norm();
-    const double clearance = std::max(a.clearance - share * distance, b.clearance - (1.0 - share) * distance);
-    return static_cast<float>(std::max<double>(clearance, std::numeric_limits<float>::lowest()));
-}
-
-// `share` of the way from a to b, 0 .. 1.
-cdir_camera interpolated(const cdir_camera& a, const cdir_camera& b, float share) {
-    using Vector = Eigen::Map<const Eigen::Vector3f>;
-    using Quaternion = Eigen::Map<const Eigen::Quaternionf>;
-    cdir_camera camera = a;
-    Eigen::Map<Eigen::Vector3f>(camera.position) =
-        (1.0F - share) * Vector(a.position) + share * Vector(b.position);
-    Eigen::Map<Eigen::Quaternionf>(camera.orientation) =
-        Quaternion(a.orientation).slerp(share, Quaternion(b.orientation)).normalized();
-    camera.vertical_fov = a.vertical_fov + share * (b.vertical_fov - a.vertical_fov);
-    camera.clearance = clearance_between(a, b, share);
-    return camera;
+// Frame times differ by no more than 2^62 ns.
+double seconds_between(std::int64_t from, std::int64_t to) {
+    return 1e-9 * static_cast<double>(to - from);
 }
 
 }  // namespace
 
 const CameraTrack::Frame& CameraTrack::frame(std::size_t age_rank) const {
+    return frames_[(begin_ + age_rank) % capacity];
+}
+
+CameraTrack::Frame& CameraTrack::frame(std::size_t age_rank) {
     return frames_[(begin_ + age_rank) % capacity];
 }
 
@@ -53,7 +34,7 @@ void CameraTrack::add(std::int64_t frame_time, const cdir_camera& camera, bool c
     }
     if (!connected || interrupted_) ++segment_;
     interrupted_ = false;
-    frames_[(begin_ + size_) % capacity] = {frame_time, segment_, camera};
+    frames_[(begin_ + size_) % capacity] = {frame_time, segment_, camera, {}};
     if (size_ < capacity) {
         ++size_;
     } else {
@@ -80,7 +61,30 @@ std::size_t CameraTrack::first_after(std::int64_t frame_time) const {
     return rank;
 }
 
-std::optional<cdir_view> CameraTrack::at(std::int64_t frame_time) const {
+bool CameraTrack::connected(std::size_t age_rank) const {
+    return age_rank > 0 && age_rank < size_ && frame(age_rank - 1).segment == frame(age_rank).segment;
+}
+
+CameraStep CameraTrack::step_to(std::size_t age_rank) const {
+    const Frame& before = frame(age_rank - 1);
+    const Frame& after = frame(age_rank);
+    return step_between(before.camera, after.camera, seconds_between(before.time, after.time));
+}
+
+CameraVelocity CameraTrack::velocity_at(std::size_t age_rank) const {
+    if (!connected(age_rank)) return step_to(age_rank + 1).velocity;
+    if (connected(age_rank + 1)) return velocity_between(step_to(age_rank), step_to(age_rank + 1));
+    if (connected(age_rank - 1)) return velocity_after(step_to(age_rank - 1), step_to(age_rank));
+    return step_to(age_rank).velocity;
+}
+
+CameraState CameraTrack::settled(std::size_t age_rank) {
+    Frame& known = frame(age_rank);
+    if (!known.velocity) known.velocity = velocity_at(age_rank);
+    return {known.camera, *known.velocity};
+}
+
+std::optional<cdir_view> CameraTrack::at(std::int64_t frame_time) {
     if (size_ == 0) return std::nullopt;
     const std::size_t rank = first_after(frame_time);
     const Frame& before = frame(rank == 0 ? 0 : rank - 1);
@@ -90,14 +94,13 @@ std::optional<cdir_view> CameraTrack::at(std::int64_t frame_time) const {
         view.late = frame_time - before.time;
         return view;
     }
-    const Frame& after = frame(rank);
-    if (after.segment != before.segment || frame_time == before.time) {
+    if (!connected(rank) || frame_time == before.time) {
         return view_of(frame_time, before.segment, before.camera);
     }
-    const double share =
-        static_cast<double>(frame_time - before.time) / static_cast<double>(after.time - before.time);
+    const double seconds = seconds_between(before.time, frame(rank).time);
+    const double share = seconds_between(before.time, frame_time) / seconds;
     return view_of(frame_time, before.segment,
-                   interpolated(before.camera, after.camera, static_cast<float>(share)));
+                   camera_between(settled(rank - 1), settled(rank), seconds, share));
 }
 
 }  // namespace camdir::sdk

@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "camera_motion.hpp"
+
 namespace camdir::sdk {
 
 // Keeps the newest `capacity` frames. Allocates nothing. One thread at a time.
@@ -27,20 +29,30 @@ class CameraTrack {
 
     [[nodiscard]] std::optional<cdir_view> newest() const;
 
-    // The camera at `frame_time`. Between connected frames it is interpolated: position and field of view
-    // linearly, orientation along the shorter arc, clearance as a lower bound; all else is the earlier
-    // frame's. Between unconnected frames it is the earlier one, outside of the track the nearest. None when
-    // empty.
-    [[nodiscard]] std::optional<cdir_view> at(std::int64_t frame_time) const;
+    // The camera at `frame_time`. Between connected frames it is camera_between() them, between unconnected
+    // ones the earlier one, outside of the track the nearest. None when empty.
+    //
+    // A frame's velocity is settled when it is first needed, by the frames that are known then: by the ones
+    // before and after it, or by the two before it. So the camera never waits for a frame, and none that
+    // comes later bends a way that is being shown.
+    [[nodiscard]] std::optional<cdir_view> at(std::int64_t frame_time);
 
   private:
     struct Frame {
         std::int64_t time;
         std::uint32_t segment;
         cdir_camera camera;
+        std::optional<CameraVelocity> velocity;  // once settled
     };
 
     [[nodiscard]] const Frame& frame(std::size_t age_rank) const;  // 0 = the oldest
+    [[nodiscard]] Frame& frame(std::size_t age_rank);
+    // With the frame before it; false when there is none.
+    [[nodiscard]] bool connected(std::size_t age_rank) const;
+    [[nodiscard]] CameraStep step_to(std::size_t age_rank) const;
+    // Of a frame that is connected with the one before or after it.
+    [[nodiscard]] CameraVelocity velocity_at(std::size_t age_rank) const;
+    [[nodiscard]] CameraState settled(std::size_t age_rank);
     [[nodiscard]] std::size_t first_after(std::int64_t frame_time) const;
 
     std::array<Frame, capacity> frames_{};

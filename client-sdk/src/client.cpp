@@ -333,9 +333,8 @@ const char* cdir_shot_state_name(uint32_t state) noexcept {
 cdir_status cdir_observer_newest_camera(cdir_observer observer, cdir_view* view) noexcept {
     return guarded([&] {
         check_struct("view", view);
-        return store(
-            find(observer)->with_match([](const ReceivedMatch& match) { return match.track().newest(); }),
-            view);
+        return store(find(observer)->with_match([](ReceivedMatch& match) { return match.track().newest(); }),
+                     view);
     });
 }
 
@@ -343,9 +342,9 @@ cdir_status cdir_observer_camera_at(cdir_observer observer, int64_t frame_time, 
     return guarded([&] {
         check_struct("view", view);
         check_frame_time(frame_time);
-        return store(find(observer)->with_match(
-                         [=](const ReceivedMatch& match) { return match.track().at(frame_time); }),
-                     view);
+        return store(
+            find(observer)->with_match([=](ReceivedMatch& match) { return match.track().at(frame_time); }),
+            view);
     });
 }
 

@@ -47,7 +47,7 @@ class ReceivedMatch {
     };
     [[nodiscard]] const std::optional<Info>& info() const { return info_; }
     [[nodiscard]] cdir_shot_status shot_status() const;
-    [[nodiscard]] const CameraTrack& track() const { return track_; }
+    [[nodiscard]] CameraTrack& track() { return track_; }
     [[nodiscard]] DisplayClock& clock() { return clock_; }
     [[nodiscard]] const cdir_observer_counters& counters() const { return counters_; }
 

@@ -426,8 +426,10 @@ static inline cdir_view cdir_view_default(void) {
 CDIR_API cdir_status cdir_observer_newest_camera(cdir_observer observer, cdir_view* view) CDIR_NOEXCEPT;
 
 /* Stores the shot's camera at a game time, interpolated between the frames before and after it, but never
- * across a cut or a missing frame. The newest 64 frames are kept: earlier times give the oldest of them,
- * later times the newest. CDIR_NO_DATA: there is none in this epoch. */
+ * across a cut or a missing frame. Position and orientation pass through the frames without kinks, and the
+ * position stays on the straight way between two frames or within the clearance of one of them. The newest 64
+ * frames are kept: earlier times give the oldest of them, later times the newest. CDIR_NO_DATA: there is none
+ * in this epoch. */
 CDIR_API cdir_status cdir_observer_camera_at(cdir_observer observer, int64_t frame_time,
                                              cdir_view* view) CDIR_NOEXCEPT;
 

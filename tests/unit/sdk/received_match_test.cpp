@@ -67,7 +67,7 @@ class ReceivedMatchTest : public testing::Test {
         match_.accept(info);
     }
 
-    [[nodiscard]] std::uint32_t segment() const { return match_.track().newest()->segment; }
+    [[nodiscard]] std::uint32_t segment() { return match_.track().newest()->segment; }
 
     ReceivedMatch match_{"cup", "anna", 50 * ms};
 };
