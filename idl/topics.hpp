@@ -1,4 +1,4 @@
-// The six topics' names, types and QoS as camera_director.idl documents them, for the server and the client
+// The seven topics' names, types and QoS as camera_director.idl documents them, for the server and the client
 // library.
 #pragma once
 
@@ -17,8 +17,9 @@ enum class Topic : std::size_t {
     camera_frame,
     observer_request,
     observer_status,
+    shown_match,
 };
-inline constexpr std::size_t topic_count = 6;
+inline constexpr std::size_t topic_count = 7;
 
 [[nodiscard]] const char* topic_name(Topic topic);
 [[nodiscard]] const dds_topic_descriptor_t& topic_type(Topic topic);

@@ -44,7 +44,7 @@ Observer::Observer(std::shared_ptr<const Context> context, const std::string& ma
     publisher_ = make_publisher(participant, match_id);
     request_writer_ = topics.make_writer(publisher_.get(), Topic::observer_request);
     subscriber_ = make_subscriber(participant, match_id);
-    info_reader_ = topics.make_reader(subscriber_.get(), Topic::match_info);
+    info_reader_ = topics.make_reader(subscriber_.get(), Topic::shown_match);
     status_reader_ = topics.make_reader(subscriber_.get(), Topic::observer_status);
     frame_reader_ = topics.make_reader(subscriber_.get(), Topic::camera_frame);
     guard_ = Entity("cannot create a guard condition", dds_create_guardcondition(participant));
@@ -177,8 +177,10 @@ void Observer::take_info_and_status() {
     for (Taken taken; (taken = info_sample_.take(info_reader_)) != Taken::nothing;) {
         if (taken == Taken::data) {
             match_.accept(*info_sample_);
-        } else {
+        } else if (taken == Taken::disposed) {
             match_.match_ended();
+        } else {
+            match_.info_abandoned();
         }
     }
     for (Taken taken; (taken = status_sample_.take(status_reader_)) != Taken::nothing;) {

@@ -56,7 +56,7 @@ ReceivedMatch::ReceivedMatch(std::string match_id, std::string observer_id, std:
     : match_id_(std::move(match_id)), observer_id_(std::move(observer_id)), clock_(interpolation_delay) {}
 
 bool ReceivedMatch::enter_epoch(std::uint64_t epoch) {
-    if (info_ && epoch < epoch_) {
+    if (described_ && epoch < epoch_) {
         ++counters_.stale_epoch;
         return false;
     }
@@ -66,7 +66,7 @@ bool ReceivedMatch::enter_epoch(std::uint64_t epoch) {
 
 bool ReceivedMatch::is_of_epoch(std::uint64_t epoch) {
     if (epoch < epoch_) ++counters_.stale_epoch;
-    if (epoch > epoch_ && !info_) begin_epoch(epoch);
+    if (epoch > epoch_ && !described_) begin_epoch(epoch);
     return epoch == epoch_;
 }
 
@@ -79,9 +79,9 @@ void ReceivedMatch::begin_epoch(std::uint64_t epoch) {
     clock_.clear();
 }
 
-// The game server and the director write on different ways: an answer can overtake its epoch's beginning.
+// Samples of different topics can overtake each other.
 void ReceivedMatch::take_early_status() {
-    if (early_status_ && early_status_->epoch <= epoch_) accept(*std::exchange(early_status_, std::nullopt));
+    if (early_status_) accept(*std::exchange(early_status_, std::nullopt));
 }
 
 // A frame of the far future would keep out all later ones.
@@ -96,8 +96,15 @@ void ReceivedMatch::accept(const camera_director_MatchInfo& info) {
         ++counters_.invalid;
     } else if (enter_epoch(info.epoch)) {
         info_ = info_from(info);
+        described_ = true;
         take_early_status();
     }
+}
+
+void ReceivedMatch::match_ended() {
+    info_.reset();
+    described_ = false;
+    take_early_status();
 }
 
 void ReceivedMatch::accept(const camera_director_ObserverStatus& status) {

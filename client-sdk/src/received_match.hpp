@@ -15,15 +15,17 @@
 namespace camdir::sdk {
 
 // accept() drops and counts samples that are malformed or of an earlier epoch. A newer epoch discards the
-// cameras and the director's answer of the earlier one. Once the game server is known, its description alone
-// begins an epoch: what directors write for a later one waits (answers) or is dropped (frames). Frames whose
+// cameras and the director's answer of the earlier one. Once a director has described the match, a
+// description alone begins an epoch: an answer for a later one waits, and frames are dropped. Frames whose
 // time goes back by more than a second discard the cameras before them. One thread at a time.
 class ReceivedMatch {
   public:
     ReceivedMatch(std::string match_id, std::string observer_id, std::int64_t interpolation_delay);
 
     void accept(const camera_director_MatchInfo& info);
-    void match_ended() { info_.reset(); }
+    void match_ended();
+    // The description's writer is silent or dead. It holds until another epoch begins, by whatever sample.
+    void info_abandoned() { described_ = false; }
     void accept(const camera_director_ObserverStatus& status);
     void status_withdrawn() {
         status_.reset();
@@ -52,7 +54,7 @@ class ReceivedMatch {
     [[nodiscard]] const cdir_observer_counters& counters() const { return counters_; }
 
   private:
-    // Of the game server and of a director. They return false when the sample must be dropped.
+    // Of descriptions and of other samples. They return false when the sample must be dropped.
     [[nodiscard]] bool enter_epoch(std::uint64_t epoch);
     [[nodiscard]] bool is_of_epoch(std::uint64_t epoch);
     void begin_epoch(std::uint64_t epoch);
@@ -70,7 +72,8 @@ class ReceivedMatch {
     std::string match_id_;
     std::string observer_id_;
     bool requested_ = false;
-    bool answered_ = false;  // by a director that lives
+    bool answered_ = false;   // by a director that lives
+    bool described_ = false;  // likewise
     std::uint64_t epoch_ = 0;
     std::optional<Info> info_;
     std::optional<cdir_shot_status> status_;

@@ -20,6 +20,7 @@ struct WireCounters {
     };
     std::array<PerTopic, topic_count> received{};
 
+    WireCounter shown_matches_written{0};  // and disposed; not those written again
     WireCounter camera_frames_written{0};
     WireCounter statuses_written{0};
     WireCounter statuses_withdrawn{0};

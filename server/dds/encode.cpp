@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cstring>
+#include <span>
 
 #include "base/utf8.hpp"
 
@@ -10,18 +11,18 @@ namespace camdir::dds {
 namespace {
 
 // Bounded strings of the wire types are zero-terminated arrays.
-template <std::size_t Size>
-void copy_string(char (&to)[Size], const std::string& from) {
-    const std::size_t length = utf8_prefix(from, Size - 1);
-    std::memcpy(to, from.data(), length);
-    std::memset(to + length, 0, Size - length);
+void copy_string(std::span<char> to, const std::string& from) {
+    const std::size_t length = utf8_prefix(from, to.size() - 1);
+    std::memcpy(to.data(), from.data(), length);
+    std::memset(to.data() + length, 0, to.size() - length);
 }
 
 // Lets `sequence` use `storage`, which DDS then neither grows nor frees.
-template <class Sequence, class Value, std::size_t Size>
-void borrow(Sequence& sequence, std::array<Value, Size>& storage) {
-    sequence._buffer = storage.data();
-    sequence._maximum = Size;
+template <class Sequence, class Storage>
+void borrow(Sequence& sequence, Storage& storage) {
+    // An array of arrays of characters is what DDS has for a sequence of bounded strings.
+    sequence._buffer = reinterpret_cast<decltype(sequence._buffer)>(storage.data());
+    sequence._maximum = static_cast<std::uint32_t>(storage.size());
     sequence._release = false;
 }
 
@@ -67,12 +68,48 @@ const camera_director_CameraFrame& CameraFrameEncoder::encode(const director::Ca
     return sample_;
 }
 
+const camera_director_MatchInfo& ShownMatchEncoder::encode(const director::MatchInfo& info) {
+    const std::size_t count = info.players.size();
+    map_name_ = info.map_name;
+    player_id_.resize(count);
+    player_name_.resize(count);
+    player_class_.resize(count);
+    player_team_.resize(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const director::Player& player = info.players[i];
+        player_id_[i] = player.id;
+        copy_string(player_name_[i], player.name);
+        copy_string(player_class_[i], player.player_class);
+        player_team_[i] = player.team;
+    }
+    sample_ = shown_match_key(info.match_id);
+    sample_.epoch = info.epoch;
+    sample_.map_name = map_name_.data();
+    sample_.map_hash = info.map_hash;
+    sample_.metres_per_unit = info.metres_per_unit;
+    sample_.rate_hz = info.rate_hz;
+    sample_.spectator_delay_s = info.spectator_delay_s;
+    borrow(sample_.player_id, player_id_);
+    borrow(sample_.player_name, player_name_);
+    borrow(sample_.player_class, player_class_);
+    borrow(sample_.player_team, player_team_);
+    sample_.player_id._length = sample_.player_name._length = sample_.player_class._length =
+        sample_.player_team._length = static_cast<std::uint32_t>(count);
+    return sample_;
+}
+
 camera_director_ObserverStatus encode(const director::ObserverStatus& status) {
     camera_director_ObserverStatus sample = observer_status_key(status.match_id, status.observer_id);
     sample.epoch = status.epoch;
     sample.state = static_cast<std::uint32_t>(status.state);
     sample.camera_id = status.camera_id;
     copy_string(sample.reason, status.reason);
+    return sample;
+}
+
+camera_director_MatchInfo shown_match_key(const std::string& match_id) {
+    camera_director_MatchInfo sample{};
+    copy_string(sample.match_id, match_id);
     return sample;
 }
 

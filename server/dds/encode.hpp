@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "director/messages.hpp"
 
@@ -35,10 +36,32 @@ class CameraFrameEncoder {
     camera_director_CameraFrame sample_{};
 };
 
+// Makes the ShownMatch samples of one match in its own memory. One thread at a time.
+class ShownMatchEncoder {
+  public:
+    ShownMatchEncoder() = default;
+    ShownMatchEncoder(const ShownMatchEncoder&) = delete;
+    ShownMatchEncoder& operator=(const ShownMatchEncoder&) = delete;
+
+    // The sample points into the encoder and is valid until the next call. Strings are cut as below.
+    [[nodiscard]] const camera_director_MatchInfo& encode(const director::MatchInfo& info);
+    // The one before.
+    [[nodiscard]] const camera_director_MatchInfo& sample() const { return sample_; }
+
+  private:
+    std::string map_name_;
+    std::vector<std::uint32_t> player_id_;
+    std::vector<std::array<char, 64>> player_name_;
+    std::vector<std::array<char, 32>> player_class_;
+    std::vector<std::uint8_t> player_team_;
+    camera_director_MatchInfo sample_{};
+};
+
 // Strings are cut to the bounds of the wire type, at the end of a UTF-8 character.
 [[nodiscard]] camera_director_ObserverStatus encode(const director::ObserverStatus& status);
 
 // Samples with only the key set, for unregistering and disposing.
+[[nodiscard]] camera_director_MatchInfo shown_match_key(const std::string& match_id);
 [[nodiscard]] camera_director_CameraFrame camera_frame_key(const std::string& match_id);
 [[nodiscard]] camera_director_ObserverStatus observer_status_key(const std::string& match_id,
                                                                  const std::string& observer_id);

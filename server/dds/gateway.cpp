@@ -51,6 +51,18 @@ void Gateway::close() {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
 }
 
+void Gateway::publish(const director::MatchInfo& shown) {
+    const auto match = table_.find(shown.match_id);
+    if (!match) return;
+    count(match->write(shown), counters_.shown_matches_written, Topic::shown_match, shown.match_id);
+}
+
+void Gateway::end(const std::string& match_id) {
+    const auto match = table_.find(match_id);
+    if (!match) return;
+    count(match->end_shown(), counters_.shown_matches_written, Topic::shown_match, match_id);
+}
+
 void Gateway::publish(const std::string& match_id, const director::CameraFrame& frame) {
     const auto match = table_.find(match_id);
     if (!match) return;

@@ -39,6 +39,8 @@ class Gateway final : public director::Publisher {
     void close();
 
     // See director::Publisher. Samples that DDS refuses are counted and logged.
+    void publish(const director::MatchInfo& shown) override;
+    void end(const std::string& match_id) override;
     void publish(const std::string& match_id, const director::CameraFrame& frame) override;
     void publish(const director::ObserverStatus& status) override;
     void withdraw(const std::string& match_id, const std::string& observer_id) override;

@@ -7,7 +7,7 @@ namespace camdir::dds {
 namespace {
 
 // A quarter of the shortest lease: some may come late. Each is a packet for every observer.
-constexpr std::chrono::milliseconds status_assertion_interval{250};
+constexpr std::chrono::milliseconds slow_assertion_interval{250};
 
 std::int64_t now_realtime() {
     return std::chrono::duration_cast<std::chrono::nanoseconds>(
@@ -57,8 +57,9 @@ Result<void> MatchEndpoints::open_writers(const Participant& participant, const 
     if (!publisher) return tl::unexpected(publisher.error());
     publisher_ = std::move(*publisher);
 
-    for (const auto& [topic, writer] : {std::pair{Topic::camera_frame, &camera_writer_},
-                                        std::pair{Topic::observer_status, &status_writer_}}) {
+    for (const auto& [topic, writer] :
+         {std::pair{Topic::shown_match, &shown_writer_}, std::pair{Topic::camera_frame, &camera_writer_},
+          std::pair{Topic::observer_status, &status_writer_}}) {
         *writer = dds_create_writer(publisher_.handle(), participant.topic(topic),
                                     writer_qos(topic, leadership).get(), nullptr);
         if (*writer < 0) {
@@ -66,6 +67,19 @@ Result<void> MatchEndpoints::open_writers(const Participant& participant, const 
         }
     }
     return {};
+}
+
+dds_return_t MatchEndpoints::write(const director::MatchInfo& shown) {
+    const std::lock_guard lock(shown_mutex_);
+    is_shown_ = true;
+    return dds_write(shown_writer_, &shown_encoder_.encode(shown));
+}
+
+dds_return_t MatchEndpoints::end_shown() {
+    const std::lock_guard lock(shown_mutex_);
+    is_shown_ = false;
+    const camera_director_MatchInfo key = shown_match_key(match_id_);
+    return dds_dispose(shown_writer_, &key);
 }
 
 dds_return_t MatchEndpoints::write(const director::CameraFrame& frame) {
@@ -87,16 +101,23 @@ dds_return_t MatchEndpoints::withdraw(const std::string& observer_id) {
 void MatchEndpoints::assert_liveliness() {
     if (!wrote_frame_.exchange(false)) dds_assert_liveliness(camera_writer_);
     const auto now = std::chrono::steady_clock::now();
-    if (now < next_status_assertion_) return;
+    if (now < next_slow_assertion_) return;
+    next_slow_assertion_ = now + slow_assertion_interval;
     dds_assert_liveliness(status_writer_);
-    next_status_assertion_ = now + status_assertion_interval;
+    // Readers drop what a standby writes until the lease of its leader ends.
+    const std::lock_guard lock(shown_mutex_);
+    if (is_shown_)
+        dds_write(shown_writer_, &shown_encoder_.sample());
+    else
+        dds_assert_liveliness(shown_writer_);
 }
 
 void MatchEndpoints::release_ownership() {
     const camera_director_CameraFrame key = camera_frame_key(match_id_);
     dds_unregister_instance(camera_writer_, &key);
-    // Deleting the writer unregisters every status at the readers.
+    // Deleting a writer unregisters its instances at the readers.
     dds_delete(status_writer_);
+    dds_delete(shown_writer_);
 }
 
 }  // namespace camdir::dds

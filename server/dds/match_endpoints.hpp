@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 #include <memory>
+#include <mutex>
 #include <string>
 
 #include "dds/encode.hpp"
@@ -26,13 +27,16 @@ class MatchEndpoints {
     [[nodiscard]] dds_entity_t request_reader() const { return request_reader_; }
 
     // One writing thread at a time, which may differ from the reading one. They return DDS's return code.
+    [[nodiscard]] dds_return_t write(const director::MatchInfo& shown);
+    // Disposes it.
+    [[nodiscard]] dds_return_t end_shown();
     [[nodiscard]] dds_return_t write(const director::CameraFrame& frame);
     [[nodiscard]] dds_return_t write(const director::ObserverStatus& status);
     // Disposes the observer's status.
     [[nodiscard]] dds_return_t withdraw(const std::string& observer_id);
 
     // Asserts the writers' liveliness, the camera writer's unless a frame was written since the last call.
-    // One thread at a time.
+    // Writes again which match is shown. One thread at a time.
     void assert_liveliness();
     // Releases the ownership of the match: observers receive the next director, if there is one. Thread-safe.
     void release_ownership();
@@ -45,6 +49,9 @@ class MatchEndpoints {
 
     std::string match_id_;
     CameraFrameEncoder encoder_;
+    std::mutex shown_mutex_;
+    ShownMatchEncoder shown_encoder_;
+    bool is_shown_ = false;
     std::atomic<bool> wrote_frame_{false};  // since the last assert_liveliness()
     Entity subscriber_;                     // owns the readers
     Entity publisher_;                      // owns the writers
@@ -53,7 +60,8 @@ class MatchEndpoints {
     dds_entity_t request_reader_ = 0;
     dds_entity_t camera_writer_ = 0;
     dds_entity_t status_writer_ = 0;
-    std::chrono::steady_clock::time_point next_status_assertion_{};
+    dds_entity_t shown_writer_ = 0;
+    std::chrono::steady_clock::time_point next_slow_assertion_{};
 };
 
 }  // namespace camdir::dds

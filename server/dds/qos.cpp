@@ -12,7 +12,7 @@ constexpr dds_duration_t max_blocking_time = DDS_MSECS(100);
 
 // For so long readers drop the answers of a dead director's successor; shorter, and every observer would ask
 // again when a busy machine delays the director.
-constexpr dds_duration_t min_status_lease = DDS_SECS(1);
+constexpr dds_duration_t min_slow_lease = DDS_SECS(1);
 
 }  // namespace
 
@@ -32,7 +32,7 @@ Qos writer_qos(Topic topic, const Leadership& leadership) {
     if (topic == Topic::camera_frame) {
         dds_qset_lifespan(qos.get(), DDS_SECS(1));
     } else {
-        lease = std::max(lease, min_status_lease);
+        lease = std::max(lease, min_slow_lease);
     }
     dds_qset_liveliness(qos.get(), DDS_LIVELINESS_MANUAL_BY_TOPIC, lease);
     dds_qset_ownership_strength(qos.get(), leadership.strength);

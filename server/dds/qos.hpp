@@ -26,7 +26,7 @@ struct Leadership {
 
 // For a reader. It accepts writers with any lease.
 [[nodiscard]] Qos reader_qos(Topic topic);
-// For a writer of CameraFrame or ObserverStatus.
+// For a writer of ShownMatch, CameraFrame or ObserverStatus.
 [[nodiscard]] Qos writer_qos(Topic topic, const Leadership& leadership);
 // For a publisher or subscriber in these partitions.
 [[nodiscard]] Qos partition_qos(std::span<const std::string> partitions);

@@ -165,24 +165,19 @@ void Subscriber::match_info_found(const camera_director_MatchInfo& sample, const
         return drop(Topic::match_info, ValidationError::wrong_partition, sample.match_id);
     }
     ++counters_.of(Topic::match_info).accepted;
-    if (!ingress_->receive(message)) return;  // the director counts and logs it
-
-    const auto known = matches_.find(message.match_id);
-    if (known != matches_.end()) {
-        Match& match = *known->second;
-        match.info = std::move(message);
-        match.server = info.publication_handle;
-        match.has_server = true;
-        match.forgotten = false;
-        cancel_forget(match.info.match_id);
-    } else if (const auto added = add_match(message); added) {
-        matches_[message.match_id]->server = info.publication_handle;
-    } else {
-        ++counters_.endpoint_failures;
-        spdlog::error("match '{}' cannot be served: {}", message.match_id, added.error().message);
-        remove_match(message.match_id);
-        ingress_->match_ended(message.match_id);
+    const bool known = matches_.contains(message.match_id);
+    // First, because the director publishes at once.
+    if (!known && !add_match(message.match_id)) return;
+    if (!ingress_->receive(message)) {  // the director counts and logs it
+        if (!known) remove_match(message.match_id);
+        return;
     }
+    Match& match = *matches_[message.match_id];
+    match.info = std::move(message);
+    match.server = info.publication_handle;
+    match.has_server = true;
+    match.forgotten = false;
+    cancel_forget(match.info.match_id);
 }
 
 // The director knows the match again: an earlier forget() must not remove it.
@@ -191,20 +186,27 @@ void Subscriber::cancel_forget(const std::string& match_id) {
     std::erase(forgotten_, match_id);
 }
 
-Result<void> Subscriber::add_match(const director::MatchInfo& info) {
-    auto endpoints =
-        MatchEndpoints::open(participant_, info.match_id, options_.leadership, options_.director_id);
+bool Subscriber::add_match(const std::string& match_id) {
+    const auto opened = open_match(match_id);
+    if (opened) return true;
+    ++counters_.endpoint_failures;
+    spdlog::error("match '{}' cannot be served: {}", match_id, opened.error().message);
+    remove_match(match_id);
+    return false;
+}
+
+// On failure the caller removes the match.
+Result<void> Subscriber::open_match(const std::string& match_id) {
+    auto endpoints = MatchEndpoints::open(participant_, match_id, options_.leadership, options_.director_id);
     if (!endpoints) return tl::unexpected(endpoints.error());
-    auto& match = matches_[info.match_id];
+    auto& match = matches_[match_id];
     match = std::make_unique<Match>();
-    match->info = info;
     match->endpoints = std::move(*endpoints);
     match->poses = {match.get(), &Subscriber::take_poses};
     match->events = {match.get(), &Subscriber::take_events};
     match->requests = {match.get(), &Subscriber::take_requests};
     table_.add(match->endpoints);
     counters_.matches = static_cast<std::uint32_t>(matches_.size());
-    // On failure the caller removes the match.
     for (const auto& [reader, source] : {std::pair{match->endpoints->pose_reader(), &match->poses},
                                          std::pair{match->endpoints->event_reader(), &match->events},
                                          std::pair{match->endpoints->request_reader(), &match->requests}}) {

@@ -80,7 +80,9 @@ class Subscriber {
 
     void match_info_found(const camera_director_MatchInfo& sample, const dds_sample_info_t& info);
     void match_info_lost(const std::string& match_id, const dds_sample_info_t& info);
-    [[nodiscard]] Result<void> add_match(const director::MatchInfo& info);
+    // Returns false after logging why its endpoints could not be created.
+    [[nodiscard]] bool add_match(const std::string& match_id);
+    [[nodiscard]] Result<void> open_match(const std::string& match_id);
     void remove_match(const std::string& match_id);
     void remove_forgotten();
     void cancel_forget(const std::string& match_id);

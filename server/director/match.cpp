@@ -86,13 +86,13 @@ void Match::handle(MatchInfo& info) {
     if (new_epoch) begin_epoch();
     if (liveness_ == Liveness::lost) liveness_ = Liveness::silent;
     roster_.set_listed(info_->players);
+    publisher_.publish(*info_);
     attach_map();
 }
 
 void Match::begin_epoch() {
     spdlog::info("match {}: epoch {} on map {}, {} Hz", match_id_, info_->epoch, info_->map_name,
                  info_->rate_hz);
-    last_epoch_ = info_->epoch;
     roster_.clear();
     continuity_.clear();
     attention_.clear();
@@ -127,7 +127,10 @@ void Match::fall_silent(Liveness liveness) {
 }
 
 void Match::handle(const MatchEnded& /*ended*/) {
-    if (info_) spdlog::info("match {}: ended", match_id_);
+    if (info_) {
+        spdlog::info("match {}: ended", match_id_);
+        publisher_.end(match_id_);
+    }
     info_.reset();
     refusal_.clear();
     liveness_ = Liveness::none;
@@ -154,7 +157,7 @@ void Match::handle(const MatchEvent& event) {
 
 void Match::handle(const ObserverRequest& request) {
     counters_.add(Counter::requests);
-    requests_.put(request, *config_, last_epoch_);
+    requests_.put(request, *config_, epoch());
     reconcile_needed_ = true;
 }
 
@@ -234,15 +237,17 @@ void Match::reconcile() {
     const DelayBuffer::State delay = delay_.state();
     const std::string waiting = waiting_for_delay(delay);
     waits_for_delay_ = !waiting.empty();
-    // Of an epoch that is not shown yet: observers know it from the game server.
-    const bool early = (waits_for_delay_ && !info_) || !delay.refusal.empty();
-    requests_.reconcile({*config_, roster_, early ? delay.epoch : last_epoch_,
-                         refusal_.empty() ? delay.refusal : refusal_,
+    requests_.reconcile({*config_, roster_, epoch(), refusal_.empty() ? delay.refusal : refusal_,
                          waits_for_delay_ ? waiting : missing_map_,
                          holds ? "the game server is silent: the camera holds" : ""});
     observer_count_ = requests_.observers();
     shot_count_ = requests_.shots().size();
     abandoned_.store(!info_ && requests_.observers() == 0, std::memory_order_release);
+}
+
+// Of what is published. Observers take no answer of a later epoch than that of the match that they are shown.
+std::uint64_t Match::epoch() const {
+    return info_ ? info_->epoch : delay_.state().epoch;
 }
 
 // When the cameras begin, or go on after the delay has grown; empty when the delay is over.

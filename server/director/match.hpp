@@ -74,6 +74,7 @@ class Match final : public Strand {
     void detach_map(std::string reason);
     void reconcile();
     [[nodiscard]] std::string state() const;
+    [[nodiscard]] std::uint64_t epoch() const;
     [[nodiscard]] std::string waiting_for_delay(const DelayBuffer::State& delay) const;
 
     void process(PoseFrame& frame, std::int64_t received_ns, Turn& turn);
@@ -124,9 +125,8 @@ class Match final : public Strand {
     bool reconcile_needed_ = false;
     bool waits_for_delay_ = false;  // what observers are told
 
-    std::uint64_t last_epoch_ = 0;  // also of a match that is over
-    bool has_last_frame_ = false;   // the frame before is of the same epoch, and no silence was between
-    bool after_silence_ = false;    // there was a silence: players may be anywhere by now
+    bool has_last_frame_ = false;  // the frame before is of the same epoch, and no silence was between
+    bool after_silence_ = false;   // there was a silence: players may be anywhere by now
     std::uint32_t last_number_ = 0;
     std::int64_t last_time_ = 0;
     Timeline timeline_;

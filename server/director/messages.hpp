@@ -21,6 +21,8 @@ struct Player {
     std::string name;
     std::string player_class;
     std::uint8_t team = 0;
+
+    bool operator==(const Player&) const = default;
 };
 
 struct MatchInfo {
@@ -32,6 +34,8 @@ struct MatchInfo {
     float rate_hz = 0.0F;
     float spectator_delay_s = 0.0F;
     std::vector<Player> players;
+
+    bool operator==(const MatchInfo&) const = default;
 };
 
 struct PlayerPose {

@@ -37,6 +37,10 @@ class Ingress {
 class Publisher {
   public:
     virtual ~Publisher() = default;
+    // The match as it is shown from now on. Precedes the cameras of its epoch.
+    virtual void publish(const MatchInfo& shown) = 0;
+    // It has been shown to its end.
+    virtual void end(const std::string& match_id) = 0;
     virtual void publish(const std::string& match_id, const CameraFrame& frame) = 0;
     virtual void publish(const ObserverStatus& status) = 0;
     // The observer's request has ended: its status is disposed.

@@ -69,7 +69,7 @@ dds_qos_t* camera_frame_qos() {
     return qos;
 }
 
-dds_qos_t* observer_status_qos() {
+dds_qos_t* answer_qos() {
     dds_qos_t* qos = newest_for_late_joiners();
     dds_qset_ownership(qos, DDS_OWNERSHIP_EXCLUSIVE);
     return qos;
@@ -119,8 +119,8 @@ RawPeer::RawPeer(std::uint32_t domain, const std::string& match_id, std::string 
     observer_request_ =
         add_writer(camera_director_ObserverRequest_desc, "ObserverRequest", observer_request_qos());
     camera_frame_ = add_reader(camera_director_CameraFrame_desc, "CameraFrame", camera_frame_qos());
-    observer_status_ =
-        add_reader(camera_director_ObserverStatus_desc, "ObserverStatus", observer_status_qos());
+    observer_status_ = add_reader(camera_director_ObserverStatus_desc, "ObserverStatus", answer_qos());
+    shown_match_ = add_reader(camera_director_MatchInfo_desc, "ShownMatch", answer_qos());
 }
 
 RawPeer::~RawPeer() {
@@ -192,6 +192,19 @@ const std::map<std::string, camera_director_ObserverStatus>& RawPeer::statuses()
         }
     }
     return statuses_;
+}
+
+std::vector<std::optional<std::uint64_t>> RawPeer::take_shown_epochs() {
+    std::vector<std::optional<std::uint64_t>> epochs;
+    void* sample = nullptr;
+    dds_sample_info_t info;
+    while (dds_take(shown_match_, &sample, &info, 1, 1) > 0) {
+        if (info.valid_data)
+            epochs.emplace_back(static_cast<const camera_director_MatchInfo*>(sample)->epoch);
+        if (info.instance_state != DDS_ALIVE_INSTANCE_STATE) epochs.emplace_back(std::nullopt);
+        dds_return_loan(shown_match_, &sample, 1);
+    }
+    return epochs;
 }
 
 std::uint32_t RawPeer::directors() {

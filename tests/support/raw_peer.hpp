@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,9 @@ class RawPeer {
     // The newest status of every observer that has one.
     [[nodiscard]] const std::map<std::string, camera_director_ObserverStatus>& statuses();
 
+    // Takes the descriptions since the last call; their epochs, and nothing for the end of a shown match.
+    [[nodiscard]] std::vector<std::optional<std::uint64_t>> take_shown_epochs();
+
     // Directors whose camera writers are matched.
     [[nodiscard]] std::uint32_t directors();
 
@@ -57,7 +61,7 @@ class RawPeer {
     dds_entity_t participant_ = 0;
     std::string partition_;
     dds_entity_t match_info_ = 0, pose_frame_ = 0, match_event_ = 0, observer_request_ = 0;
-    dds_entity_t camera_frame_ = 0, observer_status_ = 0;
+    dds_entity_t camera_frame_ = 0, observer_status_ = 0, shown_match_ = 0;
     std::map<std::string, camera_director_ObserverStatus> statuses_;
 };
 

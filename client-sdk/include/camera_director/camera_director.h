@@ -164,7 +164,7 @@ typedef struct cdir_match_info {
     uint32_t struct_size;
     float metres_per_unit;   /* > 0: length of one map unit in metres */
     float rate_hz;           /* > 0: pose frames per second that the game server intends to publish */
-    float spectator_delay_s; /* 0 to 120: directors publish the match so late, not this description of it */
+    float spectator_delay_s; /* 0 to 120: directors publish the match and this description so late */
     uint64_t epoch;          /* open and restart: 0 = taken from the system clock, which makes it greater
                                 than those of earlier processes; update: ignored */
     uint64_t map_hash;       /* xxh3-64 of the map file's bytes; 0 = unknown */
@@ -440,8 +440,9 @@ CDIR_API cdir_status cdir_observer_display_time(cdir_observer observer, int64_t*
 
 /* Stores the match's description and up to capacity of its players; players may be null for 0, player_count
  * (may be null) receives their number. CDIR_TRUNCATED: there are more than capacity.
- * CDIR_NO_DATA: unknown. The description comes from the game server directly, so the network settings must
- * let observers and game servers discover each other; cameras do not need that. */
+ * The description is of what the cameras show, and late by the match's delay as they are. It comes from the
+ * director, needs no request, and stays when the director has gone, until another one's.
+ * CDIR_NO_DATA: no director shows the match, or it has been shown to its end. */
 CDIR_API cdir_status cdir_observer_match_info(cdir_observer observer, cdir_match_info* info,
                                               cdir_player* players, uint32_t capacity,
                                               uint32_t* player_count) CDIR_NOEXCEPT;

@@ -100,10 +100,13 @@ FakeDirector::FakeDirector(std::uint32_t domain, const std::string& match_id, st
     dds_qset_writer_data_lifecycle(cameras.qos, false);
     camera_writer_ = created(dds_create_writer(
         publisher, topic(camera_director_CameraFrame_desc, "CameraFrame"), cameras.qos, nullptr));
-    Qos statuses(DDS_RELIABILITY_RELIABLE, 1);
-    statuses.transient_local().exclusive(strength);
+    Qos answers(DDS_RELIABILITY_RELIABLE, 1);
+    answers.transient_local().exclusive(strength);
+    dds_qset_writer_data_lifecycle(answers.qos, false);
     status_writer_ = created(dds_create_writer(
-        publisher, topic(camera_director_ObserverStatus_desc, "ObserverStatus"), statuses.qos, nullptr));
+        publisher, topic(camera_director_ObserverStatus_desc, "ObserverStatus"), answers.qos, nullptr));
+    shown_writer_ = created(dds_create_writer(publisher, topic(camera_director_MatchInfo_desc, "ShownMatch"),
+                                              answers.qos, nullptr));
 }
 
 FakeDirector::~FakeDirector() {
@@ -168,6 +171,20 @@ bool FakeDirector::has_ended(dds_entity_t reader) {
     const bool triggered = dds_triggered(ended) > 0;
     dds_delete(ended);
     return triggered;
+}
+
+bool FakeDirector::show_match() {
+    const auto pass_on = [&](const camera_director_MatchInfo& sample) {
+        return dds_write(shown_writer_, &sample) == DDS_RETCODE_OK;
+    };
+    return take<camera_director_MatchInfo>(info_reader_, camera_director_MatchInfo_desc, pass_on)
+        .value_or(false);
+}
+
+void FakeDirector::end_shown_match() {
+    camera_director_MatchInfo key{};
+    match_id_.copy(key.match_id, sizeof key.match_id - 1);
+    ASSERT_EQ(dds_dispose(shown_writer_, &key), DDS_RETCODE_OK);
 }
 
 void FakeDirector::write(CameraFrameArrays& frame) {

@@ -67,6 +67,9 @@ class FakeDirector {
     [[nodiscard]] bool info_has_ended() { return has_ended(info_reader_); }
     [[nodiscard]] bool request_has_ended() { return has_ended(request_reader_); }
 
+    // Passes the game server's next description on to the observers. Returns false when there is none.
+    [[nodiscard]] bool show_match();
+    void end_shown_match();
     void write(CameraFrameArrays& frame);
     void write_status(const std::string& observer_id, std::uint64_t epoch, std::uint32_t state,
                       std::uint32_t camera_id, const std::string& reason = {});
@@ -89,6 +92,7 @@ class FakeDirector {
     dds_entity_t request_reader_;
     dds_entity_t camera_writer_;
     dds_entity_t status_writer_;
+    dds_entity_t shown_writer_;
 };
 
 }  // namespace camdir::test

@@ -262,12 +262,15 @@ TEST_F(Spectator, TheStandbyIsReceivedWhenTheLeaderIsGone) {
     EXPECT_EQ(observer_.counters().gaps, 0U);
 }
 
-TEST_F(Spectator, MatchAndPlayersAreKnownUntilTheMatchEnds) {
-    EXPECT_FALSE(observer_.match_info());
-    std::optional<cd::Match> match(
-        std::in_place, context_,
-        cd::MatchInfo{
-            .match_id = match_id_, .map_name = "oa_dm1", .players = {{1, "anna", "medic", 3}, {2, "bert"}}});
+TEST_F(Spectator, MatchAndPlayersAreKnownFromWhenADirectorShowsThemToTheEnd) {
+    const cd::Match match(context_, cd::MatchInfo{.match_id = match_id_,
+                                                  .map_name = "oa_dm1",
+                                                  .players = {{1, "anna", "medic", 3}, {2, "bert"}}});
+    ASSERT_TRUE(eventually([&] { return match.director_count() == 1; }));
+    observer_.poll();
+    EXPECT_FALSE(observer_.match_info()) << "not from the game server";
+    std::optional<FakeDirector> leader(std::in_place, shared_domain, match_id_, 100);
+    ASSERT_TRUE(eventually([&] { return leader->show_match(); }));
     ASSERT_TRUE(eventually([&] {
         observer_.poll();
         return observer_.match_info().has_value();
@@ -281,7 +284,13 @@ TEST_F(Spectator, MatchAndPlayersAreKnownUntilTheMatchEnds) {
     EXPECT_EQ(info.players[0].player_class, "medic");
     EXPECT_EQ(info.players[0].team, 3U);
     EXPECT_EQ(info.players[1].id, 2U);
-    match.reset();
+
+    leader.reset();
+    ASSERT_TRUE(eventually([&] { return observer_.counters().directors == 1; }));
+    observer_.poll();
+    EXPECT_TRUE(observer_.match_info()) << "until another director's";
+    ASSERT_TRUE(director_.show_match());
+    director_.end_shown_match();
     EXPECT_TRUE(eventually([&] {
         observer_.poll();
         return !observer_.match_info();

@@ -123,6 +123,40 @@ TEST_F(DelayTest, AMapChangeIsShownWithTheDelayToo) {
     })) << server.log();
 }
 
+TEST_F(DelayTest, AnObserverKnowsOfTheNextMapWhenTheOneBeforeIsShownToItsEnd) {
+    Server server(domain_.id(), Server::Options{.minimum_delay_s = 2.0});
+    ASSERT_TRUE(server.ready()) << server.log();
+    const Context context(connection(domain_.id()));
+    Game game(context, "cup", "hall", 4);
+    Observer observer(context, "cup", "anna");
+    observer.request({.target = 0});
+    std::uint64_t first_epoch = 0;
+    std::int64_t changed = 0;
+    int old_ones = 0;  // of the first epoch, after its end
+    EXPECT_TRUE(sees(observer, [&](const auto& frame, auto cameras) {
+        expect_not_early(frame);
+        if (first_epoch == 0) first_epoch = frame.epoch;
+        const bool first = frame.epoch == first_epoch;
+        const auto info = observer.match_info();
+        EXPECT_TRUE(info);
+        if (!info) return true;
+        EXPECT_EQ(info->epoch, frame.epoch);
+        EXPECT_EQ(info->map_name, first ? "hall" : "yard");
+        EXPECT_EQ(info->players.size(), first ? 4U : 2U);
+        if (changed == 0) {
+            game.change_map("yard", 2);
+            changed = real_time();
+        }
+        if (first && frame.source_time < changed && frame.write_time > changed) {
+            old_ones += cameras.size() == 1 ? 1 : 0;
+            EXPECT_EQ(observer.shot_status().state, std::uint32_t{CDIR_SHOT_ACCEPTED});
+        }
+        return !first && cameras.size() == 1;
+    })) << server.log();
+    EXPECT_GE(old_ones, 5) << "of about 120";
+    EXPECT_TRUE(sees_own_camera(observer)) << server.log();
+}
+
 TEST_F(DelayTest, ADelayThatIsTooLongIsRefused) {
     Server server(domain_.id());
     ASSERT_TRUE(server.ready()) << server.log();

@@ -201,6 +201,32 @@ TEST_F(FailureTest, TheStandbyTakesOverWithTheSameCameraIds) {
     EXPECT_TRUE(shows(first, 3)) << standby.log();
 }
 
+// The observer's reader drops what the standby writes of the match until the leader's lease ends.
+TEST_F(FailureTest, AMapThatChangesAsTheLeaderDiesIsShownByTheStandby) {
+    Server leader(domain_.id(), {.participant_index = 0, .strength = 200, .director_id = 10});
+    Server standby(domain_.id(), {.participant_index = 1, .strength = 100, .director_id = 20});
+    ASSERT_TRUE(leader.ready() && standby.ready()) << leader.log() << standby.log();
+    const Context context(connection(domain_.id()));
+    Game game(context, "cup", "hall");
+    Observer asks(context, "cup", "asks");
+    Observer only_looks(context, "cup", "only looks");
+    asks.request({.target = 2});
+    for (Observer* observer : {&asks, &only_looks}) {
+        ASSERT_TRUE(sees(*observer, [&](const auto& frame, auto cameras) {
+            return frame.director_id == 10 && has_target(cameras, 2) && observer->counters().directors == 2;
+        })) << leader.log();
+        EXPECT_EQ(observer->match_info()->map_name, "hall");
+    }
+    leader.process().send_signal(SIGKILL);
+    game.change_map("yard");
+    for (Observer* observer : {&asks, &only_looks}) {
+        EXPECT_TRUE(sees(*observer, [&](const auto& frame, auto cameras) {
+            const auto info = observer->match_info();
+            return frame.director_id == 20 && has_target(cameras, 2) && info && info->map_name == "yard";
+        })) << standby.log();
+    }
+}
+
 TEST_F(FailureTest, ALeaderThatIsStoppedHandsOver) {
     Server leader(domain_.id(), {.participant_index = 0, .strength = 200, .director_id = 10});
     Server standby(domain_.id(), {.participant_index = 1, .strength = 100, .director_id = 20});

@@ -91,9 +91,9 @@ Game::Game(const camera_director::Context& context, const std::string& match_id,
 
 Game::~Game() = default;
 
-void Game::change_map(const std::string& map_name) {
+void Game::change_map(const std::string& map_name, std::uint32_t players) {
     const std::lock_guard lock(mutex_);
-    info_.map_name = map_name;
+    info_ = info_of(info_.match_id, map_name, players);
     match_.restart(info_);
     frames_ = 0;
 }

@@ -50,7 +50,7 @@ class Game {
          std::uint32_t players = 4);
     ~Game();
 
-    void change_map(const std::string& map_name);
+    void change_map(const std::string& map_name, std::uint32_t players = 4);
 
   private:
     void publish(std::uint32_t frame);

@@ -5,6 +5,8 @@
 
 #include <random>
 
+#include "dds/decode.hpp"
+
 namespace camdir::dds {
 namespace {
 
@@ -71,6 +73,39 @@ TEST(EncodeCameraFrame, UsesTheSameMemoryForEveryFrame) {
     const camera_director_CameraFrame& after = encoder.encode(random_camera_frame(256, 2), 0);
     EXPECT_EQ(after.position._buffer, before);
     EXPECT_FALSE(after.position._release) << "DDS must not free it";
+}
+
+RC_GTEST_PROP(EncodeShownMatch, IsDecodedToTheSame, ()) {
+    ShownMatchEncoder encoder;
+    // The second description must not contain anything of the first.
+    for (int round = 0; round < 2; ++round) {
+        director::MatchInfo info;
+        info.match_id = "cup-7";
+        info.epoch = *rc::gen::arbitrary<std::uint64_t>();
+        info.map_name = std::string(*rc::gen::inRange<std::size_t>(1, 256), 'm');
+        info.map_hash = *rc::gen::arbitrary<std::uint64_t>();
+        info.metres_per_unit = 0.0254F;
+        info.rate_hz = 60.0F;
+        info.spectator_delay_s = 3.5F;
+        const auto players = *rc::gen::inRange<std::uint32_t>(0, director::max_players + 1);
+        for (std::uint32_t i = 0; i < players; ++i)
+            info.players.push_back(
+                {i * 7, std::string(i % 64, 'n'), std::string(i % 32, 'c'), static_cast<std::uint8_t>(i)});
+        (void)encoder.encode(info);
+        director::MatchInfo decoded;
+        RC_ASSERT(!decode(encoder.sample(), decoded));
+        RC_ASSERT(decoded == info);
+    }
+}
+
+TEST(EncodeShownMatch, CutsStringsBetweenCharacters) {
+    director::MatchInfo info;
+    info.match_id = "m";
+    info.players.push_back({1, std::string(62, 'x') + "ä", std::string(30, 'x') + "ä", 0});
+    ShownMatchEncoder encoder;
+    const camera_director_MatchInfo& sample = encoder.encode(info);
+    EXPECT_EQ(std::string(sample.player_name._buffer[0]), std::string(62, 'x'));
+    EXPECT_EQ(std::string(sample.player_class._buffer[0]), std::string(30, 'x'));
 }
 
 TEST(EncodeObserverStatus, CutsStringsBetweenCharacters) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 #include <mutex>
+#include <optional>
 #include <stdexcept>
 
 #include "dds/encode.hpp"
@@ -25,6 +26,7 @@ class Recorder final : public director::Ingress {
   public:
     bool receive(const director::MatchInfo& info) override {
         note("info " + info.match_id + " " + std::to_string(info.epoch));
+        if (director::Publisher* publisher = shows_at_once) publisher->publish(info);
         return accepts;
     }
     void server_lost(const std::string& match_id) override { note("silent " + match_id); }
@@ -55,6 +57,7 @@ class Recorder final : public director::Ingress {
 
     std::atomic<bool> accepts{true};
     std::atomic<bool> answers{true};
+    std::atomic<director::Publisher*> shows_at_once{nullptr};
 
   private:
     void note(std::string line) {
@@ -112,6 +115,14 @@ class GatewayTest : public testing::Test {
     std::unique_ptr<Gateway> gateway_;
     std::vector<std::unique_ptr<RawPeer>> peers_;
 };
+
+director::MatchInfo info_of(const std::string& match_id, std::uint64_t epoch) {
+    director::MatchInfo info;
+    info.match_id = match_id;
+    info.epoch = epoch;
+    info.map_name = "hall";
+    return info;
+}
 
 director::CameraFrame one_camera(std::uint32_t frame_number) {
     director::CameraFrame frame;
@@ -180,6 +191,36 @@ TEST_F(GatewayTest, WritesCamerasAndStatuses) {
     gateway_->publish("nobody's match", one_camera(0));
     EXPECT_EQ(gateway_->counters().camera_frames_written, 1U);
     EXPECT_EQ(gateway_->counters().write_failures, 0U);
+}
+
+TEST_F(GatewayTest, WhatIsShownIsWrittenForLateObserversAndAgainUntilItsEnd) {
+    RawPeer& raw = game("cup");
+    const auto sees = [](RawPeer& peer, const std::optional<std::uint64_t>& epoch, int times) {
+        return eventually([&] {
+            for (const auto& shown : peer.take_shown_epochs())
+                times -= shown == epoch ? 1 : 0;
+            return times <= 0;
+        });
+    };
+    gateway_->publish(info_of("cup", 1));
+    EXPECT_TRUE(sees(raw, 1, 3));
+    gateway_->publish(info_of("cup", 2));
+    EXPECT_TRUE(sees(raw, 2, 3));
+    RawPeer& late = peer("cup");
+    EXPECT_TRUE(sees(late, 2, 1));
+    gateway_->end("cup");
+    EXPECT_TRUE(sees(raw, std::nullopt, 1));
+    EXPECT_TRUE(sees(late, std::nullopt, 1));
+    EXPECT_EQ(gateway_->counters().shown_matches_written, 3U) << "without those written again";
+}
+
+TEST_F(GatewayTest, WhatTheDirectorShowsAtOnceIsWritten) {
+    recorder_.shows_at_once = gateway_.get();
+    RawPeer& raw = game("cup", 5);
+    EXPECT_TRUE(eventually([&] {
+        const auto shown = raw.take_shown_epochs();
+        return !shown.empty() && shown[0] == 5;
+    }));
 }
 
 TEST_F(GatewayTest, AnIdleReaderLosesNothingWithin32Frames) {
@@ -297,7 +338,7 @@ TEST_F(GatewayTest, ARefusedMatchGetsNoEndpointsUntilItIsAccepted) {
     RawPeer& raw = peer("cup");
     raw.write(test::raw_match_info("cup", 1));
     ASSERT_TRUE(eventually([&] { return recorder_.has("info cup 1"); }));
-    EXPECT_EQ(gateway_->counters().matches, 0U);
+    EXPECT_TRUE(eventually([&] { return gateway_->counters().matches == 0; }));
     recorder_.accepts = true;
     raw.write(test::raw_match_info("cup", 1));
     EXPECT_TRUE(eventually([&] { return raw.directors() == 1; }));

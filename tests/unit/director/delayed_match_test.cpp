@@ -42,8 +42,10 @@ TEST(DelayedMatch, NothingIsPublishedOrViewedEarly) {
         const View view = stage.director.view(std::chrono::seconds(30));
         const ObserverStatus own = stage.publisher.status("a");
         const ObserverStatus other = stage.publisher.status("b");
+        const auto info = stage.publisher.shown();
         if (now_ns() - begin < 300 * ms) {
             EXPECT_TRUE(frames.empty());
+            EXPECT_FALSE(info);
             EXPECT_EQ(own.state, RequestState::waiting_for_map);
             EXPECT_EQ(other.state, RequestState::waiting_for_map) << "who plays is not known yet";
             EXPECT_THAT(own.reason, HasSubstr("shown with a delay of 0.3 s: the cameras begin at 20"));
@@ -78,8 +80,25 @@ TEST(DelayedMatch, IsShownToItsEnd) {
     }));
     EXPECT_TRUE(
         eventually([&] { return stage.publisher.status("a").reason == "no game server runs this match"; }));
+    EXPECT_FALSE(stage.publisher.shown());
     stage.director.request_ended("m", "a");
     EXPECT_TRUE(eventually([&] { return stage.publisher.forgotten("m"); }));
+}
+
+// Observers take no answers of an epoch before its description.
+TEST(DelayedMatch, ARefusedEpochIsAnsweredAsOfTheOneThatWasShown) {
+    Stage stage;
+    stage.start();
+    stage.ask(Stage::request("a"));
+    ASSERT_EQ(stage.publisher.shown()->epoch, 1U);
+    stage.start(delayed_by(121.0F, 2));
+    EXPECT_EQ(stage.publisher.status("a").state, RequestState::refused);
+    EXPECT_EQ(stage.publisher.status("a").epoch, 1U);
+    EXPECT_EQ(stage.publisher.shown()->epoch, 1U);
+    stage.start(delayed_by(0.1F, 3));
+    EXPECT_TRUE(eventually([&] { return stage.publisher.shown()->epoch == 3; }));
+    EXPECT_TRUE(eventually([&] { return stage.publisher.status("a").epoch == 3; }));
+    EXPECT_EQ(stage.publisher.status("a").state, RequestState::accepted);
 }
 
 TEST(DelayedMatch, AnEndedMatchWithoutObserversIsKeptUntilItIsShown) {

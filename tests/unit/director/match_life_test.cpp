@@ -74,6 +74,24 @@ TEST(MatchLife, ANewMapFileCutsAndAnUnchangedOneDoesNot) {
     EXPECT_EQ(stage.publisher.status("a").state, RequestState::waiting_for_map);
 }
 
+TEST(MatchLife, TheMatchIsDescribedWithoutRequestsAndWithoutItsMap) {
+    Stage stage;
+    stage.start(on_map("nowhere"));
+    ASSERT_TRUE(stage.publisher.shown());
+    EXPECT_EQ(stage.publisher.shown()->map_name, "nowhere");
+    EXPECT_EQ(stage.publisher.shown()->players.size(), 3U);
+    stage.start(Stage::info("m", 1, {1}));
+    EXPECT_EQ(stage.publisher.shown()->players.size(), 1U);
+    stage.start(Stage::info("m", 0));
+    EXPECT_EQ(stage.publisher.shown()->epoch, 1U) << "an older one is not shown";
+    stage.director.server_lost("m");
+    stage.director.flush();
+    EXPECT_TRUE(stage.publisher.shown()) << "it may go on";
+    stage.director.match_ended("m");
+    stage.director.flush();
+    EXPECT_FALSE(stage.publisher.shown());
+}
+
 TEST(MatchLife, ANewEpochRestartsEveryShot) {
     Stage stage;
     stage.start();

@@ -6,6 +6,16 @@
 
 namespace camdir::director {
 
+void MemoryPublisher::publish(const MatchInfo& shown) {
+    const std::lock_guard lock(mutex_);
+    shown_[shown.match_id] = shown;
+}
+
+void MemoryPublisher::end(const std::string& match_id) {
+    const std::lock_guard lock(mutex_);
+    shown_.erase(match_id);
+}
+
 void MemoryPublisher::publish(const std::string& match_id, const CameraFrame& frame) {
     const std::lock_guard lock(mutex_);
     frames_[match_id].push_back(frame);
@@ -25,6 +35,12 @@ void MemoryPublisher::withdraw(const std::string& match_id, const std::string& o
 void MemoryPublisher::forget(const std::string& match_id) {
     const std::lock_guard lock(mutex_);
     forgotten_.insert(match_id);
+}
+
+std::optional<MatchInfo> MemoryPublisher::shown(const std::string& match_id) const {
+    const std::lock_guard lock(mutex_);
+    const auto found = shown_.find(match_id);
+    return found == shown_.end() ? std::nullopt : std::optional(found->second);
 }
 
 std::vector<CameraFrame> MemoryPublisher::frames(const std::string& match_id) const {

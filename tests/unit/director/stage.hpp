@@ -3,6 +3,7 @@
 
 #include <map>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -17,11 +18,15 @@ inline constexpr std::int64_t ms = 1'000'000;  // in ns
 // Keeps everything that is published. Thread-safe.
 class MemoryPublisher final : public Publisher {
   public:
+    void publish(const MatchInfo& shown) override;
+    void end(const std::string& match_id) override;
     void publish(const std::string& match_id, const CameraFrame& frame) override;
     void publish(const ObserverStatus& status) override;
     void withdraw(const std::string& match_id, const std::string& observer_id) override;
     void forget(const std::string& match_id) override;
 
+    // The newest description; none before the first and after the end.
+    [[nodiscard]] std::optional<MatchInfo> shown(const std::string& match_id = "m") const;
     [[nodiscard]] std::vector<CameraFrame> frames(const std::string& match_id = "m") const;
     // The newest status; one with the reason "none" when there is none.
     [[nodiscard]] ObserverStatus status(const std::string& observer_id,
@@ -32,6 +37,7 @@ class MemoryPublisher final : public Publisher {
 
   private:
     mutable std::mutex mutex_;
+    std::map<std::string, MatchInfo> shown_;
     std::map<std::string, std::vector<CameraFrame>> frames_;
     std::map<std::pair<std::string, std::string>, ObserverStatus> statuses_;
     std::size_t statuses_published_ = 0;

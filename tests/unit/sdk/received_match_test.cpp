@@ -56,7 +56,7 @@ class ReceivedMatchTest : public testing::Test {
         match_.accept(status_of(epoch, camera_id));
     }
 
-    // By the game server.
+    // By a director.
     void describe(std::uint64_t epoch) {
         camera_director_MatchInfo info{};
         std::string("cup").copy(info.match_id, 63);
@@ -128,7 +128,7 @@ TEST_F(ReceivedMatchTest, OlderEpochsAreDroppedAndCounted) {
     EXPECT_EQ(match_.info()->match.epoch, 3U);
 }
 
-TEST_F(ReceivedMatchTest, AFalseEpochOfADirectorDoesNotSilenceTheGameServers) {
+TEST_F(ReceivedMatchTest, AFalseEpochDoesNotSilenceTheDescribedOne) {
     constexpr std::uint64_t last = std::numeric_limits<std::uint64_t>::max();
     for (const bool known : {true, false}) {
         SCOPED_TRACE(known);
@@ -159,6 +159,26 @@ TEST_F(ReceivedMatchTest, AnAnswerThatOvertakesItsEpochHoldsOnceThatBegins) {
     EXPECT_EQ(match_.shot_status().camera_id, 4U);
     EXPECT_TRUE(accept(4, 0, 1.0F));
     EXPECT_EQ(match_.track().newest()->camera.position[0], -1.0F);
+    match_.accept(status_of(5, 6));
+    EXPECT_EQ(match_.shot_status().camera_id, 4U);
+    match_.match_ended();
+    EXPECT_EQ(match_.shot_status().camera_id, 6U) << "the next one's description may come later";
+}
+
+TEST_F(ReceivedMatchTest, ADescriptionHoldsAfterItsDirectorsEndUntilAnotherEpochBegins) {
+    describe(3);
+    answer(3, 5);
+    match_.info_abandoned();
+    EXPECT_TRUE(accept(3, 0, 1.0F));
+    EXPECT_EQ(match_.info()->match.epoch, 3U);
+    EXPECT_TRUE(accept(4, 0, 1.0F)) << "the next director's may still be on its way";
+    EXPECT_FALSE(match_.info());
+    describe(3);
+    EXPECT_EQ(match_.info()->match.epoch, 3U) << "an older epoch too";
+    EXPECT_FALSE(accept(4, 1, 1.0F));
+    match_.match_ended();
+    EXPECT_FALSE(match_.info());
+    EXPECT_TRUE(accept(4, 2, 1.0F));
 }
 
 TEST_F(ReceivedMatchTest, AFrameOfTheFarFutureDoesNotKeepOutTheNextOnes) {
