@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstring>
+#include <tuple>
 
 namespace camdir::dds {
 namespace {
@@ -57,11 +58,15 @@ Result<void> MatchEndpoints::open_writers(const Participant& participant, const 
     if (!publisher) return tl::unexpected(publisher.error());
     publisher_ = std::move(*publisher);
 
-    for (const auto& [topic, writer] :
-         {std::pair{Topic::shown_match, &shown_writer_}, std::pair{Topic::camera_frame, &camera_writer_},
-          std::pair{Topic::observer_status, &status_writer_}}) {
+    // Configured strengths are at least 0.
+    const Leadership below_all{.strength = -1, .lease = leadership.lease};
+    for (const auto& [topic, writer, rank] :
+         {std::tuple{Topic::shown_match, &shown_writer_, &leadership},
+          std::tuple{Topic::camera_frame, &camera_writer_, &leadership},
+          std::tuple{Topic::observer_status, &status_writer_, &leadership},
+          std::tuple{Topic::observer_status, &early_status_writer_, &below_all}}) {
         *writer = dds_create_writer(publisher_.handle(), participant.topic(topic),
-                                    writer_qos(topic, leadership).get(), nullptr);
+                                    writer_qos(topic, *rank).get(), nullptr);
         if (*writer < 0) {
             return dds_failure("creating the writer of " + partition + " " + topic_name(topic), *writer);
         }
@@ -88,14 +93,20 @@ dds_return_t MatchEndpoints::write(const director::CameraFrame& frame) {
 }
 
 dds_return_t MatchEndpoints::write(const director::ObserverStatus& status) {
+    using director::RequestState;
+    has_cameras_ = has_cameras_ || status.state == RequestState::accepted ||
+                   status.state == RequestState::waiting_for_player;
     const camera_director_ObserverStatus sample = encode(status);
-    return dds_write(status_writer_, &sample);
+    return dds_write(has_cameras_ ? status_writer_ : early_status_writer_, &sample);
 }
 
 dds_return_t MatchEndpoints::withdraw(const std::string& observer_id) {
     const camera_director_ObserverStatus key = observer_status_key(match_id_, observer_id);
-    if (const dds_return_t disposed = dds_dispose(status_writer_, &key); disposed < 0) return disposed;
-    return dds_unregister_instance(status_writer_, &key);
+    for (const dds_entity_t writer : {early_status_writer_, status_writer_}) {
+        if (const dds_return_t disposed = dds_dispose(writer, &key); disposed < 0) return disposed;
+        if (const dds_return_t ended = dds_unregister_instance(writer, &key); ended < 0) return ended;
+    }
+    return DDS_RETCODE_OK;
 }
 
 void MatchEndpoints::assert_liveliness() {
@@ -104,6 +115,7 @@ void MatchEndpoints::assert_liveliness() {
     if (now < next_slow_assertion_) return;
     next_slow_assertion_ = now + slow_assertion_interval;
     dds_assert_liveliness(status_writer_);
+    dds_assert_liveliness(early_status_writer_);
     // Readers drop what a standby writes until the lease of its leader ends.
     const std::lock_guard lock(shown_mutex_);
     if (is_shown_)
@@ -116,6 +128,7 @@ void MatchEndpoints::release_ownership() {
     const camera_director_CameraFrame key = camera_frame_key(match_id_);
     dds_unregister_instance(camera_writer_, &key);
     // Deleting a writer unregisters its instances at the readers.
+    dds_delete(early_status_writer_);
     dds_delete(status_writer_);
     dds_delete(shown_writer_);
 }

@@ -31,6 +31,8 @@ class MatchEndpoints {
     // Disposes it.
     [[nodiscard]] dds_return_t end_shown();
     [[nodiscard]] dds_return_t write(const director::CameraFrame& frame);
+    // Until an observer has got a camera, or only waits for its player, answers stand below those of all
+    // directors that have cameras.
     [[nodiscard]] dds_return_t write(const director::ObserverStatus& status);
     // Disposes the observer's status.
     [[nodiscard]] dds_return_t withdraw(const std::string& observer_id);
@@ -59,7 +61,9 @@ class MatchEndpoints {
     dds_entity_t event_reader_ = 0;
     dds_entity_t request_reader_ = 0;
     dds_entity_t camera_writer_ = 0;
+    bool has_cameras_ = false;
     dds_entity_t status_writer_ = 0;
+    dds_entity_t early_status_writer_ = 0;  // while there are no cameras
     dds_entity_t shown_writer_ = 0;
     std::chrono::steady_clock::time_point next_slow_assertion_{};
 };

@@ -118,6 +118,7 @@ RawPeer::RawPeer(std::uint32_t domain, const std::string& match_id, std::string 
     match_event_ = add_writer(camera_director_MatchEvent_desc, "MatchEvent", match_event_qos());
     observer_request_ =
         add_writer(camera_director_ObserverRequest_desc, "ObserverRequest", observer_request_qos());
+    status_writer_ = add_writer(camera_director_ObserverStatus_desc, "ObserverStatus", answer_qos());
     camera_frame_ = add_reader(camera_director_CameraFrame_desc, "CameraFrame", camera_frame_qos());
     observer_status_ = add_reader(camera_director_ObserverStatus_desc, "ObserverStatus", answer_qos());
     shown_match_ = add_reader(camera_director_MatchInfo_desc, "ShownMatch", answer_qos());
@@ -158,6 +159,9 @@ void RawPeer::write(const camera_director_MatchEvent& sample) {
 }
 void RawPeer::write(const camera_director_ObserverRequest& sample) {
     check(dds_write(observer_request_, &sample), "writing an ObserverRequest");
+}
+void RawPeer::write(const camera_director_ObserverStatus& sample) {
+    check(dds_write(status_writer_, &sample), "writing an ObserverStatus");
 }
 void RawPeer::dispose(const camera_director_MatchInfo& key) {
     check(dds_dispose(match_info_, &key), "disposing MatchInfo");

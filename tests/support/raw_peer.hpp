@@ -27,6 +27,7 @@ class RawPeer {
     void write(const camera_director_PoseFrame& sample);
     void write(const camera_director_MatchEvent& sample);
     void write(const camera_director_ObserverRequest& sample);
+    void write(const camera_director_ObserverStatus& sample);  // with strength 0
     void dispose(const camera_director_MatchInfo& key);
     void dispose(const camera_director_ObserverRequest& key);
 
@@ -61,6 +62,7 @@ class RawPeer {
     dds_entity_t participant_ = 0;
     std::string partition_;
     dds_entity_t match_info_ = 0, pose_frame_ = 0, match_event_ = 0, observer_request_ = 0;
+    dds_entity_t status_writer_ = 0;
     dds_entity_t camera_frame_ = 0, observer_status_ = 0, shown_match_ = 0;
     std::map<std::string, camera_director_ObserverStatus> statuses_;
 };

@@ -157,6 +157,22 @@ TEST_F(DelayTest, AnObserverKnowsOfTheNextMapWhenTheOneBeforeIsShownToItsEnd) {
     EXPECT_TRUE(sees_own_camera(observer)) << server.log();
 }
 
+TEST_F(DelayTest, ALeaderThatStartsLeavesTheMatchToTheStandbyUntilItsDelayIsFull) {
+    Server standby(domain_.id(), {.participant_index = 1, .director_id = 20, .minimum_delay_s = 2.0});
+    ASSERT_TRUE(standby.ready()) << standby.log();
+    const Context context(connection(domain_.id()));
+    const Game game(context, "cup", "hall");
+    Observer observer(context, "cup", "anna");
+    observer.request({.target = 1});
+    ASSERT_TRUE(sees_own_camera(observer)) << standby.log();
+    Server leader(domain_.id(), {.strength = 200, .director_id = 10, .minimum_delay_s = 2.0});
+    EXPECT_TRUE(sees(observer, [&](const auto& frame, auto cameras) {
+        EXPECT_EQ(observer.shot_status().state, std::uint32_t{CDIR_SHOT_ACCEPTED});
+        return frame.director_id == 10 && cameras.size() == 1;
+    })) << leader.log();
+    EXPECT_TRUE(sees_own_camera(observer)) << leader.log();
+}
+
 TEST_F(DelayTest, ADelayThatIsTooLongIsRefused) {
     Server server(domain_.id());
     ASSERT_TRUE(server.ready()) << server.log();

@@ -214,6 +214,36 @@ TEST_F(GatewayTest, WhatIsShownIsWrittenForLateObserversAndAgainUntilItsEnd) {
     EXPECT_EQ(gateway_->counters().shown_matches_written, 3U) << "without those written again";
 }
 
+TEST_F(GatewayTest, AnswersWithoutACameraStandBelowThoseOfAnotherDirector) {
+    RawPeer& raw = game("cup");
+    RawPeer& standby = peer("cup");
+    standby.write(encode(status_of("anna", "the standby's")));
+    const auto reads = [&](const std::string& observer_id, const std::string& reason) {
+        return eventually([&] {
+            const auto found = raw.statuses().find(observer_id);
+            return found != raw.statuses().end() && found->second.reason == reason;
+        });
+    };
+    ASSERT_TRUE(reads("anna", "the standby's"));
+    director::ObserverStatus waiting = status_of("anna", "waiting");
+    waiting.state = director::RequestState::waiting_for_map;
+    gateway_->publish(waiting);
+    waiting.observer_id = "bert";
+    gateway_->publish(waiting);
+    ASSERT_TRUE(reads("bert", "waiting")) << "nobody else answers";
+    EXPECT_STREQ(raw.statuses().at("anna").reason, "the standby's");
+    gateway_->publish(status_of("anna", "the leader's"));
+    EXPECT_TRUE(reads("anna", "the leader's"));
+    waiting.reason = "still waiting";
+    gateway_->publish(waiting);
+    EXPECT_TRUE(reads("bert", "still waiting"));
+    gateway_->withdraw("cup", "bert");
+    EXPECT_TRUE(eventually([&] { return raw.statuses().count("bert") == 0; }));
+    RawPeer& late = peer("cup");
+    EXPECT_TRUE(eventually([&] { return late.statuses().count("anna") == 1; }));
+    EXPECT_EQ(late.statuses().count("bert"), 0U);
+}
+
 TEST_F(GatewayTest, WhatTheDirectorShowsAtOnceIsWritten) {
     recorder_.shows_at_once = gateway_.get();
     RawPeer& raw = game("cup", 5);
