@@ -163,6 +163,8 @@ nlohmann::json to_json(const Findings& total, const Options& options, double sec
             {"cameras", total.cameras},
             {"gaps", total.gaps},
             {"disorder", total.disorder},
+            {"delay_s", options.limits.delay},
+            {"early", total.early},
             {"hand_overs", total.hand_overs},
             {"epochs", total.epochs},
             {"invalid", total.invalid},
@@ -192,6 +194,7 @@ std::vector<std::string> violations_of(const Findings& total, const Options& opt
     };
     above(total.gaps, options.max_gaps, "frames are missing");
     above(total.disorder, 0, "frames are out of order");
+    above(total.early, 0, "frames left before they were due");
     above(total.invalid, 0, "samples are malformed");
     above(total.in_obstacle, options.max_violations, "cameras are in an obstacle");
     above(total.through_geometry, options.max_violations, "undeclared steps go through geometry");
@@ -242,7 +245,7 @@ int probe(const Options& options, const std::stop_token& stop) {
         }
     }
     // Measuring begins when all observers are served.
-    wait_until_served(probes, options.grace, stop);
+    wait_until_served(probes, options.grace + options.limits.delay, stop);
     if (unserved(probes).empty()) {
         for (const auto& one : probes)
             one->restart();
@@ -290,7 +293,12 @@ void add_options(CLI::App& app, Options& options) {
     app.add_option("--map", options.map, "The source map: check cameras against its obstacles");
     app.add_option("--seconds", options.seconds, "Duration once all are served; 0: until interrupted")
         ->check(CLI::NonNegativeNumber);
-    app.add_option("--grace", options.grace, "Seconds within which all observers must be served")
+    app.add_option("--delay", options.limits.delay,
+                   "The match's delay, s: frames must not leave sooner, and latencies count from then")
+        ->check(CLI::Range(0.0, 120.0))
+        ->capture_default_str();
+    app.add_option("--grace", options.grace,
+                   "Seconds, after the delay, within which all observers must be served")
         ->check(CLI::NonNegativeNumber)
         ->capture_default_str();
     app.add_option("--max-step", options.limits.step, "Longest undeclared step, map units")

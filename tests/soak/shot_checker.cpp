@@ -1,5 +1,7 @@
 #include "shot_checker.hpp"
 
+#include <cmath>
+
 namespace camdir::soak {
 namespace {
 
@@ -10,10 +12,11 @@ Vec3d position_of(const camera_director::Camera& camera) {
 }  // namespace
 
 void Findings::add(const Findings& other) {
-    for (const auto member : {&Findings::frames, &Findings::cameras, &Findings::gaps, &Findings::disorder,
-                              &Findings::hand_overs, &Findings::epochs, &Findings::invalid, &Findings::cuts,
-                              &Findings::visible, &Findings::searching, &Findings::absent, &Findings::held,
-                              &Findings::in_obstacle, &Findings::through_geometry, &Findings::jumps}) {
+    for (const auto member :
+         {&Findings::frames, &Findings::cameras, &Findings::gaps, &Findings::disorder, &Findings::early,
+          &Findings::hand_overs, &Findings::epochs, &Findings::invalid, &Findings::cuts, &Findings::visible,
+          &Findings::searching, &Findings::absent, &Findings::held, &Findings::in_obstacle,
+          &Findings::through_geometry, &Findings::jumps}) {
         this->*member += other.*member;
     }
     latency.add(other.latency);
@@ -22,7 +25,9 @@ void Findings::add(const Findings& other) {
 void ShotChecker::check(const camera_director::CameraFrame& frame, const camera_director::Camera* own,
                         std::int64_t received) {
     ++findings_.frames;
-    findings_.latency.add(static_cast<double>(received - frame.source_time) * 1e-9);
+    const std::int64_t due = frame.source_time + std::llround(1e9 * limits_.delay);
+    findings_.early += frame.write_time < due ? 1 : 0;
+    findings_.latency.add(static_cast<double>(received - due) * 1e-9);
     const bool consecutive = follows(frame);
     if (own != nullptr) {
         check_camera(*own);

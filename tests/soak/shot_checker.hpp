@@ -16,6 +16,7 @@ struct Findings {
     std::uint64_t cameras = 0;   // of these, frames with the observer's own camera
     std::uint64_t gaps = 0;      // frames missing between them, by frame_number
     std::uint64_t disorder = 0;  // frames not newer than the previous one
+    std::uint64_t early = 0;     // frames that left before they were due
     std::uint64_t hand_overs = 0;
     std::uint64_t epochs = 0;
     std::uint64_t invalid = 0;  // samples that the SDK dropped as malformed
@@ -24,7 +25,7 @@ struct Findings {
     std::uint64_t in_obstacle = 0;       // inside a solid, or nearer to an obstacle than the limit
     std::uint64_t through_geometry = 0;  // steps through an obstacle without a cut
     std::uint64_t jumps = 0;             // steps longer than the limit without a cut
-    Latencies latency;                   // from the poses' source_time to the arrival of their cameras
+    Latencies latency;                   // from when frames were due to their arrival
 
     void add(const Findings& other);
 };
@@ -32,6 +33,7 @@ struct Findings {
 struct Limits {
     double step = 64.0;      // map units between consecutive frames
     double clearance = 0.0;  // map units; cameras nearer to an obstacle count as in it
+    double delay = 0.0;      // s, of the match: frames are due so long after the source_time of their poses
 };
 
 // One thread at a time. `oracle`, which may be null, must outlive it.

@@ -1,11 +1,13 @@
 #!/usr/bin/env bash
 # Runs a director under load, checks every camera that it publishes, and that its memory does not grow.
 #
-#     soak.sh [--seconds N | --hours N] [--matches 4] [--players 8] [--observers 8] [--rate 60] [--trace FILE]
-#             [--map MAP] [--map-name NAME] [--bin FOLDER] [--work FOLDER] [--json FILE] [--max-growth-mib 4]
+#     soak.sh [--seconds N | --hours N] [--matches 4] [--players 8] [--observers 8] [--rate 60] [--delay 0]
+#             [--trace FILE] [--map MAP] [--map-name NAME] [--bin FOLDER] [--work FOLDER] [--json FILE]
+#             [--max-growth-mib 4]
 #
 # Players walk along the map's roadmap, or replay --trace. MAP is a file or archive.pk3:member; without it oa_dm1 of
 # Debian's openarena-081-maps is used. The baked map stays in the work folder for the next run.
+# With --delay S the matches are shown S seconds late: no camera may leave earlier, and latencies count from then.
 # Memory counts as level when its median over the last quarter of the run is at most --max-growth-mib above that
 # over the second quarter. Exit codes: 0 all checks passed, 1 a check failed, 2 bad usage, 77 no map.
 set -euo pipefail
@@ -14,7 +16,7 @@ export LC_ALL=C  # awk and sleep agree on the decimal point
 here=$(cd "$(dirname "$0")" && pwd)
 bin=$here/../../build/release/bin
 work=${TMPDIR:-/tmp}/camera-director-soak
-seconds=60 matches=4 players=8 observers=8 rate=60 trace='' json='' growth=4 map_name=oa_dm1
+seconds=60 matches=4 players=8 observers=8 rate=60 delay=0 trace='' json='' growth=4 map_name=oa_dm1
 map=/usr/share/games/openarena/baseoa/pak1-maps.pk3:maps/oa_dm1.bsp
 
 while [ $# -gt 0 ]; do
@@ -29,6 +31,7 @@ while [ $# -gt 0 ]; do
         --players) players=$2 ;;
         --observers) observers=$2 ;;
         --rate) rate=$2 ;;
+        --delay) delay=$2 ;;
         --trace) trace=$2 ;;
         --map) map=$2 ;;
         --map-name) map_name=$2 ;;
@@ -67,14 +70,14 @@ server=$!
 network=(--domain "$domain" --match-prefix soak)
 if [ -n "$trace" ]; then
     start_program "$bin/pose-replay" "$trace" "${network[@]}" --map-name "$map_name" --copies "$matches" \
-        --rate "$rate" >"$work/players.txt"
+        --rate "$rate" --delay "$delay" >"$work/players.txt"
 else
     start_program "$bin/synthetic-players" "$work/$map_name.vfs" "${network[@]}" --map-name "$map_name" \
-        --matches "$matches" --players "$players" --rate "$rate" >"$work/players.txt"
+        --matches "$matches" --players "$players" --rate "$rate" --delay "$delay" >"$work/players.txt"
 fi
 game=$!
 start_program "$bin/observer-probe" "${network[@]}" --matches "$matches" --observers "$observers" --map "$map" \
-    --seconds "$seconds" --json "$work/probe.json"
+    --delay "$delay" --seconds "$seconds" --json "$work/probe.json"
 probe=$!
 
 # Samples the server's resident kilobytes and processor ticks, once per second or 1000 times in total.
@@ -110,7 +113,8 @@ level=$(awk -v a="$early" -v b="$last" -v most="$growth" 'BEGIN { print (b - a <
 
 result=$(cat <<RESULT
 {
-  "matches": $matches, "players": $players, "observers": $observers, "rate_hz": $rate, "seconds": $seconds,
+  "matches": $matches, "players": $players, "observers": $observers, "rate_hz": $rate, "delay_s": $delay,
+  "seconds": $seconds,
   "memory_kib": {"second_quarter": $early, "last_quarter": $last, "level": $level},
   "server_cores": $cores,
   "exit_codes": {"server": $served, "players": $played, "probe": $probed},

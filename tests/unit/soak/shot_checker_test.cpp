@@ -99,6 +99,20 @@ TEST_F(ShotCheckerTest, OldFramesAndOtherDirectorsAreCounted) {
     EXPECT_EQ(found().jumps, 0U);
 }
 
+TEST(ShotCheckerWithADelay, FramesThatLeaveEarlyCountAndLatenciesBeginWhenTheyAreDue) {
+    ShotChecker checker(nullptr, {.delay = 3.0});
+    camera_director::CameraFrame frame = cdir_camera_frame_default();
+    frame.source_time = 1'000'000'000;
+    frame.write_time = 4'000'000'000;
+    checker.check(frame, nullptr, 4'002'000'000);
+    EXPECT_EQ(checker.findings().early, 0U);
+    EXPECT_NEAR(checker.findings().latency.percentile(1.0), 2e-3, 2e-5);
+    ++frame.frame_number;
+    --frame.write_time;
+    checker.check(frame, nullptr, 4'002'000'000);
+    EXPECT_EQ(checker.findings().early, 1U);
+}
+
 TEST(Latencies, PercentilesAreRightToOnePercent) {
     std::mt19937 random(7);
     std::lognormal_distribution<double> draw(-6.0, 1.0);
