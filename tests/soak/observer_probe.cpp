@@ -152,6 +152,13 @@ std::vector<std::string> unserved(const Probes& probes) {
     return list;
 }
 
+nlohmann::json to_json(const Latencies& latencies) {
+    return {{"p50", milliseconds(latencies.percentile(0.5))},
+            {"p99", milliseconds(latencies.percentile(0.99))},
+            {"p999", milliseconds(latencies.percentile(0.999))},
+            {"max", milliseconds(latencies.largest())}};
+}
+
 nlohmann::json to_json(const Findings& total, const Options& options, double seconds,
                        const std::vector<std::string>& violations) {
     const double frames = static_cast<double>(total.frames);
@@ -168,11 +175,8 @@ nlohmann::json to_json(const Findings& total, const Options& options, double sec
             {"hand_overs", total.hand_overs},
             {"epochs", total.epochs},
             {"invalid", total.invalid},
-            {"latency_ms",
-             {{"p50", milliseconds(total.latency.percentile(0.5))},
-              {"p99", milliseconds(total.latency.percentile(0.99))},
-              {"p999", milliseconds(total.latency.percentile(0.999))},
-              {"max", milliseconds(total.latency.largest())}}},
+            {"lateness_ms", to_json(total.lateness)},
+            {"latency_ms", to_json(total.latency)},
             {"flags",
              {{"cut", total.cuts},
               {"target_visible", total.visible},

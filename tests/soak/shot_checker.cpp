@@ -9,6 +9,10 @@ Vec3d position_of(const camera_director::Camera& camera) {
     return Eigen::Map<const Vec3f>(camera.position).cast<double>();
 }
 
+double seconds_since(std::int64_t due, std::int64_t time) {
+    return static_cast<double>(time - due) * 1e-9;
+}
+
 }  // namespace
 
 void Findings::add(const Findings& other) {
@@ -19,6 +23,7 @@ void Findings::add(const Findings& other) {
           &Findings::through_geometry, &Findings::jumps}) {
         this->*member += other.*member;
     }
+    lateness.add(other.lateness);
     latency.add(other.latency);
 }
 
@@ -27,7 +32,8 @@ void ShotChecker::check(const camera_director::CameraFrame& frame, const camera_
     ++findings_.frames;
     const std::int64_t due = frame.source_time + std::llround(1e9 * limits_.delay);
     findings_.early += frame.write_time < due ? 1 : 0;
-    findings_.latency.add(static_cast<double>(received - due) * 1e-9);
+    findings_.lateness.add(seconds_since(due, frame.write_time));
+    findings_.latency.add(seconds_since(due, received));
     const bool consecutive = follows(frame);
     if (own != nullptr) {
         check_camera(*own);

@@ -25,6 +25,7 @@ struct Findings {
     std::uint64_t in_obstacle = 0;       // inside a solid, or nearer to an obstacle than the limit
     std::uint64_t through_geometry = 0;  // steps through an obstacle without a cut
     std::uint64_t jumps = 0;             // steps longer than the limit without a cut
+    Latencies lateness;                  // from when frames were due to when they left
     Latencies latency;                   // from when frames were due to their arrival
 
     void add(const Findings& other);

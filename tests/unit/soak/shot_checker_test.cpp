@@ -99,16 +99,17 @@ TEST_F(ShotCheckerTest, OldFramesAndOtherDirectorsAreCounted) {
     EXPECT_EQ(found().jumps, 0U);
 }
 
-TEST(ShotCheckerWithADelay, FramesThatLeaveEarlyCountAndLatenciesBeginWhenTheyAreDue) {
+TEST(ShotCheckerWithADelay, FramesThatLeaveEarlyCountAndTimesBeginWhenTheyAreDue) {
     ShotChecker checker(nullptr, {.delay = 3.0});
     camera_director::CameraFrame frame = cdir_camera_frame_default();
     frame.source_time = 1'000'000'000;
-    frame.write_time = 4'000'000'000;
+    frame.write_time = 4'001'000'000;
     checker.check(frame, nullptr, 4'002'000'000);
     EXPECT_EQ(checker.findings().early, 0U);
+    EXPECT_NEAR(checker.findings().lateness.percentile(1.0), 1e-3, 1e-5);
     EXPECT_NEAR(checker.findings().latency.percentile(1.0), 2e-3, 2e-5);
     ++frame.frame_number;
-    --frame.write_time;
+    frame.write_time = 3'999'999'999;
     checker.check(frame, nullptr, 4'002'000'000);
     EXPECT_EQ(checker.findings().early, 1U);
 }
