@@ -8,6 +8,7 @@
 #include "app/progress.hpp"
 #include "base/file.hpp"
 #include "config/config.hpp"
+#include "evaluation/kills.hpp"
 #include "evaluation/metrics.hpp"
 #include "evaluation/peers.hpp"
 #include "evaluation/recording.hpp"
@@ -31,6 +32,7 @@ struct EvaluateOptions {
     std::string freespace;
     std::string map;
     std::string trace;
+    std::string events;
     std::string camera = tracker;
     std::string judge;
     std::string profile = "default";
@@ -58,18 +60,27 @@ void check_usage(const EvaluateOptions& options) {
         {{"--cameras", options.cameras}, {"--terms", options.terms}, {"--json", options.json}});
 }
 
-struct Traces {
+struct Match {
     evaluation::Trace poses;   // as recorded
     evaluation::Trace frames;  // the instants of the cameras
+    std::optional<std::vector<evaluation::Kill>> kills;
 };
 
-Result<Traces> read_traces(const EvaluateOptions& options) {
+Result<Match> read_match(const EvaluateOptions& options) {
     auto trace = evaluation::read_trace(options.trace);
     if (!trace) return tl::unexpected(trace.error());
-    if (options.output_hz == 0.0) return Traces{*trace, *trace};
-    auto resampled = evaluation::resample(*trace, options.output_hz);
-    if (!resampled) return fail(options.trace + ": " + resampled.error().message);
-    return Traces{std::move(*trace), std::move(*resampled)};
+    Match match;
+    if (!options.events.empty()) {
+        auto kills = evaluation::read_kills(options.events, *trace);
+        if (!kills) return tl::unexpected(kills.error());
+        match.kills = std::move(*kills);
+    }
+    auto frames = options.output_hz == 0.0 ? Result<evaluation::Trace>(*trace)
+                                           : evaluation::resample(*trace, options.output_hz);
+    if (!frames) return fail(options.trace + ": " + frames.error().message);
+    match.poses = std::move(*trace);
+    match.frames = std::move(*frames);
+    return match;
 }
 
 struct SourceMap {
@@ -106,7 +117,7 @@ Result<camera::Profile> find_profile(const EvaluateOptions& options) {
                 options.profile + "\"; there are" + names);
 }
 
-Result<evaluation::Recording> run_tracker(const EvaluateOptions& options, const Traces& traces,
+Result<evaluation::Recording> run_tracker(const EvaluateOptions& options, const Match& match,
                                           std::uint64_t map_hash, ProgressLine& line,
                                           const std::stop_token& stop) {
     auto profile = find_profile(options);
@@ -121,22 +132,22 @@ Result<evaluation::Recording> run_tracker(const EvaluateOptions& options, const 
                   << options.map << '\n';
     }
     const auto show = [&](std::uint64_t done, std::uint64_t total) { line.show("tracking", done, total); };
-    return evaluation::record(*freespace, *profile, traces.poses, traces.frames, options.look_ahead, show,
+    return evaluation::record(*freespace, *profile, match.poses, match.frames, options.look_ahead, show,
                               stop);
 }
 
 // The cameras to measure. Only the tracker's have objective terms and times.
-Result<evaluation::Recording> make_cameras(const EvaluateOptions& options, const Traces& traces,
+Result<evaluation::Recording> make_cameras(const EvaluateOptions& options, const Match& match,
                                            const scene::Scene& scene, ProgressLine& line,
                                            const std::stop_token& stop) {
-    if (options.tracks()) return run_tracker(options, traces, scene.source_hash, line, stop);
+    if (options.tracks()) return run_tracker(options, match, scene.source_hash, line, stop);
     evaluation::Recording recording;
     if (options.judge.empty()) {
         const auto peer = evaluation::find_peer(options.camera);
-        recording.cameras = evaluation::follow(*peer, traces.frames, scene.metres_per_unit);
+        recording.cameras = evaluation::follow(*peer, match.frames, scene.metres_per_unit);
         return recording;
     }
-    auto cameras = evaluation::read_cameras(options.judge, traces.frames);
+    auto cameras = evaluation::read_cameras(options.judge, match.frames);
     if (!cameras) return tl::unexpected(cameras.error());
     recording.cameras = std::move(*cameras);
     return recording;
@@ -172,20 +183,23 @@ Result<void> evaluate(const EvaluateOptions& options) {
         return writable;
     ProgressLine line;
     line.show("reading " + options.trace, 0, 0);
-    const auto traces = read_traces(options);
-    if (!traces) return tl::unexpected(traces.error());
-    const evaluation::Trace& trace = traces->frames;
+    const auto match = read_match(options);
+    if (!match) return tl::unexpected(match.error());
+    const evaluation::Trace& trace = match->frames;
     line.show("reading " + options.map, 0, 0);
     const auto map = open_map(options);
     if (!map) return tl::unexpected(map.error());
     const oracle::Oracle oracle(map->scene, map->point_radius);
     reading.reset();
-    const auto recording = make_cameras(options, *traces, map->scene, line, interruption.token());
+    const auto recording = make_cameras(options, *match, map->scene, line, interruption.token());
     if (!recording) return tl::unexpected(recording.error());
     const auto explored = [&](std::uint64_t cells) { line.show("judging, cells explored", cells, 0); };
-    const auto metrics =
+    auto metrics =
         evaluation::measure(map->scene, oracle, trace, recording->cameras, explored, interruption.token());
     if (!metrics) return tl::unexpected(metrics.error());
+    if (match->kills)
+        metrics->kill_in_view = evaluation::kill_in_view(oracle, map->scene.metres_per_unit, trace,
+                                                         recording->cameras, *match->kills);
     line.clear();
     print(options, trace, *metrics, *recording);
     return write_results(options, trace, *metrics, *recording);
@@ -201,6 +215,7 @@ void add_evaluate(CLI::App& root, Run& run) {
     command->add_option("--map", options->map, "The source map: a file, or archive.pk3:maps/name.bsp")
         ->required();
     command->add_option("--trace", options->trace, "The recorded match, CSV or CSV.gz")->required();
+    command->add_option("--events", options->events, "The match's events, CSV or CSV.gz: kills in view");
     command->add_option("--config", options->config,
                         "Configuration that has the profile; default: those that ship");
     command->add_option("--profile", options->profile, "The tracker's profile")->capture_default_str();

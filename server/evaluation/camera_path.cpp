@@ -75,10 +75,7 @@ class Alignment {
   private:
     [[nodiscard]] std::uint32_t find(std::int64_t time, std::uint32_t id) const {
         if (frame_ == trace_.frames.size() || trace_.frames[frame_].time != time) return absent;
-        const TraceFrame& frame = trace_.frames[frame_];
-        for (std::uint32_t i = 0; i < frame.pose_count; ++i)
-            if (trace_.poses[frame.first_pose + i].player == id) return frame.first_pose + i;
-        return absent;
+        return pose_of(trace_, trace_.frames[frame_], id);
     }
 
     [[nodiscard]] Result<void> check_frame() const {

@@ -39,16 +39,16 @@ std::string shown(double value) {
 
 class Table {
   public:
-    Table(std::span<const Column> columns, const RowSink& sink)
+    Table(std::span<const TextColumn> columns, const TextRowSink& sink)
         : columns_(columns), sink_(sink), values_(columns.size()) {}
 
     [[nodiscard]] bool has_header() const { return field_count_ != 0; }
 
     Result<void> read_header(std::string_view line) {
         const auto names = split(line);
-        for (const Column& column : columns_) {
+        for (const TextColumn& column : columns_) {
             std::size_t place = 0;
-            while (place < names.size() && names[place] != column.name)
+            while (place < names.size() && names[place] != column.name && names[place] != column.alias)
                 ++place;
             if (place == names.size())
                 return fail("the header lacks the column \"" + std::string(column.name) + "\"; found " +
@@ -64,38 +64,35 @@ class Table {
         if (fields.size() != field_count_)
             return fail(std::to_string(fields.size()) + " fields, expected " + std::to_string(field_count_) +
                         " as in the header");
-        for (std::size_t i = 0; i < columns_.size(); ++i) {
-            auto value = read_number(fields[places_[i]], columns_[i]);
-            if (!value) return tl::unexpected(value.error());
-            values_[i] = *value;
-        }
+        for (std::size_t i = 0; i < columns_.size(); ++i)
+            values_[i] = fields[places_[i]];
         return sink_(values_);
     }
 
   private:
-    static Result<double> read_number(std::string_view field, const Column& column) {
-        double value = 0.0;
-        const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-        const bool number = error == std::errc{} && end == field.data() + field.size() && !field.empty();
-        if (number && value >= column.minimum && value <= column.maximum &&
-            (!column.integer || value == std::trunc(value)))
-            return value;
-        return fail("column \"" + std::string(column.name) + "\" is " + quoted(field) + ", expected " +
-                    (column.integer ? "an integer" : "a number") + " from " + shown(column.minimum) + " to " +
-                    shown(column.maximum));
-    }
-
-    std::span<const Column> columns_;
-    const RowSink& sink_;
+    std::span<const TextColumn> columns_;
+    const TextRowSink& sink_;
     std::vector<std::size_t> places_;  // of each of columns_ among the fields
-    std::vector<double> values_;
+    std::vector<std::string_view> values_;
     std::size_t field_count_ = 0;
 };
 
 }  // namespace
 
-Result<void> read_csv(std::span<const std::byte> bytes, const std::string& name,
-                      std::span<const Column> columns, const RowSink& sink) {
+Result<double> to_number(std::string_view field, const Column& column) {
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+    const bool number = error == std::errc{} && end == field.data() + field.size() && !field.empty();
+    if (number && value >= column.minimum && value <= column.maximum &&
+        (!column.integer || value == std::trunc(value)))
+        return value;
+    return fail("column \"" + std::string(column.name) + "\" is " + quoted(field) + ", expected " +
+                (column.integer ? "an integer" : "a number") + " from " + shown(column.minimum) + " to " +
+                shown(column.maximum));
+}
+
+Result<void> read_text_csv(std::span<const std::byte> bytes, const std::string& name,
+                           std::span<const TextColumn> columns, const TextRowSink& sink) {
     Table table(columns, sink);
     std::uint64_t line_number = 1;
     const auto read = for_each_line(bytes, [&](std::string_view line) {
@@ -106,6 +103,22 @@ Result<void> read_csv(std::span<const std::byte> bytes, const std::string& name,
     if (!read) return fail(name + ":" + std::to_string(line_number) + ": " + read.error().message);
     if (!table.has_header()) return fail(name + ": empty, expected a header line");
     return {};
+}
+
+Result<void> read_csv(std::span<const std::byte> bytes, const std::string& name,
+                      std::span<const Column> columns, const RowSink& sink) {
+    std::vector<TextColumn> names;
+    for (const Column& column : columns)
+        names.push_back({column.name, column.name});
+    std::vector<double> values(columns.size());
+    return read_text_csv(bytes, name, names, [&](std::span<const std::string_view> fields) -> Result<void> {
+        for (std::size_t i = 0; i < columns.size(); ++i) {
+            const auto value = to_number(fields[i], columns[i]);
+            if (!value) return tl::unexpected(value.error());
+            values[i] = *value;
+        }
+        return sink(values);
+    });
 }
 
 }  // namespace camdir::evaluation

@@ -5,6 +5,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "base/error.hpp"
 
@@ -28,5 +29,21 @@ using RowSink = std::function<Result<void>(std::span<const double>)>;
 // `bytes` are text, or gzip of it; the limits are those of for_each_line().
 [[nodiscard]] Result<void> read_csv(std::span<const std::byte> bytes, const std::string& name,
                                     std::span<const Column> columns, const RowSink& sink);
+
+// A column whose fields are not all numbers: its name, and another one that some files have for it.
+struct TextColumn {
+    const char* name;
+    const char* alias;
+};
+
+// Receives one row as it is written: a field for each requested column.
+using TextRowSink = std::function<Result<void>(std::span<const std::string_view>)>;
+
+// As read_csv, for fields of any text without quotes.
+[[nodiscard]] Result<void> read_text_csv(std::span<const std::byte> bytes, const std::string& name,
+                                         std::span<const TextColumn> columns, const TextRowSink& sink);
+
+// The number that `field` is; the error says what `column` expects.
+[[nodiscard]] Result<double> to_number(std::string_view field, const Column& column);
 
 }  // namespace camdir::evaluation

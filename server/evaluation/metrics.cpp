@@ -5,10 +5,10 @@
 #include <cassert>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 
 #include "base/parallel.hpp"
 #include "evaluation/motion.hpp"
+#include "evaluation/picture.hpp"
 #include "evaluation/statistics.hpp"
 
 namespace camdir::evaluation {
@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::int64_t settling = 500'000'000;    // ns after an event in which nothing is counted
 constexpr std::int64_t event_span = 100'000'000;  // ns after an event within which a cut belongs to it
+constexpr double framed_share = 0.6;              // of the picture
 
 // The thresholds in map units.
 struct Thresholds {
@@ -28,26 +29,10 @@ struct Thresholds {
     double behind = 60.0;  // degrees
 };
 
-// In degrees; 0 when either has no direction.
-double angle_between(const Vec3d& a, const Vec3d& b) {
-    if (a.isZero(0.0) || b.isZero(0.0)) return 0.0;
-    return std::atan2(a.cross(b).norm(), a.dot(b)) * 180.0 / std::numbers::pi;
-}
-
-// The eye lies in the central 60 % of width and height, as tangents, of a 90 degrees wide 16:9 view.
-bool in_frame(const CameraSample& camera, const Vec3d& eye) {
-    const Vec3d seen = camera.orientation.conjugate() * (eye - camera.position);
-    constexpr double half_width = 0.6;
-    constexpr double half_height = half_width * 9.0 / 16.0;
-    return seen.x() >= 0.0 && std::abs(seen.y()) <= half_width * seen.x() &&
-           std::abs(seen.z()) <= half_height * seen.x();
-}
-
-// The player's box: its corners pulled in by 1 unit, and its centre.
+// Of the player's box: its corners pulled in by 1 unit, and its centre.
 std::array<Vec3d, 9> body_points(const TracePose& pose, double unit) {
-    const double top = pose.view_height < 20.0 * unit ? 16.0 : 32.0;
-    const Box3d box(pose.origin() + unit * Vec3d(-14.0, -14.0, -23.0),
-                    pose.origin() + unit * Vec3d(14.0, 14.0, top - 1.0));
+    const Box3d whole = player_box(pose, unit);
+    const Box3d box(whole.min() + Vec3d::Constant(unit), whole.max() - Vec3d::Constant(unit));
     std::array<Vec3d, 9> points;
     for (int i = 0; i < 8; ++i)
         points[static_cast<std::size_t>(i)] = box.corner(static_cast<Box3d::CornerType>(i));
@@ -100,6 +85,7 @@ void Tally::add(const Tally& other) {
     append(motion.jerk, other.motion.jerk);
     append(motion.angular_speed, other.motion.angular_speed);
     append(motion.angular_acceleration, other.motion.angular_acceleration);
+    motion.comfortable += other.motion.comfortable;
     motion.largest_rotation = std::max(motion.largest_rotation, other.motion.largest_rotation);
     alive_minutes += other.alive_minutes;
     pops += other.pops;
@@ -148,9 +134,9 @@ class Judge {
         const Vec3d to_eye = pose.eye - camera.position;
         const double distance = to_eye.norm();
         const double error = std::abs(distance - limits_.distance);
-        const double behind = angle_between(to_eye, pose.orientation * Vec3d::UnitX());
+        const double behind = degrees_between(to_eye, pose.orientation * Vec3d::UnitX());
         const bool head = oracle_.segment_clear(camera.position, pose.eye);
-        const bool framed = in_frame(camera, pose.eye);
+        const bool framed = in_picture(camera, pose.eye, framed_share);
         // What sees a living player's eye is joined to it by free space.
         const bool solid =
             oracle_.in_solid(camera.position) || (!head && !reachability_.reachable(camera.position));
@@ -222,6 +208,7 @@ Metrics summarise(const Tally& tally) {
     metrics.jerk = spread(tally.motion.jerk);
     metrics.ang_speed = spread(tally.motion.angular_speed);
     metrics.ang_acc = spread(tally.motion.angular_acceleration);
+    metrics.comfort = per_cent(tally.motion.comfortable, tally.motion.angular_speed.size());
     metrics.max_rotation = tally.motion.largest_rotation;
     const auto per_minute = [&](std::size_t count) {
         return tally.alive_minutes > 0.0 ? static_cast<double>(count) / tally.alive_minutes : unmeasured;

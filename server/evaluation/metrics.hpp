@@ -7,6 +7,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <span>
 #include <stop_token>
 
@@ -46,6 +47,9 @@ struct Metrics {
     Spread jerk;
     Spread ang_speed;
     Spread ang_acc;
+    double comfort = unmeasured;  // frames, but a segment's first, with ang_speed <= 120 degrees/s in which a
+                                  // distant background has crossed the picture's centre at less than half the
+                                  // picture's width a second: see MotionSamples::comfortable
     double max_rotation = unmeasured;  // the largest turn between two frames
 
     // Of all frames of a living player.
@@ -53,6 +57,8 @@ struct Metrics {
     double max_speed = unmeasured;       // the largest undeclared speed
     double cuts = unmeasured;            // declared, a minute, without those below
     double cuts_at_events = unmeasured;  // declared, up to 100 ms after a respawn or teleport, a minute
+
+    std::optional<double> kill_in_view;  // % of the followed players' kills: kill_in_view(); none: not asked
 };
 
 // Judges cameras[i] as a camera of trace.poses[i]. Explores the scene first, with `progress`; fails as

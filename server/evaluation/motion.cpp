@@ -5,8 +5,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "evaluation/picture.hpp"
+
 namespace camdir::evaluation {
 namespace {
+
+constexpr std::int64_t sweep_window = 1'000'000'000;  // ns
 
 // The rotation vector of `to` * `from`^-1 in degrees: its axis times its angle.
 Vec3d rotation_between(const Eigen::Quaterniond& from, const Eigen::Quaterniond& to) {
@@ -18,7 +22,22 @@ Vec3d rotation_between(const Eigen::Quaterniond& from, const Eigen::Quaterniond&
     return turn.vec() * (angle / sine * 180.0 / std::numbers::pi);
 }
 
+double turn_of_axis(const Eigen::Quaterniond& from, const Eigen::Quaterniond& to) {
+    return degrees_between(from * Vec3d::UnitX(), to * Vec3d::UnitX());
+}
+
 }  // namespace
+
+double MotionMeter::sweep_speed(std::int64_t time, double degrees) {
+    if (sweep_.empty()) sweep_.push_back({last_.time, 0.0});
+    while (sweep_.size() > 1 && sweep_.front().time < time - sweep_window)
+        sweep_.pop_front();
+    const Sweep now{time, sweep_.back().degrees + degrees};
+    const Sweep& begin = sweep_.front();
+    const double speed = (now.degrees - begin.degrees) / (static_cast<double>(time - begin.time) * 1e-9);
+    sweep_.push_back(now);
+    return speed;
+}
 
 void MotionMeter::add(std::int64_t time, const CameraSample& camera) {
     State now;
@@ -32,6 +51,8 @@ void MotionMeter::add(std::int64_t time, const CameraSample& camera) {
         now.velocity = (now.position - last_.position) / now.step;
         now.angular_velocity = rotation / now.step;
         samples_.angular_speed.push_back(now.angular_velocity.norm());
+        const double sweep = sweep_speed(time, turn_of_axis(last_.orientation, now.orientation));
+        samples_.comfortable += now.angular_velocity.norm() <= comfortable_turn && sweep < comfortable_sweep;
         samples_.largest_rotation = std::max(samples_.largest_rotation, rotation.norm());
     }
     if (length_ >= 2) {

@@ -1,12 +1,24 @@
 // How a camera moves and turns within one segment: speeds and their derivatives by finite differences.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <vector>
 
 #include "evaluation/camera_path.hpp"
 
 namespace camdir::evaluation {
+
+// A comfortable frame turns at most at `comfortable_turn`, and over the last second, or since its segment
+// began, the view axis has turned at less than `comfortable_sweep` on average: the angles from frame to frame
+// summed, from the earliest frame that is at most 1 s old.
+//
+// A turn of the axis by 1 radian a second moves what is far away and in the middle of the picture by half of
+// the width of a view of 90 degrees: the picture's width is 2 as tangents. Roll and the camera's own way do
+// not count in it: how much they move the picture depends on what is in it.
+inline constexpr double comfortable_turn = 120.0;                               // degrees/s
+inline constexpr double comfortable_sweep = 1.0 / radians_of_a_degree<double>;  // degrees/s
 
 // Samples of all segments; map units, degrees, seconds.
 struct MotionSamples {
@@ -15,6 +27,7 @@ struct MotionSamples {
     std::vector<double> angular_speed;
     std::vector<double> angular_acceleration;
     double largest_rotation = 0.0;  // degrees between two frames
+    std::size_t comfortable = 0;    // of the frames with an angular speed
 };
 
 // Takes the cameras of one player in order and adds their motion to `samples`.
@@ -23,7 +36,10 @@ class MotionMeter {
     explicit MotionMeter(MotionSamples& samples) : samples_(samples) {}
 
     // The next camera does not belong to the segment of the one before.
-    void end_segment() { length_ = 0; }
+    void end_segment() {
+        length_ = 0;
+        sweep_.clear();
+    }
 
     // `time` in nanoseconds, ascending strictly.
     void add(std::int64_t time, const CameraSample& camera);
@@ -39,10 +55,20 @@ class MotionMeter {
         Vec3d acceleration = Vec3d::Zero();
     };
 
+    // How far the view axis has turned since the segment began.
+    struct Sweep {
+        std::int64_t time;  // nanoseconds
+        double degrees;
+    };
+
+    // The mean speed at which the view axis has turned over the last second; `degrees`: since the last frame.
+    double sweep_speed(std::int64_t time, double degrees);
+
     MotionSamples& samples_;
     int length_ = 0;  // cameras of the segment so far
     State last_;
     double step_before_last_ = 0.0;
+    std::deque<Sweep> sweep_;  // of the last second
 };
 
 }  // namespace camdir::evaluation

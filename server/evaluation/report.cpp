@@ -44,10 +44,12 @@ constexpr SpreadFigure spread_figures[] = {
 };
 
 constexpr Figure shot_figures[] = {
-    {"max_rotation", "deg", 2, &Metrics::max_rotation},      {"pops", "/min", 2, &Metrics::pops},
-    {"max_speed", "units/s", 0, &Metrics::max_speed},        {"cuts", "/min", 2, &Metrics::cuts},
-    {"cuts_at_events", "/min", 2, &Metrics::cuts_at_events},
+    {"comfort", "%", 2, &Metrics::comfort}, {"max_rotation", "deg", 2, &Metrics::max_rotation},
+    {"pops", "/min", 2, &Metrics::pops},    {"max_speed", "units/s", 0, &Metrics::max_speed},
+    {"cuts", "/min", 2, &Metrics::cuts},    {"cuts_at_events", "/min", 2, &Metrics::cuts_at_events},
 };
+
+constexpr const char* kill_in_view = "kill_in_view";
 
 std::string number(double value, int decimals) {
     if (std::isnan(value)) return "-";
@@ -74,6 +76,7 @@ std::string to_json(const Metrics& metrics) {
     }
     for (const Figure& figure : shot_figures)
         json[figure.name] = metrics.*figure.value;
+    if (metrics.kill_in_view) json[kill_in_view] = *metrics.kill_in_view;
     return json.dump(2) + "\n";
 }
 
@@ -93,6 +96,7 @@ std::string to_table(const Metrics& metrics) {
     }
     for (const Figure& figure : shot_figures)
         add(figure);
+    if (metrics.kill_in_view) table += line(kill_in_view, number(*metrics.kill_in_view, 2), "%");
     return table;
 }
 

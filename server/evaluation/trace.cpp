@@ -145,18 +145,20 @@ Eigen::Quaterniond quake_orientation(double pitch_degrees, double yaw_degrees, d
            turn(roll_degrees, Vec3d::UnitX());
 }
 
+std::uint32_t pose_of(const Trace& trace, const TraceFrame& frame, std::uint32_t player) {
+    const auto poses = trace.poses_of(frame);
+    TracePose key;
+    key.player = player;
+    const auto found = std::lower_bound(poses.begin(), poses.end(), key, by_player);
+    if (found == poses.end() || found->player != player) return absent;
+    return frame.first_pose + static_cast<std::uint32_t>(found - poses.begin());
+}
+
 std::vector<std::uint32_t> track_of(const Trace& trace, std::uint32_t player) {
     std::vector<std::uint32_t> track;
     track.reserve(trace.frames.size());
-    for (const TraceFrame& frame : trace.frames) {
-        const auto poses = trace.poses_of(frame);
-        TracePose key;
-        key.player = player;
-        const auto found = std::lower_bound(poses.begin(), poses.end(), key, by_player);
-        const bool present = found != poses.end() && found->player == player;
-        track.push_back(present ? frame.first_pose + static_cast<std::uint32_t>(found - poses.begin())
-                                : absent);
-    }
+    for (const TraceFrame& frame : trace.frames)
+        track.push_back(pose_of(trace, frame, player));
     return track;
 }
 

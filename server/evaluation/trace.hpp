@@ -45,8 +45,11 @@ struct Trace {
     }
 };
 
-// A player's poses: for every frame the index into Trace::poses, or `absent`.
+// A player's pose in a frame of the trace: the index into Trace::poses, or `absent`.
 inline constexpr std::uint32_t absent = 0xffffffffU;
+[[nodiscard]] std::uint32_t pose_of(const Trace& trace, const TraceFrame& frame, std::uint32_t player);
+
+// The same for every frame.
 [[nodiscard]] std::vector<std::uint32_t> track_of(const Trace& trace, std::uint32_t player);
 
 // Reads a trace in Quake units and axes, CSV or CSV.gz, with at least the columns t_ms, player, x, y, z,

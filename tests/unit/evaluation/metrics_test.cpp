@@ -64,6 +64,7 @@ TEST(Metrics, APerfectCamera) {
     EXPECT_EQ(metrics.in_frame, 100.0);
     EXPECT_EQ(metrics.acc.rms, 0.0);
     EXPECT_EQ(metrics.jerk.p99, 0.0);
+    EXPECT_EQ(metrics.comfort, 100.0);
     EXPECT_EQ(metrics.max_rotation, 0.0);
     EXPECT_EQ(metrics.pops, 0.0);
     EXPECT_EQ(metrics.max_speed, 0.0);
@@ -180,6 +181,24 @@ TEST(Metrics, MotionAndRatesByHand) {
     // a: 4 times 2000, then 7000, 14000, 7000; 58 of the first segment and 23 of the second in all.
     EXPECT_NEAR(metrics.acc.rms, std::sqrt((4 * 4e6 + 2 * 49e6 + 196e6) / 81), 1e-6);
     EXPECT_NEAR(metrics.acc.p99, 14000.0, 1e-6);
+}
+
+// 11 frames, of which the first has no speed: 13 degrees in 0.1 s once, which the last second keeps below 57.
+TEST(Metrics, ComfortIsOfFramesWithASpeed) {
+    std::vector<CameraSample> counted(11, looking_at({-120, 0, 100}, eye));
+    for (std::size_t i = 5; i < counted.size(); ++i)
+        counted[i].orientation = quake_orientation(0, 13, 0);
+    EXPECT_EQ(judge(room(), counted).comfort, 90.0);
+}
+
+TEST(Metrics, KillInViewIsReportedWhereItWasAskedFor) {
+    Metrics metrics;
+    EXPECT_THAT(to_json(metrics) + to_table(metrics), testing::Not(testing::HasSubstr("kill_in_view")));
+    metrics.kill_in_view = 62.5;
+    EXPECT_THAT(to_json(metrics), testing::HasSubstr("\"kill_in_view\": 62.5"));
+    EXPECT_THAT(to_table(metrics), testing::HasSubstr("kill_in_view     62.50 %\n"));
+    metrics.kill_in_view = unmeasured;
+    EXPECT_THAT(to_json(metrics), testing::HasSubstr("\"kill_in_view\": null"));
 }
 
 TEST(Metrics, AStepWithTheEyeIsNoPop) {

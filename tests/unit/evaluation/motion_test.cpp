@@ -72,6 +72,65 @@ TEST(Motion, SegmentsDoNotMix) {
     EXPECT_NEAR(samples.largest_rotation, 0.0, tolerance);
 }
 
+// `turns` in degrees from frame to frame, of which there are 10 a second.
+std::size_t comfortable(const std::vector<double>& turns) {
+    MotionSamples samples;
+    MotionMeter meter(samples);
+    double yaw = 0.0;
+    meter.add(0, at(0));
+    for (std::size_t i = 0; i < turns.size(); ++i)
+        meter.add(static_cast<std::int64_t>(i + 1) * second / 10, at(0, yaw += turns[i]));
+    return samples.comfortable;
+}
+
+// 1 radian a second is 57.3 degrees: half of the width of a view of 90 degrees.
+TEST(Comfort, HasALimitOfSpeedAndOneOfSweep) {
+    EXPECT_EQ(comfortable(std::vector(30, 5.7)), 30U);
+    EXPECT_EQ(comfortable(std::vector(30, 5.8)), 0U);
+    EXPECT_EQ(comfortable({0, 0, 0, 0, 11.9, 0}), 6U);
+    EXPECT_EQ(comfortable({0, 0, 0, 0, 12.1, 0}), 5U);
+}
+
+// After 0.5 s of standing, the frames in which the last second has 57.3 degrees and more: the sixth turn of
+// 10 degrees up to the frame before that in which only five of them are left.
+TEST(Comfort, SweepIsTheMeanOfTheLastSecond) {
+    std::vector<double> turns(5, 0.0);
+    turns.insert(turns.end(), 6, 10.0);
+    turns.insert(turns.end(), 20, 0.0);
+    EXPECT_EQ(comfortable(turns), turns.size() - 5);
+    EXPECT_EQ(comfortable({10, -10, 10, -10, 10, -10}), 0U) << "shaking is no rest";
+}
+
+TEST(Comfort, IgnoresRollAndTheWayInTheSweep) {
+    MotionSamples samples;
+    MotionMeter meter(samples);
+    for (int i = 0; i <= 20; ++i)
+        meter.add(i * second / 10, {Vec3d(100.0 * i, 0, 0), quake_orientation(0, 0, 11.9 * i), false});
+    EXPECT_EQ(samples.comfortable, 20U);
+}
+
+TEST(Comfort, BeginsAnewWithTheSegment) {
+    MotionSamples samples;
+    MotionMeter meter(samples);
+    for (int i = 0; i <= 5; ++i)
+        meter.add(i * second / 10, at(0, 11.0 * i));
+    EXPECT_EQ(samples.comfortable, 0U);
+    meter.end_segment();
+    meter.add(6 * second / 10, at(0, 180));
+    meter.add(7 * second / 10, at(0, 180));
+    EXPECT_EQ(samples.comfortable, 1U);
+}
+
+// Frames farther apart than the second that is looked at.
+TEST(Comfort, OfRareFramesIsThatOfOneStep) {
+    MotionSamples samples;
+    MotionMeter meter(samples);
+    meter.add(0, at(0));
+    meter.add(2 * second, at(0, 114));
+    meter.add(4 * second, at(0, 230));
+    EXPECT_EQ(samples.comfortable, 1U);
+}
+
 TEST(Statistics, ByHand) {
     EXPECT_TRUE(std::isnan(mean({})));
     EXPECT_TRUE(std::isnan(root_mean_square({})));
