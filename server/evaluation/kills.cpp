@@ -21,6 +21,11 @@ enum EventField { event_time, event_kind, event_killer, event_victim };
 constexpr TextColumn event_columns[] = {
     {"t_ms", "t_ms"}, {"event", "kind"}, {"player", "actor"}, {"other", "subject"}};
 
+// Games of Quake 3's family number the world, which kills by falls and lava, as 1022.
+bool is_nobody(std::string_view field) {
+    return field.empty() || field == "1022";
+}
+
 Result<std::uint32_t> player_of(std::string_view field, const char* column, const Trace& trace) {
     const auto number = to_number(field, {column, 0.0, 4294967294.0, true});
     if (!number) return tl::unexpected(number.error());
@@ -34,7 +39,7 @@ Result<std::uint32_t> player_of(std::string_view field, const char* column, cons
 Result<std::optional<Kill>> kill_of(std::span<const std::string_view> row, const Trace& trace) {
     const auto milliseconds = to_number(row[event_time], {"t_ms", 0.0, 1e12});
     if (!milliseconds) return tl::unexpected(milliseconds.error());
-    if (row[event_kind] != "kill" || row[event_killer].empty() || row[event_victim].empty()) return {};
+    if (row[event_kind] != "kill" || is_nobody(row[event_killer]) || is_nobody(row[event_victim])) return {};
     const auto killer = player_of(row[event_killer], event_columns[event_killer].name, trace);
     if (!killer) return tl::unexpected(killer.error());
     const auto victim = player_of(row[event_victim], event_columns[event_victim].name, trace);

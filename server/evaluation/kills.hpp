@@ -21,9 +21,10 @@ struct Kill {
 
 // Reads the kills of one player of `trace` by another from a file of its match's events, CSV or CSV.gz, with
 // the columns t_ms, event, player (the killer) and other (the victim), or their other names t_ms, kind, actor
-// and subject. Rows of another event than `kill`, without killer or victim, or with the same one as both are
-// left out. Errors name the file, the line, the column and what was expected; a player whom the trace does
-// not know is one. Memory: at most 16 bytes a kill and twice that while reading. Thread-safe.
+// and subject. Rows of another event than `kill`, without killer or victim (empty or 1022, the world), or
+// with the same one as both are left out. Errors name the file, the line, the column and what was expected; a
+// player whom the trace does not know is one. Memory: at most 16 bytes a kill and twice that while reading.
+// Thread-safe.
 [[nodiscard]] Result<std::vector<Kill>> read_kills(const std::filesystem::path& path, const Trace& trace);
 
 // The same from bytes in memory; `name` stands for the path in errors.

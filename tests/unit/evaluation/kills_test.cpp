@@ -48,7 +48,8 @@ TEST(Kills, AreReadFromBothKindsOfTables) {
 }
 
 TEST(Kills, OfNobodyAndOfOneselfAreLeftOut) {
-    const auto kills = parse("t_ms,event,player,other\n1,kill,,4\n2,kill,4,\n3,kill,,\n4,kill,9,9\n");
+    const auto kills =
+        parse("t_ms,event,player,other\n1,kill,,4\n2,kill,4,\n3,kill,,\n4,kill,9,9\n5,kill,1022,4\n");
     ASSERT_TRUE(kills) << kills.error().message;
     EXPECT_TRUE(kills->empty());
 }
@@ -173,6 +174,7 @@ TEST(Kills, OfRecordedMatches) {
         const char* events;
         std::size_t kills;
     } matches[] = {{"traces/oa_dm1-60hz.csv.gz", "traces/oa_dm1-60hz.events.csv", 96},
+                   {"traces/oa_dm3-60hz.csv.gz", "traces/oa_dm3-60hz.events.csv", 58},
                    {"traces/human/dm2-4on4-20hz.csv.gz", "traces/human/dm2-4on4-events.csv.gz", 76}};
     for (const auto& match : matches) {
         const auto trace_file = test::shared_file(match.trace);
