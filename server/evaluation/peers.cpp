@@ -10,15 +10,18 @@ std::optional<Peer> find_peer(std::string_view name) {
     return std::nullopt;
 }
 
-CameraPath follow(Peer peer, const Trace& trace, double metres_per_unit) {
+CameraSample place(Peer peer, const TracePose& pose, double metres_per_unit) {
     const double distance =
         peer == Peer::rigid ? 120.0 * scene::metres_of_nominal_unit / metres_per_unit : 0.0;
+    const Vec3d forward = pose.orientation * Vec3d::UnitX();
+    return {pose.eye - distance * forward, pose.orientation, pose.discontinuity};
+}
+
+CameraPath follow(Peer peer, const Trace& trace, double metres_per_unit) {
     CameraPath path;
     path.reserve(trace.poses.size());
-    for (const TracePose& pose : trace.poses) {
-        const Vec3d forward = pose.orientation * Vec3d::UnitX();
-        path.push_back({pose.eye - distance * forward, pose.orientation, pose.discontinuity});
-    }
+    for (const TracePose& pose : trace.poses)
+        path.push_back(place(peer, pose, metres_per_unit));
     return path;
 }
 

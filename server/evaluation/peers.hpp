@@ -16,7 +16,10 @@ enum class Peer {
 // The peer of this name: eye or rigid.
 [[nodiscard]] std::optional<Peer> find_peer(std::string_view name);
 
-// The cameras of `peer` over the trace; cuts at discontinuities. `metres_per_unit` is the map's.
+// The camera of `peer` at a pose; a cut at a discontinuity. `metres_per_unit` is the map's.
+[[nodiscard]] CameraSample place(Peer peer, const TracePose& pose, double metres_per_unit);
+
+// The cameras of `peer` over the trace.
 [[nodiscard]] CameraPath follow(Peer peer, const Trace& trace, double metres_per_unit);
 
 }  // namespace camdir::evaluation

@@ -31,6 +31,14 @@ struct BulletQueries::World {
         world.addCollisionObject(&object);
     }
     ~World() { world.removeCollisionObject(&object); }
+
+    [[nodiscard]] float sweep(const btConvexShape& shape, const Vec3f& from, const Vec3f& to) const {
+        const btTransform begin(btQuaternion::getIdentity(), to_bullet(from));
+        const btTransform end(btQuaternion::getIdentity(), to_bullet(to));
+        btCollisionWorld::ClosestConvexResultCallback hit(begin.getOrigin(), end.getOrigin());
+        world.convexSweepTest(&shape, begin, end, hit);
+        return hit.hasHit() ? hit.m_closestHitFraction : 1.0F;
+    }
 };
 
 BulletQueries::BulletQueries(const scene::Scene& scene) : world_(std::make_unique<World>(scene)) {}
@@ -38,12 +46,11 @@ BulletQueries::BulletQueries(BulletQueries&&) noexcept = default;
 BulletQueries::~BulletQueries() = default;
 
 float BulletQueries::sweep(const Vec3f& from, const Vec3f& to, float radius) const {
-    const btSphereShape sphere(radius);
-    const btTransform begin(btQuaternion::getIdentity(), to_bullet(from));
-    const btTransform end(btQuaternion::getIdentity(), to_bullet(to));
-    btCollisionWorld::ClosestConvexResultCallback hit(begin.getOrigin(), end.getOrigin());
-    world_->world.convexSweepTest(&sphere, begin, end, hit);
-    return hit.hasHit() ? hit.m_closestHitFraction : 1.0F;
+    return world_->sweep(btSphereShape(radius), from, to);
+}
+
+float BulletQueries::sweep_cube(const Vec3f& from, const Vec3f& to, float half) const {
+    return world_->sweep(btBoxShape({half, half, half}), from, to);
 }
 
 }  // namespace camdir::bench

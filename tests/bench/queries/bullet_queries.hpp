@@ -1,4 +1,4 @@
-// Bullet's sphere sweep against a map's triangles: what a spring arm uses.
+// Bullet's sweeps against a map's triangles: what a spring arm uses.
 #pragma once
 
 #include <memory>
@@ -16,6 +16,8 @@ class BulletQueries {
 
     // The share of the way that the sphere goes before it touches a triangle; 1: all.
     [[nodiscard]] float sweep(const Vec3f& from, const Vec3f& to, float radius) const;
+    // The same for a cube along the axes whose edges are 2 `half` long.
+    [[nodiscard]] float sweep_cube(const Vec3f& from, const Vec3f& to, float half) const;
 
   private:
     struct World;

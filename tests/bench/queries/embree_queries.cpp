@@ -103,6 +103,16 @@ bool EmbreeQueries::clear(const Vec3f& from, const Vec3f& to) const {
     return is_clear(ray);
 }
 
+float EmbreeQueries::cast(const Vec3f& from, const Vec3f& to) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRayHit ray{};
+    ray.ray = ray_between(from, to);
+    ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(handles_->scene, &context, &ray);
+    return ray.ray.tfar;
+}
+
 int EmbreeQueries::clear_of_bundle(const Vec3f& from, std::span<const Vec3f> to) const {
     std::array<RTCRay, 64> rays;
     assert(to.size() <= rays.size());

@@ -18,6 +18,9 @@ class EmbreeQueries {
     // One occlusion ray: nothing lies between the points.
     [[nodiscard]] bool clear(const Vec3f& from, const Vec3f& to) const;
 
+    // One intersection ray: the share of the way to the first triangle; 1: nothing lies between the points.
+    [[nodiscard]] float cast(const Vec3f& from, const Vec3f& to) const;
+
     // Occlusion rays from one point in a single call; how many are clear.
     [[nodiscard]] int clear_of_bundle(const Vec3f& from, std::span<const Vec3f> to) const;
 

@@ -24,6 +24,7 @@ class Samples {
         nanoseconds_.insert(nanoseconds_.end(), other.nanoseconds_.begin(), other.nanoseconds_.end());
     }
 
+    [[nodiscard]] const std::vector<double>& nanoseconds() const { return nanoseconds_; }
     [[nodiscard]] std::size_t count() const { return nanoseconds_.size(); }
     // 0 without samples.
     [[nodiscard]] double quantile(double share) const {
