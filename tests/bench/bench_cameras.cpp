@@ -81,9 +81,15 @@ class MatchBench {
         add(ray_arm(embree_, unit));
         add(hltv_chase(bullet_, unit));
         add(best_of_spots(embree_, unit));
-        add_own("paper", camera::Solver::paper, 0.0);
-        add_own("planner", camera::Solver::planner, 0.0);
-        add_own("planner 1 s ahead", camera::Solver::planner, 1.0);
+        camera::Profile paper;
+        paper.solver = camera::Solver::paper;
+        add_own("paper", paper, 0.0);
+        add_own("planner", {}, 0.0);
+        add_own("planner 1 s ahead", {}, 1.0);
+        for (const auto& [name, use, profile] : camera::shipped_profiles().subspan(1)) {
+            add_own(name, profile, 0.0);
+            add_own(std::string(name) + " 2 s ahead", profile, 2.0);
+        }
     }
     MatchBench(const MatchBench&) = delete;
     MatchBench& operator=(const MatchBench&) = delete;
@@ -120,11 +126,9 @@ class MatchBench {
         contenders_.push_back({camera.name, [this, camera] { return follow_all(match_.frames, camera); }});
     }
 
-    void add_own(const std::string& name, camera::Solver solver, double look_ahead) {
+    void add_own(const std::string& name, const camera::Profile& profile, double look_ahead) {
         contenders_.push_back(
-            {name, [this, solver, look_ahead] {
-                 camera::Profile profile;
-                 profile.solver = solver;
+            {name, [this, profile, look_ahead] {
                  return value_of(evaluation::record(match_.freespace, profile, match_.poses, match_.frames,
                                                     look_ahead, [](std::uint64_t, std::uint64_t) {}, {}));
              }});
