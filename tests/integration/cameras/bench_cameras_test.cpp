@@ -115,13 +115,13 @@ TEST_F(BenchCameras, SaysWhatIsWrong) {
     test::ChildProcess few({BENCH_CAMERAS, vfs_ + ',' + map_});
     EXPECT_EQ(few.wait(), 1);
     EXPECT_THAT(few.errors(), HasSubstr("expected VFS,MAP,TRACE or VFS,MAP,TRACE,EVENTS"));
+    test::ChildProcess nobody({BENCH_CAMERAS, match(), "--camera", "drone"});
+    EXPECT_EQ(nobody.wait(), 1);
+    EXPECT_THAT(nobody.errors(), HasSubstr("no camera \"drone\""));
     ASSERT_TRUE(write_file(events_, "t_ms,event,player,other\n3000,kill,1,7\n"));
     test::ChildProcess stranger({BENCH_CAMERAS, match()});
     EXPECT_EQ(stranger.wait(), 1);
     EXPECT_THAT(stranger.errors(), HasSubstr("events.csv:2: column \"other\" is 7, expected a player"));
-    test::ChildProcess nobody({BENCH_CAMERAS, match(), "--camera", "drone"});
-    EXPECT_EQ(nobody.wait(), 1);
-    EXPECT_THAT(nobody.errors(), HasSubstr("no camera \"drone\""));
     test::ChildProcess nothing({BENCH_CAMERAS});
     EXPECT_EQ(nothing.wait(), 2);
 }
