@@ -114,7 +114,7 @@ void ReceivedMatch::accept(const camera_director_ObserverStatus& status) {
         return;
     }
     if (!is_of_epoch(status.epoch)) {
-        if (status.epoch > epoch_) early_status_ = status;
+        if (status.epoch > epoch_ || !described_) early_status_ = status;
         return;
     }
     answered_ = true;

@@ -16,7 +16,8 @@ namespace camdir::sdk {
 
 // accept() drops and counts samples that are malformed or of an earlier epoch. A newer epoch discards the
 // cameras and the director's answer of the earlier one. Once a director has described the match, a
-// description alone begins an epoch: an answer for a later one waits, and frames are dropped. Frames whose
+// description alone begins an epoch: an answer for a later one waits, and frames are dropped. Until then, an
+// answer for an earlier one waits for its description. Frames whose
 // time goes back by more than a second discard the cameras before them. One thread at a time.
 class ReceivedMatch {
   public:

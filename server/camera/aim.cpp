@@ -13,8 +13,8 @@ constexpr double aim_share_ahead = 3.0;
 constexpr double off_middle = 10.0 * radians_of_a_degree<double>;
 constexpr double off_middle_ahead = 8.0 * radians_of_a_degree<double>;
 constexpr double off_middle_gain = 4.0;
-constexpr double most_off_middle =
-    2.0;  // times as far to the side, for a look that is smoothed more than usual
+// Times as far to the side, for a look that is smoothed more than usual.
+constexpr double max_sideways = 2.0;
 constexpr int off_middle_rounds = 2;
 constexpr float steepest_look = 86.0F * radians_of_a_degree<float>;
 constexpr double least_yaw_weight = 0.02;
@@ -26,7 +26,7 @@ void aim(const MapProfile& profile, const History& history, Plan& plan) {
     const double time_constant = (plan.ahead ? aim_share_ahead : aim_share) * profile.look_smoothing;
     const double dead_zone = plan.ahead ? off_middle_ahead : off_middle;
     const double softness = profile.look_smoothing / Profile{}.look_smoothing;
-    const double sideways = dead_zone * std::clamp(softness, 1.0, most_off_middle);
+    const double sideways = dead_zone * std::clamp(softness, 1.0, max_sideways);
     double yaw = history[1].look_yaw;
     for (std::size_t i = 0; i < count; ++i) {
         const Vec3f way = (plan.eye[i] - plan.position[i]).cast<float>();

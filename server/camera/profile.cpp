@@ -121,8 +121,7 @@ constexpr Profile tactical() {
 
 constexpr std::array shipped = {
     ShippedProfile{"default", "behind the player, for every game", Profile{}},
-    ShippedProfile{"broadcast", "slow turns for long watching, made for a delay of 2 s or more",
-                   broadcast()},
+    ShippedProfile{"broadcast", "slow turns for long watching, made for a delay of 2 s or more", broadcast()},
     ShippedProfile{"close", "near the player", close()},
     ShippedProfile{"tactical", "calm and from above, to see who is around", tactical()},
 };

@@ -146,7 +146,7 @@ void read_profiles(const json& object, Config& config, ValidationErrors& errors)
     }
 }
 
-// [least, most] of a number, a list of its choices of a string; errors are added, and nothing is stored then.
+// [min, max] of a number, a list of its choices of a string; errors are added, and nothing is stored then.
 void read_override(const Key& key, const std::string& pointer, const json& value, OverrideRanges& ranges,
                    ValidationErrors& errors) {
     const auto numbers = [&] {
@@ -161,7 +161,7 @@ void read_override(const Key& key, const std::string& pointer, const json& value
     const bool of_numbers = key.choices.empty();
     if (!value.is_array() || !(of_numbers ? numbers() : choices()))
         errors.add(pointer, value,
-                   of_numbers ? "[least, most], each " + expected(key) : "a list, each " + expected(key));
+                   of_numbers ? "[min, max], each " + expected(key) : "a list, each " + expected(key));
     else if (of_numbers)
         ranges[key.name] = {value[0].get<double>(), value[1].get<double>(), {}};
     else
@@ -191,14 +191,14 @@ void check_override(const std::string& name, const json& value, const OverrideRa
         return errors.add("/" + name +
                           ": may not be overridden here; may be: " + (known.empty() ? "nothing" : known));
     }
-    const auto& [least, most, choices] = range->second;
+    const auto& [min, max, choices] = range->second;
     if (!value.is_number()) {
         if (std::find(choices.begin(), choices.end(), value) != choices.end()) return;
         return errors.add("/" + name, value, "one of " + json(choices).dump() + ", the choice here");
     }
-    if (value < least || most < value)
+    if (value < min || max < value)
         errors.add("/" + name, value,
-                   "a number from " + json(least).dump() + " to " + json(most).dump() + ", the range here");
+                   "a number from " + json(min).dump() + " to " + json(max).dump() + ", the range here");
 }
 
 void read_section(const std::string& name, const json& value, Config& config, ValidationErrors& errors) {

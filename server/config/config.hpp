@@ -61,8 +61,8 @@ struct Map {
 
 // How far observers may override a key of a profile.
 struct OverrideRange {
-    double least = 0.0;  // of a number
-    double most = 0.0;
+    double min = 0.0;  // of a number
+    double max = 0.0;
     std::vector<std::string> choices;  // of a string
 
     bool operator==(const OverrideRange&) const = default;

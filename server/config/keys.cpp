@@ -431,8 +431,7 @@ const std::vector<Section>& sections() {
              "What a file says of these changes single keys of them; in other profiles, a key that is not "
              "given is `default`'s as it ships. Units are 0.0254 m on every map. Reloaded by SIGHUP."},
         {"/overrides",
-         "How far observers may override a profile: by key `[least, most]`, of `solver` the choices; keys "
-         "that "
+         "How far observers may override a profile: by key `[min, max]`, of `solver` the choices. Keys that "
          "are not named cannot be overridden. Without this section, all can, within their ranges: "
          "`\"overrides\": {\"distance\": [80, 200], \"vertical_fov\": [40, 90]}`. Reloaded by SIGHUP."},
         {"/matches",

@@ -93,9 +93,7 @@ dds_return_t MatchEndpoints::write(const director::CameraFrame& frame) {
 }
 
 dds_return_t MatchEndpoints::write(const director::ObserverStatus& status) {
-    using director::RequestState;
-    has_cameras_ = has_cameras_ || status.state == RequestState::accepted ||
-                   status.state == RequestState::waiting_for_player;
+    has_cameras_ = has_cameras_ || status.state == director::RequestState::accepted;
     const camera_director_ObserverStatus sample = encode(status);
     return dds_write(has_cameras_ ? status_writer_ : early_status_writer_, &sample);
 }

@@ -31,8 +31,8 @@ class MatchEndpoints {
     // Disposes it.
     [[nodiscard]] dds_return_t end_shown();
     [[nodiscard]] dds_return_t write(const director::CameraFrame& frame);
-    // Until an observer has got a camera, or only waits for its player, answers stand below those of all
-    // directors that have cameras.
+    // Until the first request is accepted, answers are written below those of all directors that have
+    // accepted one.
     [[nodiscard]] dds_return_t write(const director::ObserverStatus& status);
     // Disposes the observer's status.
     [[nodiscard]] dds_return_t withdraw(const std::string& observer_id);

@@ -166,12 +166,9 @@ void Subscriber::match_info_found(const camera_director_MatchInfo& sample, const
     }
     ++counters_.of(Topic::match_info).accepted;
     const bool known = matches_.contains(message.match_id);
-    // First, because the director publishes at once.
-    if (!known && !add_match(message.match_id)) return;
-    if (!ingress_->receive(message)) {  // the director counts and logs it
-        if (!known) remove_match(message.match_id);
-        return;
-    }
+    // The endpoints first, because the director publishes at once. It counts and logs what it refuses.
+    if (!known && !(ingress_->admit(message.match_id) && add_match(message.match_id))) return;
+    if (!ingress_->receive(message)) return;
     Match& match = *matches_[message.match_id];
     match.info = std::move(message);
     match.server = info.publication_handle;
@@ -192,6 +189,7 @@ bool Subscriber::add_match(const std::string& match_id) {
     ++counters_.endpoint_failures;
     spdlog::error("match '{}' cannot be served: {}", match_id, opened.error().message);
     remove_match(match_id);
+    ingress_->match_ended(match_id);
     return false;
 }
 

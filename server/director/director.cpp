@@ -54,6 +54,8 @@ struct Director::Impl {
 
     // With the mutex held exclusively.
     Entry* find_or_add(const std::string& match_id);
+    // Null when the match is refused, which is counted, logged and answered.
+    Entry* admit(const std::string& match_id);
     void end(Entry& entry);
 
     // Returns false when there is no such match.
@@ -140,6 +142,19 @@ Director::Impl::Entry* Director::Impl::find_or_add(const std::string& match_id) 
     return &entry;
 }
 
+Director::Impl::Entry* Director::Impl::admit(const std::string& match_id) {
+    if (!accepting) return nullptr;
+    Match* known = find(match_id);
+    const bool has_server = known != nullptr && matches[match_id].has_server;
+    const bool fits = has_server || count(true) < static_cast<std::size_t>(config->limits.matches);
+    if (Entry* entry = fits ? find_or_add(match_id) : nullptr) return entry;
+    unmatched.add(Counter::refused_matches);
+    const std::string reason = too_many_matches(config->limits);
+    spdlog::warn("match {}: refused: {}", match_id, reason);
+    if (known != nullptr) post(*known, MatchRefused{reason});
+    return nullptr;
+}
+
 void Director::Impl::end(Entry& entry) {
     entry.has_server = false;
     deliver(*entry.match, MatchEnded{});
@@ -214,21 +229,15 @@ Director::~Director() {
     drain();
 }
 
+bool Director::admit(const std::string& match_id) {
+    const std::unique_lock lock(impl_->mutex);
+    return impl_->admit(match_id) != nullptr;
+}
+
 bool Director::receive(const MatchInfo& info) {
     const std::unique_lock lock(impl_->mutex);
-    if (!impl_->accepting) return false;
-    const config::Limits& limits = impl_->config->limits;
-    Match* known = impl_->find(info.match_id);
-    const bool has_server = known != nullptr && impl_->matches[info.match_id].has_server;
-    Impl::Entry* entry = has_server || impl_->count(true) < static_cast<std::size_t>(limits.matches)
-                             ? impl_->find_or_add(info.match_id)
-                             : nullptr;
-    if (entry == nullptr) {
-        impl_->unmatched.add(Counter::refused_matches);
-        spdlog::warn("match {}: refused: {}", info.match_id, too_many_matches(limits));
-        if (known != nullptr) impl_->post(*known, MatchRefused{too_many_matches(limits)});
-        return false;
-    }
+    Impl::Entry* entry = impl_->admit(info.match_id);
+    if (entry == nullptr) return false;
     if (!entry->has_server || info.epoch >= entry->info.epoch) entry->info = info;
     entry->has_server = true;
     Match& match = *entry->match;

@@ -21,6 +21,7 @@ class Director final : public Ingress {
     Director(const config::Config& config, const MapLibrary& maps, Publisher& publisher);
     ~Director() override;  // drains
 
+    [[nodiscard]] bool admit(const std::string& match_id) override;
     bool receive(const MatchInfo& info) override;
     void server_lost(const std::string& match_id) override;
     void match_ended(const std::string& match_id) override;

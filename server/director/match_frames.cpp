@@ -15,7 +15,7 @@ using Clock = std::chrono::steady_clock;
 constexpr double max_ahead_s = 2.5;       // that the planner uses
 constexpr double arrival_jitter_s = 0.1;  // of poses
 constexpr double first_step_s = 1.0 / 60.0;
-constexpr std::size_t shots_per_worker = 8;  // that take longer than to wake a worker for them
+constexpr std::size_t shots_per_worker = 8;  // fewer are not worth waking another worker for
 
 std::int64_t ns(Clock::duration duration) {
     return duration / std::chrono::nanoseconds(1);

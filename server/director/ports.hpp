@@ -13,8 +13,11 @@ namespace camdir::director {
 class Ingress {
   public:
     virtual ~Ingress() = default;
-    // A match is new, has changed or is back. Returns false when limits.matches are running already: nothing
-    // is kept, and the next MatchInfo of the match is another attempt.
+    // To be asked before the first MatchInfo of a match is passed on. Returns false when limits.matches are
+    // running already: nothing is kept, and the next MatchInfo of the match is another attempt.
+    [[nodiscard]] virtual bool admit(const std::string& match_id) = 0;
+    // A match is new, has changed or is back. The director may publish before this returns. Returns false as
+    // admit() does.
     virtual bool receive(const MatchInfo& info) = 0;
     // The game server's liveliness is lost: the cameras hold until poses arrive again.
     virtual void server_lost(const std::string& match_id) = 0;
@@ -39,7 +42,7 @@ class Publisher {
     virtual ~Publisher() = default;
     // The match as it is shown from now on. Precedes the cameras of its epoch.
     virtual void publish(const MatchInfo& shown) = 0;
-    // It has been shown to its end.
+    // The match has been shown to its end.
     virtual void end(const std::string& match_id) = 0;
     virtual void publish(const std::string& match_id, const CameraFrame& frame) = 0;
     virtual void publish(const ObserverStatus& status) = 0;

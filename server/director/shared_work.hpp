@@ -9,7 +9,7 @@ namespace camdir::director {
 
 class SharedWork {
   public:
-    // Does one item. `lane` says for whom: calls on one lane come one after another. Must not throw.
+    // Does one item. Calls with the same `lane` come one after another. Must not throw.
     using Item = std::function<void(std::size_t lane, std::size_t item)>;
 
     // The owner's: begin(), then finish() before anything else. From begin() on others may help; finish()
@@ -21,7 +21,7 @@ class SharedWork {
     void help(std::size_t lane);
 
   private:
-    const Item* item_ = nullptr;          // valid for who has taken an item and not done it yet
+    const Item* item_ = nullptr;          // valid while an item is left or not done
     std::atomic<std::size_t> left_{0};    // items that nobody has taken
     std::atomic<std::size_t> undone_{0};  // items that are not done
 };

@@ -21,11 +21,11 @@ constexpr std::size_t word_bits = 64;
 WorkerPool::WorkerPool(std::size_t workers, std::size_t capacity)
     : slots_(capacity, nullptr), ready_((capacity + word_bits - 1) / word_bits) {
     assert(workers > 0 && capacity > 0);
-    [[maybe_unused]] const int failed = ::sem_init(&wanted_, 0, 0);
+    [[maybe_unused]] const int failed = ::sem_init(&work_available_, 0, 0);
     assert(failed == 0);
     for (std::size_t i = 0; i < workers; ++i)
         workers_.emplace_back(std::make_unique<Worker>())->lane = i + 1;
-    for (const auto& worker : workers_) {  // which look at each other
+    for (const auto& worker : workers_) {  // started when all are there: they help each other
         worker->thread = std::thread([this, &worker] { work(*worker); });
         const std::string name = "worker-" + std::to_string(worker->lane - 1);
         ::pthread_setname_np(worker->thread.native_handle(), name.c_str());
@@ -34,13 +34,13 @@ WorkerPool::WorkerPool(std::size_t workers, std::size_t capacity)
 
 WorkerPool::~WorkerPool() {
     stop();
-    ::sem_destroy(&wanted_);
+    ::sem_destroy(&work_available_);
 }
 
 void WorkerPool::stop() {
     if (stopping_.exchange(true)) return;
     for (std::size_t i = 0; i < workers_.size(); ++i)
-        ::sem_post(&wanted_);
+        ::sem_post(&work_available_);
     for (const auto& worker : workers_)
         worker->thread.join();
 }
@@ -73,23 +73,24 @@ void WorkerPool::schedule(Strand& strand) {
 
 void WorkerPool::mark_ready(std::size_t slot) {
     ready_[slot / word_bits].fetch_or(std::uint64_t{1} << slot % word_bits, std::memory_order_release);
-    ::sem_post(&wanted_);
+    ::sem_post(&work_available_);
 }
 
 void WorkerPool::work(Worker& worker) {
     for (;;) {
-        while (::sem_wait(&wanted_) != 0)
+        while (::sem_wait(&work_available_) != 0)
             assert(errno == EINTR);
         worker.began_ns.store(now_ns(), std::memory_order_relaxed);
         if (claim_call()) {  // before strands: it shortens a turn that goes on
             help(worker);
         } else {
             Strand* strand = claim();
-            if (strand == nullptr) return;
+            if (strand == nullptr) break;
             run(worker, *strand);
         }
         worker.began_ns.store(0, std::memory_order_relaxed);
     }
+    worker.began_ns.store(0, std::memory_order_relaxed);  // stopped
 }
 
 bool WorkerPool::claim_call() {
@@ -107,7 +108,7 @@ void WorkerPool::help(Worker& worker) {
 void WorkerPool::call_helpers(std::size_t count) {
     calls_.fetch_add(count, std::memory_order_release);
     for (std::size_t i = 0; i < count; ++i)
-        ::sem_post(&wanted_);
+        ::sem_post(&work_available_);
 }
 
 void Turn::share(std::size_t count, std::size_t share, const SharedWork::Item& item) {

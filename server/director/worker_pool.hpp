@@ -59,7 +59,8 @@ class WorkerPool {
     // Waits until the strand is idle.
     static void wait_idle(const Strand& strand);
 
-    // True when no current turn has lasted longer than `limit`. Thread-safe.
+    // True when no worker has been busy with one turn, its own or others', for longer than `limit`.
+    // Thread-safe.
     [[nodiscard]] bool responsive(std::chrono::nanoseconds limit) const;
 
     // Joins the workers. Strands scheduled afterwards get no turn.
@@ -87,8 +88,8 @@ class WorkerPool {
     std::vector<Strand*> slots_;
     std::vector<std::atomic<std::uint64_t>> ready_;  // one bit per slot
     std::atomic<std::size_t> next_{0};               // slot at which the round continues
-    std::atomic<std::size_t> calls_{0};              // for help, that no worker has followed
-    sem_t wanted_;                                   // one permit per ready bit and per call
+    std::atomic<std::size_t> calls_{0};              // for help, not yet answered by a worker
+    sem_t work_available_;                           // one permit per ready bit and per call
     std::atomic<bool> stopping_{false};
     std::vector<std::unique_ptr<Worker>> workers_;
 };

@@ -22,8 +22,8 @@ constexpr TextColumn event_columns[] = {
     {"t_ms", "t_ms"}, {"event", "kind"}, {"player", "actor"}, {"other", "subject"}};
 
 // Games of Quake 3's family number the world, which kills by falls and lava, as 1022.
-bool is_nobody(std::string_view field) {
-    return field.empty() || field == "1022";
+bool is_nobody(std::string_view field, const Trace& trace) {
+    return field.empty() || (field == "1022" && !std::ranges::binary_search(trace.players, 1022U));
 }
 
 Result<std::uint32_t> player_of(std::string_view field, const char* column, const Trace& trace) {
@@ -39,7 +39,9 @@ Result<std::uint32_t> player_of(std::string_view field, const char* column, cons
 Result<std::optional<Kill>> kill_of(std::span<const std::string_view> row, const Trace& trace) {
     const auto milliseconds = to_number(row[event_time], {"t_ms", 0.0, 1e12});
     if (!milliseconds) return tl::unexpected(milliseconds.error());
-    if (row[event_kind] != "kill" || is_nobody(row[event_killer]) || is_nobody(row[event_victim])) return {};
+    if (row[event_kind] != "kill" || is_nobody(row[event_killer], trace) ||
+        is_nobody(row[event_victim], trace))
+        return {};
     const auto killer = player_of(row[event_killer], event_columns[event_killer].name, trace);
     if (!killer) return tl::unexpected(killer.error());
     const auto victim = player_of(row[event_victim], event_columns[event_victim].name, trace);

@@ -31,8 +31,8 @@ struct Thresholds {
 
 // Of the player's box: its corners pulled in by 1 unit, and its centre.
 std::array<Vec3d, 9> body_points(const TracePose& pose, double unit) {
-    const Box3d whole = player_box(pose, unit);
-    const Box3d box(whole.min() + Vec3d::Constant(unit), whole.max() - Vec3d::Constant(unit));
+    const Box3d full_box = player_box(pose, unit);
+    const Box3d box(full_box.min() + Vec3d::Constant(unit), full_box.max() - Vec3d::Constant(unit));
     std::array<Vec3d, 9> points;
     for (int i = 0; i < 8; ++i)
         points[static_cast<std::size_t>(i)] = box.corner(static_cast<Box3d::CornerType>(i));

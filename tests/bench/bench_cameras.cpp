@@ -4,8 +4,10 @@
 // Exit codes: 0 done, 1 something failed, 2 bad usage.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <functional>
 #include <iostream>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 

@@ -1,4 +1,4 @@
-// Counts every allocation of the program that links it.
+// Counts the allocations of the program by the unaligned operator new that links it.
 #pragma once
 
 namespace camdir::test {

@@ -1,4 +1,6 @@
-// The cameras of whole runs, bit for bit: the same for every compiler, optimisation and sanitizer.
+// The cameras of whole runs, bit for bit: the same for every compiler, optimisation and sanitizer. The C
+// library computes sines and the like, in other ways on other processors: these are Debian 12's on x86-64
+// with FMA.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -60,7 +62,16 @@ struct GoldenRun {
 };
 
 // Whoever changes cameras on purpose puts the new hashes here.
+bool is_reference_machine() {
+#if defined(__x86_64__)
+    return __builtin_cpu_supports("fma") != 0;
+#else
+    return false;
+#endif
+}
+
 TEST(Golden, CamerasAreTheSameWhateverCompilesThem) {
+    if (!is_reference_machine()) GTEST_SKIP() << "needs an x86-64 processor with FMA";
     for (const auto& [name, solver, rate, look_ahead, hash] :
          {GoldenRun{"paper", Solver::paper, 60.0, 0.0, 0x5eea353a20ab6744},
           GoldenRun{"planner", Solver::planner, 60.0, 0.0, 0x1d69c9019d80ea85},

@@ -202,7 +202,7 @@ TEST(Overrides, RangesThatMakeNoSenseAreErrors) {
          {"5", "[]", "[80]", "[80, 90, 100]", "[90, 80]", "[1, 80]", "[80, 3000]", R"(["a", "b"])"})
         EXPECT_THAT(problem(std::string(R"({"overrides": {"distance": )") + range + "}}"),
                     AllOf(HasSubstr("test: /overrides/distance: "),
-                          HasSubstr("expected [least, most], each a number from 20 to 2000")))
+                          HasSubstr("expected [min, max], each a number from 20 to 2000")))
             << range;
     for (const char* choices : {"5", "[]", R"(["plan"])", "[1, 2]"})
         EXPECT_THAT(problem(std::string(R"({"overrides": {"solver": )") + choices + "}}"),

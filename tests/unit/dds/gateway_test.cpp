@@ -24,6 +24,10 @@ using test::RawPoseFrame;
 // Records the calls of the gateway as lines.
 class Recorder final : public director::Ingress {
   public:
+    bool admit(const std::string& match_id) override {
+        note("admit " + match_id);
+        return accepts;
+    }
     bool receive(const director::MatchInfo& info) override {
         note("info " + info.match_id + " " + std::to_string(info.epoch));
         if (director::Publisher* publisher = shows_at_once) publisher->publish(info);
@@ -367,8 +371,9 @@ TEST_F(GatewayTest, ARefusedMatchGetsNoEndpointsUntilItIsAccepted) {
     recorder_.accepts = false;
     RawPeer& raw = peer("cup");
     raw.write(test::raw_match_info("cup", 1));
-    ASSERT_TRUE(eventually([&] { return recorder_.has("info cup 1"); }));
-    EXPECT_TRUE(eventually([&] { return gateway_->counters().matches == 0; }));
+    ASSERT_TRUE(eventually([&] { return recorder_.has("admit cup"); }));
+    EXPECT_EQ(gateway_->counters().matches, 0U);
+    EXPECT_FALSE(recorder_.has("info cup 1"));
     recorder_.accepts = true;
     raw.write(test::raw_match_info("cup", 1));
     EXPECT_TRUE(eventually([&] { return raw.directors() == 1; }));

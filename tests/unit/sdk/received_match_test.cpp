@@ -81,6 +81,14 @@ TEST_F(ReceivedMatchTest, CameraOfTheShotIsFoundByTheDirectorsAnswer) {
     EXPECT_EQ(match_.track().newest()->camera.target, 105U);
 }
 
+TEST_F(ReceivedMatchTest, AnAnswerThatOvertakesTheDescriptionOfAnEarlierEpochIsKept) {
+    answer(5, 0);  // for a match that waits for its delay, as of the newest epoch
+    answer(4, 7);  // now the one before is shown
+    describe(4);
+    EXPECT_EQ(match_.shot_status().epoch, 4U);
+    EXPECT_EQ(match_.shot_status().camera_id, 7U);
+}
+
 TEST_F(ReceivedMatchTest, AnswersToOtherObserversAreIgnored) {
     match_.set_requested(true);
     match_.accept(status_of(1, 5, "bert"));
