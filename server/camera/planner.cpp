@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace camdir::camera {
 namespace {
@@ -38,6 +39,7 @@ void make_plan(const freespace::Freespace& freespace, const MapProfile& profile,
     aim(profile, state.history, plan);
 
     state.count = samples_to_keep(plan);
+    state.count -= std::exchange(state.phase, 0) % state.count;
     for (std::size_t i = 0; i < state.count; ++i)
         state.samples[i] = {plan.position[i],      plan.eye[i],      plan.heading_yaw[i],
                             plan.heading_pitch[i], plan.look_yaw[i], plan.look_pitch[i]};

@@ -21,7 +21,8 @@ struct PlanState {
     std::array<PlannedSample, capacity> samples;  // that follow; planned anew after the last one
     std::size_t count = 0;
     std::size_t next = 0;
-    double step = 0.0;  // s, between samples
+    double step = 0.0;        // s, between samples
+    std::uint32_t phase = 0;  // any number: shots that begin together plan in different frames by it
     FreeBeams free_beams;
     FreeLengths free_lengths;
 };

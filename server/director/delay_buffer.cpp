@@ -13,6 +13,9 @@ namespace {
 
 constexpr std::int64_t retained_ns = 1'000'000'000;  // of what has left, for those who look ahead late
 constexpr std::int64_t max_paced_ns = 250'000'000;
+constexpr std::int64_t max_jitter_ns = 100'000'000;  // more is a stall, or a step of the sender's clock
+// The clocks of sender and director drift apart by less than a millisecond meanwhile.
+constexpr std::int64_t stretch_ns = 5'000'000'000;
 constexpr double longest_pace_s = 0.25;  // a longer step of the game's clock is a pause or a jump
 constexpr double pace = 0.9;
 constexpr std::size_t bytes_of_name = 96;  // a player's name and class
@@ -99,16 +102,37 @@ DelayBuffer::Admission DelayBuffer::put(const PoseFrame& frame, std::int64_t now
     const std::lock_guard lock(mutex_);
     if (!refusal_.empty()) return Admission::refused;
     if (passes()) return Admission::undelayed;
-    const std::int64_t due = due_of(frame, now);
-    const Admission admission = keep(frame, frame.poses.size() * sizeof(PlayerPose), due, now);
+    const std::int64_t received = punctual_receipt(frame, now);
+    const Admission admission =
+        keep(frame, frame.poses.size() * sizeof(PlayerPose), due_of(frame, received), received);
     last_frame_due_ = last_due_;
     last_frame_epoch_ = frame.epoch;
     last_frame_time_ = frame.frame_time;
     return admission;
 }
 
-std::int64_t DelayBuffer::due_of(const PoseFrame& frame, std::int64_t now) const {
-    const std::int64_t due = now + delay_ns_;
+// When it would have been received if it had been as fast as the fastest. Clocks are arbitrary: differences
+// are taken modulo 2^64.
+std::int64_t DelayBuffer::punctual_receipt(const PoseFrame& frame, std::int64_t now) {
+    if (frame.source_time == 0) return now;
+    const auto difference = [](std::int64_t a, std::int64_t b) {
+        return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) - static_cast<std::uint64_t>(b));
+    };
+    const std::int64_t on_its_way = difference(now, frame.source_time);
+    if (now >= stretch_ends_) {
+        fastest_before_ = now < stretch_ends_ + stretch_ns ? fastest_ : never;
+        fastest_ = never;
+        stretch_ends_ = now + stretch_ns;
+    }
+    const std::int64_t fastest = std::min(fastest_, fastest_before_);
+    const std::int64_t longer = fastest == never ? 0 : difference(on_its_way, fastest);
+    if (longer > max_jitter_ns || longer < -max_jitter_ns) fastest_ = fastest_before_ = never;
+    fastest_ = std::min(fastest_, on_its_way);
+    return now - (longer <= max_jitter_ns ? std::max<std::int64_t>(longer, 0) : 0);
+}
+
+std::int64_t DelayBuffer::due_of(const PoseFrame& frame, std::int64_t received) const {
+    const std::int64_t due = received + delay_ns_;
     if (last_frame_due_ == 0 || frame.epoch != last_frame_epoch_) return due;
     const double step = seconds_between(last_frame_time_, frame.frame_time);
     if (!(step > 0.0 && step <= longest_pace_s)) return due;
@@ -116,7 +140,8 @@ std::int64_t DelayBuffer::due_of(const PoseFrame& frame, std::int64_t now) const
                       due + max_paced_ns);
 }
 
-DelayBuffer::Admission DelayBuffer::keep(Item item, std::size_t bytes, std::int64_t due, std::int64_t now) {
+DelayBuffer::Admission DelayBuffer::keep(Item item, std::size_t bytes, std::int64_t due,
+                                         std::int64_t received) {
     bytes += sizeof(Entry);
     const auto* message = std::get_if<Message>(&item);
     const bool leaves = message != nullptr && (std::holds_alternative<MatchEnded>(*message) ||
@@ -128,7 +153,7 @@ DelayBuffer::Admission DelayBuffer::keep(Item item, std::size_t bytes, std::int6
     }
     last_due_ = std::max(last_due_, due);
     bytes_ += bytes;
-    entries_.push_back({now, last_due_, bytes, std::move(item)});
+    entries_.push_back({received, last_due_, bytes, std::move(item)});
     return Admission::delayed;
 }
 

@@ -16,7 +16,9 @@ namespace camdir::director {
 
 inline constexpr double max_delay_s = 120.0;
 
-// Everything leaves in the order of its receipt, at least the delay after its receipt. Pose frames that
+// Everything leaves in the order of its receipt, at least the delay after its receipt. A pose frame that was
+// up to 0.1 s longer on its way than the fastest of the last seconds, by its sender's clock, leaves as if it
+// had been as fast: the delay has time to take out what the network and schedulers add. Pose frames that
 // arrived in a burst leave at most a ninth faster than the game's clock ran between them, and for that at
 // most 0.25 s late. The delay is the greater of the match's own and the operator's. It may grow at any time:
 // what waits then waits on. A smaller one takes effect with the next epoch: nothing is shown earlier than was
@@ -82,7 +84,7 @@ class DelayBuffer {
   private:
     using Item = std::variant<PoseFrame, Message>;
     struct Entry {
-        std::int64_t received;
+        std::int64_t received;  // or as if it had been fast
         std::int64_t due;
         std::size_t bytes;
         Item item;
@@ -92,9 +94,10 @@ class DelayBuffer {
     bool update(bool new_epoch, std::int64_t now);
     bool refuse(std::string reason);
     void hold_back(std::int64_t now);
-    Admission keep(Item item, std::size_t bytes, std::int64_t due, std::int64_t now);
+    Admission keep(Item item, std::size_t bytes, std::int64_t due, std::int64_t received);
     [[nodiscard]] bool passes() const { return delay_ns_ == 0 && released_ == entries_.size(); }
-    [[nodiscard]] std::int64_t due_of(const PoseFrame& frame, std::int64_t now) const;
+    [[nodiscard]] std::int64_t punctual_receipt(const PoseFrame& frame, std::int64_t now);
+    [[nodiscard]] std::int64_t due_of(const PoseFrame& frame, std::int64_t received) const;
     [[nodiscard]] double wanted_s() const { return std::max(announced_s_, minimum_s_); }
 
     const std::size_t max_bytes_;
@@ -112,6 +115,10 @@ class DelayBuffer {
     std::uint64_t first_ = 0;   // position of entries_.front()
     std::size_t released_ = 0;  // entries before this one have left; kept for a second
     std::size_t bytes_ = 0;
+    // Times on the way from the sender, by two clocks: of this stretch of time and the one before.
+    std::int64_t fastest_ = never;
+    std::int64_t fastest_before_ = never;
+    std::int64_t stretch_ends_ = 0;
     std::int64_t last_due_ = 0;
     std::int64_t last_frame_due_ = 0;  // 0: no frame yet
     std::uint64_t last_frame_epoch_ = 0;

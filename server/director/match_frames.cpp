@@ -140,7 +140,7 @@ void Match::choose_target(Shot& shot, const PoseFrame& frame) {
                           config_->matches, frame.frame_time);
         target = shot.automatic.player;
     }
-    if (target != shot.target) shot.state = {};  // a fresh state starts with a cut
+    if (target != shot.target) shot.restart();
     shot.target = target;
 }
 
@@ -165,7 +165,7 @@ camera::Camera Match::step_by_pose(Shot& shot, const PlayerPose* seen, double dt
 }
 
 camera::Camera Match::step_by_timeline(Shot& shot, const PlayerPose* seen, camera::Scratch& scratch) const {
-    if (after_silence_ && seen != nullptr) shot.state = {};
+    if (after_silence_ && seen != nullptr) shot.restart();
     if (!shot.state.started) shot.state.time = timeline_.shown() - first_step_s;
     return camera::step(*freespace_, shot.profile, timeline_.window(shot.target), timeline_.shown(),
                         shot.state, scratch);

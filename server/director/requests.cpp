@@ -205,7 +205,7 @@ void Requests::publish(Observer& observer, Decision decision, std::uint64_t epoc
 
 void Requests::restart_shots() {
     for (Shot& shot : shots_) {
-        shot.state = {};
+        shot.restart();
         shot.automatic = {};
         shot.target = no_player;
         shot.flags = 0;

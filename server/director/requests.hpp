@@ -34,6 +34,12 @@ struct Shot {
     std::uint32_t target = no_player;  // the player followed now
     std::uint64_t observers = 0;
     std::uint32_t flags = 0;  // of the last camera
+
+    // Begins again, with a cut.
+    void restart() {
+        state = {};
+        state.plan.phase = camera_id;
+    }
 };
 
 // What decides about requests.

@@ -1,9 +1,11 @@
 // The planner over windows of poses: with and without a recorded future, and at any output rate.
 #include "camera/planner.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -57,6 +59,24 @@ Take take(const test::Plan& plan, const std::vector<TimedPose>& poses, double ou
     }
     std::sort(take.accelerations.begin(), take.accelerations.end());
     return take;
+}
+
+TEST(Planner, ShotsThatBeginTogetherPlanInDifferentFrames) {
+    const test::Plan plan = test::figure_eight();
+    const freespace::Freespace freespace = plan.freespace();
+    const auto poses = run(plan, 1, 60.0, 120);
+    Scratch scratch(freespace);
+    std::array<int, 6> plans{};  // by frame
+    for (std::uint32_t phase = 600; phase < 606; ++phase) {
+        ShotState state;
+        state.plan.phase = phase;
+        for (std::size_t i = 0; i < 12; ++i) {
+            (void)step(freespace, solved_by(Solver::planner), Window(poses).first(i + 60), poses[i].time,
+                       state, scratch);
+            if (i >= 6 && state.plan.next == 1) ++plans[i % 6];
+        }
+    }
+    EXPECT_THAT(plans, testing::Each(1));
 }
 
 TEST(Planner, KnowingTheFutureMovesMoreSmoothly) {

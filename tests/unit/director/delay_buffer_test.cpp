@@ -80,6 +80,59 @@ TEST_F(DelayBufferTest, NothingLeavesEarlyOrMuchLater) {
     EXPECT_EQ(next_due_, DelayBuffer::never);
 }
 
+// Whatever frames are late on their way leave as regularly as they were sent.
+TEST_F(DelayBufferTest, TheDelayTakesOutWhatTheWayAdds) {
+    constexpr std::int64_t other_clock = -7'000'000'000'000;
+    constexpr std::int64_t fastest = 2 * ms;
+    std::mt19937 random(7);
+    std::uniform_int_distribution<std::int64_t> jitter(0, 60 * ms);
+    buffer_.announce(1, 2.0, 0);
+    std::int64_t received = 0;
+    for (std::uint32_t number = 0; number < 2'000; ++number) {
+        const std::int64_t sent = number * 20 * ms;
+        received =
+            std::max(received, sent + fastest + (number % 100 < 95 && number > 0 ? jitter(random) : 0));
+        PoseFrame frame = frame_at(number, sent);
+        frame.source_time = other_clock + sent;
+        ASSERT_EQ(buffer_.put(frame, received), Admission::delayed);
+        const std::int64_t due = sent + fastest + 2 * one_s;
+        EXPECT_FALSE(release(due - 1).has_frame) << number;
+        ASSERT_TRUE(release(due).has_frame) << number;
+        EXPECT_EQ(content_.frame.frame_number, number);
+        EXPECT_EQ(content_.received_ns, due);
+    }
+}
+
+TEST_F(DelayBufferTest, NoClockOfASenderMakesFramesEarly) {
+    constexpr std::int64_t limit = std::numeric_limits<std::int64_t>::max();
+    std::mt19937_64 random(11);
+    buffer_.announce(1, 2.0, 0);
+    std::int64_t offset = 0;
+    for (std::uint32_t number = 1; number < 3'000; ++number) {
+        const std::int64_t now = number * 20 * ms;
+        switch (random() % 50) {
+            case 0:
+                offset = static_cast<std::int64_t>(random());
+                break;
+            case 1:
+                offset = random() % 2 == 0 ? limit : -limit;
+                break;
+            case 2:
+                offset = 3600 * one_s;
+                break;
+            default:
+                break;
+        }
+        PoseFrame frame = frame_at(number, now);
+        frame.source_time =
+            static_cast<std::int64_t>(static_cast<std::uint64_t>(now) + static_cast<std::uint64_t>(offset));
+        ASSERT_EQ(buffer_.put(frame, now), Admission::delayed);
+        const std::int64_t due = now + 2 * one_s;
+        EXPECT_FALSE(release(due - 1).has_frame) << number;
+        ASSERT_TRUE(release(due).has_frame) << number;
+    }
+}
+
 TEST_F(DelayBufferTest, FramesAndMessagesKeepTheirOrder) {
     buffer_.announce(1, 1.0, 0);
     put(MatchInfo{}, 0);

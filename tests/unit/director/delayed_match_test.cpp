@@ -199,6 +199,12 @@ double recorded_at(std::uint32_t number) {
     return seconds_between(0, Stage::poses(number).frame_time);
 }
 
+ShotCamera camera_of(const CameraFrame& frame, std::size_t player) {
+    const auto found = std::ranges::find(frame.cameras, player, &ShotCamera::target);
+    EXPECT_NE(found, frame.cameras.end());
+    return found == frame.cameras.end() ? ShotCamera{} : *found;
+}
+
 // One tracker over the whole recording, as far as the delay lets it be known at each of the frames shown.
 std::vector<Vec3f> planned(std::uint32_t player, const std::vector<CameraFrame>& shown) {
     constexpr double ahead = 2.5;  // s, that are used of a long delay
@@ -212,6 +218,7 @@ std::vector<Vec3f> planned(std::uint32_t player, const std::vector<CameraFrame>&
     }
     camera::ShotState state;
     state.time = recorded_at(shown.at(0).pose_number) - 1.0 / 60.0;
+    state.plan.phase = camera_of(shown.at(0), player).camera_id;
     std::vector<Vec3f> cameras;
     for (const CameraFrame& frame : shown) {
         const double now = recorded_at(frame.pose_number);
@@ -232,11 +239,8 @@ TEST(DelayedMatch, CamerasArePlannedOverTheFutureWhateverTheNumberOfWorkers) {
         for (std::size_t player = 1; player <= 3; ++player) {
             const auto expected = planned(static_cast<std::uint32_t>(player), shown);
             for (std::size_t i = 0; i < shown.size(); ++i) {
-                const auto& cameras = shown[i].cameras;
-                const auto camera = std::find_if(cameras.begin(), cameras.end(),
-                                                 [&](const auto& each) { return each.target == player; });
-                ASSERT_NE(camera, cameras.end());
-                EXPECT_EQ(camera->position, expected[i]) << "frame " << shown[i].pose_number;
+                EXPECT_EQ(camera_of(shown[i], player).position, expected[i])
+                    << "frame " << shown[i].pose_number;
                 EXPECT_EQ(shown[i].source_time, Stage::poses(shown[i].pose_number).source_time);
             }
         }
