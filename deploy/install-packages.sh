@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what is missing of the Debian 12 packages in the named groups: build (default), map, game, film, test,
-# lint, or all.
+# lint, package, or all.
 # Needs root or sudo when something is missing. On any other system it prints what is missing and fails.
 #     install-packages.sh [GROUP ...]
 set -euo pipefail
@@ -17,10 +17,11 @@ for group in "${@:-build}"; do
         film) wanted+=("${film_packages[@]}") ;;
         test) wanted+=("${test_packages[@]}") ;;
         lint) wanted+=("${lint_packages[@]}") ;;
+        package) wanted+=("${package_packages[@]}") ;;
         all)
             wanted+=("${build_packages[@]}" "${map_packages[@]}" "${game_packages[@]}" "${film_packages[@]}"
-                "${test_packages[@]}" "${lint_packages[@]}") ;;
-        *) echo "install-packages.sh: unknown group '$group'; known: build map game film test lint all" >&2; exit 2 ;;
+                "${test_packages[@]}" "${lint_packages[@]}" "${package_packages[@]}") ;;
+        *) echo "install-packages.sh: unknown group '$group'; known: build map game film test lint package all" >&2; exit 2 ;;
     esac
 done
 
@@ -45,5 +46,9 @@ if [ "$(id -u)" -ne 0 ]; then
 fi
 
 echo "Installing ${#missing[@]} packages: ${missing[*]}"
+# Debian would start Prometheus, which listens on all interfaces, as soon as it is installed.
+if [[ " ${missing[*]} " = *" prometheus "* ]] && command -v systemctl >/dev/null; then
+    "${as_root[@]}" systemctl mask prometheus.service
+fi
 "${as_root[@]}" apt-get update -q
 "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends "${missing[@]}"

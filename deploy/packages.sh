@@ -12,7 +12,7 @@ build_packages=(
     libcairo2-dev                            # lettering and PNG of pictures
     cyclonedds-dev cyclonedds-tools          # the wire
     libspdlog-dev nlohmann-json3-dev libcli11-dev  # logging, JSON, command line
-    libcpp-httplib-dev prometheus-cpp-dev libsystemd-dev  # health, metrics, service notification
+    libboost-dev prometheus-cpp-dev libsystemd-dev  # HTTP, metrics, service notification
     libgtest-dev libgmock-dev librapidcheck-dev  # tests
     libqhull-dev                             # benchmarks: the paper's Voronoi engine
     libbullet-dev                            # benchmarks: sweeps beside the project's queries
@@ -23,10 +23,12 @@ map_packages=(openarena-081-maps)
 game_packages=(openarena-server openarena xvfb libgl1-mesa-dri)
 # Videos of it.
 film_packages=(ffmpeg)
-# What test.sh needs in addition.
-test_packages=(clang-format-14 openarena-088-data)
+# What test.sh needs in addition. Of prometheus it is promtool, which checks the alerts.
+test_packages=(clang-format-14 openarena-088-data prometheus)
 # What test.sh --all needs in addition.
 lint_packages=(clang-14 clang-tidy-14 libclang-rt-14-dev)
+# For building Debian packages, and for testing them in an empty Debian.
+package_packages=(dpkg-dev file debootstrap)
 # What i386-packages.sh unpacks: the libraries of 32-bit game servers, and what to build against them.
 i386_packages=(
     libc6 libc6-dev linux-libc-dev libgcc-s1 libgcc-12-dev libstdc++6 libstdc++-12-dev libeigen3-dev

@@ -3,7 +3,8 @@
 # its unit and integration tests (matches on OpenArena's own server and client among them) and a short soak, the unit
 # tests under the address and undefined-behaviour sanitizers.
 #     test.sh [--all]
-# --all: also the thread sanitizer, clang-tidy, every fuzzer for a minute, and the client library on i386
+# --all: also the thread sanitizer, clang-tidy, every fuzzer for a minute, the client library on i386, and the Debian
+# packages in an empty Debian
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -99,6 +100,10 @@ if $all; then
         mkdir -p "$found"
         build/fuzz/bin/fuzz-"$name" -max_total_time=60 -timeout=30 -rss_limit_mb=4096 "$found" "$corpus"
     done
+
+    step "Debian packages"
+    deploy/package.sh
+    if [ "$(id -u)" -eq 0 ]; then deploy/test-package.sh; else sudo deploy/test-package.sh; fi
 fi
 
 if [ "$skipped" -eq 0 ]; then

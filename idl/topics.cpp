@@ -38,6 +38,8 @@ const std::array<Contract, topic_count> contracts = {{
      DDS_DURABILITY_TRANSIENT_LOCAL, 1, 0, DDS_LIVELINESS_AUTOMATIC, forever, DDS_OWNERSHIP_EXCLUSIVE},
     {"ShownMatch", &camera_director_MatchInfo_desc, DDS_RELIABILITY_RELIABLE, DDS_DURABILITY_TRANSIENT_LOCAL,
      1, 0, DDS_LIVELINESS_AUTOMATIC, forever, DDS_OWNERSHIP_EXCLUSIVE},
+    {"DirectorSign", &camera_director_DirectorSign_desc, DDS_RELIABILITY_RELIABLE,
+     DDS_DURABILITY_TRANSIENT_LOCAL, 1, 0, DDS_LIVELINESS_AUTOMATIC, forever, DDS_OWNERSHIP_SHARED},
 }};
 
 const Contract& contract(Topic topic) {

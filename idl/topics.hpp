@@ -1,4 +1,4 @@
-// The seven topics' names, types and QoS as camera_director.idl documents them, for the server and the client
+// The eight topics' names, types and QoS as camera_director.idl documents them, for the server and the client
 // library.
 #pragma once
 
@@ -18,8 +18,9 @@ enum class Topic : std::size_t {
     observer_request,
     observer_status,
     shown_match,
+    director_sign,
 };
-inline constexpr std::size_t topic_count = 7;
+inline constexpr std::size_t topic_count = 8;
 
 [[nodiscard]] const char* topic_name(Topic topic);
 [[nodiscard]] const dds_topic_descriptor_t& topic_type(Topic topic);

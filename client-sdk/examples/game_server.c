@@ -144,7 +144,9 @@ int main(int argc, char** argv) {
     copy_string(info.match_id, sizeof info.match_id, match_id);
     copy_string(info.map_name, sizeof info.map_name, map_name);
     info.rate_hz = (float)rate;
-    cdir_player walker = {1, 0, {0}, "walker", ""};
+    cdir_player walker = cdir_player_default();
+    walker.id = 1;
+    strcpy(walker.name, "walker");
     cdir_context context;
     cdir_match match;
     check("joining the domain", cdir_context_open(&options, &context));

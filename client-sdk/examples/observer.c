@@ -23,8 +23,23 @@ static void report_status(cdir_observer observer, uint32_t* last_state) {
     *last_state = status.state;
 }
 
-static void print_camera(const cdir_view* view) {
-    const cdir_camera* camera = &view->camera;
+/* Says who is shown when that has changed. */
+static void report_target(cdir_observer observer, uint32_t target, uint32_t* last_target) {
+    static cdir_player players[CDIR_MAX_PLAYERS];
+    cdir_match_info info = cdir_match_info_default();
+    uint32_t count = 0;
+    if (target == *last_target) return;
+    players[0] = cdir_player_default();
+    const cdir_status status = cdir_observer_match_info(observer, &info, players, CDIR_MAX_PLAYERS, &count);
+    check("reading the match", status);
+    if (status == CDIR_NO_DATA) return;
+    for (uint32_t i = 0; i < count; ++i) {
+        if (players[i].id == target) fprintf(stderr, "target: %s\n", players[i].name);
+    }
+    *last_target = target;
+}
+
+static void print_camera(const cdir_camera* camera, const cdir_view* view) {
     printf("%" PRId64 ",%" PRIu32 ",%.4f,%.4f,%.4f,%.7f,%.7f,%.7f,%.7f,%.5f,%.2f,%" PRIu32 ",%" PRIu32 "\n",
            view->frame_time, camera->target, (double)camera->position[0], (double)camera->position[1],
            (double)camera->position[2], (double)camera->orientation[0], (double)camera->orientation[1],
@@ -38,6 +53,7 @@ static void watch(cdir_observer observer, double rate, double seconds, double pa
     const int64_t start = monotonic_ns();
     const int64_t period = (int64_t)(1e9 / rate);
     uint32_t last_state = CDIR_SHOT_NOT_REQUESTED;
+    uint32_t last_target = CDIR_CHOOSE_TARGET;
     bool seen = false;
     printf("frame_time,target,x,y,z,qx,qy,qz,qw,vertical_fov,clearance,flags,segment\n");
     for (int64_t number = 0; !stop_requested; ++number) {
@@ -49,10 +65,12 @@ static void watch(cdir_observer observer, double rate, double seconds, double pa
 
         /* A spectator client would draw the scene with this camera now. */
         int64_t display_time;
+        cdir_camera camera = cdir_camera_default();
         cdir_view view = cdir_view_default();
         if (cdir_observer_display_time(observer, &display_time) == CDIR_OK &&
-            cdir_observer_camera_at(observer, display_time, &view) == CDIR_OK) {
-            print_camera(&view);
+            cdir_observer_camera_at(observer, display_time, &camera, &view) == CDIR_OK) {
+            print_camera(&camera, &view);
+            report_target(observer, camera.target, &last_target);
             seen = true;
         }
         if (fflush(stdout) != 0) {

@@ -57,7 +57,7 @@ static uint32_t list_players(const struct match_state* state, cdir_player player
         const struct player_identity* identity = &state->players[i];
         if (!identity->present) continue;
         cdir_player* player = &players[player_count++];
-        memset(player, 0, sizeof *player);
+        *player = cdir_player_default();
         player->id = i + 1;
         player->team = identity->team;
         snprintf(player->name, sizeof player->name, "%s", identity->name);
@@ -134,25 +134,20 @@ static void publish_event(struct worker* worker, const struct game_event* from, 
 }
 
 static void publish_poses(struct worker* worker, const struct server_frame* from) {
-    uint32_t ids[max_players], flags[max_players];
-    float eyes[3 * max_players], orientations[4 * max_players], velocities[3 * max_players];
-    for (uint32_t i = 0; i < from->player_count; ++i) {
-        const struct player_pose* pose = &from->players[i];
-        ids[i] = pose->id;
-        flags[i] = pose->flags;
-        memcpy(&eyes[3 * i], pose->eye, sizeof pose->eye);
-        memcpy(&velocities[3 * i], pose->velocity, sizeof pose->velocity);
-        (void)cdir_orientation_from_angles(pose->angles, &orientations[4 * i]);
-    }
+    const struct player_pose* poses = from->players;
+    float orientations[4 * max_players];
+    for (uint32_t i = 0; i < from->player_count; ++i)
+        (void)cdir_orientation_from_angles(poses[i].angles, &orientations[4 * i]);
     cdir_pose_frame frame = cdir_pose_frame_default();
     frame.player_count = from->player_count;
     frame.frame_time = from->frame_time;
     frame.source_time = from->source_time;
-    frame.player_id = ids;
-    frame.eye = eyes;
+    frame.player_id = &poses->id;
+    frame.eye = poses->eye;
     frame.orientation = orientations;
-    frame.velocity = velocities;
-    frame.flags = flags;
+    frame.velocity = poses->velocity;
+    frame.flags = &poses->flags;
+    frame.player_id_stride = frame.eye_stride = frame.velocity_stride = frame.flags_stride = sizeof *poses;
     if (cdir_match_publish_poses(worker->match.handle, &frame) < 0) {
         set_error(worker, cdir_last_error());
     } else {

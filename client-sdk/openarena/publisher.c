@@ -14,7 +14,7 @@ static uint32_t list_players(cdir_player players[max_slots], const struct match_
         const struct roster_entry* entry = &state->players[slot];
         if (!entry->in_use) continue;
         cdir_player* player = &players[count++];
-        memset(player, 0, sizeof *player);
+        *player = cdir_player_default();
         player->id = slot;
         player->team = entry->team;
         snprintf(player->name, sizeof player->name, "%s", entry->name);

@@ -49,22 +49,23 @@ void shots_request(struct shots* shots, cdir_context context, const char* match_
     }
 }
 
-static void fill_camera(struct viewer_camera* camera, const cdir_view* view) {
+static void fill_camera(struct viewer_camera* camera, const cdir_camera* from, const cdir_view* view) {
     camera->live = 1;
-    camera->target = view->camera.target < max_slots ? (uint8_t)view->camera.target : no_slot;
+    camera->target = from->target < max_slots ? (uint8_t)from->target : no_slot;
     camera->segment = view->segment;
     camera->level_time = (int32_t)(view->frame_time / ns_per_ms);
-    camera->flags = view->camera.flags;
-    memcpy(camera->position, view->camera.position, sizeof camera->position);
-    memcpy(camera->orientation, view->camera.orientation, sizeof camera->orientation);
-    camera->vertical_fov = view->camera.vertical_fov;
-    camera->clearance = view->camera.clearance;
+    camera->flags = from->flags;
+    memcpy(camera->position, from->position, sizeof camera->position);
+    memcpy(camera->orientation, from->orientation, sizeof camera->orientation);
+    camera->vertical_fov = from->vertical_fov;
+    camera->clearance = from->clearance;
 }
 
 /* The observer's last camera outlives its epoch until the next one's arrives: the answer's epoch tells. */
 static void poll_shot(struct shot* shot, uint64_t epoch, struct viewer_camera* camera,
                       struct viewer_shot* answer) {
     cdir_shot_status status = cdir_shot_status_default();
+    cdir_camera newest = cdir_camera_default();
     cdir_view view = cdir_view_default();
     memset(camera, 0, sizeof *camera); /* with the padding: compared as bytes */
     memset(answer, 0, sizeof *answer);
@@ -80,9 +81,9 @@ static void poll_shot(struct shot* shot, uint64_t epoch, struct viewer_camera* c
                  status.reason);
     }
     if (status.state != CDIR_SHOT_ACCEPTED || status.epoch != epoch) return;
-    if (cdir_observer_newest_camera(shot->observer, &view) != CDIR_OK) return;
+    if (cdir_observer_newest_camera(shot->observer, &newest, &view) != CDIR_OK) return;
     if (view.frame_time < 0 || view.frame_time / ns_per_ms > INT32_MAX) return; /* no time of this server */
-    fill_camera(camera, &view);
+    fill_camera(camera, &newest, &view);
 }
 
 static bool contains(uint64_t slots, uint32_t slot) {

@@ -29,14 +29,8 @@ bool camera_motion_take(struct camera_motion* motion, const struct viewer_camera
 }
 
 struct view view_of_camera(const struct viewer_camera* camera) {
-    const double x = camera->orientation[0], y = camera->orientation[1];
-    const double z = camera->orientation[2], w = camera->orientation[3];
-    const double forward[3] = {1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)};
-    const double left_z = 2 * (y * z + w * x), up_z = 1 - 2 * (x * x + y * y);
-    const struct view view = {
-        {camera->position[0], camera->position[1], camera->position[2]},
-        {(float)(-asin(fmax(-1.0, fmin(1.0, forward[2]))) * degrees),
-         (float)(atan2(forward[1], forward[0]) * degrees), (float)(atan2(left_z, up_z) * degrees)}};
+    struct view view = {{camera->position[0], camera->position[1], camera->position[2]}, {0, 0, 0}};
+    (void)cdir_orientation_to_angles(camera->orientation, view.angles);
     return view;
 }
 

@@ -4,12 +4,8 @@ namespace camdir::sdk {
 
 namespace {
 
-cdir_view view_of(std::int64_t time, std::uint32_t segment, const cdir_camera& camera) {
-    cdir_view view = cdir_view_default();
-    view.segment = segment;
-    view.frame_time = time;
-    view.camera = camera;
-    return view;
+View view_of(std::int64_t time, std::uint32_t segment, const cdir_camera& camera) {
+    return {segment, time, 0, camera};
 }
 
 // Frame times differ by no more than 2^62 ns.
@@ -47,7 +43,7 @@ void CameraTrack::clear() {
     interrupted_ = true;
 }
 
-std::optional<cdir_view> CameraTrack::newest() const {
+std::optional<View> CameraTrack::newest() const {
     if (size_ == 0) return std::nullopt;
     const Frame& newest = frame(size_ - 1);
     return view_of(newest.time, newest.segment, newest.camera);
@@ -84,13 +80,13 @@ CameraState CameraTrack::settled(std::size_t age_rank) {
     return {known.camera, *known.velocity};
 }
 
-std::optional<cdir_view> CameraTrack::at(std::int64_t frame_time) {
+std::optional<View> CameraTrack::at(std::int64_t frame_time) {
     if (size_ == 0) return std::nullopt;
     const std::size_t rank = first_after(frame_time);
     const Frame& before = frame(rank == 0 ? 0 : rank - 1);
     if (rank == 0) return view_of(before.time, before.segment, before.camera);
     if (rank == size_) {
-        cdir_view view = view_of(before.time, before.segment, before.camera);
+        View view = view_of(before.time, before.segment, before.camera);
         view.late = frame_time - before.time;
         return view;
     }

@@ -12,6 +12,14 @@
 
 namespace camdir::sdk {
 
+// The shot's camera at one time; the fields are those of cdir_view.
+struct View {
+    std::uint32_t segment;
+    std::int64_t frame_time;
+    std::int64_t late;
+    cdir_camera camera;
+};
+
 // Keeps the newest `capacity` frames. Allocates nothing. One thread at a time.
 class CameraTrack {
   public:
@@ -27,7 +35,7 @@ class CameraTrack {
 
     void clear();
 
-    [[nodiscard]] std::optional<cdir_view> newest() const;
+    [[nodiscard]] std::optional<View> newest() const;
 
     // The camera at `frame_time`. Between connected frames it is camera_between() them, between unconnected
     // ones the earlier one, outside of the track the nearest. None when empty.
@@ -35,7 +43,7 @@ class CameraTrack {
     // A frame's velocity is settled when it is first needed, by the frames that are known then: by the ones
     // before and after it, or by the two before it. So the camera never waits for a frame, and none that
     // comes later bends a way that is being shown.
-    [[nodiscard]] std::optional<cdir_view> at(std::int64_t frame_time);
+    [[nodiscard]] std::optional<View> at(std::int64_t frame_time);
 
   private:
     struct Frame {

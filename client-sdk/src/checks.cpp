@@ -19,23 +19,6 @@ bool is_time(std::int64_t ns) {
     return -max_abs_time <= ns && ns <= max_abs_time;
 }
 
-bool all_finite(const float* values, std::size_t count) {
-    return std::all_of(values, values + count, [](float value) { return std::isfinite(value); });
-}
-
-// `count` quaternions, each of length 1.
-bool all_unit(const float* quaternions, std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i) {
-        double square = 0.0;
-        for (std::size_t k = 0; k < 4; ++k) {
-            square += double{quaternions[4 * i + k]} * double{quaternions[4 * i + k]};
-        }
-        // Negated so that NaN fails.
-        if (!(std::abs(std::sqrt(square) - 1.0) <= 1e-3)) return false;
-    }
-    return true;
-}
-
 bool has_control_character(const std::string& text) {
     return std::any_of(text.begin(), text.end(),
                        [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; });
@@ -43,13 +26,14 @@ bool has_control_character(const std::string& text) {
 
 void check_player(const cdir_player& player) {
     require(player.id != CDIR_NO_PLAYER, "a player's id is CDIR_NO_PLAYER");
-    require(std::count(std::begin(player.reserved), std::end(player.reserved), 0) == 3,
+    require(std::all_of(std::begin(player.reserved), std::end(player.reserved),
+                        [](auto byte) { return byte == 0; }),
             "a player's reserved bytes are not 0");
     (void)checked_string("a player's name", player.name, 0, sizeof player.name - 1);
     (void)checked_string("a player's class", player.player_class, 0, sizeof player.player_class - 1);
 }
 
-bool all_finite(const dds_sequence_float& sequence) {
+bool finite(const dds_sequence_float& sequence) {
     return all_finite(sequence._buffer, sequence._length);
 }
 
@@ -108,17 +92,20 @@ void check(const cdir_match_info& info, std::span<const cdir_player> players) {
     }
 }
 
-void check(const cdir_pose_frame& frame) {
-    const std::size_t n = frame.player_count;
-    require(n <= CDIR_MAX_PLAYERS, "player_count is greater than CDIR_MAX_PLAYERS");
-    check_frame_time(frame.frame_time);
-    if (n == 0) return;
-    require(frame.player_id != nullptr && frame.eye != nullptr && frame.orientation != nullptr &&
-                frame.flags != nullptr,
-            "player_id, eye, orientation or flags is null");
-    require(all_finite(frame.eye, 3 * n), "an eye position is not finite");
-    require(all_unit(frame.orientation, n), "an orientation is not of length 1");
-    require(frame.velocity == nullptr || all_finite(frame.velocity, 3 * n), "a velocity is not finite");
+bool all_finite(const float* values, std::size_t count) {
+    return std::all_of(values, values + count, [](float value) { return std::isfinite(value); });
+}
+
+bool all_unit(const float* quaternions, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+        double square = 0.0;
+        for (std::size_t k = 0; k < 4; ++k) {
+            square += double{quaternions[4 * i + k]} * double{quaternions[4 * i + k]};
+        }
+        // Negated so that NaN fails.
+        if (!(std::abs(std::sqrt(square) - 1.0) <= 1e-3)) return false;
+    }
+    return true;
 }
 
 void check(const cdir_match_event& event) {
@@ -147,8 +134,8 @@ bool is_valid(const camera_director_CameraFrame& frame, const std::string& match
                          frame.position._length == 3 * n && frame.orientation._length == 4 * n &&
                          frame.vertical_fov._length == n && frame.clearance._length == n &&
                          frame.flags._length == n;
-    return lengths && frame.match_id == match_id && is_time(frame.frame_time) && all_finite(frame.position) &&
-           all_unit(frame.orientation._buffer, n) && all_finite(frame.clearance) &&
+    return lengths && frame.match_id == match_id && is_time(frame.frame_time) && finite(frame.position) &&
+           all_unit(frame.orientation._buffer, n) && finite(frame.clearance) &&
            std::all_of(frame.vertical_fov._buffer, frame.vertical_fov._buffer + n,
                        [](float fov) { return fov > 0.0F && fov < pi; });
 }

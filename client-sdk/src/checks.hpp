@@ -22,16 +22,11 @@ void require(bool condition, const char* text);
 [[nodiscard]] std::string checked_observer_id(const char* text);
 void check_frame_time(std::int64_t frame_time);
 void check(const cdir_match_info& info, std::span<const cdir_player> players);
-void check(const cdir_pose_frame& frame);
 void check(const cdir_match_event& event);
 
-// struct_size is the first field of every parameter struct.
-template <class Struct>
-void check_struct(const char* name, const Struct* parameter) {
-    if (parameter == nullptr) throw Failure{CDIR_INVALID_ARGUMENT, std::string(name) + " is null"};
-    require(parameter->struct_size == sizeof(Struct),
-            (std::string(name) + ".struct_size is wrong: begin with its _default() function").c_str());
-}
+// `count` numbers, and `count` quaternions of length 1 within 1e-3.
+[[nodiscard]] bool all_finite(const float* values, std::size_t count);
+[[nodiscard]] bool all_unit(const float* quaternions, std::size_t count);
 
 // For samples: true when the sample is valid. `match_id` is that of its partition.
 [[nodiscard]] bool is_valid(const camera_director_MatchInfo& info, const std::string& match_id);

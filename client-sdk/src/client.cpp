@@ -1,8 +1,7 @@
-// The C functions: validate arguments, look handles up, and turn failures into a status.
+// The C functions with handles: validate arguments, look handles up, and turn failures into a status.
 #include <camera_director/camera_director.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <mutex>
 
@@ -10,15 +9,18 @@
 #include "context.hpp"
 #include "game_match.hpp"
 #include "handle_table.hpp"
+#include "memory.hpp"
+#include "network.hpp"
 #include "observer.hpp"
-#include "orientation.hpp"
+#include "pending_context.hpp"
+#include "structs.hpp"
 
 namespace camdir::sdk {
 
 namespace {
 
 struct Handles {
-    HandleTable<Context> contexts;
+    HandleTable<PendingContext> contexts;
     HandleTable<GameMatch> matches;
     HandleTable<Observer> observers;
 };
@@ -37,7 +39,7 @@ std::shared_ptr<T> require_open(std::shared_ptr<T> found, const char* what) {
     return found;
 }
 
-std::shared_ptr<Context> find(cdir_context context) {
+std::shared_ptr<PendingContext> find(cdir_context context) {
     return require_open(handles().contexts.find(context.id), "the context");
 }
 std::shared_ptr<GameMatch> find(cdir_match match) {
@@ -64,12 +66,15 @@ void close_children(const Context& context) {
     }
 }
 
+void close_context(const PendingContext& closed) {
+    if (const auto context = closed.result()) close_children(*context);
+}
+
 // DDS threads that outlive main() would use libraries that are already unloaded.
 void close_all() {
     (void)guarded([] {
-        for (const auto& context : handles().contexts.remove_if([](const Context&) { return true; })) {
-            close_children(*context);
-        }
+        for (const auto& context : handles().contexts.remove_if([](const PendingContext&) { return true; }))
+            close_context(*context);
         return CDIR_OK;
     });
 }
@@ -79,16 +84,39 @@ void close_all_at_exit() {
     static std::once_flag once;
     std::call_once(once, [] { std::atexit(close_all); });
 }
-
-std::span<const cdir_player> player_span(const cdir_player* players, std::uint32_t count) {
-    require(count <= CDIR_MAX_PLAYERS, "player_count is greater than CDIR_MAX_PLAYERS");
-    require(count == 0 || players != nullptr, "players is null");
-    return {players, count};
+// Before that there may be an attempt to wait for.
+void end_attempts_at_exit() {
+    static std::once_flag once;
+    std::call_once(once, [] { std::atexit(close_all); });
 }
 
-cdir_status store(std::optional<cdir_view> found, cdir_view* view) {
+std::shared_ptr<PendingContext> begin_open(const cdir_context_options* options) {
+    const cdir_context_options read = read_struct("options", options);
+    require(read.domain <= 230, "domain must be 0 to 230");
+    require(read.cyclone_xml != nullptr || read.network_interface != nullptr, "network_interface is null");
+    require(read.cyclone_xml != nullptr || read.directors != nullptr, "directors is null");
+    (void)network_configuration(read);  // fails when it is malformed
+    end_attempts_at_exit();
+    return make_object<PendingContext>([owned = OwnedOptions(read)]() -> std::shared_ptr<const Context> {
+        const auto context = make_object<Context>(owned.get());
+        close_all_at_exit();
+        return context;
+    });
+}
+
+std::vector<cdir_player> read_players(const cdir_player* players, std::uint32_t count) {
+    require(count <= CDIR_MAX_PLAYERS, "player_count is greater than CDIR_MAX_PLAYERS");
+    return read_array("players", players, count);
+}
+
+cdir_status store(const std::optional<View>& found, cdir_camera* camera, cdir_view* view) {
     if (!found) return CDIR_NO_DATA;
-    *view = *found;
+    write_struct(camera, found->camera);
+    cdir_view where = default_of<cdir_view>();
+    where.segment = found->segment;
+    where.frame_time = found->frame_time;
+    where.late = found->late;
+    write_struct(view, where);
     return CDIR_OK;
 }
 
@@ -98,63 +126,32 @@ cdir_status store(std::optional<cdir_view> found, cdir_view* view) {
 
 using namespace camdir::sdk;
 
-uint32_t cdir_abi_version(void) noexcept {
-    return CDIR_ABI_VERSION;
-}
-
-const char* cdir_status_name(cdir_status status) noexcept {
-    switch (status) {
-        case CDIR_OK:
-            return "CDIR_OK";
-        case CDIR_NO_DATA:
-            return "CDIR_NO_DATA";
-        case CDIR_TIMEOUT:
-            return "CDIR_TIMEOUT";
-        case CDIR_INTERRUPTED:
-            return "CDIR_INTERRUPTED";
-        case CDIR_TRUNCATED:
-            return "CDIR_TRUNCATED";
-        case CDIR_INVALID_ARGUMENT:
-            return "CDIR_INVALID_ARGUMENT";
-        case CDIR_INVALID_HANDLE:
-            return "CDIR_INVALID_HANDLE";
-        case CDIR_BUSY:
-            return "CDIR_BUSY";
-        case CDIR_CONFLICT:
-            return "CDIR_CONFLICT";
-        case CDIR_NETWORK:
-            return "CDIR_NETWORK";
-        case CDIR_OUT_OF_MEMORY:
-            return "CDIR_OUT_OF_MEMORY";
-        case CDIR_INTERNAL:
-            return "CDIR_INTERNAL";
-        default:
-            return "unknown status";
-    }
-}
-
-const char* cdir_last_error(void) noexcept {
-    return last_error_text;
-}
-
 cdir_status cdir_context_open(const cdir_context_options* options, cdir_context* context) noexcept {
     return guarded([&] {
-        check_struct("options", options);
         require(context != nullptr, "context is null");
-        require(options->domain <= 230, "domain must be 0 to 230");
-        require(options->cyclone_xml != nullptr || options->network_interface != nullptr,
-                "network_interface is null");
-        require(options->cyclone_xml != nullptr || options->directors != nullptr, "directors is null");
-        context->id = handles().contexts.insert(std::make_shared<Context>(*options));
-        close_all_at_exit();
+        const auto pending = begin_open(options);
+        (void)pending->wait(-1);
+        context->id = handles().contexts.insert(pending);
         return CDIR_OK;
     });
+}
+
+cdir_status cdir_context_open_async(const cdir_context_options* options, cdir_context* context) noexcept {
+    return guarded([&] {
+        require(context != nullptr, "context is null");
+        context->id = handles().contexts.insert(begin_open(options));
+        return CDIR_OK;
+    });
+}
+
+cdir_status cdir_context_wait(cdir_context context, int64_t timeout) noexcept {
+    return guarded([&] { return find(context)->wait(timeout); });
 }
 
 cdir_status cdir_context_close(cdir_context context) noexcept {
     return guarded([&] {
         const auto closed = require_open(handles().contexts.remove(context.id), "the context");
-        close_children(*closed);
+        close_context(*closed);
         return CDIR_OK;
     });
 }
@@ -162,11 +159,10 @@ cdir_status cdir_context_close(cdir_context context) noexcept {
 cdir_status cdir_match_open(cdir_context context, const cdir_match_info* info, const cdir_player* players,
                             uint32_t player_count, cdir_match* match) noexcept {
     return guarded([&] {
-        check_struct("info", info);
+        const cdir_match_info read = read_struct("info", info);
         require(match != nullptr, "match is null");
-        const auto span = player_span(players, player_count);
-        const std::uint64_t id =
-            handles().matches.insert(std::make_shared<GameMatch>(find(context), *info, span));
+        const std::uint64_t id = handles().matches.insert(
+            make_object<GameMatch>(find(context)->get(), read, read_players(players, player_count)));
         require_still_open(context, [&] { (void)handles().matches.remove(id); });
         match->id = id;
         return CDIR_OK;
@@ -176,8 +172,8 @@ cdir_status cdir_match_open(cdir_context context, const cdir_match_info* info, c
 cdir_status cdir_match_update(cdir_match match, const cdir_match_info* info, const cdir_player* players,
                               uint32_t player_count) noexcept {
     return guarded([&] {
-        check_struct("info", info);
-        find(match)->update(*info, player_span(players, player_count));
+        const cdir_match_info read = read_struct("info", info);
+        find(match)->update(read, read_players(players, player_count));
         return CDIR_OK;
     });
 }
@@ -185,8 +181,8 @@ cdir_status cdir_match_update(cdir_match match, const cdir_match_info* info, con
 cdir_status cdir_match_restart(cdir_match match, const cdir_match_info* info, const cdir_player* players,
                                uint32_t player_count) noexcept {
     return guarded([&] {
-        check_struct("info", info);
-        find(match)->restart(*info, player_span(players, player_count));
+        const cdir_match_info read = read_struct("info", info);
+        find(match)->restart(read, read_players(players, player_count));
         return CDIR_OK;
     });
 }
@@ -199,29 +195,16 @@ cdir_status cdir_match_epoch(cdir_match match, uint64_t* epoch) noexcept {
     });
 }
 
-cdir_status cdir_orientation_from_angles(const float* angles, float* orientation) noexcept {
-    return guarded([&] {
-        require(angles != nullptr, "angles is null");
-        require(orientation != nullptr, "orientation is null");
-        require(std::all_of(angles, angles + 3, [](float angle) { return std::isfinite(angle); }),
-                "an angle is not finite");
-        store_orientation(angles, orientation);
-        return CDIR_OK;
-    });
-}
-
 cdir_status cdir_match_publish_poses(cdir_match match, const cdir_pose_frame* frame) noexcept {
     return guarded([&] {
-        check_struct("frame", frame);
-        find(match)->publish(*frame);
+        find(match)->publish(read_struct("frame", frame));
         return CDIR_OK;
     });
 }
 
 cdir_status cdir_match_publish_event(cdir_match match, const cdir_match_event* event) noexcept {
     return guarded([&] {
-        check_struct("event", event);
-        find(match)->publish(*event);
+        find(match)->publish(read_struct("event", event));
         return CDIR_OK;
     });
 }
@@ -244,15 +227,14 @@ cdir_status cdir_match_close(cdir_match match) noexcept {
 cdir_status cdir_observer_open(cdir_context context, const char* match_id, const char* observer_id,
                                const cdir_observer_options* options, cdir_observer* observer) noexcept {
     return guarded([&] {
-        const cdir_observer_options defaults = cdir_observer_options_default();
-        const cdir_observer_options& chosen = options == nullptr ? defaults : *options;
-        check_struct("options", &chosen);
+        const cdir_observer_options chosen =
+            options == nullptr ? default_of<cdir_observer_options>() : read_struct("options", options);
         require(chosen.interpolation_delay >= 0 && chosen.interpolation_delay <= 10'000'000'000,
                 "interpolation_delay must be 0 to 10 s");
         require(chosen.reserved == 0, "options.reserved is not 0");
         require(observer != nullptr, "observer is null");
-        const std::uint64_t id = handles().observers.insert(std::make_shared<Observer>(
-            find(context), checked_match_id(match_id), checked_observer_id(observer_id), chosen));
+        const std::uint64_t id = handles().observers.insert(make_object<Observer>(
+            find(context)->get(), checked_match_id(match_id), checked_observer_id(observer_id), chosen));
         require_still_open(context, [&] { (void)handles().observers.remove(id); });
         observer->id = id;
         return CDIR_OK;
@@ -261,8 +243,7 @@ cdir_status cdir_observer_open(cdir_context context, const char* match_id, const
 
 cdir_status cdir_observer_request(cdir_observer observer, const cdir_shot_request* request) noexcept {
     return guarded([&] {
-        check_struct("request", request);
-        find(observer)->request(*request);
+        find(observer)->request(read_struct("request", request));
         return CDIR_OK;
     });
 }
@@ -297,54 +278,42 @@ cdir_status cdir_observer_next_frame(cdir_observer observer, cdir_camera_frame* 
                                      uint32_t capacity) noexcept {
     return guarded([&] {
         check_struct("frame", frame);
-        require(capacity == 0 || cameras != nullptr, "cameras is null");
-        if (!find(observer)->next_frame(*frame, {cameras, capacity})) return CDIR_NO_DATA;
-        return frame->camera_count > capacity ? CDIR_TRUNCATED : CDIR_OK;
+        const StructArray<cdir_camera> array("cameras", cameras, capacity);
+        cdir_camera_frame taken = default_of<cdir_camera_frame>();
+        if (!find(observer)->next_frame(taken, array)) return CDIR_NO_DATA;
+        write_struct(frame, taken);
+        return taken.camera_count > capacity ? CDIR_TRUNCATED : CDIR_OK;
     });
 }
 
 cdir_status cdir_observer_shot_status(cdir_observer observer, cdir_shot_status* status) noexcept {
     return guarded([&] {
         check_struct("status", status);
-        *status = find(observer)->with_match([](const ReceivedMatch& match) { return match.shot_status(); });
+        write_struct(status, find(observer)->with_match(
+                                 [](const ReceivedMatch& match) { return match.shot_status(); }));
         return CDIR_OK;
     });
 }
 
-const char* cdir_shot_state_name(uint32_t state) noexcept {
-    switch (state) {
-        case CDIR_SHOT_REFUSED:
-            return "refused";
-        case CDIR_SHOT_ACCEPTED:
-            return "accepted";
-        case CDIR_SHOT_WAITING_FOR_MAP:
-            return "waiting for the map";
-        case CDIR_SHOT_WAITING_FOR_PLAYER:
-            return "waiting for a player";
-        case CDIR_SHOT_NOT_REQUESTED:
-            return "not requested";
-        case CDIR_SHOT_UNANSWERED:
-            return "unanswered";
-        default:
-            return "unknown state";
-    }
-}
-
-cdir_status cdir_observer_newest_camera(cdir_observer observer, cdir_view* view) noexcept {
+cdir_status cdir_observer_newest_camera(cdir_observer observer, cdir_camera* camera,
+                                        cdir_view* view) noexcept {
     return guarded([&] {
+        check_struct("camera", camera);
         check_struct("view", view);
         return store(find(observer)->with_match([](ReceivedMatch& match) { return match.track().newest(); }),
-                     view);
+                     camera, view);
     });
 }
 
-cdir_status cdir_observer_camera_at(cdir_observer observer, int64_t frame_time, cdir_view* view) noexcept {
+cdir_status cdir_observer_camera_at(cdir_observer observer, int64_t frame_time, cdir_camera* camera,
+                                    cdir_view* view) noexcept {
     return guarded([&] {
+        check_struct("camera", camera);
         check_struct("view", view);
         check_frame_time(frame_time);
         return store(
             find(observer)->with_match([=](ReceivedMatch& match) { return match.track().at(frame_time); }),
-            view);
+            camera, view);
     });
 }
 
@@ -362,14 +331,16 @@ cdir_status cdir_observer_match_info(cdir_observer observer, cdir_match_info* in
                                      uint32_t capacity, uint32_t* player_count) noexcept {
     return guarded([&] {
         check_struct("info", info);
-        require(capacity == 0 || players != nullptr, "players is null");
+        const StructArray<cdir_player> array("players", players, capacity);
         return find(observer)->with_match([&](const ReceivedMatch& match) {
             if (!match.info()) return CDIR_NO_DATA;
             const auto& known = match.info()->players;
-            *info = match.info()->match;
-            std::copy_n(known.begin(), std::min<std::size_t>(capacity, known.size()), players);
-            if (player_count != nullptr) *player_count = static_cast<std::uint32_t>(known.size());
-            return known.size() > capacity ? CDIR_TRUNCATED : CDIR_OK;
+            const auto count = static_cast<std::uint32_t>(known.size());
+            write_struct(info, match.info()->match);
+            for (std::uint32_t i = 0; i < std::min(capacity, count); ++i)
+                array.write(i, known[i]);
+            if (player_count != nullptr) *player_count = count;
+            return count > capacity ? CDIR_TRUNCATED : CDIR_OK;
         });
     });
 }
@@ -381,7 +352,7 @@ cdir_status cdir_observer_get_counters(cdir_observer observer, cdir_observer_cou
         cdir_observer_counters counted =
             found->with_match([](const ReceivedMatch& match) { return match.counters(); });
         counted.directors = found->director_count();
-        *counters = counted;
+        write_struct(counters, counted);
         return CDIR_OK;
     });
 }

@@ -78,6 +78,21 @@ DomainShare::~DomainShare() {
     if (--found->second.shares == 0) domains.by_number.erase(found);
 }
 
+// Of the strings, only those that are used need not be null.
+OwnedOptions::OwnedOptions(const cdir_context_options& options) : options_(options) {
+    if (options.network_interface != nullptr) network_interface_ = options.network_interface;
+    if (options.directors != nullptr) directors_ = options.directors;
+    if (options.cyclone_xml != nullptr) cyclone_xml_ = options.cyclone_xml;
+}
+
+cdir_context_options OwnedOptions::get() const {
+    cdir_context_options options = options_;
+    options.network_interface = network_interface_.c_str();
+    options.directors = directors_.c_str();
+    if (options_.cyclone_xml != nullptr) options.cyclone_xml = cyclone_xml_.c_str();
+    return options;
+}
+
 Context::Context(const cdir_context_options& options)
     : domain_(options),
       participant_("cannot create a participant in DDS domain " + std::to_string(options.domain),

@@ -25,6 +25,17 @@ class DomainShare {
     std::uint32_t domain_;
 };
 
+// The caller's options, whose strings it need not keep.
+class OwnedOptions {
+  public:
+    explicit OwnedOptions(const cdir_context_options& options);
+    [[nodiscard]] cdir_context_options get() const;  // valid as long as this
+
+  private:
+    cdir_context_options options_;
+    std::string network_interface_, directors_, cyclone_xml_;
+};
+
 // Immutable: thread-safe.
 class Context {
   public:

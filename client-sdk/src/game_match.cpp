@@ -29,7 +29,7 @@ std::uint64_t choose_epoch(std::uint64_t previous) {
     return std::max(last, previous + 1);
 }
 
-// Lets a sequence use the caller's array for one write.
+// Lets a sequence use an array for one write.
 template <class Sequence, class Element>
 void borrow(Sequence& sequence, const Element* elements, std::size_t count) {
     sequence._buffer = const_cast<Element*>(elements);
@@ -142,25 +142,26 @@ std::uint32_t GameMatch::count_discontinuities(std::uint32_t player, std::uint32
 }
 
 void GameMatch::publish(const cdir_pose_frame& frame) {
-    check(frame);
+    check_frame_time(frame.frame_time);
     const std::lock_guard lock(mutex_);
+    poses_.gather(frame);
     require(!last_frame_time_ || frame.frame_time >= *last_frame_time_,
             "frame_time went back within the epoch: restart the match");
-    const std::size_t n = frame.player_count;
+    const std::size_t n = poses_.count();
     std::array<std::uint32_t, CDIR_MAX_PLAYERS> discontinuities;
     for (std::size_t i = 0; i < n; ++i)
-        discontinuities[i] = count_discontinuities(frame.player_id[i], frame.flags[i]);
+        discontinuities[i] = count_discontinuities(poses_.player_id()[i], poses_.flags()[i]);
     camera_director_PoseFrame sample{};
     copy_string(sample.match_id, match_id_.c_str());
     sample.epoch = info_.epoch;
     sample.frame_number = next_frame_number_;
     sample.frame_time = frame.frame_time;
     sample.source_time = frame.source_time != 0 ? frame.source_time : realtime_ns();
-    borrow(sample.player_id, frame.player_id, n);
-    borrow(sample.eye, frame.eye, 3 * n);
-    borrow(sample.orientation, frame.orientation, 4 * n);
-    borrow(sample.velocity, frame.velocity, frame.velocity == nullptr ? 0 : 3 * n);
-    borrow(sample.flags, frame.flags, n);
+    borrow(sample.player_id, poses_.player_id(), n);
+    borrow(sample.eye, poses_.eye(), 3 * n);
+    borrow(sample.orientation, poses_.orientation(), 4 * n);
+    borrow(sample.velocity, poses_.velocity(), poses_.has_velocity() ? 3 * n : 0);
+    borrow(sample.flags, poses_.flags(), n);
     borrow(sample.discontinuities, discontinuities.data(), n);
     check_written("PoseFrame", dds_write(pose_writer_.get(), &sample));
     ++next_frame_number_;

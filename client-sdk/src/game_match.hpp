@@ -3,6 +3,7 @@
 
 #include <camera_director/camera_director.h>
 
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -11,6 +12,8 @@
 #include <unordered_map>
 
 #include "context.hpp"
+#include "memory.hpp"
+#include "pose_arrays.hpp"
 
 namespace camdir::sdk {
 
@@ -41,9 +44,13 @@ class GameMatch {
     mutable std::mutex mutex_;
     std::string match_id_;
     cdir_match_info info_;  // as last announced, with its epoch
+    PoseArrays poses_;      // of the last frame
     std::uint32_t next_frame_number_ = 0;
-    std::optional<std::int64_t> last_frame_time_;                       // in this epoch
-    std::unordered_map<std::uint32_t, std::uint32_t> discontinuities_;  // by player, in this epoch
+    std::optional<std::int64_t> last_frame_time_;  // in this epoch
+    // By player, in this epoch.
+    std::unordered_map<std::uint32_t, std::uint32_t, std::hash<std::uint32_t>, std::equal_to<>,
+                       Allocator<std::pair<const std::uint32_t, std::uint32_t>>>
+        discontinuities_;
     Entity publisher_;
     Entity info_writer_;
     Entity pose_writer_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <utility>
 
 #include "checks.hpp"
 #include "fixed_string.hpp"
@@ -147,7 +148,7 @@ std::uint32_t Observer::poll() {
     return count;
 }
 
-bool Observer::next_frame(cdir_camera_frame& frame, std::span<cdir_camera> cameras) {
+bool Observer::next_frame(cdir_camera_frame& frame, const StructArray<cdir_camera>& cameras) {
     const std::lock_guard lock(mutex_);
     take_info_and_status();
     ask_again_after_loss();
@@ -160,9 +161,9 @@ bool Observer::next_frame(cdir_camera_frame& frame, std::span<cdir_camera> camer
     frame.write_time = frame_sample_->write_time;
     frame.frame_number = frame_sample_->frame_number;
     frame.pose_number = frame_sample_->pose_number;
-    const std::size_t count = std::min<std::size_t>(frame.camera_count, cameras.size());
+    const std::uint32_t count = std::min(frame.camera_count, cameras.count());
     for (std::uint32_t i = 0; i < count; ++i) {
-        cameras[i] = camera_at(*frame_sample_, i);
+        cameras.write(i, camera_at(*frame_sample_, i));
     }
     return true;
 }
@@ -176,6 +177,9 @@ std::optional<std::int64_t> Observer::display_time() {
 void Observer::take_info_and_status() {
     for (Taken taken; (taken = info_sample_.take(info_reader_)) != Taken::nothing;) {
         if (taken == Taken::data) {
+            // One match has ended and another begun since: its epochs count anew.
+            const std::uint32_t disposals = info_sample_.disposals();
+            if (std::exchange(info_disposals_, disposals) != disposals) match_.match_ended();
             match_.accept(*info_sample_);
         } else if (taken == Taken::disposed) {
             match_.match_ended();
@@ -197,8 +201,7 @@ void Observer::take_info_and_status() {
     }
 }
 
-// The reader keeps a dead director's answer and drops its successor's until the lease ends; a director that
-// was only silent does not answer again by itself.
+// A director that was only silent does not answer again by itself.
 void Observer::ask_again_after_loss() {
     unanswered_loss_ = lost_director() || unanswered_loss_;
     if (unanswered_loss_ && match_.requested()) unanswered_loss_ = write_request() < 0;

@@ -8,12 +8,12 @@
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <span>
 #include <string>
-#include <vector>
 
 #include "context.hpp"
+#include "memory.hpp"
 #include "received_match.hpp"
+#include "structs.hpp"
 #include "wire_sample.hpp"
 
 namespace camdir::sdk {
@@ -36,7 +36,7 @@ class Observer {
 
     [[nodiscard]] std::uint32_t poll();
     // Stores as many cameras as fit. Returns false when no frame waits.
-    [[nodiscard]] bool next_frame(cdir_camera_frame& frame, std::span<cdir_camera> cameras);
+    [[nodiscard]] bool next_frame(cdir_camera_frame& frame, const StructArray<cdir_camera>& cameras);
 
     // Calls read(ReceivedMatch&) while no other thread takes samples.
     template <class Read>
@@ -51,7 +51,7 @@ class Observer {
   private:
     struct Request {
         std::uint32_t target = CDIR_NO_PLAYER;
-        std::vector<std::uint32_t> group;
+        Vector<std::uint32_t> group;
         std::string profile, overrides;
     };
 
@@ -72,6 +72,7 @@ class Observer {
     Request request_;               // the last one
     bool unanswered_loss_ = false;  // a director was lost, and the request not written again
     WireSample<camera_director_MatchInfo> info_sample_{camera_director_MatchInfo_desc};
+    std::uint32_t info_disposals_ = 0;  // of the last one
     WireSample<camera_director_ObserverStatus> status_sample_{camera_director_ObserverStatus_desc};
     WireSample<camera_director_CameraFrame> frame_sample_{camera_director_CameraFrame_desc};
 

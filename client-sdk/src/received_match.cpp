@@ -145,14 +145,15 @@ bool ReceivedMatch::accept(const camera_director_CameraFrame& frame, std::int64_
     return true;
 }
 
-// Missing frames may have held a cut, and so may frames that the previous director did not publish.
+// Missing frames may have held a cut. A director that takes over from one that it has followed counts on from
+// its last frame; another one has other cameras.
 bool ReceivedMatch::follows_last(const camera_director_CameraFrame& frame) {
     if (!last_frame_) return false;
+    const std::uint32_t missing = frame.frame_number - last_frame_->frame_number - 1;
     if (last_frame_->director_id != frame.director_id) {
         ++counters_.hand_overs;
-        return false;
+        return missing == 0;
     }
-    const std::uint32_t missing = frame.frame_number - last_frame_->frame_number - 1;
     // Frames of one director arrive in order: a smaller number means that the director has restarted.
     if (frame.frame_number > last_frame_->frame_number) counters_.gaps += missing;
     return missing == 0;

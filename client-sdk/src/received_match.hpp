@@ -7,10 +7,10 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "camera_track.hpp"
 #include "display_clock.hpp"
+#include "memory.hpp"
 
 namespace camdir::sdk {
 
@@ -46,7 +46,7 @@ class ReceivedMatch {
 
     struct Info {
         cdir_match_info match;
-        std::vector<cdir_player> players;
+        Vector<cdir_player> players;
     };
     [[nodiscard]] const std::optional<Info>& info() const { return info_; }
     [[nodiscard]] cdir_shot_status shot_status() const;

@@ -3,6 +3,7 @@
 
 #include <dds/dds.h>
 
+#include <cstdint>
 #include <optional>
 #include <utility>
 
@@ -31,6 +32,7 @@ class WireSample {
             check_dds("cannot read", count);
             if (count == 0) return Taken::nothing;
             const auto end = end_of(info.instance_state);
+            disposals_ = info.disposed_generation_count;
             if (info.valid_data) {
                 pending_end_ = end;
                 return Taken::data;
@@ -41,6 +43,8 @@ class WireSample {
 
     [[nodiscard]] const Wire& operator*() const { return value_; }
     [[nodiscard]] const Wire* operator->() const { return &value_; }
+    // How often the instance had been disposed and written again before this sample.
+    [[nodiscard]] std::uint32_t disposals() const { return disposals_; }
 
   private:
     static std::optional<Taken> end_of(dds_instance_state_t state) {
@@ -50,6 +54,7 @@ class WireSample {
 
     const dds_topic_descriptor_t& type_;
     Wire value_{};
+    std::uint32_t disposals_ = 0;
     // When an instance has ended after its last sample, DDS reports both with that one sample.
     std::optional<Taken> pending_end_;
 };

@@ -98,19 +98,10 @@ Result<bake::Baked> bake_shown(const scene::Scene& scene, const BakeOptions& opt
     return bake::bake(scene, parameters, show, stop, finished, expected);
 }
 
-// Whether `file` is the map's file, or the archive that holds it.
-bool is_source(const std::string& file, const std::string& map) {
-    std::error_code error;
-    for (std::size_t colon = map.find(':'); colon != std::string::npos; colon = map.find(':', colon + 1))
-        if (std::filesystem::equivalent(file, map.substr(0, colon), error)) return true;
-    return std::filesystem::equivalent(file, map, error);
-}
-
 Result<void> bake_to_file(const BakeOptions& options) {
     const service::Interruption interruption;
-    for (const std::string& file : {options.output, options.report})
-        if (is_source(file, options.map)) return fail(file + ": is the map; expected another file to write");
-    if (auto writable = check_outputs({options.output, options.report}); !writable) return writable;
+    if (auto writable = check_outputs({options.output, options.report}, {options.map}); !writable)
+        return writable;
 
     const auto scene = scene::load(options.map, options.read);
     if (!scene) return tl::unexpected(scene.error());

@@ -148,7 +148,8 @@ int batch_exit_code(const std::vector<maps::BakeOutcome>& outcomes) {
 
 Result<int> run(const BakeConfigOptions& options) {
     const service::Interruption interruption;
-    if (auto writable = check_outputs({options.report}); !writable) return tl::unexpected(writable.error());
+    if (auto writable = check_outputs({options.report}, {options.config}); !writable)
+        return tl::unexpected(writable.error());
     auto config = config::load(options.config);
     if (!config) return tl::unexpected(config.error());
     std::vector<config::Map> maps;

@@ -25,6 +25,14 @@ Result<void> check_output(const std::string& file) {
     return {};
 }
 
+// Whether `file` is the input, or the archive that holds it.
+bool is_input(const std::string& file, const std::string& input) {
+    std::error_code error;
+    for (std::size_t colon = input.find(':'); colon != std::string::npos; colon = input.find(':', colon + 1))
+        if (fs::equivalent(file, input.substr(0, colon), error)) return true;
+    return fs::equivalent(file, input, error);
+}
+
 // Devices may be named twice.
 bool is_same_file(const std::string& a, const std::string& b) {
     if (a.empty() || b.empty() || a == "-" || b == "-") return false;
@@ -47,11 +55,15 @@ int exit_code_of(const Result<void>& done) {
     return done ? exit_done : report(done.error());
 }
 
-Result<void> check_outputs(std::initializer_list<std::string> files) {
+Result<void> check_outputs(std::initializer_list<std::string> files,
+                           std::initializer_list<std::string> inputs) {
     for (const std::string* file = files.begin(); file != files.end(); ++file) {
         if (auto writable = check_output(*file); !writable) return writable;
         if (std::any_of(files.begin(), file, [&](const auto& other) { return is_same_file(other, *file); }))
             return fail(*file + ": is named for two outputs; expected a file for each");
+        if (std::any_of(inputs.begin(), inputs.end(),
+                        [&](const auto& input) { return is_input(*file, input); }))
+            return fail(*file + ": is read, too; expected another file to write");
     }
     return {};
 }

@@ -49,9 +49,10 @@ class ExitWhenInterrupted {
 // exit_done, or reports the error.
 [[nodiscard]] int exit_code_of(const Result<void>& done);
 
-// Whether each file can be created in its folder and is named once; an empty name and "-" always can. For use
-// before long work.
-[[nodiscard]] Result<void> check_outputs(std::initializer_list<std::string> files);
+// Whether each file can be created in its folder, is named once and is none of the inputs, which may be
+// members of archives; an empty name and "-" always can. For use before long work.
+[[nodiscard]] Result<void> check_outputs(std::initializer_list<std::string> files,
+                                         std::initializer_list<std::string> inputs);
 
 // Options and the files that they name. Throws CLI::ValidationError when more than one file is "-".
 void check_one_standard_output(std::initializer_list<std::pair<const char*, std::string>> outputs);

@@ -1,51 +1,25 @@
 // camera-director evaluate: measures the cameras of a recorded match against its map.
-#include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <memory>
 #include <optional>
 
 #include "app/commands.hpp"
+#include "app/evaluate_cameras.hpp"
+#include "app/evaluate_inputs.hpp"
 #include "app/progress.hpp"
 #include "base/file.hpp"
-#include "config/config.hpp"
+#include "evaluation/figures.hpp"
+#include "evaluation/judgement.hpp"
 #include "evaluation/kills.hpp"
 #include "evaluation/metrics.hpp"
-#include "evaluation/peers.hpp"
-#include "evaluation/recording.hpp"
-#include "evaluation/report.hpp"
-#include "evaluation/resample.hpp"
 #include "evaluation/statistics.hpp"
-#include "freespace/freespace.hpp"
-#include "maps/source.hpp"
 #include "oracle/oracle.hpp"
-#include "scene/load.hpp"
+#include "report/page.hpp"
 #include "service/signals.hpp"
 
 namespace camdir::app {
 namespace {
-
-constexpr const char* tracker = "tracker";
-constexpr const char* planner = "planner";
-constexpr const char* paper = "paper";
-
-struct EvaluateOptions {
-    std::string freespace;
-    std::string map;
-    std::string trace;
-    std::string events;
-    std::string camera = tracker;
-    std::string judge;
-    std::string profile = "default";
-    std::string config;
-    std::string cameras;
-    std::string terms;
-    std::string json;
-    double output_hz = 0.0;  // 0 = the trace's own frames
-    double look_ahead = 0.0;
-    std::string solver;  // empty: the profile's
-
-    [[nodiscard]] bool tracks() const { return judge.empty() && camera == tracker; }
-};
 
 void check_usage(const EvaluateOptions& options) {
     if (options.tracks() && options.freespace.empty())
@@ -56,101 +30,10 @@ void check_usage(const EvaluateOptions& options) {
         throw CLI::ValidationError("--solver and --look-ahead", "only the tracker has a solver");
     if (!options.tracks() && !options.terms.empty())
         throw CLI::ValidationError("--terms", "only the tracker has an objective");
-    check_one_standard_output(
-        {{"--cameras", options.cameras}, {"--terms", options.terms}, {"--json", options.json}});
-}
-
-struct Match {
-    evaluation::Trace poses;   // as recorded
-    evaluation::Trace frames;  // the instants of the cameras
-    std::optional<std::vector<evaluation::Kill>> kills;
-};
-
-Result<Match> read_match(const EvaluateOptions& options) {
-    auto trace = evaluation::read_trace(options.trace);
-    if (!trace) return tl::unexpected(trace.error());
-    Match match;
-    if (!options.events.empty()) {
-        auto kills = evaluation::read_kills(options.events, *trace);
-        if (!kills) return tl::unexpected(kills.error());
-        match.kills = std::move(*kills);
-    }
-    auto frames = options.output_hz == 0.0 ? Result<evaluation::Trace>(*trace)
-                                           : evaluation::resample(*trace, options.output_hz);
-    if (!frames) return fail(options.trace + ": " + frames.error().message);
-    match.poses = std::move(*trace);
-    match.frames = std::move(*frames);
-    return match;
-}
-
-struct SourceMap {
-    scene::Scene scene;
-    double point_radius = 0.0;  // of the obstacles in a cloud
-};
-
-// The baked file holds the options for reading a mesh or a point cloud.
-Result<SourceMap> open_map(const EvaluateOptions& options) {
-    if (options.freespace.empty()) {
-        auto scene = scene::load(options.map);
-        if (!scene) return tl::unexpected(scene.error());
-        if (scene->points.empty()) return SourceMap{std::move(*scene)};
-        return fail(options.map +
-                    ": is a point cloud; name the FILE.vfs too, which says how far its "
-                    "surfaces may be from its points");
-    }
-    const auto freespace = freespace::Freespace::open(options.freespace);
-    if (!freespace) return tl::unexpected(freespace.error());
-    auto scene = maps::load_source(*freespace, options.map);
-    if (!scene) return tl::unexpected(scene.error());
-    return SourceMap{std::move(*scene), freespace->metadata().d0};
-}
-
-Result<camera::Profile> find_profile(const EvaluateOptions& options) {
-    const auto config = options.config.empty() ? config::parse("{}", "", "") : config::load(options.config);
-    if (!config) return tl::unexpected(config.error());
-    const auto found = config->profiles.find(options.profile);
-    if (found != config->profiles.end()) return found->second;
-    std::string names;
-    for (const auto& [name, profile] : config->profiles)
-        names += " " + name;
-    return fail((options.config.empty() ? "--profile" : options.config + ": /profiles") + ": there is no \"" +
-                options.profile + "\"; there are" + names);
-}
-
-Result<evaluation::Recording> run_tracker(const EvaluateOptions& options, const Match& match,
-                                          std::uint64_t map_hash, ProgressLine& line,
-                                          const std::stop_token& stop) {
-    auto profile = find_profile(options);
-    if (!profile) return tl::unexpected(profile.error());
-    if (!options.solver.empty())
-        profile->solver = options.solver == planner ? camera::Solver::planner : camera::Solver::paper;
-    const auto freespace = freespace::Freespace::open(options.freespace);
-    if (!freespace) return tl::unexpected(freespace.error());
-    if (freespace->metadata().source_hash != map_hash) {
-        line.clear();
-        std::cerr << "camera-director: warning: " << options.freespace << " was baked from another file than "
-                  << options.map << '\n';
-    }
-    const auto show = [&](std::uint64_t done, std::uint64_t total) { line.show("tracking", done, total); };
-    return evaluation::record(*freespace, *profile, match.poses, match.frames, options.look_ahead, show,
-                              stop);
-}
-
-// The cameras to measure. Only the tracker's have objective terms and times.
-Result<evaluation::Recording> make_cameras(const EvaluateOptions& options, const Match& match,
-                                           const scene::Scene& scene, ProgressLine& line,
-                                           const std::stop_token& stop) {
-    if (options.tracks()) return run_tracker(options, match, scene.source_hash, line, stop);
-    evaluation::Recording recording;
-    if (options.judge.empty()) {
-        const auto peer = evaluation::find_peer(options.camera);
-        recording.cameras = evaluation::follow(*peer, match.frames, scene.metres_per_unit);
-        return recording;
-    }
-    auto cameras = evaluation::read_cameras(options.judge, match.frames);
-    if (!cameras) return tl::unexpected(cameras.error());
-    recording.cameras = std::move(*cameras);
-    return recording;
+    check_one_standard_output({{"--cameras", options.cameras},
+                               {"--terms", options.terms},
+                               {"--json", options.json},
+                               {"--report", options.report}});
 }
 
 void print(const EvaluateOptions& options, const evaluation::Trace& trace, const evaluation::Metrics& metrics,
@@ -176,33 +59,130 @@ Result<void> write_results(const EvaluateOptions& options, const evaluation::Tra
     return written;
 }
 
+// Judges cameras of one match.
+class Judge {
+  public:
+    Judge(const Match& match, const SourceMap& map)
+        : match_(match), map_(map), oracle_(map.scene, map.point_radius) {}
+
+    // Before the first camera.
+    Result<void> explore(ProgressLine& line, const std::stop_token& stop) {
+        const auto show = [&](std::uint64_t cells) { line.show("judging, cells explored", cells, 0); };
+        auto explored = oracle::Reachability::explore(oracle_, map_.scene, show, stop);
+        if (!explored) return tl::unexpected(explored.error());
+        reachability_ = std::move(*explored);
+        return {};
+    }
+
+    [[nodiscard]] Result<report::JudgedCamera> judge(const NamedRecording& made,
+                                                     const std::stop_token& stop) const {
+        const evaluation::CameraPath& cameras = made.recording.cameras;
+        auto judgements =
+            evaluation::judge(oracle_, *reachability_, evaluation::Thresholds(map_.scene.metres_per_unit),
+                              match_.frames, cameras, stop);
+        if (!judgements) return tl::unexpected(judgements.error());
+        evaluation::Metrics metrics = evaluation::summarise(*judgements);
+        if (match_.kills)
+            metrics.kill_in_view = evaluation::kill_in_view(oracle_, map_.scene.metres_per_unit,
+                                                            match_.frames, cameras, *match_.kills);
+        return report::JudgedCamera{made.name, cameras, std::move(*judgements), metrics};
+    }
+
+  private:
+    const Match& match_;
+    const SourceMap& map_;
+    oracle::Oracle oracle_;
+    std::optional<oracle::Reachability> reachability_;
+};
+
+std::string per_second(const evaluation::Trace& trace) {
+    const double rate = static_cast<double>(trace.frames.size() - 1) / report::duration(trace);
+    return evaluation::format_value(rate, 1) + " a second";
+}
+
+std::vector<report::Fact> facts_of(const EvaluateOptions& options, const Match& match, const SourceMap& map) {
+    std::vector<report::Fact> facts = {
+        {"Map", options.map + ", " + map.scene.kind},
+        {"Match", options.trace + ", " + std::to_string(match.frames.players.size()) + " players, " +
+                      evaluation::format_value(report::duration(match.frames), 1) + " s"},
+        {"Rates", "poses " + per_second(match.poses) + ", cameras " + per_second(match.frames)},
+    };
+    if (!options.events.empty()) facts.push_back({"Events", options.events});
+    if (!options.judge.empty()) facts.push_back({"Cameras", options.judge});
+    if (!options.tracks()) return facts;
+    facts.push_back(
+        {"Profile", options.profile + (options.config.empty() ? ", as shipped" : " of " + options.config)});
+    facts.push_back({"Look-ahead", options.look_ahead == 0.0
+                                       ? "none: the camera knows the past only"
+                                       : evaluation::format_value(options.look_ahead, 2) + " s"});
+    facts.push_back({"Baked map", options.freespace});
+    return facts;
+}
+
+Result<void> write_report(const EvaluateOptions& options, const Match& match, const SourceMap& map,
+                          const Judge& judge, report::JudgedCamera own, ProgressLine& line,
+                          const std::stop_token& stop) {
+    report::Subject subject{map.scene,
+                            match.frames,
+                            map.point_radius,
+                            options.freespace,
+                            options.trace,
+                            options.judge,
+                            facts_of(options, match, map),
+                            {}};
+    if (options.judge.empty() && options.cameras != "-") subject.cameras_file = options.cameras;
+    subject.cameras.push_back(std::move(own));
+    const auto others = make_compared_cameras(options, match, map, line, stop);
+    if (!others) return tl::unexpected(others.error());
+    for (const NamedRecording& other : *others) {
+        line.show("judging " + other.name, 0, 0);
+        auto judged = judge.judge(other, stop);
+        if (!judged) return tl::unexpected(judged.error());
+        subject.cameras.push_back(std::move(*judged));
+    }
+    const auto show = [&](std::uint64_t done, std::uint64_t total) { line.show("drawing", done, total); };
+    const auto page = report::to_html(subject, show, stop);
+    line.clear();
+    if (!page) return tl::unexpected(page.error());
+    return write_file(options.report, *page);
+}
+
+void warn_of_another_source(const EvaluateOptions& options, const SourceMap& map) {
+    if (!map.freespace || map.freespace->metadata().source_hash == map.scene.source_hash) return;
+    std::cerr << "camera-director: warning: " << options.freespace << " was baked from another file than "
+              << options.map << '\n';
+}
+
 Result<void> evaluate(const EvaluateOptions& options) {
     const service::Interruption interruption;
+    const std::stop_token stop = interruption.token();
     std::optional<ExitWhenInterrupted> reading(interruption);
-    if (auto writable = check_outputs({options.cameras, options.terms, options.json}); !writable)
+    if (auto writable = check_outputs(
+            {options.cameras, options.terms, options.json, options.report},
+            {options.freespace, options.map, options.trace, options.events, options.config, options.judge});
+        !writable)
         return writable;
     ProgressLine line;
     line.show("reading " + options.trace, 0, 0);
     const auto match = read_match(options);
     if (!match) return tl::unexpected(match.error());
-    const evaluation::Trace& trace = match->frames;
     line.show("reading " + options.map, 0, 0);
     const auto map = open_map(options);
     if (!map) return tl::unexpected(map.error());
-    const oracle::Oracle oracle(map->scene, map->point_radius);
-    reading.reset();
-    const auto recording = make_cameras(options, *match, map->scene, line, interruption.token());
-    if (!recording) return tl::unexpected(recording.error());
-    const auto explored = [&](std::uint64_t cells) { line.show("judging, cells explored", cells, 0); };
-    auto metrics =
-        evaluation::measure(map->scene, oracle, trace, recording->cameras, explored, interruption.token());
-    if (!metrics) return tl::unexpected(metrics.error());
-    if (match->kills)
-        metrics->kill_in_view = evaluation::kill_in_view(oracle, map->scene.metres_per_unit, trace,
-                                                         recording->cameras, *match->kills);
     line.clear();
-    print(options, trace, *metrics, *recording);
-    return write_results(options, trace, *metrics, *recording);
+    warn_of_another_source(options, *map);
+    Judge judge(*match, *map);
+    reading.reset();
+    const auto made = make_cameras(options, *match, *map, line, stop);
+    if (!made) return tl::unexpected(made.error());
+    if (auto explored = judge.explore(line, stop); !explored) return explored;
+    auto judged = judge.judge(*made, stop);
+    if (!judged) return tl::unexpected(judged.error());
+    line.clear();
+    print(options, match->frames, judged->metrics, made->recording);
+    auto written = write_results(options, match->frames, judged->metrics, made->recording);
+    if (!written || options.report.empty()) return written;
+    return write_report(options, *match, *map, judge, std::move(*judged), line, stop);
 }
 
 }  // namespace
@@ -239,6 +219,10 @@ void add_evaluate(CLI::App& root, Run& run) {
     command->add_option("--cameras", options->cameras, "Write the cameras, CSV; - = standard output");
     command->add_option("--terms", options->terms, "Write the tracker's objective terms, CSV");
     command->add_option("--json", options->json, "Write the metrics, JSON; - = standard output");
+    command->add_option(
+        "--report", options->report,
+        "Write a page to look at, HTML: figures beside other cameras, film strips of the worst "
+        "moments, floor plan, series over time; - = standard output");
     command->callback([options, &run] {
         check_usage(*options);
         run = [options] { return exit_code_of(evaluate(*options)); };

@@ -40,7 +40,7 @@ Result<Files> make_files(const ExportOptions& options, const service::Interrupti
 
 Result<void> export_mesh(const ExportOptions& options) {
     const service::Interruption interruption;
-    if (auto writable = check_outputs({options.ply, options.glb}); !writable) return writable;
+    if (auto writable = check_outputs({options.ply, options.glb}, {options.file}); !writable) return writable;
     const auto files = make_files(options, interruption);
     if (!files) return tl::unexpected(files.error());
     if (!options.ply.empty())

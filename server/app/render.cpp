@@ -153,7 +153,8 @@ std::string to_json(const Composition& made, const Freespace& freespace, bool sa
 
 Result<void> render_file(const RenderOptions& options) {
     const service::Interruption interruption;
-    if (auto writable = check_outputs({options.output, options.json}); !writable) return writable;
+    if (auto writable = check_outputs({options.output, options.json}, {options.file, options.map}); !writable)
+        return writable;
     const auto freespace = Freespace::open(options.file);
     if (!freespace) return tl::unexpected(freespace.error());
     const auto map = maps::load_source(*freespace, options.map);

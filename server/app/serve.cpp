@@ -21,12 +21,17 @@ struct ServeOptions {
 
 int check(const config::Config& config, const std::string& file) {
     bool good = true;
+    const auto complain = [&](const std::string& what) {
+        good = false;
+        std::cerr << "camera-director: " << file << ": " << what << '\n';
+    };
+    if (config.http.enabled) {
+        const auto checked = http::Server::check(config.http);
+        if (!checked) complain(checked.error().message);
+    }
     for (std::size_t i = 0; i < config.maps.size(); ++i) {
         const auto checked = maps::check_map(config.maps[i]);
-        if (checked) continue;
-        good = false;
-        std::cerr << "camera-director: " << file << ": /maps/" << i << ": " << checked.error().message
-                  << '\n';
+        if (!checked) complain("/maps/" + std::to_string(i) + ": " + checked.error().message);
     }
     if (!good) return exit_failed;
     std::cerr << "camera-director: " << file << ": valid\n";

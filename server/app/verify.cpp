@@ -152,7 +152,8 @@ Result<Subject> read_subject(const VerifyOptions& options) {
 Result<int> verify(const VerifyOptions& options) {
     const service::Interruption interruption;
     std::optional<ExitWhenInterrupted> reading(interruption);
-    if (auto writable = check_outputs({options.json}); !writable) return tl::unexpected(writable.error());
+    if (auto writable = check_outputs({options.json}, {options.file, options.map}); !writable)
+        return tl::unexpected(writable.error());
     ProgressLine line;
     const auto start = std::chrono::steady_clock::now();
     line.show("reading " + options.map, 0, 0);

@@ -16,8 +16,20 @@ constexpr double off_middle_gain = 4.0;
 // Times as far to the side, for a look that is smoothed more than usual.
 constexpr double max_sideways = 2.0;
 constexpr int off_middle_rounds = 2;
+constexpr float upward_lead = 0.3F;  // share: the picture is wider than high
 constexpr float steepest_look = 86.0F * radians_of_a_degree<float>;
 constexpr double least_yaw_weight = 0.02;
+
+// From the camera to the player and on towards what they look at; near `yaw`.
+Look look_past(const MapProfile& profile, const Plan& plan, std::size_t i, float yaw) {
+    const Vec3f way = (plan.eye[i] - plan.position[i]).cast<float>();
+    const Look heading{static_cast<float>(plan.heading_yaw[i]), static_cast<float>(plan.heading_pitch[i])};
+    Look look = look_along(way, yaw);
+    const Look ahead = look_along(way + profile.lead_room * way.norm() * direction_of(heading), look.yaw);
+    look.yaw = ahead.yaw;
+    look.pitch += upward_lead * (ahead.pitch - look.pitch);
+    return look;
+}
 
 }  // namespace
 
@@ -29,8 +41,7 @@ void aim(const MapProfile& profile, const History& history, Plan& plan) {
     const double sideways = dead_zone * std::clamp(softness, 1.0, max_sideways);
     double yaw = history[1].look_yaw;
     for (std::size_t i = 0; i < count; ++i) {
-        const Vec3f way = (plan.eye[i] - plan.position[i]).cast<float>();
-        const Look look = look_along(way, static_cast<float>(yaw));
+        const Look look = look_past(profile, plan, i, static_cast<float>(yaw));
         yaw += wrapped(look.yaw - static_cast<float>(yaw));
         plan.wanted[i] = yaw;
         plan.look_pitch[i] = std::clamp(look.pitch + profile.framing_offset, -steepest_look, steepest_look);

@@ -6,14 +6,13 @@
 #include "camera/reach.hpp"
 #include "freespace/distance.hpp"
 #include "freespace/slab.hpp"
-#include "freespace/visibility.hpp"
 
 namespace camdir::camera {
 namespace {
 
 constexpr float beam_share = 4.0F / 3.0F;  // radius against the camera's minimum clearance
 constexpr float inside_eye_ball = 0.9F;
-constexpr float cell_size = 16.0F;  // units
+constexpr float cell_size = 20.0F;  // units
 
 float widest(const MapProfile& profile) {
     return beam_share * profile.minimum_clearance;
@@ -22,10 +21,9 @@ float widest(const MapProfile& profile) {
 }  // namespace
 
 void FreeBeams::advance(std::size_t count) {
-    if (count == 0) return;
-    const std::size_t kept = beams_.size() - std::min(count, beams_.size());
-    std::copy(beams_.end() - static_cast<std::ptrdiff_t>(kept), beams_.end(), beams_.begin());
-    std::fill(beams_.begin() + static_cast<std::ptrdiff_t>(kept), beams_.end(), FreeBeam{});
+    for (std::size_t i = 0; i < std::min(count, beams_.size()); ++i)
+        of_sample(i) = {};
+    first_ += count;
 }
 
 void FreeLengths::use(float longest, float radius) {
@@ -35,7 +33,7 @@ void FreeLengths::use(float longest, float radius) {
     radius_ = radius;
 }
 
-float& FreeLengths::at(const Vec3f& eye, std::size_t bin, float cell_size) {
+float& FreeLengths::at(const Vec3f& eye, std::size_t bin, float cell) {
     std::uint64_t hash = 0;
     const auto mix = [&hash](std::uint64_t value) {
         hash = (hash ^ value) * 0x9e3779b97f4a7c15U;
@@ -43,7 +41,7 @@ float& FreeLengths::at(const Vec3f& eye, std::size_t bin, float cell_size) {
     };
     mix(bin + 1);
     for (const float coordinate : eye)
-        mix(static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(coordinate / cell_size))));
+        mix(static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(coordinate / cell))));
     Entry& entry = entries_[hash % entries_.size()];
     const auto tag = static_cast<std::uint32_t>(hash >> 32U);
     if (entry.tag != tag) entry = {tag, -1.0F};
@@ -65,9 +63,14 @@ float Beams::radius_from(const Vec3f& eye) {
     return std::max(0.0F, std::min(widest_radius, inside_eye_ball * clearance_));
 }
 
+const freespace::SightOrigin& Beams::origin(std::size_t i) {
+    if (!origins_[i]) origins_[i].emplace(freespace_, future_[i].eye, radius(i));
+    return *origins_[i];
+}
+
 float Beams::free_length(std::size_t i, const Vec3f& direction, float length) {
     const Vec3f& eye = future_[i].eye;
-    const freespace::Sight beam = freespace::sight(freespace_, eye, eye + length * direction, radius(i));
+    const freespace::Sight beam = origin(i).to(eye + length * direction);
     return beam.clear ? length : std::max(0.0F, beam.free_length - inside_beam * profile_.unit);
 }
 
@@ -82,7 +85,7 @@ std::optional<BeamEnd> Beams::end(std::size_t i, const Vec3f& direction, float l
     const Vec3f goal = eye + length * direction;
     FreeBeam& known = known_.of_sample(i);
     if (known.covers(eye, goal, widest(profile_)) || known.covers(eye, goal, radius(i))) return std::nullopt;
-    const freespace::Sight beam = freespace::sight(freespace_, eye, goal, radius(i));
+    const freespace::Sight beam = origin(i).to(goal);
     if (beam.clear) {
         known = {eye, goal, beam.clearance};
         return std::nullopt;

@@ -8,7 +8,7 @@
 #include "camera/directions.hpp"
 #include "camera/future.hpp"
 #include "camera/profile.hpp"
-#include "freespace/freespace.hpp"
+#include "freespace/visibility.hpp"
 
 namespace camdir::camera {
 
@@ -29,12 +29,15 @@ struct FreeBeam {
 // The last beam of each sample of a plan that was found free. A value.
 class FreeBeams {
   public:
-    [[nodiscard]] FreeBeam& of_sample(std::size_t i) { return beams_[i]; }
+    [[nodiscard]] FreeBeam& of_sample(std::size_t i) { return beams_[number(i) % beams_.size()]; }
+    // The number of a sample, which it keeps from plan to plan.
+    [[nodiscard]] std::size_t number(std::size_t i) const { return first_ + i; }
     // Sample `count` becomes the first one.
     void advance(std::size_t count);
 
   private:
     std::array<FreeBeam, Future::capacity> beams_;
+    std::size_t first_ = 0;
 };
 
 // How far directions of the grid were found free from eyes nearby: of those in one cell of space, one asks
@@ -45,14 +48,14 @@ class FreeLengths {
     // What the lengths depend on besides the place; another one forgets them all.
     void use(float longest, float radius);
     // The length in a direction from `eye`, to be set by the caller where it is negative: not known.
-    [[nodiscard]] float& at(const Vec3f& eye, std::size_t bin, float cell_size);
+    [[nodiscard]] float& at(const Vec3f& eye, std::size_t bin, float cell);
 
   private:
     struct Entry {
         std::uint32_t tag = 0;
         float length = -1.0F;
     };
-    std::array<Entry, 1024> entries_;
+    std::array<Entry, 4096> entries_;
     float longest_ = 0.0F;
     float radius_ = 0.0F;
 };
@@ -80,10 +83,16 @@ class Beams {
     [[nodiscard]] float free_length(std::size_t i, std::size_t bin);
     // None when the beam is free for `length`.
     [[nodiscard]] std::optional<BeamEnd> end(std::size_t i, const Vec3f& direction, float length);
+    // How many samples after sample i the next one is whose number is a multiple of `stride`: from plan to
+    // plan the same ones, whose beams are known. 1 .. stride.
+    [[nodiscard]] std::size_t to_next_of(std::size_t stride, std::size_t i) const {
+        return stride - known_.number(i) % stride;
+    }
 
   private:
     float radius(std::size_t i);
     float radius_from(const Vec3f& eye);
+    const freespace::SightOrigin& origin(std::size_t i);
 
     const freespace::Freespace& freespace_;
     const MapProfile& profile_;
@@ -91,7 +100,8 @@ class Beams {
     FreeBeams& known_;
     FreeLengths& lengths_;
     std::array<float, Future::capacity> radius_;  // negative: not asked yet
-    Vec3f clear_eye_ = Vec3f::Zero();             // the last eye whose clearance was looked up
+    std::array<std::optional<freespace::SightOrigin>, Future::capacity> origins_;
+    Vec3f clear_eye_ = Vec3f::Zero();  // the last eye whose clearance was looked up
     float clearance_ = -1.0F;
 };
 

@@ -7,23 +7,26 @@ namespace camdir::camera {
 namespace {
 
 constexpr float turn_cost = 0.25F;
-constexpr float turn_cost_ahead = 0.3F;
+constexpr float turn_cost_ahead = 0.6F;
 constexpr float stretch_cost = 0.1F;
 constexpr float stretch_cost_ahead = 0.5F;
 constexpr float snap_angle =
     13.0F * radians_of_a_degree<float>;  // of straight behind from the direction beside it
 constexpr float snap_length = 8.0F;      // units that it may be shorter
+// Vantages are kept for so long, s, while the spot behind the player is no further off than that.
+constexpr double kept_for = 0.05;
+constexpr float as_foreseen = 4.0F * radians_of_a_degree<float>;
 
 class Choosing {
   public:
-    Choosing(const MapProfile& profile, const History& history, Beams& beams, Plan& plan,
+    Choosing(const MapProfile& profile, const History& history, Beams& beams, const Plan& plan,
              CandidateScratch& scratch)
         : profile_(profile), beams_(beams), plan_(plan), scratch_(scratch) {
         camera_ = (history[1].position - history[1].eye).cast<float>();
         turn_cost_ = (plan.ahead ? turn_cost_ahead : turn_cost) * profile.weight_inertia_angle;
     }
 
-    void run() {
+    void run(Vantages& vantages) {
         const std::size_t knots = std::min(Programme::knots, (plan_.count() - 1) / plan_.knot_spacing + 1);
         auto& direction_costs = scratch_.direction_costs;
         for (std::size_t knot = 0; knot < knots; ++knot)
@@ -33,19 +36,15 @@ class Choosing {
             return beams_.free_length(knot * plan_.knot_spacing, bin);
         };
         const auto choices = scratch_.programme.solve({direction_costs.data(), knots}, costs(), length);
-        if (choices.empty())
-            stay_behind();
-        else
-            set_goals(choices);
+        for (std::size_t knot = 0; knot < choices.size(); ++knot)
+            vantages.at_knots[knot] = vantage_of(knot, choices[knot]);
+        vantages.count = choices.size();
+        vantages.knot_spacing = plan_.knot_spacing;
+        vantages.samples = plan_.count();
+        vantages.age = 0;
     }
 
   private:
-    struct Spot {
-        Look look;  // from the eye
-        float length;
-        bool behind;
-    };
-
     [[nodiscard]] ProgrammeCosts costs() const {
         ProgrammeCosts costs;
         costs.length = profile_.distance;
@@ -57,59 +56,48 @@ class Choosing {
         return costs;
     }
 
-    // Every path turns faster than the programme can.
-    void stay_behind() {
-        for (std::size_t i = 0; i < plan_.count(); ++i) {
-            const Vec3f direction = direction_of(plan_.behind(i, profile_.elevation));
-            set_goal(i, direction, beams_.free_length(i, direction, profile_.distance));
-        }
-    }
-
-    [[nodiscard]] Spot spot_of(std::size_t knot, const Programme::Choice& choice) {
+    [[nodiscard]] Vantage vantage_of(std::size_t knot, const Programme::Choice& choice) {
         const std::size_t i = knot * plan_.knot_spacing;
         const Look behind = plan_.behind(i, profile_.elevation);
         const Vec3f direction = direction_of(behind);
         if (angle_between(direction, directions_[choice.bin]) < snap_angle) {
             const float length = beams_.free_length(i, direction, profile_.distance);
-            if (length >= choice.length - snap_length * profile_.unit) return {behind, length, true};
+            if (length >= choice.length - snap_length * profile_.unit) return {behind, length, true, behind};
         }
-        return {DirectionGrid::look(choice.bin), choice.length, false};
-    }
-
-    void set_goals(std::span<const Programme::Choice> choices) {
-        Spot from = spot_of(0, choices[0]);
-        for (std::size_t knot = 0; knot < choices.size(); ++knot) {
-            const bool last = knot + 1 == choices.size();
-            const Spot to = last ? from : spot_of(knot + 1, choices[knot + 1]);
-            const std::size_t first = knot * plan_.knot_spacing;
-            const std::size_t end = last ? plan_.count() : first + plan_.knot_spacing;
-            for (std::size_t i = first; i < end; ++i) {
-                const float share =
-                    last ? 0.0F : static_cast<float>(i - first) / static_cast<float>(plan_.knot_spacing);
-                set_goal(i, direction_of(between(from, to, share, i)),
-                         from.length + share * (to.length - from.length));
-            }
-            from = to;
-        }
-    }
-    [[nodiscard]] Look between(const Spot& from, const Spot& to, float share, std::size_t i) const {
-        if (from.behind && to.behind) return plan_.behind(i, profile_.elevation);
-        return {from.look.yaw + share * wrapped(to.look.yaw - from.look.yaw),
-                from.look.pitch + share * (to.look.pitch - from.look.pitch)};
-    }
-    void set_goal(std::size_t i, const Vec3f& direction, float length) {
-        plan_.length[i] = length;
-        plan_.goal[i] = plan_.eye[i] + plan_.length[i] * direction.cast<double>();
+        return {DirectionGrid::look(choice.bin), choice.length, false, behind};
     }
 
     const std::array<Vec3f, DirectionGrid::size>& directions_ = DirectionGrid::directions();
     const MapProfile& profile_;
     Beams& beams_;
-    Plan& plan_;
+    const Plan& plan_;
     CandidateScratch& scratch_;
     Vec3f camera_;  // from the eye
     float turn_cost_;
 };
+
+bool still_hold(const MapProfile& profile, const Plan& plan, const Vantages& vantages) {
+    if (vantages.count == 0 || vantages.age >= plan.samples_in(kept_for)) return false;
+    if (plan.ahead || vantages.knot_spacing != plan.knot_spacing || vantages.samples != plan.count())
+        return false;
+    for (std::size_t knot = 0; knot < vantages.count; ++knot) {
+        const std::size_t i = std::max(knot * plan.knot_spacing, vantages.age) - vantages.age;
+        const Vec3f behind = direction_of(plan.behind(i, profile.elevation));
+        if (angle_between(behind, direction_of(vantages.at_knots[knot].foreseen)) > as_foreseen) return false;
+    }
+    return true;
+}
+
+void set_goal(std::size_t i, const Vec3f& direction, float length, Plan& plan) {
+    plan.length[i] = length;
+    plan.goal[i] = plan.eye[i] + plan.length[i] * direction.cast<double>();
+}
+
+Look between(const Vantage& from, const Vantage& to, float share, const Look& behind) {
+    if (from.behind && to.behind) return behind;
+    return {from.look.yaw + share * wrapped(to.look.yaw - from.look.yaw),
+            from.look.pitch + share * (to.look.pitch - from.look.pitch)};
+}
 
 }  // namespace
 
@@ -123,9 +111,28 @@ const std::array<Vec3f, DirectionGrid::size>& DirectionGrid::directions() {
     return all;
 }
 
-void choose_directions(const MapProfile& profile, const History& history, Beams& beams, Plan& plan,
-                       CandidateScratch& scratch) {
-    Choosing(profile, history, beams, plan, scratch).run();
+void choose_vantages(const MapProfile& profile, const History& history, Beams& beams, const Plan& plan,
+                     CandidateScratch& scratch, Vantages& vantages) {
+    if (!still_hold(profile, plan, vantages)) Choosing(profile, history, beams, plan, scratch).run(vantages);
+}
+
+void set_goals(const MapProfile& profile, const Vantages& vantages, Beams& beams, Plan& plan) {
+    for (std::size_t i = 0; i < plan.count(); ++i) {
+        const Look behind = plan.behind(i, profile.elevation);
+        if (vantages.count == 0) {
+            const Vec3f direction = direction_of(behind);
+            set_goal(i, direction, beams.free_length(i, direction, profile.distance), plan);
+            continue;
+        }
+        const std::size_t last = vantages.count - 1;
+        const std::size_t knot = (vantages.age + i) / plan.knot_spacing;
+        const Vantage& from = vantages.at_knots[std::min(knot, last)];
+        const Vantage& to = vantages.at_knots[std::min(knot + 1, last)];
+        const float share = static_cast<float>((vantages.age + i) % plan.knot_spacing) /
+                            static_cast<float>(plan.knot_spacing);
+        set_goal(i, direction_of(between(from, to, share, behind)),
+                 from.length + share * (to.length - from.length), plan);
+    }
 }
 
 }  // namespace camdir::camera

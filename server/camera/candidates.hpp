@@ -16,9 +16,30 @@ struct CandidateScratch {
     std::array<DirectionCosts, Programme::knots> direction_costs;
 };
 
-// Chooses a direction and a length for each knot of the plan, and sets goals and lengths of all samples from
-// them. Straight behind is preferred to a direction of the grid beside it.
-void choose_directions(const MapProfile& profile, const History& history, Beams& beams, Plan& plan,
-                       CandidateScratch& scratch);
+// From where the player is seen at a knot of a plan.
+struct Vantage {
+    Look look;  // from the eye
+    float length = 0.0F;
+    bool behind = false;  // straight behind, wherever that turns
+    Look foreseen;        // straight behind, when it was chosen
+};
+
+// The vantages of a plan; after the last one, that one. A value.
+struct Vantages {
+    std::array<Vantage, Programme::knots> at_knots;
+    std::size_t count = 0;         // 0: every path turns faster than the programme can, or none was chosen
+    std::size_t knot_spacing = 0;  // of the plan that they were chosen for
+    std::size_t samples = 0;       // likewise
+    std::size_t age = 0;           // samples from the one at which they were chosen to the plan's first one
+};
+
+// Chooses a vantage for each knot of the plan, unless those of the last plan were chosen for the same knots
+// of a prediction a moment ago and the player turns as foreseen. Straight behind is preferred to a direction
+// of the grid beside it.
+void choose_vantages(const MapProfile& profile, const History& history, Beams& beams, const Plan& plan,
+                     CandidateScratch& scratch, Vantages& vantages);
+
+// Sets goals and lengths of all samples: between the vantages; straight behind where there are none.
+void set_goals(const MapProfile& profile, const Vantages& vantages, Beams& beams, Plan& plan);
 
 }  // namespace camdir::camera

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::array shares = {1.0F, 0.9F, 0.75F, 0.5F};  // of the way to the best spot
 
-// The nearest corner of the slabs round the anchor that keeps the minimum clearance and sees the anchor.
+// The nearest corner of the slabs round the anchor that keeps kept_clearance() and sees the anchor.
 std::optional<Candidate> roadmap_spot(const freespace::Freespace& freespace, const MapProfile& profile,
                                       const PlayerTrack& track) {
     if (track.slab == freespace::none) return std::nullopt;
@@ -24,7 +24,7 @@ std::optional<Candidate> roadmap_spot(const freespace::Freespace& freespace, con
         const float distance = (position - track.anchor).norm();
         if (nearest && distance >= least) continue;
         const std::optional<Candidate> candidate = look_up(freespace, profile, track, position);
-        if (!candidate || !acceptable(profile, *candidate)) continue;
+        if (!candidate || !acceptable(profile, track, *candidate)) continue;
         nearest = candidate;
         least = distance;
     }
@@ -39,7 +39,7 @@ Candidate landing(const freespace::Freespace& freespace, const MapProfile& profi
     for (const float share : shares) {
         const Vec3f place = track.anchor + share * spot.offset;
         const auto candidate = look_up(freespace, profile, track, place);
-        if (candidate && acceptable(profile, *candidate)) return *candidate;
+        if (candidate && acceptable(profile, track, *candidate)) return *candidate;
     }
     if (const auto candidate = roadmap_spot(freespace, profile, track)) return *candidate;
     return {track.anchor, track.slab, track.clearance, track.clearance};

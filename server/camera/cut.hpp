@@ -8,7 +8,7 @@
 
 namespace camdir::camera {
 
-// The best spot now: the least costly one that sees the anchor, with the minimum clearance where there is
+// The best spot now: the least costly one that sees the anchor, with kept_clearance() where there is
 // such a spot; else a place on the roadmap near the anchor that sees it; else the anchor itself, which is in
 // freespace if any place is.
 [[nodiscard]] Candidate landing(const freespace::Freespace& freespace, const MapProfile& profile,

@@ -11,12 +11,9 @@ namespace {
 
 constexpr float degree = radians_of_a_degree<float>;
 constexpr float angle_cost = 1.5F;
-constexpr float angle_cost_ahead = 2.0F;
 // From this far above the spot behind the player, the floor begins to fill the picture.
 constexpr float view_from_above = 25.0F * degree;
 constexpr float view_from_above_tolerance = 20.0F * degree;
-// A direction this far off the player's own view begins to show them from the side.
-constexpr float side_view = 50.0F * degree;
 constexpr float side_view_tolerance = 10.0F * degree;
 constexpr float side_view_cost = 0.7F;
 constexpr float side_view_limit = 2.0F;
@@ -83,8 +80,11 @@ void add_view_from_above(float behind, float cost, DirectionCosts& costs) {
 }
 
 void add_side_view(const Vec3f& view, float begin, float cost, DirectionCosts& costs) {
+    const float cosine_at_begin = std::cos(begin);
     add(costs, [&](const Quad& quad) {
-        const Float4 beyond = larger(arc_cosine(-quad.dot(view)) - begin, Float4{});
+        const Float4 cosine = -quad.dot(view);
+        if (bits(cosine < cosine_at_begin) == 0) return Float4{};
+        const Float4 beyond = larger(arc_cosine(cosine) - begin, Float4{});
         return cost * smaller(squared_share(beyond, side_view_tolerance), broadcast(side_view_limit));
     });
 }
@@ -94,7 +94,7 @@ void add_side_view(const Vec3f& view, float begin, float cost, DirectionCosts& c
 void weigh_directions(const MapProfile& profile, const Plan& plan, std::size_t first, DirectionCosts& costs) {
     const Look look_behind = plan.behind(first, profile.elevation);
     const Vec3f behind = direction_of(look_behind);
-    const float cost = (plan.ahead ? angle_cost_ahead : angle_cost) * profile.weight_angle;
+    const float cost = angle_cost * profile.weight_angle;
     const float least_cosine = std::cos(profile.swing);
     for (std::size_t i = 0; i < quad_count; ++i) {
         const Float4 cosine = quads()[i].dot(behind);
@@ -103,13 +103,14 @@ void weigh_directions(const MapProfile& profile, const Plan& plan, std::size_t f
     }
     add_view_from_above(look_behind.pitch, profile.weight_angle, costs);
 
+    const float begin = Plan::side_view(profile);
     const std::size_t stride = plan.samples_in(side_view_interval);
     const auto share =
         static_cast<float>(static_cast<double>(stride) * plan.future.step / side_view_interval);
     const std::size_t end = std::min(plan.count(), first + plan.knot_spacing);
     for (std::size_t i = first; i < end; i += stride)
-        add_side_view(direction_of(plan.future[i].view), side_view + std::abs(profile.elevation),
-                      share * side_view_cost * profile.weight_angle, costs);
+        add_side_view(direction_of(plan.future[i].view), begin, share * side_view_cost * profile.weight_angle,
+                      costs);
 }
 
 void add_turn(const Vec3f& from, float cost, DirectionCosts& costs) {

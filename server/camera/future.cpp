@@ -170,9 +170,9 @@ void foresee(const freespace::Freespace& freespace, const MapProfile& profile, W
         Vec3f moved = travel(rates, seconds);
         if (moved.norm() > share * length) moved *= share * length / std::max(moved.norm(), 1e-6F);
         const float turn = faded(seconds, rates.persistence);
-        const float yaw = std::clamp(rates.yaw * turn, -largest_turn, largest_turn);
+        const float turned = std::clamp(rates.yaw * turn, -largest_turn, largest_turn);
         const float pitch = std::clamp(last.view.pitch + rates.pitch * turn, -steepest_view, steepest_view);
-        future.samples[i] = {last.eye + moved, {last.view.yaw + yaw, pitch}};
+        future.samples[i] = {last.eye + moved, {last.view.yaw + turned, pitch}};
     }
 }
 

@@ -18,7 +18,7 @@ std::optional<Candidate> guarded(const freespace::Freespace& freespace, const Ma
     const auto fine = [&](const Vec3f& target) {
         auto place = reach(freespace, profile, track, motion.position,
                            within_step(motion.position, target, profile.step_limit));
-        if (place && !acceptable(profile, *place)) place.reset();
+        if (place && !acceptable(profile, track, *place)) place.reset();
         return place;
     };
     if (auto place = fine(wanted)) return place;

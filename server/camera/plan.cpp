@@ -3,17 +3,23 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace camdir::camera {
 namespace {
 
 constexpr double steepest_view = 80.0 * radians_of_a_degree<double>;
+constexpr float side_view_begin = 50.0F * radians_of_a_degree<float>;
 constexpr double weight_in_dead_zone = 0.1;
 
 }  // namespace
 
 std::size_t Plan::samples_in(double seconds) const {
     return static_cast<std::size_t>(std::max(1L, std::lround(seconds / future.step)));
+}
+
+float Plan::side_view(const MapProfile& profile) {
+    return side_view_begin + std::abs(profile.elevation);
 }
 
 Look Plan::behind(std::size_t i, float elevation) const {
@@ -33,11 +39,15 @@ void Plan::smooth_with_dead_zone(double time_constant, double dead_zone, double 
     std::copy_n(weights.begin(), count(), weights_before.begin());
     smooth(time_constant, before_last, last, values);
     for (int round = 0; round < rounds; ++round) {
+        bool same = true;
         for (std::size_t i = 0; i < count(); ++i) {
             const double off = std::abs(values[i] - wanted[i]);
             const double beyond = off > dead_zone ? gain * (off - dead_zone) / off : 0.0;
-            weights[i] = weights_before[i] * (weight_in_dead_zone + beyond);
+            const double before =
+                std::exchange(weights[i], weights_before[i] * (weight_in_dead_zone + beyond));
+            same = same && weights[i] == before;
         }
+        if (same) break;
         smooth(time_constant, before_last, last, values);
     }
 }

@@ -48,6 +48,8 @@ struct Plan {
     [[nodiscard]] std::size_t count() const { return future.count; }
     // At least 1.
     [[nodiscard]] std::size_t samples_in(double seconds) const;
+    // How far off straight behind a player's own view the camera begins to show them from the side, rad.
+    [[nodiscard]] static float side_view(const MapProfile& profile);
     // Where the camera stands from the player when it is straight behind; `elevation` above that, rad.
     [[nodiscard]] Look behind(std::size_t i, float elevation) const;
 

@@ -34,12 +34,13 @@ void make_plan(const freespace::Freespace& freespace, const MapProfile& profile,
 
     smooth_heading(profile, state.history, plan);
     Beams beams(freespace, profile, plan.future, state.free_beams, state.free_lengths);
-    choose_directions(profile, state.history, beams, plan, scratch.candidates);
+    choose_vantages(profile, state.history, beams, plan, scratch.candidates, state.vantages);
+    set_goals(profile, state.vantages, beams, plan);
     refine_path(profile, state.history, beams, plan);
     aim(profile, state.history, plan);
 
     state.count = samples_to_keep(plan);
-    state.count -= std::exchange(state.phase, 0) % state.count;
+    if (state.count > 1 && !std::exchange(state.is_spread, true)) state.count -= state.phase % state.count;
     for (std::size_t i = 0; i < state.count; ++i)
         state.samples[i] = {plan.position[i],      plan.eye[i],      plan.heading_yaw[i],
                             plan.heading_pitch[i], plan.look_yaw[i], plan.look_pitch[i]};
@@ -48,7 +49,14 @@ void make_plan(const freespace::Freespace& freespace, const MapProfile& profile,
 // What follows the last sample is planned anew.
 void discard(PlanState& state) {
     state.free_beams.advance(state.next);
+    state.vantages.age += state.next;
     state.count = state.next = 0;
+}
+
+// The same, from another camera than the planned one or with another time step.
+void begin_anew(PlanState& state) {
+    discard(state);
+    state.vantages.count = 0;
 }
 
 // Keeps the yaws small, without a jump between the two samples.
@@ -86,8 +94,9 @@ void restart_plan(PlanState& state, const CameraMotion& camera, const PlayerTrac
     state.history[0].eye -= dt * track.velocity.cast<double>();
     state.history[0].look_yaw -= wrapped(camera.look.yaw - camera.look_before.yaw);
     state.history[0].look_pitch = camera.look_before.pitch;
-    discard(state);
+    begin_anew(state);
     state.step = dt;
+    state.is_spread = false;  // others may begin with it
 }
 
 void deviate(PlanState& state, const Vec3f& position, const Vec3f& velocity, const Look& look) {
@@ -100,7 +109,7 @@ void deviate(PlanState& state, const Vec3f& position, const Vec3f& velocity, con
         sample.look_yaw += yaw;
         sample.look_pitch += pitch;
     }
-    discard(state);
+    begin_anew(state);
 }
 
 const PlannedSample& next_sample(const freespace::Freespace& freespace, const MapProfile& profile,
@@ -109,8 +118,9 @@ const PlannedSample& next_sample(const freespace::Freespace& freespace, const Ma
     const double tolerance = state.next < state.count ? same_step_while_planned : same_step;
     if (std::abs(dt - state.step) > tolerance * dt) {
         resample(state.history, dt / state.step);
-        discard(state);
+        begin_anew(state);
         state.step = dt;
+        state.is_spread = false;  // a missing frame makes all shots of a match plan
     }
     if (state.next == state.count) {
         discard(state);

@@ -22,7 +22,9 @@ struct PlanState {
     std::size_t count = 0;
     std::size_t next = 0;
     double step = 0.0;        // s, between samples
-    std::uint32_t phase = 0;  // any number: shots that begin together plan in different frames by it
+    std::uint32_t phase = 0;  // any number: shots that planned together plan in different frames by it
+    bool is_spread = false;   // `phase` has shortened a plan since
+    Vantages vantages;
     FreeBeams free_beams;
     FreeLengths free_lengths;
 };

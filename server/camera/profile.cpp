@@ -47,7 +47,8 @@ constexpr std::array keys = {
                "clearance that the line of sight must have for the player to count as seen",
                &Profile::visibility_threshold},
     ProfileKey{"minimum_clearance", units, 0.0F, 100.0F,
-               "clearance that the camera keeps wherever the place allows it", &Profile::minimum_clearance},
+               "clearance that the camera keeps; above 4.5, no more than two thirds of what the player has",
+               &Profile::minimum_clearance},
     ProfileKey{"safe_speed", units_per_second, 1.0F, 100000.0F,
                "speed at which a clearance of minimum_clearance costs 1", &Profile::safe_speed},
     ProfileKey{"swing", degrees, 0.0F, 180.0F,
@@ -77,6 +78,10 @@ constexpr std::array keys = {
     ProfileKey{"vertical_fov", degrees, 10.0F, 150.0F, "vertical field of view", &Profile::vertical_fov},
     ProfileKey{"framing_offset", degrees, -30.0F, 30.0F,
                "how far below the middle of the image the player's eye is shown", &Profile::framing_offset},
+    ProfileKey{"lead_room", number, 0.0F, 1.0F,
+               "how far in front of the player a planned shot looks, as a share of the distance to them: "
+               "room in the image for what they look at",
+               &Profile::lead_room},
 };
 static_assert(keys.size() * sizeof(float) + sizeof(Solver) == sizeof(Profile), "every number has one key");
 
@@ -88,13 +93,14 @@ float scale(std::string_view unit, float profile_units_to_map) {
 
 constexpr Profile broadcast() {
     Profile profile;
-    profile.heading_smoothing = 0.5F;
+    profile.heading_smoothing = 0.6F;
     profile.motion_smoothing = 0.08F;
     profile.look_smoothing = 0.1F;
     profile.angle_tolerance = 60.0F;
     profile.swing = 85.0F;
     profile.weight_inertia_angle = 4.0F;
     profile.weight_inertia_distance = 3.0F;
+    profile.lead_room = 0.1F;
     return profile;
 }
 
@@ -116,6 +122,7 @@ constexpr Profile tactical() {
     profile.angle_tolerance = 90.0F;
     profile.swing = 120.0F;
     profile.weight_inertia_angle = 4.0F;
+    profile.lead_room = 0.15F;
     return profile;
 }
 

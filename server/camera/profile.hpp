@@ -44,6 +44,7 @@ struct Profile {
 
     float vertical_fov = 58.7F;
     float framing_offset = 0.0F;
+    float lead_room = 0.4F;
 
     Solver solver = Solver::planner;
 };

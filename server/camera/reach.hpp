@@ -14,6 +14,10 @@ namespace camdir::camera {
 // anyway, but no more than the player has.
 [[nodiscard]] float beam_radius(const MapProfile& profile, const PlayerTrack& track);
 
+// What the camera keeps from obstacles: the profile's minimum clearance, but no more than a share of what the
+// player has, where that is more than usual cameras keep.
+[[nodiscard]] float kept_clearance(const MapProfile& profile, const PlayerTrack& track);
+
 // How far before the end of a free beam a place lies, in units of 0.0254 m.
 inline constexpr float inside_beam = 2.0F;
 

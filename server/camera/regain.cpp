@@ -20,7 +20,7 @@ constexpr std::array swings = {0.0F,
                                25.0F * radians_of_a_degree<float>};
 constexpr std::array retreats = {0.1F, 0.25F, 0.5F, 0.75F, 1.0F};
 
-// The least costly candidate so far. One with the minimum clearance beats any without.
+// The least costly candidate so far. One with kept_clearance() beats any without.
 class Choice {
   public:
     Choice(const MapProfile& profile, const PlayerTrack& track, const Motion& motion)
@@ -28,7 +28,7 @@ class Choice {
 
     void consider(const std::optional<Candidate>& candidate) {
         if (!candidate || !is_seen(*candidate)) return;
-        const bool roomy = candidate->clearance >= profile_.minimum_clearance;
+        const bool roomy = candidate->clearance >= kept_clearance(profile_, track_);
         const float cost = objective(profile_, track_, motion_, *candidate).total;
         if (found_ && (roomy != roomy_ ? !roomy : cost >= cost_)) return;
         found_ = true;
@@ -66,8 +66,8 @@ bool is_seen(const Candidate& candidate) {
     return candidate.sight_clearance > 0.0F;
 }
 
-bool acceptable(const MapProfile& profile, const Candidate& candidate) {
-    return is_seen(candidate) && candidate.clearance >= profile.minimum_clearance;
+bool acceptable(const MapProfile& profile, const PlayerTrack& track, const Candidate& candidate) {
+    return is_seen(candidate) && candidate.clearance >= kept_clearance(profile, track);
 }
 
 std::optional<Candidate> regain_sight(const freespace::Freespace& freespace, const MapProfile& profile,

@@ -12,12 +12,13 @@ namespace camdir::camera {
 [[nodiscard]] bool is_seen(const Candidate& candidate);
 
 // The camera can be there without breaking a promise of the profile: seen through the threshold's clearance,
-// and the minimum clearance kept.
-[[nodiscard]] bool acceptable(const MapProfile& profile, const Candidate& candidate);
+// and kept_clearance() kept.
+[[nodiscard]] bool acceptable(const MapProfile& profile, const PlayerTrack& track,
+                              const Candidate& candidate);
 
 // Among places reachable in one step of at most profile.step_limit (staying, moving with the player, `wanted`
 // swung round him and pulled in along the new line of sight, and retreats along the old line of sight, which
-// was free) the one of least cost that sees the player, of those with the minimum clearance if there are any.
+// was free) the one of least cost that sees the player, of those with kept_clearance() if there are any.
 [[nodiscard]] std::optional<Candidate> regain_sight(const freespace::Freespace& freespace,
                                                     const MapProfile& profile, const PlayerTrack& track,
                                                     const Motion& motion, const Vec3f& wanted);

@@ -49,14 +49,15 @@ class Smoother {
         values[0] += stiffness_ * (2.0 * last - before_last);
         values[0] += (count_ > 1 ? 2.0 : 0.0) * stiffness_ * last;
         if (count_ > 1) values[1] -= stiffness_ * last;
+        // The neighbour, which has only just been computed, comes last.
         for (std::size_t i = 1; i < count_; ++i) {
-            values[i] -= lower1_[i - 1] * values[i - 1];
             if (i >= 2) values[i] -= lower2_[i - 2] * values[i - 2];
+            values[i] -= lower1_[i - 1] * values[i - 1];
         }
         for (std::size_t i = count_; i-- > 0;) {
             values[i] *= inverse_pivot_[i];
-            if (i + 1 < count_) values[i] -= lower1_[i] * values[i + 1];
             if (i + 2 < count_) values[i] -= lower2_[i] * values[i + 2];
+            if (i + 1 < count_) values[i] -= lower1_[i] * values[i + 1];
         }
     }
 

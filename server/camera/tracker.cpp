@@ -95,7 +95,7 @@ class Step {
                 within_reach(position + average_when_seen(profile_, moves(spot, position), speed(), dt_));
             const auto reached = reach_shortened(freespace_, profile_, player_, state_.position, wanted);
             if (!reached) break;
-            if (acceptable(profile_, *reached)) return move_to(*reached);
+            if (acceptable(profile_, player_, *reached)) return move_to(*reached);
             position = reached->position;
         }
         const auto seen = regain_sight(freespace_, profile_, player_, motion(), wanted);
@@ -118,7 +118,7 @@ class Step {
         for (const Vec3f& wanted : {move, all.visibility}) {
             next = reach_shortened(freespace_, profile_, player_, state_.position,
                                    within_reach(state_.position + wanted));
-            if (next && next->clearance >= profile_.minimum_clearance) break;
+            if (next && next->clearance >= kept_clearance(profile_, player_)) break;
         }
         if (next) return move_to(*next);
         state_.lost_for += dt_;
@@ -132,7 +132,7 @@ class Step {
         if (velocity.norm() > at_rest * profile_.unit) {
             const Vec3f wanted = within_reach(state_.position + velocity * dt_);
             const auto reached = reach(freespace_, profile_, player_, state_.position, wanted);
-            if (reached && reached->clearance >= profile_.minimum_clearance) return move_to(*reached);
+            if (reached && reached->clearance >= kept_clearance(profile_, player_)) return move_to(*reached);
         }
         turn();
         return hold(0);
@@ -274,6 +274,21 @@ Camera step(const freespace::Freespace& freespace, const Profile& profile, const
     Step one(freespace, profile, dt, state, scratch, state.recent.window(), time);
     state.time = time;
     return pose != nullptr && usable(*pose) ? one.with_pose(*pose) : one.without_pose();
+}
+
+bool go_on_from(const freespace::Freespace& freespace, const Profile& profile, const View& before,
+                const View& now, double dt, ShotState& state) {
+    const MapProfile on_map(profile, freespace.metadata().metres_per_unit);
+    const auto place = look_up(freespace, on_map, state.player, now.position);
+    if (!state.started || !place) return false;
+    const Look look_before = look_along(before.orientation * Vec3f::UnitX(), state.look.yaw);
+    state.position = place->position;
+    state.slab = place->slab;
+    state.velocity = (now.position - before.position) / usable_frame(dt);
+    state.look = look_along(now.orientation * Vec3f::UnitX(), look_before.yaw);
+    restart_plan(state.plan, {state.position, state.velocity, look_before, state.look}, state.player,
+                 usable_frame(dt));
+    return true;
 }
 
 }  // namespace camdir::camera

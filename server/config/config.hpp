@@ -23,7 +23,7 @@ struct Dds {
     std::vector<std::string> peers;      // addresses, contacted by unicast
     std::vector<std::string> partitions = {"match/*"};
     std::int64_t director_id = 0;  // 0 = chosen at random at start
-    std::int64_t strength = 100;   // ownership strength: observers receive from the strongest live director
+    std::int64_t strength = 100;   // of directors that begin a match together, the strongest leads it
     std::int64_t lease_ms = 200;   // after which a hung director is replaced by its standby
     std::string xml;               // Cyclone configuration that replaces the keys of the network
 };
@@ -32,6 +32,7 @@ struct Http {
     bool enabled = true;
     std::string address = "127.0.0.1";
     std::int64_t port = 9464;  // 0 = any free one, which the log names
+    std::string token_file;    // needed off loopback
 };
 
 // The ranges of these two keys of a map, besides 0 for their default, and of the options of `bake`.
@@ -85,9 +86,11 @@ struct Limits {
     std::int64_t matches = 64;
     std::int64_t players = 256;    // a match
     std::int64_t observers = 256;  // a match
-    std::int64_t shots = 256;      // a match
-    std::int64_t delay_mib = 64;   // a match
-    std::int64_t workers = 0;      // threads; 0 = one per core
+    std::int64_t participant_matches = 64;
+    std::int64_t participant_observers = 256;  // a match
+    std::int64_t shots = 256;                  // a match
+    std::int64_t delay_mib = 64;               // a match
+    std::int64_t workers = 0;                  // threads; 0 = one per core
 };
 
 struct Log {

@@ -1,6 +1,7 @@
 // The schema and the reference page, generated from the table of keys.
 #include <charconv>
 
+#include "camera/profile.hpp"
 #include "config/keys.hpp"
 
 namespace camdir::config {
@@ -102,6 +103,24 @@ std::string row(const Key& key) {
            key.unit + " | " + key.help + " |\n";
 }
 
+// What the profiles that ship change of the default's values.
+std::string shipped_changes() {
+    std::string list;
+    for (camera::ShippedProfile shipped : camera::shipped_profiles().subspan(1)) {
+        Config config;
+        Map map;
+        std::string changes;
+        for (const Key& key : keys()) {
+            if (key.section != "/profiles/*") continue;
+            const nlohmann::json value = value_of(key, {&config, &map, &shipped.profile});
+            if (value == default_of(key)) continue;
+            changes += (changes.empty() ? "`" : ", `") + key.name + "` " + value.dump();
+        }
+        list += "- `" + std::string(shipped.name) + "`: " + changes + "\n";
+    }
+    return "The profiles that ship differ from `default` in these values:\n\n" + list + "\n";
+}
+
 }  // namespace
 
 std::string schema() {
@@ -127,6 +146,7 @@ std::string reference() {
         if (rows.empty()) continue;
         page +=
             "| key | type | default | range | unit | meaning |\n|---|---|---|---|---|---|\n" + rows + "\n";
+        if (section.pointer == "/profiles") page += shipped_changes();
     }
     return page;
 }

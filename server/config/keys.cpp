@@ -57,19 +57,19 @@ void add_dds(std::vector<Key>& table) {
          "and domain needs its own index; -1: any free ports.",
          "", -1, 119});
     table.push_back({section, "port", slot(&Dds::port), "Base port of the domain's ports.", "", 1024, 60000});
-    table.push_back(
-        {section, "peers", slot(&Dds::peers),
-         "Addresses (`host` or `host:port`) that are contacted by unicast, for example other directors.", "",
-         0, 64});
+    table.push_back({section, "peers", slot(&Dds::peers),
+                     "Addresses (`host` or `host:port`) that are contacted by unicast, for example other "
+                     "directors: those that serve the same matches must know each other.",
+                     "", 0, 64});
     table.push_back({section, "partitions", slot(&Dds::partitions),
                      "Patterns of the partitions in which matches are discovered.", "", 1, 64});
     table.push_back({section, "director_id", slot(&Dds::director_id),
                      "Sent with every camera frame; 0: chosen at random at start.", "", 0, largest_id});
-    table.push_back(
-        {section, "strength", slot(&Dds::strength),
-         "Ownership strength: when several directors serve a match, observers receive from the strongest "
-         "one that is alive. Give a standby a lower strength than its leader.",
-         "", 0, 2147483647});
+    table.push_back({section, "strength", slot(&Dds::strength),
+                     "Of several directors that begin a match together, the strongest leads it. One that "
+                     "comes later stands "
+                     "by, however strong it is.",
+                     "", 0, 65535});
     table.push_back({section, "lease_ms", slot(&Dds::lease_ms),
                      "Time after which a director that hangs or has died is replaced by its standby.", "ms",
                      20, 60000});
@@ -83,11 +83,17 @@ void add_dds(std::vector<Key>& table) {
 void add_http(std::vector<Key>& table) {
     const std::string section = "/http";
     const auto slot = [](auto member) { return in(&Config::http, member); };
-    table.push_back(
-        {section, "enabled", slot(&Http::enabled), "Serves /healthz, /readyz, /metrics, /status."});
-    table.push_back({section, "address", slot(&Http::address), "Address to listen on.", "", 1, 255});
+    table.push_back({section, "enabled", slot(&Http::enabled),
+                     "Serves /-/healthy, /-/ready, /metrics, /status, /hand-over."});
+    table.push_back({section, "address", slot(&Http::address),
+                     "Address to listen on. One that other hosts reach needs a `token_file`.", "", 1, 255});
     table.push_back(
         {section, "port", slot(&Http::port), "Port; 0: any free one, which the log names.", "", 0, 65535});
+    table.push_back(
+        {section, "token_file", slot(&Http::token_file),
+         "File with the token that requests carry as `Authorization: Bearer TOKEN`; not open to everyone. "
+         "Its content is read again on SIGHUP. Relative paths start at the configuration's folder.",
+         "", 0, 4095});
 }
 
 void add_maps(std::vector<Key>& table) {
@@ -334,6 +340,12 @@ void add_limits(std::vector<Key>& table) {
     table.push_back(
         {section, "players", slot(&Limits::players), "Players of a match that are tracked.", "", 1, 256});
     table.push_back({section, "observers", slot(&Limits::observers), "Observers of a match.", "", 1, 65536});
+    table.push_back({section, "participant_matches", slot(&Limits::participant_matches),
+                     "Matches of one DDS participant. Lower it where several hosts run game servers.", "", 1,
+                     4096});
+    table.push_back({section, "participant_observers", slot(&Limits::participant_observers),
+                     "Observers of a match that are one DDS participant's. Lower it where strangers can ask.",
+                     "", 1, 65536});
     table.push_back({section, "shots", slot(&Limits::shots), "Cameras of a match.", "", 1, 256});
     table.push_back({section, "delay_mib", slot(&Limits::delay_mib),
                      "Memory for the delay of a match. A match that needs more is refused.", "MiB", 1,

@@ -74,6 +74,22 @@ std::optional<ValidationError> check(const camera_director_MatchInfo& sample) {
     return std::nullopt;
 }
 
+std::optional<ValidationError> check(const camera_director_CameraFrame& sample) {
+    const std::size_t count = sample.camera_id._length;
+    if (count > director::max_cameras) return ValidationError::too_many;
+    if (sample.target._length != count || sample.position._length != 3 * count ||
+        sample.orientation._length != 4 * count || sample.vertical_fov._length != count ||
+        sample.clearance._length != count || sample.flags._length != count) {
+        return ValidationError::array_length;
+    }
+    if (!finite(elements(sample.position)) || !finite(elements(sample.orientation)) ||
+        !finite(elements(sample.vertical_fov)) || !finite(elements(sample.clearance))) {
+        return ValidationError::not_finite;
+    }
+    if (!unit_length(elements(sample.orientation))) return ValidationError::not_unit;
+    return std::nullopt;
+}
+
 }  // namespace
 
 bool valid_match_id(std::string_view match_id) {
@@ -147,6 +163,37 @@ std::optional<ValidationError> decode(const camera_director_ObserverRequest& sam
     message.group.assign(group.begin(), group.end());
     message.profile = sample.profile;
     message.overrides = sample.overrides;
+    return std::nullopt;
+}
+
+std::optional<ValidationError> decode(const camera_director_CameraFrame& sample,
+                                      director::CameraFrame& message) {
+    if (const auto error = check(sample)) return error;
+    message.epoch = sample.epoch;
+    message.frame_number = sample.frame_number;
+    message.pose_number = sample.pose_number;
+    message.frame_time = sample.frame_time;
+    message.source_time = sample.source_time;
+    message.cameras.resize(sample.camera_id._length);
+    for (std::uint32_t i = 0; i < sample.camera_id._length; ++i) {
+        message.cameras[i] = {.camera_id = sample.camera_id._buffer[i],
+                              .target = sample.target._buffer[i],
+                              .position = vector(elements(sample.position), i),
+                              .orientation = quaternion(elements(sample.orientation), i),
+                              .vertical_fov = sample.vertical_fov._buffer[i],
+                              .clearance = sample.clearance._buffer[i],
+                              .flags = sample.flags._buffer[i]};
+    }
+    return std::nullopt;
+}
+
+std::optional<ValidationError> decode(const camera_director_DirectorSign& sample, Sign& sign) {
+    if (sample.term > max_term || sample.rank > max_rank || sample.lease_ms == 0 ||
+        sample.lease_ms > max_lease.count()) {
+        return ValidationError::out_of_range;
+    }
+    sign = {sample.director_id, sample.term,       sample.rank, std::chrono::milliseconds(sample.lease_ms),
+            sample.leads,       sample.has_cameras};
     return std::nullopt;
 }
 

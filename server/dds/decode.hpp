@@ -9,26 +9,29 @@
 #include <optional>
 #include <string_view>
 
+#include "dds/succession.hpp"
 #include "director/messages.hpp"
 
 namespace camdir::dds {
 
 // Why a sample from outside was dropped.
 enum class ValidationError : std::size_t {
-    array_length,     // the sample's arrays disagree in length
-    too_many,         // more than 256 players or group members
-    not_finite,       // a number is infinite or not a number
-    not_unit,         // a quaternion's length is off 1 by more than 1e-3
-    out_of_range,     // a negative rate, delay or scale
-    bad_match_id,     // empty, or not usable as the name of a partition
-    wrong_partition,  // the sample names another match than its partition does
-    long_map_name,    // more than 255 bytes: no configured map has such a name
+    array_length,       // the sample's arrays disagree in length
+    too_many,           // more than 256 players or group members
+    not_finite,         // a number is infinite or not a number
+    not_unit,           // a quaternion's length is off 1 by more than 1e-3
+    out_of_range,       // a negative rate, delay or scale; a term or rank beyond the greatest
+    bad_match_id,       // empty, or not usable as the name of a partition
+    wrong_partition,    // the sample names another match than its partition does
+    long_map_name,      // more than 255 bytes: no configured map has such a name
+    not_owner,          // the match is another participant's, or the request another writer's
+    participant_limit,  // the participant has as many matches or observers as it may have
 };
 
 // Names in metrics and log, in the order of ValidationError.
-inline constexpr std::array<const char*, 8> validation_error_names = {
-    "array_length", "too_many",     "not_finite",      "not_unit",
-    "out_of_range", "bad_match_id", "wrong_partition", "long_map_name"};
+inline constexpr std::array<const char*, 10> validation_error_names = {
+    "array_length", "too_many",        "not_finite",    "not_unit",  "out_of_range",
+    "bad_match_id", "wrong_partition", "long_map_name", "not_owner", "participant_limit"};
 
 // Each function fills `message`, whose memory it reuses, or returns the first error found and leaves
 // `message` unspecified. Reads nothing beyond the sample's arrays.
@@ -40,6 +43,11 @@ inline constexpr std::array<const char*, 8> validation_error_names = {
                                                     director::MatchEvent& message);
 [[nodiscard]] std::optional<ValidationError> decode(const camera_director_ObserverRequest& sample,
                                                     director::ObserverRequest& message);
+
+[[nodiscard]] std::optional<ValidationError> decode(const camera_director_CameraFrame& sample,
+                                                    director::CameraFrame& message);
+
+[[nodiscard]] std::optional<ValidationError> decode(const camera_director_DirectorSign& sample, Sign& sign);
 
 // True when the id can name a partition: not empty, without control characters, '/', '*' and '?'.
 [[nodiscard]] bool valid_match_id(std::string_view match_id);

@@ -20,7 +20,8 @@ void copy_string(std::span<char> to, const std::string& from) {
 // Lets `sequence` use `storage`, which DDS then neither grows nor frees.
 template <class Sequence, class Storage>
 void borrow(Sequence& sequence, Storage& storage) {
-    // An array of arrays of characters is what DDS has for a sequence of bounded strings.
+    // The buffer of bounded strings is one of C arrays, for which the storage has std::array.
+    static_assert(sizeof *sequence._buffer == sizeof storage[0]);
     sequence._buffer = reinterpret_cast<decltype(sequence._buffer)>(storage.data());
     sequence._maximum = static_cast<std::uint32_t>(storage.size());
     sequence._release = false;
@@ -42,10 +43,10 @@ CameraFrameEncoder::CameraFrameEncoder(const std::string& match_id, std::uint64_
 }
 
 const camera_director_CameraFrame& CameraFrameEncoder::encode(const director::CameraFrame& frame,
-                                                              std::int64_t write_time) {
+                                                              std::int64_t write_time, std::uint32_t offset) {
     assert(frame.cameras.size() <= director::max_cameras);
     sample_.epoch = frame.epoch;
-    sample_.frame_number = frame.frame_number;
+    sample_.frame_number = frame.frame_number + offset;
     sample_.pose_number = frame.pose_number;
     sample_.frame_time = frame.frame_time;
     sample_.source_time = frame.source_time;
@@ -104,6 +105,18 @@ camera_director_ObserverStatus encode(const director::ObserverStatus& status) {
     sample.state = static_cast<std::uint32_t>(status.state);
     sample.camera_id = status.camera_id;
     copy_string(sample.reason, status.reason);
+    return sample;
+}
+
+camera_director_DirectorSign encode(const std::string& match_id, const Sign& sign) {
+    camera_director_DirectorSign sample{};
+    copy_string(sample.match_id, match_id);
+    sample.director_id = sign.director_id;
+    sample.term = sign.term;
+    sample.rank = sign.rank;
+    sample.lease_ms = static_cast<std::uint32_t>(sign.lease.count());
+    sample.leads = sign.leads;
+    sample.has_cameras = sign.has_cameras;
     return sample;
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "dds/succession.hpp"
 #include "director/messages.hpp"
 
 namespace camdir::dds {
@@ -21,9 +22,10 @@ class CameraFrameEncoder {
     CameraFrameEncoder& operator=(const CameraFrameEncoder&) = delete;
 
     // The sample points into the encoder and is valid until the next call. `write_time` is CLOCK_REALTIME in
-    // ns. Precondition: at most 256 cameras. Does not allocate.
+    // ns; `offset` is added to the frame's number. Precondition: at most 256 cameras. Does not allocate.
     [[nodiscard]] const camera_director_CameraFrame& encode(const director::CameraFrame& frame,
-                                                            std::int64_t write_time);
+                                                            std::int64_t write_time,
+                                                            std::uint32_t offset = 0);
 
   private:
     std::array<std::uint32_t, director::max_cameras> camera_id_{};
@@ -45,8 +47,6 @@ class ShownMatchEncoder {
 
     // The sample points into the encoder and is valid until the next call. Strings are cut as below.
     [[nodiscard]] const camera_director_MatchInfo& encode(const director::MatchInfo& info);
-    // The one before.
-    [[nodiscard]] const camera_director_MatchInfo& sample() const { return sample_; }
 
   private:
     std::string map_name_;
@@ -59,6 +59,7 @@ class ShownMatchEncoder {
 
 // Strings are cut to the bounds of the wire type, at the end of a UTF-8 character.
 [[nodiscard]] camera_director_ObserverStatus encode(const director::ObserverStatus& status);
+[[nodiscard]] camera_director_DirectorSign encode(const std::string& match_id, const Sign& sign);
 
 // Samples with only the key set, for unregistering and disposing.
 [[nodiscard]] camera_director_MatchInfo shown_match_key(const std::string& match_id);

@@ -14,31 +14,50 @@ std::uint64_t random_id() {
     return (static_cast<std::uint64_t>(random()) << 32U | random()) | 1U;
 }
 
-Subscriber::Options subscriber_options(const config::Dds& config, std::uint64_t director_id) {
-    return {.leadership = {.strength = static_cast<std::int32_t>(config.strength),
+Subscriber::Options subscriber_options(const config::Dds& config, const config::Limits& limits,
+                                       std::uint64_t director_id) {
+    return {.leadership = {.rank = static_cast<std::uint32_t>(config.strength),
                            .lease = std::chrono::milliseconds(config.lease_ms)},
             .director_id = director_id,
-            .partitions = config.partitions};
+            .partitions = config.partitions,
+            .participant_matches = static_cast<std::size_t>(limits.participant_matches),
+            .participant_observers = static_cast<std::size_t>(limits.participant_observers)};
 }
 
 }  // namespace
 
-Result<std::unique_ptr<Gateway>> Gateway::open(const config::Dds& config) {
+Result<std::unique_ptr<Gateway>> Gateway::open(const config::Dds& config, const config::Limits& limits) {
     auto participant = Participant::open(config);
     if (!participant) return tl::unexpected(participant.error());
-    std::unique_ptr<Gateway> gateway(new Gateway(std::move(*participant), config));
+    std::unique_ptr<Gateway> gateway(new Gateway(std::move(*participant), config, limits));
     if (auto opened = gateway->subscriber_.open(); !opened) return tl::unexpected(opened.error());
     return gateway;
 }
 
-Gateway::Gateway(Participant participant, const config::Dds& config)
+Gateway::Gateway(Participant participant, const config::Dds& config, const config::Limits& limits)
     : participant_(std::move(participant)),
       director_id_(config.director_id != 0 ? static_cast<std::uint64_t>(config.director_id) : random_id()),
-      subscriber_(participant_, subscriber_options(config, director_id_), table_, counters_) {}
+      subscriber_(participant_, subscriber_options(config, limits, director_id_), table_, counters_) {}
 
 Gateway::~Gateway() {
     stop_receiving();
     close();
+}
+
+void Gateway::stop_receiving() {
+    subscriber_.stop();
+    for (const auto& match : table_.all())
+        match->resign();
+}
+
+Gateway::HandOver Gateway::hand_over() {
+    HandOver done;
+    for (const auto& match : table_.all()) {
+        if (!match->is_leading()) continue;
+        ++done.led;
+        if (!match->hand_over()) ++done.kept;
+    }
+    return done;
 }
 
 void Gateway::close() {
@@ -81,15 +100,16 @@ void Gateway::withdraw(const std::string& match_id, const std::string& observer_
     count(match->withdraw(observer_id), counters_.statuses_withdrawn, Topic::observer_status, match_id);
 }
 
-void Gateway::count(dds_return_t written, WireCounter& counter, Topic topic, const std::string& match_id) {
-    if (written >= 0) {
+void Gateway::count(Written written, WireCounter& counter, Topic topic, const std::string& match_id) {
+    if (!written) return;
+    if (*written >= 0) {
         ++counter;
         return;
     }
     ++counters_.write_failures;
     if (const auto failures = failure_log_.due()) {
         spdlog::error("{} of match '{}' not written: {} ({} failures since the last such line)",
-                      topic_name(topic), match_id, dds_strretcode(written), *failures);
+                      topic_name(topic), match_id, dds_strretcode(*written), *failures);
     }
 }
 

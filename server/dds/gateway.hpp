@@ -1,6 +1,7 @@
 // The director's connection to DDS.
 #pragma once
 
+#include <chrono>
 #include <memory>
 #include <string>
 
@@ -16,7 +17,7 @@ namespace camdir::dds {
 
 // Finds matches, hands what is received to an Ingress and writes what is published:
 //
-//     auto gateway = Gateway::open(config.dds);           // check for an error
+//     auto gateway = Gateway::open(config.dds, config.limits);           // check for an error
 //     Director director(config, maps, **gateway);
 //     (*gateway)->start(director);
 //     ...
@@ -26,16 +27,28 @@ namespace camdir::dds {
 class Gateway final : public director::Publisher {
   public:
     // Joins the domain; nothing is received before start(). One per process, see Participant.
-    [[nodiscard]] static Result<std::unique_ptr<Gateway>> open(const config::Dds& config);
+    [[nodiscard]] static Result<std::unique_ptr<Gateway>> open(const config::Dds& config,
+                                                               const config::Limits& limits);
     ~Gateway() override;  // stop_receiving() and close()
 
     // To be called once. `ingress` is called from a thread of the gateway and must live until
     // stop_receiving() returns.
     void start(director::Ingress& ingress) { subscriber_.start(ingress); }
-    // Nothing more is handed to the ingress. Publishing still works.
-    void stop_receiving() { subscriber_.stop(); }
-    // Releases the ownership of every match, so that a standby takes over at once, and waits 100 ms for that
-    // to reach the readers. To be called after stop_receiving(); what is published afterwards is lost.
+    // False when reception is late by more than `limit`: it has hung. Thread-safe.
+    [[nodiscard]] bool responsive(std::chrono::nanoseconds limit) const {
+        return subscriber_.responsive(limit);
+    }
+    struct HandOver {
+        std::size_t led = 0;   // matches that this director led
+        std::size_t kept = 0;  // of these, for want of another that could serve them
+    };
+    // Leaves every match to a standby that has cameras, if it has some, and stands by. Thread-safe.
+    HandOver hand_over();
+    // Nothing more is handed to the ingress. Standbys take over at once; where there is none, publishing
+    // still works.
+    void stop_receiving();
+    // Releases the ownership of every match and waits 100 ms for that to reach the readers. To be called
+    // after stop_receiving(); what is published afterwards is lost.
     void close();
 
     // See director::Publisher. Samples that DDS refuses are counted and logged.
@@ -51,8 +64,8 @@ class Gateway final : public director::Publisher {
     [[nodiscard]] const WireCounters& counters() const { return counters_; }
 
   private:
-    Gateway(Participant participant, const config::Dds& config);
-    void count(dds_return_t written, WireCounter& counter, Topic topic, const std::string& match_id);
+    Gateway(Participant participant, const config::Dds& config, const config::Limits& limits);
+    void count(Written written, WireCounter& counter, Topic topic, const std::string& match_id);
 
     Participant participant_;
     const std::uint64_t director_id_;

@@ -1,14 +1,19 @@
 #include "dds/match_endpoints.hpp"
 
-#include <chrono>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
 #include <cstring>
-#include <tuple>
+#include <utility>
 
 namespace camdir::dds {
 namespace {
 
 // A quarter of the shortest lease: some may come late. Each is a packet for every observer.
 constexpr std::chrono::milliseconds slow_assertion_interval{250};
+constexpr std::size_t max_kept = 32;  // as many as a reader of cameras keeps
+// Of what is kept until the leader's lease ends, and of its last frame.
+constexpr std::chrono::seconds max_age_beyond_lease{1};
 
 std::int64_t now_realtime() {
     return std::chrono::duration_cast<std::chrono::nanoseconds>(
@@ -16,17 +21,33 @@ std::int64_t now_realtime() {
         .count();
 }
 
+// Ownership goes to the latest term, then by rank.
+std::int32_t strength_of(const Sign& part) {
+    return static_cast<std::int32_t>(part.term * (max_rank + 1) + part.rank);
+}
+
 }  // namespace
+
+MatchEndpoints::MatchEndpoints(std::string match_id, const Leadership& leadership, std::uint64_t director_id,
+                               WireCounters& counters)
+    : match_id_(std::move(match_id)),
+      counters_(counters),
+      lease_(leadership.lease),
+      succession_(director_id, leadership.rank, leadership.lease, Clock::now()),
+      in_effect_(succession_.own()),
+      encoder_(match_id_, director_id) {}
 
 Result<std::unique_ptr<MatchEndpoints>> MatchEndpoints::open(const Participant& participant,
                                                              const std::string& match_id,
                                                              const Leadership& leadership,
-                                                             std::uint64_t director_id) {
-    std::unique_ptr<MatchEndpoints> match(new MatchEndpoints(match_id, director_id));
+                                                             std::uint64_t director_id,
+                                                             WireCounters& counters) {
+    std::unique_ptr<MatchEndpoints> match(new MatchEndpoints(match_id, leadership, director_id, counters));
     if (auto opened = match->open_readers(participant); !opened) return tl::unexpected(opened.error());
     if (auto opened = match->open_writers(participant, leadership); !opened) {
         return tl::unexpected(opened.error());
     }
+    match->write_sign();
     return match;
 }
 
@@ -40,7 +61,8 @@ Result<void> MatchEndpoints::open_readers(const Participant& participant) {
 
     for (const auto& [topic, reader] :
          {std::pair{Topic::pose_frame, &pose_reader_}, std::pair{Topic::match_event, &event_reader_},
-          std::pair{Topic::observer_request, &request_reader_}}) {
+          std::pair{Topic::observer_request, &request_reader_},
+          std::pair{Topic::camera_frame, &camera_reader_}, std::pair{Topic::director_sign, &sign_reader_}}) {
         *reader = dds_create_reader(subscriber_.handle(), participant.topic(topic), reader_qos(topic).get(),
                                     nullptr);
         if (*reader < 0) {
@@ -58,15 +80,13 @@ Result<void> MatchEndpoints::open_writers(const Participant& participant, const 
     if (!publisher) return tl::unexpected(publisher.error());
     publisher_ = std::move(*publisher);
 
-    // Configured strengths are at least 0.
-    const Leadership below_all{.strength = -1, .lease = leadership.lease};
-    for (const auto& [topic, writer, rank] :
-         {std::tuple{Topic::shown_match, &shown_writer_, &leadership},
-          std::tuple{Topic::camera_frame, &camera_writer_, &leadership},
-          std::tuple{Topic::observer_status, &status_writer_, &leadership},
-          std::tuple{Topic::observer_status, &early_status_writer_, &below_all}}) {
-        *writer = dds_create_writer(publisher_.handle(), participant.topic(topic),
-                                    writer_qos(topic, *rank).get(), nullptr);
+    for (const auto& [topic, writer] :
+         {std::pair{Topic::shown_match, &shown_writer_}, std::pair{Topic::camera_frame, &camera_writer_},
+          std::pair{Topic::observer_status, &status_writer_},
+          std::pair{Topic::director_sign, &sign_writer_}}) {
+        Qos qos = topic == Topic::director_sign ? sign_qos() : writer_qos(topic, leadership.lease);
+        dds_qset_ownership_strength(qos.get(), strength_of(in_effect_));
+        *writer = dds_create_writer(publisher_.handle(), participant.topic(topic), qos.get(), nullptr);
         if (*writer < 0) {
             return dds_failure("creating the writer of " + partition + " " + topic_name(topic), *writer);
         }
@@ -74,59 +94,266 @@ Result<void> MatchEndpoints::open_writers(const Participant& participant, const 
     return {};
 }
 
-dds_return_t MatchEndpoints::write(const director::MatchInfo& shown) {
-    const std::lock_guard lock(shown_mutex_);
-    is_shown_ = true;
+template <class Change>
+void MatchEndpoints::change(Change change) {
+    {
+        const std::lock_guard lock(deciding_);
+        change(succession_, Clock::now());
+        if (succession_.own() == in_effect_) return;
+    }
+    const std::lock_guard lock(writing_);
+    put_into_effect();
+}
+
+// With writing_ held. Returns whether this director writes.
+bool MatchEndpoints::put_into_effect() {
+    Sign before;
+    Sign part;
+    {
+        const std::lock_guard lock(deciding_);
+        before = in_effect_;
+        part = in_effect_ = succession_.own();
+    }
+    if (part == before) return part.leads;
+    if (part.leads != before.leads)
+        spdlog::info("match {}: this director {}", match_id_, part.leads ? "leads" : "stands by");
+    // Readers would take what it wrote as leader for a standby's, which will own the match.
+    if (before.leads && !part.leads) stand_by();
+    if (part.term != before.term) set_strength(part);
+    write_sign();  // before what may take long
+    if (part.leads && !before.leads) take_over();
+    return part.leads;
+}
+
+void MatchEndpoints::set_strength(const Sign& part) {
+    const Qos qos(dds_create_qos());
+    dds_qset_ownership_strength(qos.get(), strength_of(part));
+    for (const dds_entity_t writer : {shown_writer_, camera_writer_, status_writer_}) {
+        const dds_return_t set = dds_set_qos(writer, qos.get());
+        if (set < 0)
+            spdlog::error("match {}: ownership strength {} not set: {}", match_id_, strength_of(part),
+                          dds_strretcode(set));
+    }
+}
+
+// A director that was stopped for too long finds out here, before it writes anything.
+bool MatchEndpoints::leads() {
+    {
+        const std::lock_guard lock(deciding_);
+        succession_.notice_absence(Clock::now());
+    }
+    return put_into_effect();
+}
+
+void MatchEndpoints::take_over() {
+    forget_shown();
+    if (std::exchange(ended_unwritten_, false)) dispose_shown();
+    if (shown_)
+        count(dds_write(shown_writer_, &shown_encoder_.encode(*shown_)), counters_.shown_matches_written);
+    for (const auto& [observer_id, status] : statuses_)
+        count(write_now(status), counters_.statuses_written);
+    for (const Kept& kept : kept_)
+        count(write_now(kept.frame), counters_.camera_frames_written);
+    kept_.clear();
+}
+
+// What is too old to go on from, or to be shown.
+void MatchEndpoints::forget_shown() {
+    const auto oldest = Clock::now() - lease_ - max_age_beyond_lease;
+    if (last_shown_ && last_shown_->seen < oldest) last_shown_.reset();
+    while (!kept_.empty() && kept_.front().computed < oldest)
+        drop_kept();
+}
+
+// What a take-over writes; of all else the caller counts.
+void MatchEndpoints::count(dds_return_t written, WireCounter& counter) {
+    ++(written >= 0 ? counter : counters_.write_failures);
+}
+
+// Readers forget what this director wrote.
+void MatchEndpoints::stand_by() {
+    if (shown_) {
+        const camera_director_MatchInfo key = shown_match_key(match_id_);
+        dds_unregister_instance(shown_writer_, &key);
+    }
+    for (const auto& [observer_id, status] : statuses_) {
+        const camera_director_ObserverStatus key = observer_status_key(match_id_, observer_id);
+        dds_unregister_instance(status_writer_, &key);
+    }
+    const camera_director_CameraFrame key = camera_frame_key(match_id_);
+    dds_unregister_instance(camera_writer_, &key);
+}
+
+// Never an older one after a newer one.
+void MatchEndpoints::write_sign() {
+    const std::lock_guard lock(deciding_);
+    const camera_director_DirectorSign sample = encode(match_id_, in_effect_);
+    dds_write(sign_writer_, &sample);
+}
+
+Written MatchEndpoints::write(const director::MatchInfo& shown) {
+    const std::lock_guard lock(writing_);
+    const bool writes = leads();
+    shown_ = shown;
+    if (!writes) return std::nullopt;
     return dds_write(shown_writer_, &shown_encoder_.encode(shown));
 }
 
-dds_return_t MatchEndpoints::end_shown() {
-    const std::lock_guard lock(shown_mutex_);
-    is_shown_ = false;
+Written MatchEndpoints::end_shown() {
+    const std::lock_guard lock(writing_);
+    const bool writes = leads();
+    shown_.reset();
+    last_shown_.reset();
+    kept_.clear();
+    ended_unwritten_ = !writes;
+    if (!writes) return std::nullopt;
+    return dispose_shown();
+}
+
+dds_return_t MatchEndpoints::dispose_shown() {
     const camera_director_MatchInfo key = shown_match_key(match_id_);
     return dds_dispose(shown_writer_, &key);
 }
 
-dds_return_t MatchEndpoints::write(const director::CameraFrame& frame) {
-    wrote_frame_ = true;
-    return dds_write(camera_writer_, &encoder_.encode(frame, now_realtime()));
-}
-
-dds_return_t MatchEndpoints::write(const director::ObserverStatus& status) {
-    has_cameras_ = has_cameras_ || status.state == director::RequestState::accepted;
-    const camera_director_ObserverStatus sample = encode(status);
-    return dds_write(has_cameras_ ? status_writer_ : early_status_writer_, &sample);
-}
-
-dds_return_t MatchEndpoints::withdraw(const std::string& observer_id) {
-    const camera_director_ObserverStatus key = observer_status_key(match_id_, observer_id);
-    for (const dds_entity_t writer : {early_status_writer_, status_writer_}) {
-        if (const dds_return_t disposed = dds_dispose(writer, &key); disposed < 0) return disposed;
-        if (const dds_return_t ended = dds_unregister_instance(writer, &key); ended < 0) return ended;
+Written MatchEndpoints::write(const director::CameraFrame& frame) {
+    const std::lock_guard lock(writing_);
+    const bool writes = leads();
+    if (!frame.cameras.empty()) {
+        const std::lock_guard deciding(deciding_);
+        succession_.produce(Clock::now());
     }
-    return DDS_RETCODE_OK;
+    if (writes) forget_shown();  // it may be of a match whose epoch was later
+    if (is_shown({frame.epoch, frame.pose_number})) return std::nullopt;
+    if (writes) return write_now(frame);
+    keep(frame);
+    return std::nullopt;
+}
+
+Written MatchEndpoints::write(const director::ObserverStatus& status) {
+    const std::lock_guard lock(writing_);
+    const bool writes = leads();
+    statuses_[status.observer_id] = status;
+    if (!writes) return std::nullopt;
+    return write_now(status);
+}
+
+Written MatchEndpoints::withdraw(const std::string& observer_id) {
+    const std::lock_guard lock(writing_);
+    const bool writes = leads();
+    statuses_.erase(observer_id);
+    if (!writes) return std::nullopt;
+    const camera_director_ObserverStatus key = observer_status_key(match_id_, observer_id);
+    if (const dds_return_t disposed = dds_dispose(status_writer_, &key); disposed < 0) return disposed;
+    return dds_unregister_instance(status_writer_, &key);
+}
+
+dds_return_t MatchEndpoints::write_now(const director::ObserverStatus& status) {
+    const camera_director_ObserverStatus sample = encode(status);
+    return dds_write(status_writer_, &sample);
+}
+
+dds_return_t MatchEndpoints::write_now(const director::CameraFrame& frame) {
+    wrote_frame_ = true;
+    if (last_shown_) number_on(frame);
+    const std::uint32_t offset = frame.epoch == numbered_epoch_ ? number_offset_ : 0;
+    return dds_write(camera_writer_, &encoder_.encode(frame, now_realtime(), offset));
+}
+
+// From the leader's last frame, so that readers know whether they have missed something: a cut, perhaps.
+void MatchEndpoints::number_on(const director::CameraFrame& first) {
+    numbered_epoch_ = last_shown_->epoch;
+    number_offset_ = last_shown_->frame_number + (misses_frames() ? 2 : 1) - first.frame_number;
+    last_shown_.reset();
+}
+
+void MatchEndpoints::keep(const director::CameraFrame& frame) {
+    if (kept_.size() >= max_kept) drop_kept();
+    kept_.push_back({frame, Clock::now()});
+}
+
+// Nobody will have written it.
+void MatchEndpoints::drop_kept() {
+    dropped_ = {kept_.front().frame.epoch, kept_.front().frame.pose_number};
+    kept_.pop_front();
+}
+
+bool MatchEndpoints::misses_frames() const {
+    return dropped_ && !is_shown(*dropped_);
+}
+
+// By the leader. Frame numbers may wrap.
+bool MatchEndpoints::is_shown(const PoseId& frame) const {
+    if (!last_shown_ || frame.epoch > last_shown_->epoch) return false;
+    return frame.epoch < last_shown_->epoch ||
+           static_cast<std::int32_t>(frame.pose_number - last_shown_->pose_number) <= 0;
+}
+
+bool MatchEndpoints::see(const director::CameraFrame& shown) {
+    const std::lock_guard lock(writing_);
+    if (leads()) return false;
+    if (shown_ && shown.epoch == shown_->epoch) ended_unwritten_ = false;
+    last_shown_ = {shown.epoch, shown.frame_number, shown.pose_number, Clock::now()};
+    while (!kept_.empty() && is_shown({kept_.front().frame.epoch, kept_.front().frame.pose_number}))
+        kept_.pop_front();
+    return true;
+}
+
+void MatchEndpoints::see(const Sign& sign) {
+    change([&](Succession& succession, Clock::time_point now) { succession.see(sign, now); });
+}
+
+void MatchEndpoints::leave(std::uint64_t director_id) {
+    change([&](Succession& succession, Clock::time_point now) { succession.leave(director_id, now); });
+}
+
+Succession::Time MatchEndpoints::decide() {
+    Succession::Time next;
+    change([&](Succession& succession, Clock::time_point now) {
+        succession.decide(now);
+        next = succession.next_change(now);
+    });
+    return next;
+}
+
+bool MatchEndpoints::is_leading() {
+    const std::lock_guard lock(deciding_);
+    return in_effect_.leads;
 }
 
 void MatchEndpoints::assert_liveliness() {
+    change([](Succession& succession, Clock::time_point now) { succession.live(now); });
+    write_sign();
     if (!wrote_frame_.exchange(false)) dds_assert_liveliness(camera_writer_);
-    const auto now = std::chrono::steady_clock::now();
+    const auto now = Clock::now();
     if (now < next_slow_assertion_) return;
     next_slow_assertion_ = now + slow_assertion_interval;
     dds_assert_liveliness(status_writer_);
-    dds_assert_liveliness(early_status_writer_);
-    // Readers drop what a standby writes until the lease of its leader ends.
-    const std::lock_guard lock(shown_mutex_);
-    if (is_shown_)
-        dds_write(shown_writer_, &shown_encoder_.sample());
-    else
-        dds_assert_liveliness(shown_writer_);
+    dds_assert_liveliness(shown_writer_);
+    // Whoever writes may wait for a slow observer. It comes again.
+    const std::unique_lock lock(writing_, std::try_to_lock);
+    if (lock && shown_ && leads()) dds_write(shown_writer_, &shown_encoder_.encode(*shown_));
+}
+
+void MatchEndpoints::resign() {
+    change([](Succession& succession, Clock::time_point now) { succession.resign(now); });
+    const std::lock_guard lock(writing_);
+    const camera_director_DirectorSign key = encode(match_id_, in_effect_);
+    dds_dispose(sign_writer_, &key);
+}
+
+bool MatchEndpoints::hand_over() {
+    {
+        const std::lock_guard lock(deciding_);
+        if (!succession_.has_successor(Clock::now())) return false;
+    }
+    resign();
+    return true;
 }
 
 void MatchEndpoints::release_ownership() {
     const camera_director_CameraFrame key = camera_frame_key(match_id_);
     dds_unregister_instance(camera_writer_, &key);
     // Deleting a writer unregisters its instances at the readers.
-    dds_delete(early_status_writer_);
     dds_delete(status_writer_);
     dds_delete(shown_writer_);
 }

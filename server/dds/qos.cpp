@@ -10,9 +10,13 @@ namespace {
 // this.
 constexpr dds_duration_t max_blocking_time = DDS_MSECS(100);
 
-// For so long readers drop the answers of a dead director's successor; shorter, and every observer would ask
-// again when a busy machine delays the director.
+// Whoever takes over is stronger and need not wait for it; shorter, and every observer would ask again when a
+// busy machine delays the director.
 constexpr dds_duration_t min_slow_lease = DDS_SECS(1);
+
+// Of one match or observer: several participants may write, and one must not replace what another has
+// written.
+constexpr std::int32_t kept_until_taken = 8;
 
 }  // namespace
 
@@ -21,22 +25,30 @@ Qos reader_qos(Topic topic) {
     dds_liveliness_kind_t kind = DDS_LIVELINESS_AUTOMATIC;
     dds_qget_liveliness(qos.get(), &kind, nullptr);
     dds_qset_liveliness(qos.get(), kind, DDS_INFINITY);
+    if (topic == Topic::match_info || topic == Topic::observer_request)
+        dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, kept_until_taken);
     // A director does not receive its own samples.
     dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);
     return qos;
 }
 
-Qos writer_qos(Topic topic, const Leadership& leadership) {
+Qos writer_qos(Topic topic, std::chrono::milliseconds shortest_lease) {
     Qos qos = wire::topic_qos(topic, max_blocking_time);
-    dds_duration_t lease = DDS_MSECS(leadership.lease.count());
+    dds_duration_t lease = DDS_MSECS(shortest_lease.count());
     if (topic == Topic::camera_frame) {
         dds_qset_lifespan(qos.get(), DDS_SECS(1));
     } else {
         lease = std::max(lease, min_slow_lease);
     }
     dds_qset_liveliness(qos.get(), DDS_LIVELINESS_MANUAL_BY_TOPIC, lease);
-    dds_qset_ownership_strength(qos.get(), leadership.strength);
     // A director that leaves must hand its instances over to the next one, not dispose them.
+    dds_qset_writer_data_lifecycle(qos.get(), false);
+    return qos;
+}
+
+Qos sign_qos() {
+    Qos qos = wire::topic_qos(Topic::director_sign, max_blocking_time);
+    // Only who leaves disposes its sign, not whoever cannot be reached.
     dds_qset_writer_data_lifecycle(qos.get(), false);
     return qos;
 }

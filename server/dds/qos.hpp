@@ -18,16 +18,18 @@ using wire::topic_count;
 using wire::topic_name;
 using wire::topic_type;
 
-// What a director may choose about its writers.
+// What the configuration says of a director among others.
 struct Leadership {
-    std::int32_t strength = 0;             // ownership: observers receive the strongest director
-    std::chrono::milliseconds lease{200};  // of CameraFrame: silence after which the director counts as dead
+    std::uint32_t rank = 0;                // at most 65535: the greatest leads where nobody does
+    std::chrono::milliseconds lease{200};  // silence after which the director counts as dead
 };
 
 // For a reader. It accepts writers with any lease.
 [[nodiscard]] Qos reader_qos(Topic topic);
-// For a writer of ShownMatch, CameraFrame or ObserverStatus.
-[[nodiscard]] Qos writer_qos(Topic topic, const Leadership& leadership);
+// For a writer of ShownMatch, CameraFrame or ObserverStatus, without its strength.
+[[nodiscard]] Qos writer_qos(Topic topic, std::chrono::milliseconds lease);
+// For a writer of DirectorSign.
+[[nodiscard]] Qos sign_qos();
 // For a publisher or subscriber in these partitions.
 [[nodiscard]] Qos partition_qos(std::span<const std::string> partitions);
 

@@ -17,6 +17,7 @@ constexpr std::size_t samples_per_take = 32;
 // Tags in the waitset that are not a Source.
 const char guard_tag = 0;
 const char match_info_tag = 0;
+const char matched_tag = 0;
 
 dds_attach_t attachment(const void* tag) {
     return reinterpret_cast<dds_attach_t>(tag);
@@ -33,7 +34,9 @@ Subscriber::Subscriber(const Participant& participant, Options options, MatchTab
       match_info_samples_(topic_type(Topic::match_info), samples_per_take),
       pose_samples_(topic_type(Topic::pose_frame), samples_per_take),
       event_samples_(topic_type(Topic::match_event), samples_per_take),
-      request_samples_(topic_type(Topic::observer_request), samples_per_take) {}
+      request_samples_(topic_type(Topic::observer_request), samples_per_take),
+      camera_samples_(topic_type(Topic::camera_frame), samples_per_take),
+      sign_samples_(topic_type(Topic::director_sign), samples_per_take) {}
 
 Subscriber::~Subscriber() {
     stop();
@@ -50,7 +53,7 @@ Result<void> Subscriber::open() {
         code < 0) {
         return dds_failure("attaching the guard condition", code);
     }
-    triggered_.resize(2);
+    triggered_.resize(3);
 
     auto subscriber = created(
         dds_create_subscriber(participant_.handle(), partition_qos(options_.partitions).get(), nullptr),
@@ -61,6 +64,7 @@ Result<void> Subscriber::open() {
         dds_create_reader(match_info_subscriber_.handle(), participant_.topic(Topic::match_info),
                           reader_qos(Topic::match_info).get(), nullptr);
     if (match_info_reader_ < 0) return dds_failure("creating the reader of MatchInfo", match_info_reader_);
+    if (auto watched = watch_writers(match_info_reader_, &matched_tag); !watched) return watched;
     return watch(match_info_reader_, &match_info_tag);
 }
 
@@ -70,6 +74,13 @@ Result<void> Subscriber::watch(dds_entity_t reader, const void* tag) {
     if (condition < 0) return dds_failure("creating a read condition", condition);
     const dds_return_t attached = dds_waitset_attach(waitset_.handle(), condition, attachment(tag));
     if (attached < 0) return dds_failure("attaching a read condition", attached);
+    return {};
+}
+
+Result<void> Subscriber::watch_writers(dds_entity_t reader, const void* tag) {
+    dds_return_t code = dds_set_status_mask(reader, DDS_SUBSCRIPTION_MATCHED_STATUS);
+    if (code >= 0) code = dds_waitset_attach(waitset_.handle(), reader, attachment(tag));
+    if (code < 0) return dds_failure("attaching a reader", code);
     return {};
 }
 
@@ -95,32 +106,52 @@ void Subscriber::forget(const std::string& match_id) {
     dds_set_guardcondition(guard_.handle(), true);
 }
 
+bool Subscriber::responsive(std::chrono::nanoseconds limit) const {
+    return Clock::now() - next_assertion_.load() <= limit;
+}
+
 void Subscriber::run() noexcept {
-    // Four assertions per lease: some may come late.
-    const std::chrono::nanoseconds interval = std::chrono::nanoseconds(options_.leadership.lease) / 4;
-    Clock::time_point next_assertion = Clock::now();
+    next_assertion_ = Clock::now();
+    listened_ = Clock::now();
     while (!stopping_) {
-        const std::chrono::nanoseconds patience =
-            std::max(std::chrono::nanoseconds(next_assertion - Clock::now()), std::chrono::nanoseconds(0));
+        const std::chrono::nanoseconds until =
+            std::min(next_assertion_.load(), next_decision_) - Clock::now();
+        const auto patience = std::max(until, std::chrono::nanoseconds(0));
         const dds_return_t count =
             dds_waitset_wait(waitset_.handle(), triggered_.data(), triggered_.size(), patience.count());
+        notice_absence();
         if (count > 0) take_triggered(static_cast<std::size_t>(count));
         remove_forgotten();
-        if (Clock::now() >= next_assertion) {
+        if (Clock::now() >= next_assertion_.load()) {
             assert_liveliness();
-            next_assertion = Clock::now() + interval;
+            next_assertion_ = Clock::now() + assertion_interval();
         }
+        // Last, when all signs that had come by then are seen.
+        if (Clock::now() >= next_decision_) decide();
     }
+    next_assertion_ = Clock::time_point::max();
+}
+
+// Also of the whole process, which was stopped.
+void Subscriber::notice_absence() {
+    const auto now = Clock::now();
+    if (now - listened_ > options_.leadership.lease)
+        for (const auto& [id, match] : matches_)
+            match->ownership.resume(now);
+    listened_ = now;
 }
 
 void Subscriber::take_triggered(std::size_t count) {
     bool match_infos = false;
+    bool matched = false;
     for (std::size_t i = 0; i < std::min(count, triggered_.size()); ++i) {
         const dds_attach_t tag = triggered_[i];
         if (tag == attachment(&guard_tag)) {
             dds_set_guardcondition(guard_.handle(), false);
         } else if (tag == attachment(&match_info_tag)) {
             match_infos = true;
+        } else if (tag == attachment(&matched_tag)) {
+            matched = true;
         } else {
             const Source& source = *reinterpret_cast<const Source*>(tag);
             (this->*source.take)(*source.match);
@@ -128,15 +159,27 @@ void Subscriber::take_triggered(std::size_t count) {
     }
     // Last, because it may remove matches whose sources are reported above.
     if (match_infos) take_match_infos();
+    if (matched) notice_unmatched();
 }
 
 void Subscriber::assert_liveliness() {
-    if (!ingress_->responsive(options_.leadership.lease)) {
+    // So early that the next director takes over within a lease.
+    if (!ingress_->responsive(options_.leadership.lease - assertion_interval())) {
         ++counters_.liveliness_withheld;
-        return;
+        for (const auto& [id, match] : matches_)
+            match->endpoints->resign();
+    } else {
+        for (const auto& [id, match] : matches_)
+            match->endpoints->assert_liveliness();
     }
+    counters_.matches_led = static_cast<std::uint32_t>(std::ranges::count_if(
+        matches_, [](const auto& entry) { return entry.second->endpoints->is_leading(); }));
+}
+
+void Subscriber::decide() {
+    next_decision_ = Clock::time_point::max();
     for (const auto& [id, match] : matches_)
-        match->endpoints->assert_liveliness();
+        next_decision_ = std::min(next_decision_, match->endpoints->decide());
 }
 
 void Subscriber::drop(Topic topic, ValidationError error, const std::string& match_id) {
@@ -152,168 +195,138 @@ void Subscriber::take_match_infos() {
     match_info_samples_.take(match_info_reader_, [this](const auto& sample, const auto& info) {
         // The state is the instance's after the last sample.
         if (info.valid_data) match_info_found(sample, info);
-        if (info.instance_state != DDS_ALIVE_INSTANCE_STATE) match_info_lost(sample.match_id, info);
+        if (info.instance_state != DDS_ALIVE_INSTANCE_STATE) match_info_lost(sample, info);
     });
 }
 
-void Subscriber::match_info_found(const camera_director_MatchInfo& sample, const dds_sample_info_t& info) {
-    director::MatchInfo message;
-    if (const auto error = decode(sample, message)) {
-        return drop(Topic::match_info, *error, sample.match_id);
-    }
-    if (!written_in(info, match_partition(message.match_id))) {
-        return drop(Topic::match_info, ValidationError::wrong_partition, sample.match_id);
-    }
-    ++counters_.of(Topic::match_info).accepted;
-    const bool known = matches_.contains(message.match_id);
-    // The endpoints first, because the director publishes at once. It counts and logs what it refuses.
-    if (!known && !(ingress_->admit(message.match_id) && add_match(message.match_id))) return;
-    if (!ingress_->receive(message)) return;
-    Match& match = *matches_[message.match_id];
-    match.info = std::move(message);
-    match.server = info.publication_handle;
-    match.has_server = true;
-    match.forgotten = false;
-    cancel_forget(match.info.match_id);
-}
-
-// The director knows the match again: an earlier forget() must not remove it.
-void Subscriber::cancel_forget(const std::string& match_id) {
-    const std::lock_guard lock(forgotten_mutex_);
-    std::erase(forgotten_, match_id);
-}
-
-bool Subscriber::add_match(const std::string& match_id) {
-    const auto opened = open_match(match_id);
-    if (opened) return true;
-    ++counters_.endpoint_failures;
-    spdlog::error("match '{}' cannot be served: {}", match_id, opened.error().message);
-    remove_match(match_id);
-    ingress_->match_ended(match_id);
-    return false;
-}
-
-// On failure the caller removes the match.
-Result<void> Subscriber::open_match(const std::string& match_id) {
-    auto endpoints = MatchEndpoints::open(participant_, match_id, options_.leadership, options_.director_id);
-    if (!endpoints) return tl::unexpected(endpoints.error());
-    auto& match = matches_[match_id];
-    match = std::make_unique<Match>();
-    match->endpoints = std::move(*endpoints);
-    match->poses = {match.get(), &Subscriber::take_poses};
-    match->events = {match.get(), &Subscriber::take_events};
-    match->requests = {match.get(), &Subscriber::take_requests};
-    table_.add(match->endpoints);
-    counters_.matches = static_cast<std::uint32_t>(matches_.size());
-    for (const auto& [reader, source] : {std::pair{match->endpoints->pose_reader(), &match->poses},
-                                         std::pair{match->endpoints->event_reader(), &match->events},
-                                         std::pair{match->endpoints->request_reader(), &match->requests}}) {
-        if (auto watched = watch(reader, source); !watched) return watched;
-    }
-    triggered_.resize(2 + 3 * matches_.size());
-    return {};
-}
-
-void Subscriber::remove_match(const std::string& match_id) {
-    table_.remove(match_id);
-    matches_.erase(match_id);
-    counters_.matches = static_cast<std::uint32_t>(matches_.size());
-}
-
-void Subscriber::match_info_lost(const std::string& match_id, const dds_sample_info_t& info) {
-    const auto known = matches_.find(match_id);
-    if (known == matches_.end()) return;
-    Match& match = *known->second;
-    const bool over = info.instance_state == DDS_NOT_ALIVE_DISPOSED_INSTANCE_STATE;
-    if (over && info.publication_handle != match.server) return;  // not its game server
-    match.has_server = false;
-    if (match.forgotten) return remove_match(match_id);
-    if (over) {
-        ingress_->match_ended(match_id);
-    } else {
-        ingress_->server_lost(match_id);
-    }
-}
-
-void Subscriber::remove_forgotten() {
-    std::vector<std::string> forgotten;
-    {
-        const std::lock_guard lock(forgotten_mutex_);
-        forgotten.swap(forgotten_);
-    }
-    for (const std::string& match_id : forgotten) {
-        const auto known = matches_.find(match_id);
-        if (known == matches_.end()) continue;
-        // A paused game server may send poses again without another MatchInfo.
-        if (known->second->has_server) {
-            known->second->forgotten = true;
-        } else {
-            remove_match(match_id);
-        }
-    }
-}
-
-// Announces a match again that the director has forgotten. Returns false when it was refused.
-bool Subscriber::reintroduce(Match& match) {
-    if (match.forgotten) match.forgotten = !ingress_->receive(match.info);
-    return !match.forgotten;
-}
-
-bool Subscriber::written_in(const dds_sample_info_t& info, const std::string& partition) const {
-    using Endpoint = std::unique_ptr<dds_builtintopic_endpoint_t, decltype(&dds_builtintopic_free_endpoint)>;
-    const Endpoint writer(dds_get_matched_publication_data(match_info_reader_, info.publication_handle),
-                          dds_builtintopic_free_endpoint);
-    if (!writer) return false;  // the writer has left
-    std::uint32_t count = 0;
-    char** names = nullptr;
-    if (!dds_qget_partition(writer->qos, &count, &names)) return false;
-    const bool written =
-        std::any_of(names, names + count, [&](const char* name) { return name == partition; });
-    for (std::uint32_t i = 0; i < count; ++i)
-        dds_free(names[i]);
-    dds_free(names);
-    return written;
-}
-
 template <class Sample, class Message>
-bool Subscriber::accept(Match& match, Topic topic, const Sample& sample, Message& message) {
-    const std::string& match_id = match.info.match_id;
-    if (sample.match_id != match_id) {
-        drop(topic, ValidationError::wrong_partition, match_id);
+bool Subscriber::is_valid(const Match& match, Topic topic, const Sample& sample, Message& message) {
+    if (sample.match_id != match.id()) {
+        drop(topic, ValidationError::wrong_partition, match.id());
         return false;
     }
     if (const auto error = decode(sample, message)) {
-        drop(topic, *error, match_id);
+        drop(topic, *error, match.id());
         return false;
     }
+    return true;
+}
+
+bool Subscriber::accept(Match& match, Topic topic) {
     ++counters_.of(topic).accepted;
     return reintroduce(match);
 }
 
+bool Subscriber::is_of_owner(Match& match, const dds_sample_info_t& info) {
+    const SenderId* sender = match.pose_senders.find(match.endpoints->pose_reader(), info.publication_handle);
+    if (sender == nullptr || !match.ownership.knows(*sender)) return false;
+    const auto limit = ingress_->silence_limit(match.ownership.info());
+    const auto standing = match.ownership.send(*sender, limit, Clock::now());
+    if (standing == Ownership::Standing::successor) begin_anew(match);
+    return standing != Ownership::Standing::stranger;
+}
+
 void Subscriber::take_poses(Match& match) {
     pose_samples_.take(match.endpoints->pose_reader(), [&](const auto& sample, const auto& info) {
-        if (info.valid_data && accept(match, Topic::pose_frame, sample, pose_frame_))
-            ingress_->receive(match.info.match_id, pose_frame_);
+        if (!info.valid_data || !is_valid(match, Topic::pose_frame, sample, pose_frame_)) return;
+        if (!is_of_owner(match, info)) return drop(Topic::pose_frame, ValidationError::not_owner, match.id());
+        if (accept(match, Topic::pose_frame)) ingress_->receive(match.id(), pose_frame_);
     });
 }
 
 void Subscriber::take_events(Match& match) {
     event_samples_.take(match.endpoints->event_reader(), [&](const auto& sample, const auto& info) {
-        if (info.valid_data && accept(match, Topic::match_event, sample, match_event_))
-            ingress_->receive(match.info.match_id, match_event_);
+        if (!info.valid_data || !is_valid(match, Topic::match_event, sample, match_event_)) return;
+        const SenderId* sender =
+            match.event_senders.find(match.endpoints->event_reader(), info.publication_handle);
+        if (sender == nullptr || !match.ownership.owns(*sender))
+            return drop(Topic::match_event, ValidationError::not_owner, match.id());
+        if (accept(match, Topic::match_event)) ingress_->receive(match.id(), match_event_);
     });
 }
 
 void Subscriber::take_requests(Match& match) {
     request_samples_.take(match.endpoints->request_reader(), [&](const auto& sample, const auto& info) {
-        const std::string& match_id = match.info.match_id;
-        if (info.instance_state != DDS_ALIVE_INSTANCE_STATE) {
-            if (sample.match_id == match_id) ingress_->request_ended(match_id, sample.observer_id);
-        } else if (info.valid_data && accept(match, Topic::observer_request, sample, observer_request_)) {
-            ingress_->receive(observer_request_);
-            cancel_forget(match_id);
+        if (info.valid_data && is_valid(match, Topic::observer_request, sample, observer_request_))
+            request_found(match, info.publication_handle);
+        if (info.instance_state != DDS_ALIVE_INSTANCE_STATE && sample.match_id == match.id())
+            request_lost(match, sample.observer_id, info);
+    });
+}
+
+void Subscriber::request_found(Match& match, WriterHandle writer) {
+    // Nobody will tell of the end of a writer that has left.
+    const MatchedWriter found = find_writer(match.endpoints->request_reader(), writer);
+    if (!found) return drop(Topic::observer_request, ValidationError::not_owner, match.id());
+    using Standing = RequestOwners::Standing;
+    const Standing standing = match.request_owners.put(observer_request_, writer, sender_of(*found));
+    if (standing == Standing::stranger)
+        return drop(Topic::observer_request, ValidationError::not_owner, match.id());
+    if (standing == Standing::refused)
+        return drop(Topic::observer_request, ValidationError::participant_limit, match.id());
+    pass_on(match, observer_request_);
+}
+
+void Subscriber::pass_on(Match& match, const director::ObserverRequest& request) {
+    if (!accept(match, Topic::observer_request)) return;
+    ingress_->receive(request);
+    cancel_forget(match.id());
+}
+
+void Subscriber::request_lost(Match& match, const std::string& observer_id, const dds_sample_info_t& info) {
+    const auto outcome =
+        info.instance_state == DDS_NOT_ALIVE_DISPOSED_INSTANCE_STATE
+            ? match.request_owners.dispose(observer_id, info.publication_handle, !info.valid_data)
+            : match.request_owners.lose(observer_id);
+    if (outcome) put_into_effect(*outcome, match);
+}
+
+void Subscriber::put_into_effect(const RequestOwners::Outcome& outcome, Match& match) {
+    if (outcome.next)
+        pass_on(match, *outcome.next);
+    else
+        ingress_->request_ended(match.id(), outcome.observer_id);
+}
+
+// DDS tells of the end of a request when all who have written it are gone.
+void Subscriber::notice_unmatched_requests(Match& match) {
+    const dds_entity_t reader = match.endpoints->request_reader();
+    dds_subscription_matched_status_t status{};
+    dds_get_subscription_matched_status(reader, &status);
+    for (const auto& outcome : match.request_owners.retain(matched_writers(reader)))
+        put_into_effect(outcome, match);
+}
+
+void Subscriber::take_cameras(Match& match) {
+    camera_samples_.take(match.endpoints->camera_reader(), [&](const auto& sample, const auto& info) {
+        if (!info.valid_data || !is_valid(match, Topic::camera_frame, sample, shown_)) return;
+        ++counters_.of(Topic::camera_frame).accepted;
+        if (match.endpoints->see(shown_)) ingress_->follow(match.id(), shown_);
+    });
+}
+
+void Subscriber::take_signs(Match& match) {
+    take_cameras(match);  // what a leader wrote before it left
+    sign_samples_.take(match.endpoints->sign_reader(), [&](const auto& sample, const auto& info) {
+        Sign sign;
+        // One whose writer is gone, as far as DDS knows, may be out of reach: its lease will tell.
+        if (info.instance_state == DDS_NOT_ALIVE_DISPOSED_INSTANCE_STATE) {
+            match.endpoints->leave(sample.director_id);
+        } else if (info.valid_data && is_valid(match, Topic::director_sign, sample, sign)) {
+            ++counters_.of(Topic::director_sign).accepted;
+            if (sign.director_id == options_.director_id) return warn_of_namesake(match.id());
+            match.endpoints->see(sign);
+            next_decision_ = std::min(next_decision_, match.endpoints->decide());
         }
     });
+}
+
+void Subscriber::warn_of_namesake(const std::string& match_id) {
+    if (const auto count = namesake_log_.due())
+        spdlog::error(
+            "match {}: another director has the id {} too: both lead. Give each its own "
+            "/dds/director_id, or none ({} signs since the last such line)",
+            match_id, options_.director_id, *count);
 }
 
 }  // namespace camdir::dds

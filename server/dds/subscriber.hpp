@@ -15,21 +15,28 @@
 #include "dds/counters.hpp"
 #include "dds/log_limit.hpp"
 #include "dds/match_table.hpp"
+#include "dds/ownership.hpp"
 #include "dds/participant.hpp"
+#include "dds/request_owners.hpp"
+#include "dds/sender.hpp"
 #include "dds/take_buffer.hpp"
 #include "director/ports.hpp"
 
 namespace camdir::dds {
 
 // Finds matches by their MatchInfo in the configured partitions. A match's partition is read until the
-// director has forgotten the match and its game server is gone. The thread also asserts the liveliness of the
-// writers while the ingress is responsive.
+// director has forgotten the match and its game server is gone. Of all participants that send for a match,
+// the owner alone is heard (ownership.hpp), and of an observer's requests those of its writer. The thread
+// also asserts the liveliness of the writers while the ingress is responsive, and takes over matches from
+// directors that do not.
 class Subscriber {
   public:
     struct Options {
         Leadership leadership;
         std::uint64_t director_id = 0;
         std::vector<std::string> partitions;
+        std::size_t participant_matches = 0;
+        std::size_t participant_observers = 0;  // of a match
     };
 
     // The references must outlive the subscriber.
@@ -45,6 +52,10 @@ class Subscriber {
     // The director has forgotten the match. Thread-safe, returns at once.
     void forget(const std::string& match_id);
 
+    // False when the thread is late by more than `limit` with what it does several times per lease.
+    // Thread-safe.
+    [[nodiscard]] bool responsive(std::chrono::nanoseconds limit) const;
+
   private:
     using Clock = std::chrono::steady_clock;
     struct Match;
@@ -54,32 +65,57 @@ class Subscriber {
         void (Subscriber::*take)(Match&);
     };
     struct Match {
-        director::MatchInfo info;
+        explicit Match(std::size_t participant_observers) : request_owners(participant_observers) {}
+        [[nodiscard]] const std::string& id() const { return endpoints->match_id(); }
+
         MatchTable::Endpoints endpoints;
-        dds_instance_handle_t server = 0;  // the writer of its MatchInfo
-        bool has_server = true;            // that writer is alive
-        bool forgotten = false;            // by the director; reintroduced when a sample arrives
-        Source poses, events, requests;
+        Ownership ownership;
+        RequestOwners request_owners;
+        bool forgotten = false;  // by the director; reintroduced when a sample arrives
+        SenderLookup pose_senders, event_senders;
+        Source poses, events, requests, requesters, cameras, signs;
     };
 
+    // Triggers when the reader has samples, and when writers come or go.
     [[nodiscard]] Result<void> watch(dds_entity_t reader, const void* tag);
+    [[nodiscard]] Result<void> watch_writers(dds_entity_t reader, const void* tag);
     void run() noexcept;
+    void notice_absence();
     void take_triggered(std::size_t count);
+    [[nodiscard]] std::chrono::milliseconds assertion_interval() const {
+        return options_.leadership.lease / Succession::beats;
+    }
     void assert_liveliness();
+    void decide();
 
     // Counts the sample and logs each reason at most once a second.
     void drop(Topic topic, ValidationError error, const std::string& match_id);
     void take_match_infos();
-    // Validates and decodes a sample of the match. Returns false when the sample was dropped and counted, or
-    // the match was refused.
+    // Validates and decodes a sample of the match. Returns false when the sample was dropped and counted.
     template <class Sample, class Message>
-    [[nodiscard]] bool accept(Match& match, Topic topic, const Sample& sample, Message& message);
+    [[nodiscard]] bool is_valid(const Match& match, Topic topic, const Sample& sample, Message& message);
+    // The sample counts, and wakes a forgotten match: false when that was refused.
+    [[nodiscard]] bool accept(Match& match, Topic topic);
+    // A valid pose frame of the participant that owns the match, or may take it now.
+    [[nodiscard]] bool is_of_owner(Match& match, const dds_sample_info_t& info);
     void take_poses(Match& match);
     void take_events(Match& match);
     void take_requests(Match& match);
+    void request_found(Match& match, WriterHandle writer);
+    void request_lost(Match& match, const std::string& observer_id, const dds_sample_info_t& info);
+    void pass_on(Match& match, const director::ObserverRequest& request);
+    void put_into_effect(const RequestOwners::Outcome& outcome, Match& match);
+    void notice_unmatched_requests(Match& match);
+    void take_cameras(Match& match);
+    void take_signs(Match& match);
+    void warn_of_namesake(const std::string& match_id);
 
     void match_info_found(const camera_director_MatchInfo& sample, const dds_sample_info_t& info);
-    void match_info_lost(const std::string& match_id, const dds_sample_info_t& info);
+    void match_info_lost(const camera_director_MatchInfo& key, const dds_sample_info_t& info);
+    void notice_unmatched();
+    void put_into_effect(Ownership::Change change, const std::string& match_id);
+    void begin_anew(Match& match);
+    [[nodiscard]] bool may_open_match(const SenderId& sender) const;
     // Returns false after logging why its endpoints could not be created.
     [[nodiscard]] bool add_match(const std::string& match_id);
     [[nodiscard]] Result<void> open_match(const std::string& match_id);
@@ -87,13 +123,13 @@ class Subscriber {
     void remove_forgotten();
     void cancel_forget(const std::string& match_id);
     [[nodiscard]] bool reintroduce(Match& match);
-    [[nodiscard]] bool written_in(const dds_sample_info_t& info, const std::string& partition) const;
 
     const Participant& participant_;
     const Options options_;
     MatchTable& table_;
     WireCounters& counters_;
     std::array<std::array<LogLimit, validation_error_names.size()>, topic_count> drop_logs_{};
+    LogLimit namesake_log_;
     director::Ingress* ingress_ = nullptr;
 
     Entity match_info_subscriber_;
@@ -103,18 +139,24 @@ class Subscriber {
     std::atomic<bool> stopping_{false};
     std::mutex forgotten_mutex_;
     std::vector<std::string> forgotten_;
+    std::atomic<Clock::time_point> next_assertion_{Clock::time_point::max()};  // max: the thread does not run
     std::thread thread_;
 
     // Used by the thread only.
     std::unordered_map<std::string, std::unique_ptr<Match>> matches_;
+    Clock::time_point listened_{};                                // to all who send
+    Clock::time_point next_decision_ = Clock::time_point::max();  // when matches may change hands
     std::vector<dds_attach_t> triggered_;
     TakeBuffer<camera_director_MatchInfo> match_info_samples_;
     TakeBuffer<camera_director_PoseFrame> pose_samples_;
     TakeBuffer<camera_director_MatchEvent> event_samples_;
     TakeBuffer<camera_director_ObserverRequest> request_samples_;
+    TakeBuffer<camera_director_CameraFrame> camera_samples_;
+    TakeBuffer<camera_director_DirectorSign> sign_samples_;
     director::PoseFrame pose_frame_;
     director::MatchEvent match_event_;
     director::ObserverRequest observer_request_;
+    director::CameraFrame shown_;
 };
 
 }  // namespace camdir::dds

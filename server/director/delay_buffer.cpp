@@ -14,6 +14,7 @@ namespace {
 constexpr std::int64_t retained_ns = 1'000'000'000;  // of what has left, for those who look ahead late
 constexpr std::int64_t max_paced_ns = 250'000'000;
 constexpr std::int64_t max_jitter_ns = 100'000'000;  // more is a stall, or a step of the sender's clock
+constexpr std::int64_t max_stall_ns = 10'000'000'000;
 // The clocks of sender and director drift apart by less than a millisecond meanwhile.
 constexpr std::int64_t stretch_ns = 5'000'000'000;
 constexpr double longest_pace_s = 0.25;  // a longer step of the game's clock is a pause or a jump
@@ -23,6 +24,11 @@ constexpr std::size_t bytes_of_name = 96;  // a player's name and class
 std::size_t bytes_of(const Message& message) {
     const auto* info = std::get_if<MatchInfo>(&message);
     return info == nullptr ? 0 : info->players.size() * (sizeof(Player) + bytes_of_name);
+}
+
+// Clocks are arbitrary: modulo 2^64.
+std::int64_t difference(std::int64_t a, std::int64_t b) {
+    return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) - static_cast<std::uint64_t>(b));
 }
 
 std::string seconds_text(double seconds) {
@@ -66,6 +72,7 @@ bool DelayBuffer::update(bool new_epoch, std::int64_t now) {
 
 bool DelayBuffer::refuse(std::string reason) {
     first_ += entries_.size();
+    near_ = first_;
     entries_.clear();
     released_ = 0;
     bytes_ = 0;
@@ -82,6 +89,7 @@ void DelayBuffer::hold_back(std::int64_t now) {
         entries_[i].due = std::max(entries_[i].due, entries_[i].received + delay_ns_);
         last_due_ = std::max(last_due_, entries_[i].due);
     }
+    near_ = first_ + released_;
     resumes_at_ = released_ < entries_.size() ? entries_[released_].due : now + delay_ns_;
 }
 
@@ -111,14 +119,20 @@ DelayBuffer::Admission DelayBuffer::put(const PoseFrame& frame, std::int64_t now
     return admission;
 }
 
-// When it would have been received if it had been as fast as the fastest. Clocks are arbitrary: differences
-// are taken modulo 2^64.
+// Whether the game has gone on, and the sender's clock with it since the stretch began.
+bool DelayBuffer::goes_on(const PoseFrame& frame) const {
+    if (!clock_offset_ || frame.epoch != last_frame_epoch_) return false;
+    const std::int64_t apart = difference(difference(frame.source_time, frame.frame_time), *clock_offset_);
+    return difference(frame.frame_time, last_frame_time_) > 0 && apart <= max_jitter_ns &&
+           apart >= -max_jitter_ns;
+}
+
+// When it would have been received if it had been as fast as the fastest.
 std::int64_t DelayBuffer::punctual_receipt(const PoseFrame& frame, std::int64_t now) {
     if (frame.source_time == 0) return now;
-    const auto difference = [](std::int64_t a, std::int64_t b) {
-        return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) - static_cast<std::uint64_t>(b));
-    };
     const std::int64_t on_its_way = difference(now, frame.source_time);
+    const bool continues = goes_on(frame);
+    if (!continues || now >= stretch_ends_) clock_offset_ = difference(frame.source_time, frame.frame_time);
     if (now >= stretch_ends_) {
         fastest_before_ = now < stretch_ends_ + stretch_ns ? fastest_ : never;
         fastest_ = never;
@@ -126,9 +140,10 @@ std::int64_t DelayBuffer::punctual_receipt(const PoseFrame& frame, std::int64_t 
     }
     const std::int64_t fastest = std::min(fastest_, fastest_before_);
     const std::int64_t longer = fastest == never ? 0 : difference(on_its_way, fastest);
-    if (longer > max_jitter_ns || longer < -max_jitter_ns) fastest_ = fastest_before_ = never;
+    const std::int64_t most = continues ? max_stall_ns : max_jitter_ns;
+    if (longer > most || longer < -max_jitter_ns) fastest_ = fastest_before_ = never;
     fastest_ = std::min(fastest_, on_its_way);
-    return now - (longer <= max_jitter_ns ? std::max<std::int64_t>(longer, 0) : 0);
+    return now - (longer <= most ? std::max<std::int64_t>(longer, 0) : 0);
 }
 
 std::int64_t DelayBuffer::due_of(const PoseFrame& frame, std::int64_t received) const {
@@ -162,20 +177,35 @@ DelayBuffer::Released DelayBuffer::release(std::int64_t now, Inbox& inbox) {
     Released released;
     for (; released_ < entries_.size() && entries_[released_].due <= now; ++released_) {
         Entry& entry = entries_[released_];
-        if (const auto* frame = std::get_if<PoseFrame>(&entry.item))
+        if (const auto* frame = std::get_if<PoseFrame>(&entry.item)) {
             inbox.put(*frame, entry.due);
-        else
+            last_left_ = frame->frame_time;
+        } else {
             inbox.put(std::move(std::get<Message>(entry.item)));
+        }
         released.any = true;
     }
+    near_ = std::max(near_, first_ + released_);
+    const std::uint64_t end = first_ + entries_.size();
+    for (; near_ < end && entries_[near_ - first_].due <= now + lead_ns; ++near_)
+        released.any = true;
     while (released_ > 0 && entries_.front().due < now - retained_ns) {
         bytes_ -= entries_.front().bytes;
         entries_.pop_front();
         ++first_;
         --released_;
     }
-    if (released_ < entries_.size()) released.next_due = entries_[released_].due;
+    if (released_ < entries_.size()) released.next = entries_[released_].due;
+    if (near_ < end) released.next = std::min(released.next, entries_[near_ - first_].due - lead_ns);
     return released;
+}
+
+std::optional<DelayBuffer::Upcoming> DelayBuffer::upcoming() const {
+    const std::lock_guard lock(mutex_);
+    for (std::uint64_t next = first_ + released_; next < near_; ++next)
+        if (const auto* frame = std::get_if<PoseFrame>(&entries_[next - first_].item))
+            return Upcoming{frame->epoch, frame->frame_time, last_left_};
+    return std::nullopt;
 }
 
 bool DelayBuffer::waits() const {

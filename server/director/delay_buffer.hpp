@@ -6,6 +6,7 @@
 #include <deque>
 #include <limits>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <variant>
 
@@ -17,8 +18,9 @@ namespace camdir::director {
 inline constexpr double max_delay_s = 120.0;
 
 // Everything leaves in the order of its receipt, at least the delay after its receipt. A pose frame that was
-// up to 0.1 s longer on its way than the fastest of the last seconds, by its sender's clock, leaves as if it
-// had been as fast: the delay has time to take out what the network and schedulers add. Pose frames that
+// longer on its way than the fastest of the last seconds, by its sender's clock, leaves as if it had been as
+// fast: the delay has time to take out what the network and schedulers add, up to 0.1 s, and up to 10 s of a
+// stall in which neither the sender's clock nor the game's has stepped. Pose frames that
 // arrived in a burst leave at most a ninth faster than the game's clock ran between them, and for that at
 // most 0.25 s late. The delay is the greater of the match's own and the operator's. It may grow at any time:
 // what waits then waits on. A smaller one takes effect with the next epoch: nothing is shown earlier than was
@@ -28,6 +30,8 @@ inline constexpr double max_delay_s = 120.0;
 class DelayBuffer {
   public:
     static constexpr std::int64_t never = std::numeric_limits<std::int64_t>::max();
+    // How long before a pose frame is due its cameras can be prepared.
+    static constexpr std::int64_t lead_ns = 10'000'000;
 
     explicit DelayBuffer(std::size_t max_bytes) : max_bytes_(max_bytes) {}
 
@@ -49,11 +53,19 @@ class DelayBuffer {
     [[nodiscard]] Admission put(const PoseFrame& frame, std::int64_t now);
 
     struct Released {
-        bool any = false;
-        std::int64_t next_due = never;
+        bool any = false;           // something has left, or has come within lead_ns of being due
+        std::int64_t next = never;  // when there is more
     };
     // Passes on what is due by `now`; pose frames with the time at which they were due.
     Released release(std::int64_t now, Inbox& inbox);
+
+    struct Upcoming {
+        std::uint64_t epoch = 0;
+        std::int64_t frame_time = 0;
+        std::int64_t after = 0;  // the frame_time of the pose frame that has left before
+    };
+    // The next pose frame to leave, when it is within lead_ns of that as of the last release().
+    [[nodiscard]] std::optional<Upcoming> upcoming() const;
 
     // Calls add(frame) for the pose frames after position `next`, also those not due yet and those of the
     // last second, in order, until one returns false. `next` becomes the position of that one. Returns false
@@ -96,6 +108,7 @@ class DelayBuffer {
     void hold_back(std::int64_t now);
     Admission keep(Item item, std::size_t bytes, std::int64_t due, std::int64_t received);
     [[nodiscard]] bool passes() const { return delay_ns_ == 0 && released_ == entries_.size(); }
+    [[nodiscard]] bool goes_on(const PoseFrame& frame) const;
     [[nodiscard]] std::int64_t punctual_receipt(const PoseFrame& frame, std::int64_t now);
     [[nodiscard]] std::int64_t due_of(const PoseFrame& frame, std::int64_t received) const;
     [[nodiscard]] double wanted_s() const { return std::max(announced_s_, minimum_s_); }
@@ -114,11 +127,14 @@ class DelayBuffer {
     std::deque<Entry> entries_;
     std::uint64_t first_ = 0;   // position of entries_.front()
     std::size_t released_ = 0;  // entries before this one have left; kept for a second
+    std::uint64_t near_ = 0;    // position of the first that is not within lead_ns of being due
     std::size_t bytes_ = 0;
     // Times on the way from the sender, by two clocks: of this stretch of time and the one before.
     std::int64_t fastest_ = never;
     std::int64_t fastest_before_ = never;
     std::int64_t stretch_ends_ = 0;
+    std::optional<std::int64_t> clock_offset_;  // of the sender's clock from the game's, as the stretch began
+    std::int64_t last_left_ = 0;                // frame_time
     std::int64_t last_due_ = 0;
     std::int64_t last_frame_due_ = 0;  // 0: no frame yet
     std::uint64_t last_frame_epoch_ = 0;

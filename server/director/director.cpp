@@ -174,7 +174,7 @@ void Director::Impl::run_housekeeping(const std::stop_token& stop) {
     }
 }
 
-// Returns when the next is due, of what waits now.
+// Returns when there is more to do, with what waits now.
 std::int64_t Director::Impl::release_due() {
     std::int64_t next = DelayBuffer::never;
     const std::shared_lock lock(mutex);
@@ -182,7 +182,7 @@ std::int64_t Director::Impl::release_due() {
     for (auto& [match_id, entry] : matches) {
         const DelayBuffer::Released released = entry.match->delay().release(now, entry.match->inbox());
         if (released.any) pool.schedule(*entry.match);
-        next = std::min(next, released.next_due);
+        next = std::min(next, released.next);
     }
     return next;
 }
@@ -294,6 +294,14 @@ void Director::request_ended(const std::string& match_id, const std::string& obs
     impl_->post_to(match_id, RequestEnded{observer_id});
 }
 
+void Director::follow(const std::string& match_id, const CameraFrame& shown) {
+    const std::shared_lock lock(impl_->mutex);
+    Match* match = impl_->find(match_id);
+    if (match == nullptr) return;
+    match->inbox().put(shown);
+    impl_->pool.schedule(*match);
+}
+
 void Director::maps_changed() {
     const std::shared_lock lock(impl_->mutex);
     if (!impl_->accepting) return;
@@ -352,6 +360,11 @@ View Director::view(std::chrono::milliseconds timeout) const {
         }
     }
     return view;
+}
+
+std::chrono::nanoseconds Director::silence_limit(const MatchInfo& info) const {
+    const std::shared_lock lock(impl_->mutex);
+    return std::chrono::nanoseconds(silence_limit_ns(info, impl_->config->matches));
 }
 
 bool Director::responsive(std::chrono::milliseconds limit) const {

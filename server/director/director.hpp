@@ -14,8 +14,9 @@
 namespace camdir::director {
 
 // Takes messages in, delays what game servers send (delay_buffer.hpp), runs the trackers on a pool of workers
-// (one strand per match, the newest pose frame wins) and passes results to the publisher. All members are
-// thread-safe. The Ingress calls never wait for a tracker. `maps` and `publisher` must outlive the director.
+// (one strand per match, the newest pose frame wins; for a delayed frame shortly before it is due) and passes
+// results to the publisher. All members are thread-safe. The Ingress calls never wait for a tracker. `maps`
+// and `publisher` must outlive the director.
 class Director final : public Ingress {
   public:
     Director(const config::Config& config, const MapLibrary& maps, Publisher& publisher);
@@ -29,6 +30,8 @@ class Director final : public Ingress {
     void receive(const std::string& match_id, const MatchEvent& event) override;
     void receive(const ObserverRequest& request) override;
     void request_ended(const std::string& match_id, const std::string& observer_id) override;
+    void follow(const std::string& match_id, const CameraFrame& shown) override;
+    [[nodiscard]] std::chrono::nanoseconds silence_limit(const MatchInfo& info) const override;
     [[nodiscard]] bool responsive(std::chrono::milliseconds limit) const override;
 
     // To be called after the map library changed: shots on its maps begin or end.

@@ -57,9 +57,16 @@ void Inbox::put(const PoseFrame& frame, std::int64_t received_ns) {
     waiting_.received_ns = received_ns;
 }
 
+void Inbox::put(const CameraFrame& shown) {
+    const std::lock_guard lock(mutex_);
+    waiting_.shown = shown;
+    waiting_.has_shown = true;
+}
+
 void Inbox::take(Content& content) {
     content.messages.clear();
     content.has_frame = false;
+    content.has_shown = false;
     const std::lock_guard lock(mutex_);
     std::swap(content, waiting_);
     events_ = 0;

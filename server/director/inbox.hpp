@@ -53,12 +53,17 @@ class Inbox {
     // the same epoch, so that no respawn is lost: not every game server counts them (see Continuity).
     void put(const PoseFrame& frame, std::int64_t received_ns);
 
+    // Replaces an earlier one that no worker has taken.
+    void put(const CameraFrame& shown);
+
     struct Content {
         std::vector<Message> messages;
         bool has_frame = false;
         PoseFrame frame;
         std::size_t messages_before_frame = 0;
         std::int64_t received_ns = 0;  // steady clock; of a delayed frame: when it was due
+        bool has_shown = false;
+        CameraFrame shown;  // by the director that leads the match
     };
 
     // Moves everything that waits into `content`, whose memory is reused.

@@ -29,12 +29,6 @@ std::string joined(const std::vector<std::string>& names) {
     return list.empty() ? "none" : list;
 }
 
-std::int64_t silence_after_ns(const MatchInfo& info, const config::Matches& rules) {
-    const double rate = std::isfinite(info.rate_hz) && info.rate_hz > 0.0F ? info.rate_hz : default_rate_hz;
-    return static_cast<std::int64_t>(std::min(static_cast<double>(rules.silence_frames) / rate, 86400.0) *
-                                     1e9);
-}
-
 std::time_t utc_second_after(std::int64_t ns) {
     const auto then = std::chrono::system_clock::now() + std::chrono::nanoseconds(ns);
     return std::chrono::system_clock::to_time_t(std::chrono::ceil<std::chrono::seconds>(then));
@@ -47,6 +41,12 @@ std::int64_t latest_event_time(std::int64_t frame_time) {
 }
 
 }  // namespace
+
+std::int64_t silence_limit_ns(const MatchInfo& info, const config::Matches& rules) {
+    const double rate = std::isfinite(info.rate_hz) && info.rate_hz > 0.0F ? info.rate_hz : default_rate_hz;
+    return static_cast<std::int64_t>(std::min(static_cast<double>(rules.silence_frames) / rate, 86400.0) *
+                                     1e9);
+}
 
 Match::Match(std::string match_id, std::shared_ptr<const config::Config> config, const MapLibrary& maps,
              Publisher& publisher)
@@ -65,10 +65,15 @@ Match::Match(std::string match_id, std::shared_ptr<const config::Config> config,
 void Match::turn(Turn& turn) noexcept {  // NOLINT(bugprone-exception-escape)
     inbox_.take(content_);
     const std::span messages(content_.messages);
-    if (!content_.has_frame) return handle_all(messages);
-    handle_all(messages.first(content_.messages_before_frame));
-    process(content_.frame, content_.received_ns, turn);
-    handle_all(messages.subspan(content_.messages_before_frame));
+    if (content_.has_frame) {
+        handle_all(messages.first(content_.messages_before_frame));
+        process(content_.frame, content_.received_ns, turn);
+        handle_all(messages.subspan(content_.messages_before_frame));
+    } else {
+        handle_all(messages);
+    }
+    follow();
+    prepare(turn);
 }
 
 void Match::handle_all(std::span<Message> messages) {
@@ -82,7 +87,7 @@ void Match::handle(MatchInfo& info) {
     if (info_ && info.epoch < info_->epoch) return counters_.add(Counter::drop_old_epoch);
     const bool new_epoch = !info_ || info.epoch != info_->epoch || info.map_name != info_->map_name;
     info_ = std::move(info);
-    silence_limit_ns_ = silence_after_ns(*info_, config_->matches);
+    silence_limit_ns_ = silence_limit_ns(*info_, config_->matches);
     if (new_epoch) begin_epoch();
     if (liveness_ == Liveness::lost) liveness_ = Liveness::silent;
     roster_.set_listed(info_->players);
@@ -182,7 +187,7 @@ void Match::handle(const DelayChanged& /*changed*/) {
 
 void Match::handle(const Reconfigured& changed) {
     config_ = changed.config;
-    if (info_) silence_limit_ns_ = silence_after_ns(*info_, config_->matches);
+    if (info_) silence_limit_ns_ = silence_limit_ns(*info_, config_->matches);
     requests_.resolve_again(*config_);
     reconcile_needed_ = true;
 }
@@ -194,8 +199,8 @@ void Match::attach_map() {
     const auto entry = maps_.find(info_->map_name);
     if (!entry) return wait_for_map(named + " is not configured; known: " + joined(maps_.names()));
     if (!entry->freespace)
-        return wait_for_map(named + (entry->state == LoadState::failed ? " failed: " : " is loading: ") +
-                            entry->reason);
+        return wait_for_map(named + (entry->state == LoadState::failed ? " failed" : " is loading") +
+                            (entry->reason.empty() ? "" : ": " + entry->reason));
     check_map_hash(*entry);
     missing_map_.clear();
     if (freespace_ && entry->generation == map_generation_) return;

@@ -1,7 +1,9 @@
 // One match: processes its messages and pose frames on its strand.
 #pragma once
 
+#include <array>
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -21,6 +23,9 @@
 #include "director/worker_pool.hpp"
 
 namespace camdir::director {
+
+// The time without poses after which a match is silent: matches.silence_frames at its rate, at most a day.
+[[nodiscard]] std::int64_t silence_limit_ns(const MatchInfo& info, const config::Matches& rules);
 
 // Public members may be called from any thread.
 class Match final : public Strand {
@@ -77,21 +82,40 @@ class Match final : public Strand {
     [[nodiscard]] std::uint64_t epoch() const;
     [[nodiscard]] std::string waiting_for_delay(const DelayBuffer::State& delay) const;
 
+    void follow();
+    struct Disagreement {
+        const ShotCamera &own, &shown;  // at the same pose
+    };
+    void follow(const Disagreement& disagreement);
+    void remember_own();
+    [[nodiscard]] std::span<const CameraFrame> own_frames() const;
+    [[nodiscard]] const CameraFrame* own_frame(const CameraFrame& shown) const;
+    [[nodiscard]] bool has_cut_since(const CameraFrame& shown, std::uint32_t camera_id) const;
+
     void process(PoseFrame& frame, std::int64_t received_ns, Turn& turn);
     [[nodiscard]] bool accept(const PoseFrame& frame);
     void mark_discontinuities(PoseFrame& frame);
     void record(const PoseFrame& frame);
+    bool extend_timeline(std::uint64_t epoch, std::int64_t frame_time);
     [[nodiscard]] bool foresee(const PoseFrame& frame);
+    // Makes the steps of the next frame, whose poses wait, so that its cameras leave when it is due.
+    void prepare(Turn& turn);
+    void prepare_step(Shot& shot, double time, camera::Scratch& scratch);
     void move_cameras(const PoseFrame& frame, double dt, Turn& turn);
+    // Calls move(i, scratch) for every i below `count`, also on workers that are idle.
+    void share_shots(Turn& turn, std::size_t count,
+                     const std::function<void(std::size_t, camera::Scratch&)>& move);
     void choose_target(Shot& shot, const PoseFrame& frame);
     // Shots move at the same time: it changes nothing of the match but the shot, the scratch and the
     // counters.
     [[nodiscard]] ShotCamera move_camera(Shot& shot, double dt, camera::Scratch& scratch);
     // `seen`: the player's pose in this frame, null when there is none.
     [[nodiscard]] camera::Camera step_by_pose(Shot& shot, const PlayerPose* seen, double dt,
-                                              camera::Scratch& scratch) const;
+                                              camera::Scratch& scratch);
     [[nodiscard]] camera::Camera step_by_timeline(Shot& shot, const PlayerPose* seen,
-                                                  camera::Scratch& scratch) const;
+                                                  camera::Scratch& scratch);
+    [[nodiscard]] camera::Camera step_to(double time, const Shot& shot, camera::ShotState& state,
+                                         camera::Scratch& scratch);
 
     const std::string match_id_;
     const MapLibrary& maps_;
@@ -134,6 +158,11 @@ class Match final : public Strand {
     bool by_timeline_ = false;    // the cameras move over the timeline
     std::uint32_t next_camera_frame_ = 0;
     CameraFrame cameras_;
+    std::vector<Shot*> unprepared_;           // during prepare()
+    CameraFrame followed_, followed_before_;  // the last two of the director that leads
+    bool is_followed_ = true;                 // the last one has had its effect
+    std::array<CameraFrame, 4> own_frames_;   // the last ones, since a shot has followed
+    std::size_t own_frame_count_ = 0;         // since then
 };
 
 }  // namespace camdir::director

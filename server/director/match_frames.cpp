@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 #include "director/clock.hpp"
 #include "director/match.hpp"
@@ -14,12 +15,26 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double max_ahead_s = 2.5;       // that the planner uses
 constexpr double arrival_jitter_s = 0.1;  // of poses
+constexpr double lead_s = 1e-9 * static_cast<double>(DelayBuffer::lead_ns);
 constexpr double first_step_s = 1.0 / 60.0;
 constexpr std::size_t shots_per_worker = 8;  // fewer are not worth waking another worker for
 
 std::int64_t ns(Clock::duration duration) {
     return duration / std::chrono::nanoseconds(1);
 }
+
+// Counts how long it lives.
+class Timed {
+  public:
+    explicit Timed(DurationCounter& counter) : counter_(counter) {}
+    Timed(const Timed&) = delete;
+    Timed& operator=(const Timed&) = delete;
+    ~Timed() { counter_.add(ns(Clock::now() - begun_)); }
+
+  private:
+    DurationCounter& counter_;
+    Clock::time_point begun_ = Clock::now();
+};
 
 camera::Pose tracker_pose(const PlayerPose& pose, bool gap) {
     return {pose.eye, pose.orientation, pose.velocity, (pose.flags & pose_alive) != 0,
@@ -47,6 +62,7 @@ void Match::process(PoseFrame& frame, std::int64_t received_ns, Turn& turn) {
     if (!requests_.shots().empty()) {
         move_cameras(frame, dt, turn);
         publisher_.publish(match_id_, cameras_);
+        remember_own();
         counters_.latency.add(ns(Clock::now().time_since_epoch()) - received_ns);
     }
     after_silence_ = false;
@@ -90,21 +106,26 @@ void Match::record(const PoseFrame& frame) {
 }
 
 // Enters into the timeline what the delay lets be known at this frame; false when it holds nothing. What has
-// surely arrived by now is all that counts: the same poses give the same cameras, however punctual.
-bool Match::foresee(const PoseFrame& frame) {
-    const double ahead = std::clamp(delay_.state().delay_s - arrival_jitter_s, 0.0, max_ahead_s);
+// surely arrived when the frame is prepared is all that counts: the same poses give the same cameras, however
+// punctual.
+bool Match::extend_timeline(std::uint64_t epoch, std::int64_t frame_time) {
+    const double ahead = std::clamp(delay_.state().delay_s - arrival_jitter_s - lead_s, 0.0, max_ahead_s);
     const auto add = [&](const PoseFrame& later) {
-        if (later.epoch != frame.epoch) return later.epoch < frame.epoch;
+        if (later.epoch != epoch) return later.epoch < epoch;
         // A timeline begins with this frame or an earlier one.
         const double reach = timeline_.empty() ? 0.0 : ahead;
-        if (seconds_between(frame.frame_time, later.frame_time) > reach) return false;
+        if (seconds_between(frame_time, later.frame_time) > reach) return false;
         return timeline_.add(later, tracked(later, config_->limits));
     };
-    if (!delay_.look_ahead(foreseen_, add)) return false;
+    return delay_.look_ahead(foreseen_, add);
+}
+
+bool Match::foresee(const PoseFrame& frame) {
+    if (!extend_timeline(frame.epoch, frame.frame_time)) return false;
     if (!timeline_.covers(frame.frame_time)) {  // the game's clock has jumped
         if (!timeline_.empty()) requests_.restart_shots();
         timeline_.clear();
-        delay_.look_ahead(foreseen_, add);
+        extend_timeline(frame.epoch, frame.frame_time);
     }
     if (!timeline_.covers(frame.frame_time)) return false;
     timeline_.show(frame.frame_time);
@@ -122,15 +143,49 @@ void Match::move_cameras(const PoseFrame& frame, double dt, Turn& turn) {
     for (Shot& shot : shots)
         choose_target(shot, frame);
     cameras_.cameras.resize(shots.size());
-    scratch_.resize(turn.lanes());
-    turn.share(shots.size(), shots_per_worker, [&](std::size_t lane, std::size_t i) {
-        if (!scratch_[lane]) scratch_[lane] = std::make_unique<camera::Scratch>(*freespace_);
-        const auto before = Clock::now();
-        cameras_.cameras[i] = move_camera(shots[i], dt, *scratch_[lane]);
-        counters_.step.add(ns(Clock::now() - before));
+    share_shots(turn, shots.size(), [&](std::size_t i, camera::Scratch& scratch) {
+        cameras_.cameras[i] = move_camera(shots[i], dt, scratch);
     });
     counters_.add(Counter::camera_frames);
     counters_.add(Counter::cameras, cameras_.cameras.size());
+}
+
+void Match::share_shots(Turn& turn, std::size_t count,
+                        const std::function<void(std::size_t, camera::Scratch&)>& move) {
+    scratch_.resize(turn.lanes());
+    turn.share(count, shots_per_worker, [&](std::size_t lane, std::size_t i) {
+        if (!scratch_[lane]) scratch_[lane] = std::make_unique<camera::Scratch>(*freespace_);
+        move(i, *scratch_[lane]);
+    });
+}
+
+void Match::prepare(Turn& turn) {
+    if (!by_timeline_ || !freespace_) return;
+    const auto next = delay_.upcoming();
+    if (!next || next->epoch != info_->epoch || next->after != last_time_) return;
+    if (content_.has_frame) return turn.again();  // frames of other matches that are due go first
+    extend_timeline(next->epoch, next->frame_time);
+    const double time = timeline_.seconds(next->frame_time);
+    if (!timeline_.covers(next->frame_time) || time <= timeline_.shown()) return;
+    unprepared_.clear();
+    for (Shot& shot : requests_.shots())
+        if (shot.target != no_player && !(shot.is_prepared && shot.prepared->time == time))
+            unprepared_.push_back(&shot);
+    // In more turns than one where a worker would be busy for long: what is due waits for it.
+    const std::size_t count = std::min(unprepared_.size(), shots_per_worker * turn.workers());
+    share_shots(turn, count, [&](std::size_t i, camera::Scratch& scratch) {
+        prepare_step(*unprepared_[i], time, scratch);
+    });
+    if (count < unprepared_.size()) turn.again();
+}
+
+void Match::prepare_step(Shot& shot, double time, camera::Scratch& scratch) {
+    if (!shot.prepared) shot.prepared = std::make_unique<PreparedStep>();
+    PreparedStep& step = *shot.prepared;
+    step.time = time;
+    step.state = shot.state;
+    step.camera = step_to(time, shot, step.state, scratch);
+    shot.is_prepared = true;
 }
 
 void Match::choose_target(Shot& shot, const PoseFrame& frame) {
@@ -157,18 +212,26 @@ ShotCamera Match::move_camera(Shot& shot, double dt, camera::Scratch& scratch) {
             camera.vertical_fov, camera.clearance, camera.flags};
 }
 
-camera::Camera Match::step_by_pose(Shot& shot, const PlayerPose* seen, double dt,
-                                   camera::Scratch& scratch) const {
+camera::Camera Match::step_by_pose(Shot& shot, const PlayerPose* seen, double dt, camera::Scratch& scratch) {
+    const Timed timed(counters_.step);
     const camera::Pose pose = seen != nullptr ? tracker_pose(*seen, after_silence_) : camera::Pose{};
     return camera::step(*freespace_, shot.profile, seen != nullptr ? &pose : nullptr, dt, shot.state,
                         scratch);
 }
 
-camera::Camera Match::step_by_timeline(Shot& shot, const PlayerPose* seen, camera::Scratch& scratch) const {
+camera::Camera Match::step_by_timeline(Shot& shot, const PlayerPose* seen, camera::Scratch& scratch) {
     if (after_silence_ && seen != nullptr) shot.restart();
-    if (!shot.state.started) shot.state.time = timeline_.shown() - first_step_s;
-    return camera::step(*freespace_, shot.profile, timeline_.window(shot.target), timeline_.shown(),
-                        shot.state, scratch);
+    const bool prepared = std::exchange(shot.is_prepared, false) && shot.prepared->time == timeline_.shown();
+    if (!prepared) return step_to(timeline_.shown(), shot, shot.state, scratch);
+    shot.state = shot.prepared->state;
+    return shot.prepared->camera;
+}
+
+camera::Camera Match::step_to(double time, const Shot& shot, camera::ShotState& state,
+                              camera::Scratch& scratch) {
+    const Timed timed(counters_.step);
+    if (!state.started) state.time = time - first_step_s;
+    return camera::step(*freespace_, shot.profile, timeline_.window(shot.target), time, state, scratch);
 }
 
 }  // namespace camdir::director

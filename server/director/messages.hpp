@@ -102,7 +102,7 @@ struct ShotCamera {
 
 struct CameraFrame {
     std::uint64_t epoch = 0;
-    std::uint32_t frame_number = 0;
+    std::uint32_t frame_number = 0;  // on the wire it goes on from a leader's
     std::uint32_t pose_number = 0;
     std::int64_t frame_time = 0;
     std::int64_t source_time = 0;

@@ -30,8 +30,13 @@ class Ingress {
     virtual void receive(const ObserverRequest& request) = 0;  // new or changed; may precede its match
     // The observer withdrew its request, or its liveliness is lost.
     virtual void request_ended(const std::string& match_id, const std::string& observer_id) = 0;
-    // False when a worker has been busy with one turn for longer than `limit`: such a director must give way
-    // to its standby.
+    // What the director that leads the match has published, while this one stands by: its shots go on from
+    // there.
+    virtual void follow(const std::string& match_id, const CameraFrame& shown) = 0;
+    // Without poses for this long the match is silent.
+    [[nodiscard]] virtual std::chrono::nanoseconds silence_limit(const MatchInfo& info) const = 0;
+    // False when a worker has been busy with one turn for longer than `limit`, or none was free for one: such
+    // a director must give way to its standby.
     [[nodiscard]] virtual bool responsive(std::chrono::milliseconds limit) const = 0;
 };
 

@@ -97,6 +97,8 @@ void Requests::remove(const std::string& observer_id) {
 void Requests::resolve_again(const config::Config& config) {
     for (auto& [id, observer] : observers_)
         resolve(observer, config);
+    for (Shot& shot : shots_)
+        shot.is_prepared = false;  // its profile may change
 }
 
 void Requests::resolve(Observer& observer, const config::Config& config) {

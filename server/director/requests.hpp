@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,13 @@ struct ShotKey {
     bool operator==(const ShotKey&) const = default;
 };
 
+// A step that was made before it was due.
+struct PreparedStep {
+    double time = 0.0;  // of the timeline
+    camera::ShotState state;
+    camera::Camera camera;
+};
+
 struct Shot {
     ShotKey key;
     std::uint32_t camera_id = 0;
@@ -34,11 +42,15 @@ struct Shot {
     std::uint32_t target = no_player;  // the player followed now
     std::uint64_t observers = 0;
     std::uint32_t flags = 0;  // of the last camera
+    // Follows from `state`, `target` and `profile` as they are; its memory is kept.
+    bool is_prepared = false;
+    std::unique_ptr<PreparedStep> prepared;
 
     // Begins again, with a cut.
     void restart() {
         state = {};
         state.plan.phase = camera_id;
+        is_prepared = false;
     }
 };
 

@@ -29,12 +29,11 @@ class Timeline {
     void show(std::int64_t frame_time);
 
     [[nodiscard]] double shown() const { return shown_; }
+    [[nodiscard]] double seconds(std::int64_t frame_time) const;
     // Valid until the next add(), show() or clear().
     [[nodiscard]] camera::Window window(std::uint32_t player) const;
 
   private:
-    [[nodiscard]] double seconds(std::int64_t frame_time) const;
-
     bool empty_ = true;
     std::int64_t start_ = 0;
     double newest_ = 0.0;

@@ -19,7 +19,7 @@ constexpr std::size_t word_bits = 64;
 
 // A POSIX semaphore: libstdc++ 12's std::counting_semaphore can miss a wake-up.
 WorkerPool::WorkerPool(std::size_t workers, std::size_t capacity)
-    : slots_(capacity, nullptr), ready_((capacity + word_bits - 1) / word_bits) {
+    : slots_(capacity, nullptr), ready_((capacity + word_bits - 1) / word_bits), ready_since_ns_(capacity) {
     assert(workers > 0 && capacity > 0);
     [[maybe_unused]] const int failed = ::sem_init(&work_available_, 0, 0);
     assert(failed == 0);
@@ -72,7 +72,9 @@ void WorkerPool::schedule(Strand& strand) {
 }
 
 void WorkerPool::mark_ready(std::size_t slot) {
-    ready_[slot / word_bits].fetch_or(std::uint64_t{1} << slot % word_bits, std::memory_order_release);
+    ready_since_ns_[slot].store(now_ns(),
+                                std::memory_order_relaxed);  // before the bit: whoever sees it, sees this
+    ready_[slot / word_bits].fetch_or(std::uint64_t{1} << slot % word_bits);
     ::sem_post(&work_available_);
 }
 
@@ -86,6 +88,7 @@ void WorkerPool::work(Worker& worker) {
         } else {
             Strand* strand = claim();
             if (strand == nullptr) break;
+            claimed_ns_.store(now_ns(), std::memory_order_relaxed);
             run(worker, *strand);
         }
         worker.began_ns.store(0, std::memory_order_relaxed);
@@ -121,7 +124,7 @@ void Turn::share(std::size_t count, std::size_t share, const SharedWork::Item& i
 void WorkerPool::run(Worker& worker, Strand& strand) {
     const std::size_t slot = strand.slot_;
     const std::uint32_t seen = strand.pending_.load(std::memory_order_acquire);
-    Turn turn(*this, worker);
+    Turn turn(*this, worker, strand);
     strand.turn(turn);
     // As soon as nothing is pending the strand may be destroyed.
     if (strand.pending_.fetch_sub(seen, std::memory_order_acq_rel) != seen) mark_ready(slot);
@@ -156,11 +159,22 @@ Strand* WorkerPool::claim_in(std::size_t word, std::uint64_t mask) {
 }
 
 bool WorkerPool::responsive(std::chrono::nanoseconds limit) const {
-    const std::int64_t now = now_ns();
-    return std::all_of(workers_.begin(), workers_.end(), [&](const auto& worker) {
+    const std::int64_t latest = now_ns() - limit.count();
+    const bool starves = claimed_ns_.load(std::memory_order_relaxed) < latest && waits_since(latest);
+    return !starves && std::ranges::all_of(workers_, [&](const auto& worker) {
         const std::int64_t began = worker->began_ns.load(std::memory_order_relaxed);
-        return began == 0 || now - began <= limit.count();
+        return began == 0 || began >= latest;
     });
+}
+
+bool WorkerPool::waits_since(std::int64_t ns) const {
+    for (std::size_t slot = 0; slot < slots_.size(); ++slot) {
+        const std::uint64_t bit = std::uint64_t{1} << slot % word_bits;
+        if ((ready_[slot / word_bits].load() & bit) != 0 &&
+            ready_since_ns_[slot].load(std::memory_order_relaxed) < ns)
+            return true;
+    }
+    return false;
 }
 
 }  // namespace camdir::director

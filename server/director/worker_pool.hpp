@@ -28,7 +28,7 @@ class Strand {
   private:
     friend class WorkerPool;
 
-    // Processes what is pending. It may leave some of it if it schedules the strand again. An exception is a
+    // Processes what is pending. It may leave some of it for another turn that it asks for. An exception is a
     // bug and ends the process.
     virtual void turn(Turn& turn) noexcept = 0;
 
@@ -59,8 +59,8 @@ class WorkerPool {
     // Waits until the strand is idle.
     static void wait_idle(const Strand& strand);
 
-    // True when no worker has been busy with one turn, its own or others', for longer than `limit`.
-    // Thread-safe.
+    // True when no worker has been busy with one turn, its own or others', for longer than `limit`, and no
+    // turn that is due has waited so long for the next free worker. Thread-safe.
     [[nodiscard]] bool responsive(std::chrono::nanoseconds limit) const;
 
     // Joins the workers. Strands scheduled afterwards get no turn.
@@ -84,12 +84,15 @@ class WorkerPool {
     Strand* claim();
     Strand* claim_in(std::size_t word, std::uint64_t mask);
     void mark_ready(std::size_t slot);
+    [[nodiscard]] bool waits_since(std::int64_t ns) const;
 
     std::vector<Strand*> slots_;
-    std::vector<std::atomic<std::uint64_t>> ready_;  // one bit per slot
-    std::atomic<std::size_t> next_{0};               // slot at which the round continues
-    std::atomic<std::size_t> calls_{0};              // for help, not yet answered by a worker
-    sem_t work_available_;                           // one permit per ready bit and per call
+    std::vector<std::atomic<std::uint64_t>> ready_;          // one bit per slot
+    std::vector<std::atomic<std::int64_t>> ready_since_ns_;  // per slot, of its last ready bit; steady clock
+    std::atomic<std::int64_t> claimed_ns_{0};                // when a worker claimed a strand last
+    std::atomic<std::size_t> next_{0};                       // slot at which the round continues
+    std::atomic<std::size_t> calls_{0};                      // for help, not yet answered by a worker
+    sem_t work_available_;                                   // one permit per ready bit and per call
     std::atomic<bool> stopping_{false};
     std::vector<std::unique_ptr<Worker>> workers_;
 };
@@ -101,14 +104,20 @@ class Turn {
     // `share` > 0 items to do. Every lane is less than lanes().
     void share(std::size_t count, std::size_t share, const SharedWork::Item& item);
 
-    [[nodiscard]] std::size_t lanes() const { return pool_.workers_.size() + 1; }
+    [[nodiscard]] std::size_t lanes() const { return workers() + 1; }
+    [[nodiscard]] std::size_t workers() const { return pool_.workers_.size(); }
+
+    // Gives the strand another turn, after those of the strands that are due now.
+    void again() { pool_.schedule(strand_); }
 
   private:
     friend class WorkerPool;
-    Turn(WorkerPool& pool, WorkerPool::Worker& worker) : pool_(pool), worker_(worker) {}
+    Turn(WorkerPool& pool, WorkerPool::Worker& worker, Strand& strand)
+        : pool_(pool), worker_(worker), strand_(strand) {}
 
     WorkerPool& pool_;
     WorkerPool::Worker& worker_;
+    Strand& strand_;
 };
 
 }  // namespace camdir::director

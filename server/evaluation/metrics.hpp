@@ -6,18 +6,13 @@
 // direction.
 #pragma once
 
-#include <limits>
 #include <optional>
 #include <span>
 #include <stop_token>
 
-#include "evaluation/camera_path.hpp"
-#include "evaluation/trace.hpp"
-#include "oracle/reachability.hpp"
+#include "evaluation/judgement.hpp"
 
 namespace camdir::evaluation {
-
-inline constexpr double unmeasured = std::numeric_limits<double>::quiet_NaN();
 
 struct Spread {
     double rms = unmeasured;
@@ -49,7 +44,7 @@ struct Metrics {
     Spread ang_acc;
     double comfort = unmeasured;  // frames, but a segment's first, with ang_speed <= 120 degrees/s in which a
                                   // distant background has crossed the picture's centre at less than half the
-                                  // picture's width a second: see MotionSamples::comfortable
+                                  // picture's width a second: see Motion::comfortable
     double max_rotation = unmeasured;  // the largest turn between two frames
 
     // Of all frames of a living player.
@@ -61,10 +56,11 @@ struct Metrics {
     std::optional<double> kill_in_view;  // % of the followed players' kills: kill_in_view(); none: not asked
 };
 
-// Judges cameras[i] as a camera of trace.poses[i]. Explores the scene first, with `progress`; fails as
-// oracle::ReachedGrid::explore. Players are judged in parallel; the result does not depend on the number of
-// threads. Fails with ErrorCode::interrupted soon after `stop` is requested. Precondition: one camera a pose;
-// `oracle` is that of `scene`.
+// All but kill_in_view, of any set of judgements: all players together, or some.
+[[nodiscard]] Metrics summarise(std::span<const Judgement> judgements);
+
+// The same of the cameras of a trace, as judge(). Explores the scene first, with `progress`; fails as
+// oracle::ReachedGrid::explore. Precondition: `oracle` is that of `scene`.
 [[nodiscard]] Result<Metrics> measure(const scene::Scene& scene, const oracle::Oracle& oracle,
                                       const Trace& trace, std::span<const CameraSample> cameras,
                                       const oracle::ExploreProgress& progress, const std::stop_token& stop);

@@ -1,6 +1,5 @@
 #include "evaluation/motion.hpp"
 
-#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <numbers>
@@ -39,7 +38,8 @@ double MotionMeter::sweep_speed(std::int64_t time, double degrees) {
     return speed;
 }
 
-void MotionMeter::add(std::int64_t time, const CameraSample& camera) {
+Motion MotionMeter::add(std::int64_t time, const CameraSample& camera) {
+    Motion motion;
     State now;
     now.time = time;
     now.position = camera.position;
@@ -50,25 +50,25 @@ void MotionMeter::add(std::int64_t time, const CameraSample& camera) {
         const Vec3d rotation = rotation_between(last_.orientation, now.orientation);
         now.velocity = (now.position - last_.position) / now.step;
         now.angular_velocity = rotation / now.step;
-        samples_.angular_speed.push_back(now.angular_velocity.norm());
+        motion.rotation = rotation.norm();
+        motion.angular_speed = now.angular_velocity.norm();
         const double sweep = sweep_speed(time, turn_of_axis(last_.orientation, now.orientation));
-        samples_.comfortable += now.angular_velocity.norm() <= comfortable_turn && sweep < comfortable_sweep;
-        samples_.largest_rotation = std::max(samples_.largest_rotation, rotation.norm());
+        motion.comfortable = motion.angular_speed <= comfortable_turn && sweep < comfortable_sweep;
     }
     if (length_ >= 2) {
         const double span = (now.step + last_.step) / 2.0;
         now.acceleration = (now.velocity - last_.velocity) / span;
-        samples_.acceleration.push_back(now.acceleration.norm());
-        samples_.angular_acceleration.push_back((now.angular_velocity - last_.angular_velocity).norm() /
-                                                span);
+        motion.acceleration = now.acceleration.norm();
+        motion.angular_acceleration = (now.angular_velocity - last_.angular_velocity).norm() / span;
     }
     if (length_ >= 3) {
         const double span = (now.step + 2.0 * last_.step + step_before_last_) / 4.0;
-        samples_.jerk.push_back((now.acceleration - last_.acceleration).norm() / span);
+        motion.jerk = (now.acceleration - last_.acceleration).norm() / span;
     }
     step_before_last_ = last_.step;
     last_ = now;
     ++length_;
+    return motion;
 }
 
 }  // namespace camdir::evaluation

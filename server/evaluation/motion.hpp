@@ -1,12 +1,11 @@
 // How a camera moves and turns within one segment: speeds and their derivatives by finite differences.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <deque>
-#include <vector>
 
 #include "evaluation/camera_path.hpp"
+#include "evaluation/statistics.hpp"
 
 namespace camdir::evaluation {
 
@@ -20,21 +19,20 @@ namespace camdir::evaluation {
 inline constexpr double comfortable_turn = 120.0;                               // degrees/s
 inline constexpr double comfortable_sweep = 1.0 / radians_of_a_degree<double>;  // degrees/s
 
-// Samples of all segments; map units, degrees, seconds.
-struct MotionSamples {
-    std::vector<double> acceleration;
-    std::vector<double> jerk;
-    std::vector<double> angular_speed;
-    std::vector<double> angular_acceleration;
-    double largest_rotation = 0.0;  // degrees between two frames
-    std::size_t comfortable = 0;    // of the frames with an angular speed
+// Of one camera; map units, degrees, seconds. `unmeasured` where its segment is too young: a speed takes two
+// cameras, an acceleration three, a jerk four.
+struct Motion {
+    double acceleration = unmeasured;
+    double jerk = unmeasured;
+    double angular_speed = unmeasured;
+    double angular_acceleration = unmeasured;
+    double rotation = unmeasured;  // since the camera before
+    bool comfortable = false;      // of cameras with an angular speed
 };
 
-// Takes the cameras of one player in order and adds their motion to `samples`.
+// Takes the cameras of one player in order.
 class MotionMeter {
   public:
-    explicit MotionMeter(MotionSamples& samples) : samples_(samples) {}
-
     // The next camera does not belong to the segment of the one before.
     void end_segment() {
         length_ = 0;
@@ -42,7 +40,7 @@ class MotionMeter {
     }
 
     // `time` in nanoseconds, ascending strictly.
-    void add(std::int64_t time, const CameraSample& camera);
+    Motion add(std::int64_t time, const CameraSample& camera);
 
   private:
     struct State {
@@ -64,7 +62,6 @@ class MotionMeter {
     // The mean speed at which the view axis has turned over the last second; `degrees`: since the last frame.
     double sweep_speed(std::int64_t time, double degrees);
 
-    MotionSamples& samples_;
     int length_ = 0;  // cameras of the segment so far
     State last_;
     double step_before_last_ = 0.0;

@@ -4,15 +4,11 @@
 #include <cassert>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 
 namespace camdir::evaluation {
-namespace {
-constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
-}
 
 double mean(std::span<const double> values) {
-    if (values.empty()) return undefined;
+    if (values.empty()) return unmeasured;
     double sum = 0.0;
     for (const double value : values)
         sum += value;
@@ -20,7 +16,7 @@ double mean(std::span<const double> values) {
 }
 
 double root_mean_square(std::span<const double> values) {
-    if (values.empty()) return undefined;
+    if (values.empty()) return unmeasured;
     double sum = 0.0;
     for (const double value : values)
         sum += value * value;
@@ -29,7 +25,7 @@ double root_mean_square(std::span<const double> values) {
 
 double percentile(std::vector<double> values, double share) {
     assert(share >= 0.0 && share <= 1.0);
-    if (values.empty()) return undefined;
+    if (values.empty()) return unmeasured;
     const auto rank = static_cast<std::size_t>(share * static_cast<double>(values.size()));
     const auto place = values.begin() + static_cast<std::ptrdiff_t>(std::min(rank, values.size() - 1));
     std::nth_element(values.begin(), place, values.end());

@@ -1,31 +1,143 @@
 #include "http/connection.hpp"
 
-#include <sys/socket.h>
-
-#include <algorithm>
-#include <cerrno>
+#include <boost/asio/post.hpp>
+#include <boost/beast/http/read.hpp>
+#include <boost/beast/http/write.hpp>
+#include <utility>
 
 namespace camdir::http {
+namespace {
 
-bool Connection::ready(short event) const {
-    for (;;) {
-        const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline_ - Clock::now()).count();
-        if (left <= 0) return false;
-        pollfd polled{socket_, event, 0};
-        const int count = ::poll(&polled, 1, static_cast<int>(left));
-        if (count >= 0 || errno != EINTR) return count > 0;
-    }
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+
+constexpr std::size_t max_header = 16 * 1024;  // enough for a browser's
+constexpr std::size_t max_body = 4 * 1024;
+constexpr std::size_t chunk = 4 * 1024;
+// So much of what follows an answer to an unread request is taken: the system would else reset the
+// connection, and the client might not see the answer.
+constexpr std::size_t max_discarded = 256 * 1024;
+constexpr std::chrono::seconds discarding{2};
+
+// What is answered when a request cannot be read; nullopt: nothing, because the connection is lost.
+std::optional<Status> status_of(const beast::error_code& unread) {
+    using beast::http::error;
+    if (unread == error::header_limit || unread == error::buffer_overflow)
+        return Status::request_header_fields_too_large;
+    if (unread == error::body_limit) return Status::payload_too_large;
+    if (unread == error::end_of_stream || unread == error::partial_message) return std::nullopt;
+    const bool of_http = unread.category() == make_error_code(error::bad_method).category();
+    return of_http ? std::optional(Status::bad_request) : std::nullopt;
 }
 
-ssize_t Connection::read(char* to, std::size_t size) {
-    if (readable_ == 0 || !is_readable()) return -1;
-    const ssize_t got = ::recv(socket_, to, std::min(size, readable_), 0);
-    if (got > 0) readable_ -= static_cast<std::size_t>(got);
-    return got;
+}  // namespace
+
+std::uint64_t Connections::move_to_end(std::uint64_t place, Connection& connection) {
+    by_place_.erase(place);
+    by_place_.emplace(++last_place_, &connection);
+    return last_place_;
 }
 
-ssize_t Connection::write(const char* from, std::size_t size) {
-    return is_writable() ? ::send(socket_, from, size, MSG_NOSIGNAL | MSG_DONTWAIT) : -1;
+void Connections::close_oldest() {
+    if (by_place_.empty()) return;
+    by_place_.begin()->second->close();
+    by_place_.erase(by_place_.begin());
+}
+
+Connection::Connection(asio::ip::tcp::socket socket, Site& site)
+    : stream_(std::move(socket)), site_(site), buffer_(max_header + chunk) {}
+
+Connection::~Connection() {
+    end_slow_page();
+    site_.connections.leave(place_);
+}
+
+void Connection::wait_for_request() {
+    place_ = site_.connections.move_to_end(place_, *this);
+    if (buffer_.size() > 0) return read_request();
+    stream_.expires_after(site_.limits.idle);
+    stream_.async_read_some(buffer_.prepare(chunk),
+                            [self = shared_from_this()](ErrorCode error, std::size_t size) {
+                                if (error) return;
+                                self->buffer_.commit(size);
+                                self->read_request();
+                            });
+}
+
+void Connection::read_request() {
+    parser_.emplace();
+    parser_->header_limit(max_header);
+    parser_->body_limit(max_body);
+    stream_.expires_after(site_.limits.request);
+    beast::http::async_read(
+        stream_, buffer_, *parser_,
+        [self = shared_from_this()](ErrorCode error, std::size_t) { self->handle(error); });
+}
+
+void Connection::handle(ErrorCode error) {
+    place_ = site_.connections.move_to_end(place_, *this);
+    if (!error) return serve(parser_->release());
+    const auto status = status_of(error);
+    if (!status) return;
+    Request unread;
+    unread.keep_alive(false);
+    send(refusal(unread, *status));
+}
+
+void Connection::serve(Request request) {
+    const Page* page = find_page(request);
+    if (auto refused = check(request, page, site_.access)) return send(std::move(*refused));
+    if (page->prompt) return send(answer(request, page->make(site_.sources)));
+    if (site_.slow_pages >= site_.limits.slow_pages)
+        return send(refusal(request, Status::service_unavailable));
+    make(*page, std::move(request));
+}
+
+void Connection::make(const Page& page, Request request) {
+    ++site_.slow_pages;
+    has_slow_page_ = true;
+    asio::post(site_.makers, [self = shared_from_this(), &page, request = std::move(request)]() mutable {
+        Response response = answer(request, page.make(self->site_.sources));
+        auto& io = self->site_.io;
+        asio::post(io, [self = std::move(self), response = std::move(response)]() mutable {
+            self->send(std::move(response));
+        });
+    });
+}
+
+void Connection::send(Response response) {
+    response_ = std::move(response);
+    stream_.expires_after(site_.limits.answer);
+    beast::http::async_write(stream_, response_, [self = shared_from_this()](ErrorCode error, std::size_t) {
+        if (!error) self->sent();
+    });
+}
+
+void Connection::sent() {
+    end_slow_page();
+    if (response_.need_eof()) return hang_up();
+    response_ = {};
+    wait_for_request();
+}
+
+void Connection::hang_up() {
+    ErrorCode ignored;
+    stream_.socket().shutdown(asio::ip::tcp::socket::shutdown_send, ignored);
+    stream_.expires_after(discarding);
+    discard_input();
+}
+
+void Connection::discard_input() {
+    buffer_.clear();
+    stream_.async_read_some(buffer_.prepare(chunk),
+                            [self = shared_from_this()](ErrorCode error, std::size_t size) {
+                                self->discarded_ += size;
+                                if (!error && self->discarded_ < max_discarded) self->discard_input();
+                            });
+}
+
+void Connection::end_slow_page() {
+    if (std::exchange(has_slow_page_, false)) --site_.slow_pages;
 }
 
 }  // namespace camdir::http

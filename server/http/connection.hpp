@@ -1,38 +1,78 @@
-// A connection with limits on time and bytes.
+// Connections, all on the one thread that runs Site::io.
 #pragma once
 
-#include <httplib.h>
-#include <poll.h>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/thread_pool.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/core/tcp_stream.hpp>
+#include <boost/beast/http/parser.hpp>
+#include <map>
+#include <memory>
+#include <optional>
 
-#include <chrono>
+#include "http/pages.hpp"
 
 namespace camdir::http {
 
-// httplib's stream over a socket, for one request and its answer: reads and writes fail after `deadline`, and
-// reads fail beyond a few kilobytes. httplib's own stream restarts its timeout at every byte and reads lines
-// of any length.
-class Connection final : public httplib::Stream {
+class Connection;
+
+// The connections in the order in which they began what they do: wait, read or answer.
+class Connections {
   public:
-    using Clock = std::chrono::steady_clock;
-
-    // The socket must outlive it and stays open.
-    Connection(socket_t socket, Clock::time_point deadline) : socket_(socket), deadline_(deadline) {}
-
-    [[nodiscard]] bool is_readable() const override { return ready(POLLIN); }
-    [[nodiscard]] bool is_writable() const override { return ready(POLLOUT); }
-    ssize_t read(char* to, std::size_t size) override;
-    ssize_t write(const char* from, std::size_t size) override;
-    void get_remote_ip_and_port(std::string& /*ip*/, int& /*port*/) const override {}
-    void get_local_ip_and_port(std::string& /*ip*/, int& /*port*/) const override {}
-    [[nodiscard]] socket_t socket() const override { return socket_; }
+    [[nodiscard]] std::size_t size() const { return by_place_.size(); }
+    // Moves a connection from its place, 0 when it has none yet, to the last one, which is returned.
+    [[nodiscard]] std::uint64_t move_to_end(std::uint64_t place, Connection& connection);
+    void leave(std::uint64_t place) { by_place_.erase(place); }
+    void close_oldest();
 
   private:
-    // Waits for the event, until the deadline.
-    [[nodiscard]] bool ready(short event) const;
+    std::map<std::uint64_t, Connection*> by_place_;
+    std::uint64_t last_place_ = 0;
+};
 
-    socket_t socket_;
-    Clock::time_point deadline_;
-    std::size_t readable_ = 16 * 1024;  // bytes left to read; enough for a browser's headers
+// What the connections of a server share.
+struct Site {
+    const Sources sources;
+    const Limits limits;
+    Access access;
+    Connections connections{};
+    std::size_t slow_pages = 0;  // that are made or sent
+    boost::asio::io_context io{1};
+    boost::asio::thread_pool makers{2};  // of the pages that are not prompt
+};
+
+// Reads requests and answers them one after the other. What it waits for keeps it alive.
+class Connection final : public std::enable_shared_from_this<Connection> {
+  public:
+    Connection(boost::asio::ip::tcp::socket socket, Site& site);
+    Connection(const Connection&) = delete;
+    Connection& operator=(const Connection&) = delete;
+    ~Connection();
+
+    void wait_for_request();
+    void close() { stream_.close(); }
+
+  private:
+    using ErrorCode = boost::beast::error_code;
+
+    void read_request();
+    void handle(ErrorCode error);
+    void serve(Request request);
+    void make(const Page& page, Request request);
+    void send(Response response);
+    void sent();
+    void hang_up();
+    void discard_input();
+    void end_slow_page();
+
+    boost::beast::tcp_stream stream_;
+    Site& site_;
+    std::uint64_t place_ = 0;           // in Connections
+    boost::beast::flat_buffer buffer_;  // read and not yet parsed
+    std::optional<boost::beast::http::request_parser<boost::beast::http::string_body>> parser_;
+    Response response_;
+    bool has_slow_page_ = false;
+    std::size_t discarded_ = 0;  // bytes after the last request
 };
 
 }  // namespace camdir::http

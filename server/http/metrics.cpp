@@ -104,7 +104,8 @@ std::vector<MetricFamily> director_metrics(const Statistics& s) {
             gauge("observers", "Observers.", s.observers),
             gauge("shots", "Shots, each with a camera.", s.shots),
             gauge("delayed_bytes", "Memory of what waits for its delay.", s.delayed_bytes),
-            histogram("step_seconds", "Duration of one tracker step of one shot.", s.step),
+            histogram("step_seconds",
+                      "Duration of one tracker step of one shot, also of steps made ahead in vain.", s.step),
             histogram(
                 "latency_seconds",
                 "Time from receiving a pose frame, or from when it is due after the delay, to publishing its "

@@ -1,8 +1,9 @@
-// The operator's pages: GET /healthz, /readyz, /metrics, /status.
+// The operator's pages: GET /-/healthy, /-/ready, /metrics, /status; POST /hand-over.
 #pragma once
 
 #include <prometheus/metric_family.h>
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -14,22 +15,47 @@
 
 namespace camdir::http {
 
-// What the pages show. Called from the server's threads.
-struct Sources {
-    std::function<bool()> healthy;                      // false: a restart would help
-    std::function<std::vector<std::string>()> missing;  // what readiness still waits for; empty: ready
-    std::function<std::vector<prometheus::MetricFamily>()> metrics;
-    std::function<std::string()> status;  // JSON
+struct HandOver {
+    std::size_t led = 0;   // matches that this director led
+    std::size_t kept = 0;  // of these, for want of another that could serve them
 };
 
-// Serves until it is destroyed, with a fixed number of threads; more than a few connections wait in the
-// kernel. Requests that have a body, are larger than 16 KB or take longer than 3 s including the answer are
-// cut off.
+// What the pages show and do. Called from the server's threads.
+struct Sources {
+    // Wait for nothing: they are called between the reads and writes of all connections.
+    std::function<bool()> healthy;                      // false: a restart would help
+    std::function<std::vector<std::string>()> missing;  // what readiness still waits for; empty: ready
+    // May take long: at most two at a time are called.
+    std::function<std::vector<prometheus::MetricFamily>()> metrics;
+    std::function<std::string()> status;  // JSON
+    std::function<HandOver()> hand_over;
+};
+
+// Connections that exceed a time are closed.
+struct Limits {
+    // At once; fewer when the process may not open so many files. One more closes the one whose last request
+    // or answer began longest ago.
+    std::size_t connections = 2048;
+    // Answers of pages that may take long, made or sent at once; one more is 503.
+    std::size_t slow_pages = 64;
+    std::chrono::milliseconds idle{60'000};     // until a request begins
+    std::chrono::milliseconds request{20'000};  // from a request's first byte to its last
+    std::chrono::milliseconds answer{20'000};   // until the client has taken the answer
+};
+
+// Serves until it is destroyed, with three threads: one for all connections and the prompt pages, two that
+// make the others. A header above 16 kB is answered with 431, a body above 4 kB with 413.
 class Server {
   public:
-    // Fails when the address cannot be listened on.
-    [[nodiscard]] static Result<std::unique_ptr<Server>> start(const config::Http& config, Sources sources);
+    // Fails when the address cannot be listened on, or as Access::load.
+    [[nodiscard]] static Result<std::unique_ptr<Server>> start(const config::Http& config, Sources sources,
+                                                               const Limits& limits = {});
+    // What of start can be checked without listening.
+    [[nodiscard]] static Result<void> check(const config::Http& config);
     ~Server();
+
+    // Reads the token file again. When that fails, the token stays as it was.
+    [[nodiscard]] Result<void> reload();
 
     [[nodiscard]] std::uint16_t port() const;
 

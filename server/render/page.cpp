@@ -1,21 +1,17 @@
 #include "render/page.hpp"
 
-#include <cairo.h>
-
 #include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
 #include <cstdio>
 #include <memory>
-#include <span>
 
 #include "base/utf8.hpp"
+#include "render/surface.hpp"
 
 namespace camdir::render {
 namespace {
-
-using Surface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
 
 constexpr Colour ink{0.10F, 0.11F, 0.13F};
 constexpr Colour paper{1.0F, 1.0F, 1.0F};
@@ -92,24 +88,6 @@ class Pen {
   private:
     std::unique_ptr<cairo_t, decltype(&cairo_destroy)> cairo_;
 };
-
-std::uint32_t eight_bit(float value) {
-    return static_cast<std::uint32_t>(std::lround(std::clamp(value, 0.0F, 1.0F) * 255.0F));
-}
-
-void copy_pixels(const Picture& picture, cairo_surface_t* surface, int first_row) {
-    cairo_surface_flush(surface);
-    unsigned char* bytes = cairo_image_surface_get_data(surface);
-    const std::ptrdiff_t stride = cairo_image_surface_get_stride(surface);
-    for (int y = 0; y < picture.height; ++y) {
-        auto* row = reinterpret_cast<std::uint32_t*>(bytes + (first_row + y) * stride);
-        for (int x = 0; x < picture.width; ++x) {
-            const Colour& colour = picture.at(x, y);
-            row[x] = eight_bit(colour.red) << 16 | eight_bit(colour.green) << 8 | eight_bit(colour.blue);
-        }
-    }
-    cairo_surface_mark_dirty(surface);
-}
 
 std::string number(double value) {
     std::array<char, 32> text{};
@@ -218,13 +196,6 @@ void draw_footer(Pen& pen, const Layout& layout, const Legend& legend) {
     }
 }
 
-cairo_status_t append(void* closure, const unsigned char* bytes, unsigned int count) {
-    const auto added = std::as_bytes(std::span(bytes, count));
-    auto& file = *static_cast<Bytes*>(closure);
-    file.insert(file.end(), added.begin(), added.end());
-    return CAIRO_STATUS_SUCCESS;
-}
-
 }  // namespace
 
 int picture_height(const PageSize& page) {
@@ -243,24 +214,17 @@ double round_up(double value) {
 Result<Bytes> to_png(const Picture& picture, const Legend& legend, const PageSize& page) {
     assert(picture.width == page.width && picture.height == picture_height(page));
     const Layout layout(page);
-    const Surface surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, page.width, page.height),
-                          cairo_surface_destroy);
-    if (const cairo_status_t status = cairo_surface_status(surface.get()); status != CAIRO_STATUS_SUCCESS)
-        return fail(std::string("picture: ") + cairo_status_to_string(status));
+    const auto surface = make_surface(page.width, page.height);
+    if (!surface) return tl::unexpected(surface.error());
     {
-        Pen pen(surface.get());
+        Pen pen(surface->get());
         pen.colour(paper);
         pen.box(0.0, 0.0, layout.width, layout.height);
         draw_header(pen, layout, legend);
         draw_footer(pen, layout, legend);
     }
-    copy_pixels(picture, surface.get(), static_cast<int>(layout.header));
-    Bytes file;
-    const cairo_status_t status = cairo_surface_write_to_png_stream(surface.get(), append, &file);
-    if (status != CAIRO_STATUS_SUCCESS) {
-        return fail(std::string("picture: cannot write PNG: ") + cairo_status_to_string(status));
-    }
-    return file;
+    copy_pixels(picture, surface->get(), static_cast<int>(layout.header));
+    return to_png(surface->get());
 }
 
 }  // namespace camdir::render

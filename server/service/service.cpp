@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::chrono::milliseconds watch_period{200};
 constexpr std::chrono::seconds start_extension{60};
-constexpr std::chrono::milliseconds max_turn{5000};  // a worker whose turn takes longer has hung
+constexpr std::chrono::milliseconds max_turn{5000};  // whoever takes longer has hung
 constexpr std::chrono::milliseconds view_timeout{500};
 
 void log_lines(spdlog::level::level_enum level, const std::string& text) {
@@ -28,7 +28,7 @@ void log_lines(spdlog::level::level_enum level, const std::string& text) {
 }  // namespace
 
 Result<std::unique_ptr<Service>> Service::open(std::filesystem::path file, config::Config config) {
-    auto gateway = dds::Gateway::open(config.dds);
+    auto gateway = dds::Gateway::open(config.dds, config.limits);
     if (!gateway) return tl::unexpected(gateway.error());
     std::unique_ptr<Service> service(new Service(std::move(file), std::move(config), std::move(*gateway)));
     const config::Http& http = service->config_.http;
@@ -77,7 +77,7 @@ maps::LoaderSink Service::map_sink() {
 
 http::Sources Service::sources() {
     http::Sources sources;
-    sources.healthy = [this] { return director_.responsive(max_turn); };
+    sources.healthy = [this] { return healthy(); };
     sources.missing = [this] { return missing(); };
     sources.metrics = [this] {
         auto families = http::director_metrics(director_.statistics());
@@ -85,8 +85,17 @@ http::Sources Service::sources() {
             families.insert(families.end(), more.begin(), more.end());
         return families;
     };
+    sources.hand_over = [this] {
+        const auto [led, kept] = gateway_->hand_over();
+        spdlog::info("http: handed over {} of {} matches", led - kept, led);
+        return http::HandOver{led, kept};
+    };
     sources.status = [this] { return http::status_page(director_.view(view_timeout), maps_.entries()); };
     return sources;
+}
+
+bool Service::healthy() const {
+    return director_.responsive(max_turn) && gateway_->responsive(max_turn);
 }
 
 std::vector<std::string> Service::missing() const {
@@ -115,7 +124,7 @@ void Service::run(Signals& signals) {
 }
 
 void Service::watch(bool& ready) {
-    if (director_.responsive(max_turn)) notify_alive();
+    if (healthy()) notify_alive();
     if (ready) return;
     const auto waits_for = missing();
     if (!waits_for.empty()) return notify_starting(waits_for.front(), start_extension);
@@ -124,9 +133,18 @@ void Service::watch(bool& ready) {
     notify_ready("serving " + std::to_string(config_.maps.size()) + " maps");
 }
 
+Result<config::Config> Service::load_again() {
+    auto loaded = config::load(file_);
+    if (loaded && http_) {
+        const auto token = http_->reload();
+        if (!token) return tl::unexpected(token.error());
+    }
+    return loaded;
+}
+
 void Service::reload() {
     notify_reloading();
-    auto loaded = config::load(file_);
+    auto loaded = load_again();
     if (!loaded) {
         log_lines(spdlog::level::err, loaded.error().message);
         spdlog::error("{}: not reloaded, the previous configuration stays in effect", file_.string());

@@ -31,8 +31,12 @@ class Service {
 
     [[nodiscard]] maps::LoaderSink map_sink();
     [[nodiscard]] http::Sources sources();
+    // False: a worker or the reception has hung, and a restart would help.
+    [[nodiscard]] bool healthy() const;
     [[nodiscard]] std::vector<std::string> missing() const;
     void watch(bool& ready);
+    // The configuration, after which nothing of a reload can fail, with the token of HTTP in effect.
+    [[nodiscard]] Result<config::Config> load_again();
     void reload();
     void drain();
 

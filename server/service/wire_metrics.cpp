@@ -15,6 +15,12 @@ prometheus::MetricFamily counter(const std::string& name, const std::string& hel
     return family;
 }
 
+prometheus::MetricFamily gauge(const std::string& name, const std::string& help, double value) {
+    prometheus::MetricFamily family = http::gauge_family(name, help);
+    http::add_metric(family, value);
+    return family;
+}
+
 }  // namespace
 
 std::vector<prometheus::MetricFamily> wire_metrics(const dds::WireCounters& counters) {
@@ -38,7 +44,12 @@ std::vector<prometheus::MetricFamily> wire_metrics(const dds::WireCounters& coun
         counter("wire_statuses_total", "Observer statuses written to DDS.", counters.statuses_written),
         counter("wire_write_failures_total", "Samples that DDS did not accept.", counters.write_failures),
         counter("wire_endpoint_failures_total", "Matches whose endpoints could not be created.",
-                counters.endpoint_failures)};
+                counters.endpoint_failures),
+        counter("wire_liveliness_withheld_total",
+                "Signs of life omitted because a worker was busy for longer than dds.lease_ms.",
+                counters.liveliness_withheld),
+        gauge("matches_led", "Matches that this director leads; for the others it stands by.",
+              counters.matches_led)};
 }
 
 }  // namespace camdir::service

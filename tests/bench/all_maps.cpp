@@ -4,13 +4,12 @@
 // no unsafe ball, no reported distance beyond the clearance, 99.9 % coverage at clearance > d0, every spawn
 // point covered and all of them in one component of the roadmap, the same bytes for any number of threads
 // (with --check-threads).
-#include <CLI/CLI.hpp>
-#include <exception>
 #include <filesystem>
 #include <iostream>
 #include <string>
 #include <vector>
 
+#include "bench/program.hpp"
 #include "map_sources.hpp"
 #include "measured_map.hpp"
 #include "measured_table.hpp"
@@ -72,7 +71,7 @@ void add_options(CLI::App& app, Options& options) {
         ->capture_default_str();
 }
 
-int parse_and_run(int argc, char** argv) {
+int run(int argc, char** argv) {
     Options options;
     options.parameters.programs = fs::read_symlink("/proc/self/exe").parent_path();
     options.parameters.work = fs::temp_directory_path() / "camera-director-all-maps";
@@ -80,22 +79,12 @@ int parse_and_run(int argc, char** argv) {
     CLI::App app("Bakes and verifies every map of openarena-081-maps and prints the table of their figures.",
                  "bench-all-maps");
     add_options(app, options);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
-    }
-    return run(options);
+    return run_program(app, argc, argv, [&] { return run(options); });
 }
 
 }  // namespace
 }  // namespace camdir::bench
 
 int main(int argc, char** argv) {
-    try {
-        return camdir::bench::parse_and_run(argc, argv);
-    } catch (const std::exception& error) {
-        std::cerr << "bench-all-maps: " << error.what() << '\n';
-        return 1;
-    }
+    return camdir::bench::run(argc, argv);
 }

@@ -2,7 +2,6 @@
 // matches, in one run and one table.
 //
 // Exit codes: 0 done, 1 something failed, 2 bad usage.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <functional>
 #include <iostream>
@@ -16,6 +15,7 @@
 #include "bench/cameras/spots.hpp"
 #include "bench/cameras/spring_arm.hpp"
 #include "bench/cameras/table.hpp"
+#include "bench/program.hpp"
 #include "evaluation/kills.hpp"
 #include "evaluation/peers.hpp"
 #include "evaluation/resample.hpp"
@@ -33,12 +33,6 @@ struct Options {
     double output_hz = 0.0;            // 0: the trace's own frames
     std::string csv;
 };
-
-template <class T>
-T value_of(Result<T> result) {
-    if (!result) throw std::runtime_error(result.error().message);
-    return std::move(*result);
-}
 
 // VFS,MAP,TRACE[,EVENTS]
 std::vector<std::string> files_of(const std::string& match) {
@@ -172,9 +166,9 @@ int run(const Options& options) {
     return 0;
 }
 
-int parse_and_run(int argc, char** argv) {
+int run(int argc, char** argv) {
     Options options;
-    CLI::App app("Judges cameras on recorded matches: this project's and those of others.");
+    CLI::App app("Judges cameras on recorded matches: this project's and those of others.", "bench-cameras");
     app.add_option("MATCH", options.matches, "VFS,MAP,TRACE or VFS,MAP,TRACE,EVENTS: files of one match")
         ->required();
     app.add_option("--camera", options.cameras, "Only the camera of this name; may be repeated")
@@ -184,22 +178,12 @@ int parse_and_run(int argc, char** argv) {
                    "Cameras per second, judged against interpolated poses; default: the trace's frames")
         ->check(CLI::Range(1.0, 1000.0));
     app.add_option("--csv", options.csv, "Write the table as CSV too");
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
-    }
-    return run(options);
+    return run_program(app, argc, argv, [&] { return run(options); });
 }
 
 }  // namespace
 }  // namespace camdir::bench
 
 int main(int argc, char** argv) {
-    try {
-        return camdir::bench::parse_and_run(argc, argv);
-    } catch (const std::exception& error) {
-        std::cerr << "bench-cameras: " << error.what() << '\n';
-        return 1;
-    }
+    return camdir::bench::run(argc, argv);
 }

@@ -2,7 +2,6 @@
 // in one run, with what they miss and what they wrongly report, judged by exact queries on the map.
 //
 // Exit codes: 0 done, 1 something failed or a query reported free what is not, 2 bad usage.
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
 #include <iostream>
@@ -10,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/program.hpp"
 #include "bench/queries/bullet_queries.hpp"
 #include "bench/queries/embree_queries.hpp"
 #include "bench/queries/samples.hpp"
@@ -312,9 +312,10 @@ int run(const Options& options) {
     return Bench(options, *freespace, *scene).run() ? 0 : 1;
 }
 
-int parse_and_run(int argc, char** argv) {
+int run(int argc, char** argv) {
     Options options;
-    CLI::App app("Times the queries of a baked map beside Embree and Bullet, and judges them on the map.");
+    CLI::App app("Times the queries of a baked map beside Embree and Bullet, and judges them on the map.",
+                 "bench-queries");
     app.add_option("VFS", options.vfs, "The baked map")->required();
     app.add_option("MAP", options.map, "What it was baked from")->required();
     app.add_option("--trace", options.trace, "A recorded match: its eyes are the points; else random ones");
@@ -324,22 +325,12 @@ int parse_and_run(int argc, char** argv) {
     app.add_option("--judged", options.judged, "Of these to judge by exact queries")
         ->capture_default_str()
         ->check(CLI::Range(0, 1'000'000));
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
-    }
-    return run(options);
+    return run_program(app, argc, argv, [&] { return run(options); });
 }
 
 }  // namespace
 }  // namespace camdir::bench
 
 int main(int argc, char** argv) {
-    try {
-        return camdir::bench::parse_and_run(argc, argv);
-    } catch (const std::exception& error) {
-        std::cerr << "bench-queries: " << error.what() << '\n';
-        return 1;
-    }
+    return camdir::bench::run(argc, argv);
 }

@@ -1,6 +1,5 @@
 // bench-display: the cameras that a display shows through the client library, between those of a recorded
 // match, for `camera-director evaluate --judge`.
-#include <CLI/CLI.hpp>
 #include <Eigen/Geometry>
 #include <cmath>
 #include <iostream>
@@ -8,6 +7,7 @@
 #include <stdexcept>
 
 #include "base/file.hpp"
+#include "bench/program.hpp"
 #include "camera_track.hpp"
 #include "evaluation/camera_path.hpp"
 #include "evaluation/resample.hpp"
@@ -25,12 +25,6 @@ struct Options {
     bool straight = false;
 };
 
-template <class Value>
-Value must(Result<Value> result) {
-    if (!result) throw std::runtime_error(result.error().message);
-    return std::move(*result);
-}
-
 // A player's shot as its observer sees it. The cameras arrive in time.
 class Shot {
   public:
@@ -47,7 +41,7 @@ class Shot {
     }
 
     CameraSample show(std::int64_t time) {
-        const cdir_view view = track_.at(time).value();
+        const sdk::View view = track_.at(time).value();
         CameraSample shown{Eigen::Map<const Vec3f>(view.camera.position).cast<double>(),
                            Eigen::Map<const Quatf>(view.camera.orientation).cast<double>(),
                            view.segment != segment_};
@@ -75,11 +69,11 @@ class Shot {
 };
 
 int run(const Options& options) {
-    const auto freespace = must(freespace::Freespace::open(options.vfs));
-    const auto recorded = must(evaluation::read_trace(options.trace));
-    const auto frames = must(evaluation::resample(recorded, options.camera_hz));
-    const auto pictures = must(evaluation::resample(recorded, options.display_hz));
-    const auto cameras = must(evaluation::read_cameras(options.cameras, frames));
+    const auto freespace = value_of(freespace::Freespace::open(options.vfs));
+    const auto recorded = value_of(evaluation::read_trace(options.trace));
+    const auto frames = value_of(evaluation::resample(recorded, options.camera_hz));
+    const auto pictures = value_of(evaluation::resample(recorded, options.display_hz));
+    const auto cameras = value_of(evaluation::read_cameras(options.cameras, frames));
     const auto delay = std::llround(options.delay_ms * 1e6);
 
     std::map<std::uint32_t, Shot> shots;
@@ -99,9 +93,10 @@ int run(const Options& options) {
     return 0;
 }
 
-int parse_and_run(int argc, char** argv) {
+int run(int argc, char** argv) {
     Options options;
-    CLI::App app("Writes the cameras that a display shows between those of a recorded match.");
+    CLI::App app("Writes the cameras that a display shows between those of a recorded match.",
+                 "bench-display");
     app.add_option("VFS", options.vfs, "The baked map, for the cameras' clearances")->required();
     app.add_option("--trace", options.trace, "The recorded match")->required();
     app.add_option("--cameras", options.cameras, "What `evaluate --cameras` wrote")->required();
@@ -110,22 +105,12 @@ int parse_and_run(int argc, char** argv) {
     app.add_option("--delay", options.delay_ms, "Of the display, ms")->capture_default_str();
     app.add_flag("--straight", options.straight, "Straight lines from frame to frame, for comparison");
     app.add_option("-o,--output", options.output, "CSV")->required();
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
-    }
-    return run(options);
+    return run_program(app, argc, argv, [&] { return run(options); });
 }
 
 }  // namespace
 }  // namespace camdir::bench
 
 int main(int argc, char** argv) {
-    try {
-        return camdir::bench::parse_and_run(argc, argv);
-    } catch (const std::exception& error) {
-        std::cerr << "bench-display: " << error.what() << '\n';
-        return 1;
-    }
+    return camdir::bench::run(argc, argv);
 }

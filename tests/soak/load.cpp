@@ -26,18 +26,20 @@ std::vector<camera_director::Match> open_matches(const camera_director::Context&
         for (std::uint32_t player = 0; player < player_count; ++player) {
             info.players.push_back({.id = player, .name = "player " + std::to_string(player)});
         }
-        matches.emplace_back(context, info);
+        matches.push_back(camera_director::Match::open(context, info).value());
     }
     return matches;
 }
 
 void publish(camera_director::Match& match, const PoseArrays& poses, std::int64_t frame_time) {
-    match.publish({.frame_time = frame_time,
-                   .player_id = poses.player_id,
-                   .eye = poses.eye,
-                   .orientation = poses.orientation,
-                   .velocity = poses.velocity,
-                   .flags = poses.flags});
+    match
+        .publish({.frame_time = frame_time,
+                  .player_id = poses.player_id,
+                  .eye = poses.eye,
+                  .orientation = poses.orientation,
+                  .velocity = poses.velocity,
+                  .flags = poses.flags})
+        .value();
 }
 
 // Returns false when a stop was requested.
@@ -76,9 +78,11 @@ void PoseArrays::add(std::uint32_t id, const Vec3f& at, const Quatf& looking, co
 }
 
 int run(const Load& load, std::uint32_t player_count, const std::stop_token& stop) {
-    const camera_director::Context context({.domain = load.network.domain,
-                                            .network_interface = load.network.interface,
-                                            .directors = load.network.directors});
+    const camera_director::Context context =
+        camera_director::Context::open({.domain = load.network.domain,
+                                        .network_interface = load.network.interface,
+                                        .directors = load.network.directors})
+            .value();
     std::vector<camera_director::Match> matches = open_matches(context, load, player_count);
 
     const std::chrono::duration<double> interval(1.0 / load.rate_hz);

@@ -51,16 +51,19 @@ class Probe {
   public:
     Probe(const camera_director::Context& context, const Options& options, const oracle::Oracle* oracle,
           std::uint32_t match, std::uint32_t number)
-        : observer_(context, options.match_prefix + "-" + std::to_string(match),
-                    "probe-" + std::to_string(number)),
+        : observer_(camera_director::Observer::open(context,
+                                                    options.match_prefix + "-" + std::to_string(match),
+                                                    "probe-" + std::to_string(number))
+                        .value()),
           checker_(oracle, options.limits) {
-        observer_.request(
-            {.target = options.automatic ? CDIR_CHOOSE_TARGET : number, .profile = options.profile});
+        observer_
+            .request({.target = options.automatic ? CDIR_CHOOSE_TARGET : number, .profile = options.profile})
+            .value();
         thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
     }
     ~Probe() {
         thread_.request_stop();
-        observer_.interrupt();
+        observer_.interrupt().value();
     }
 
     // Resets the findings; the previous frame is kept.
@@ -76,26 +79,27 @@ class Probe {
         const std::lock_guard lock(mutex_);
         return checker_.latest();
     }
-    [[nodiscard]] camera_director::ShotStatus status() const { return observer_.shot_status(); }
+    [[nodiscard]] camera_director::ShotStatus status() const { return observer_.shot_status().value(); }
 
   private:
     void run(const std::stop_token& stop) {
         std::vector<camera_director::Camera> cameras(CDIR_MAX_CAMERAS);
         while (!stop.stop_requested()) {
-            if (observer_.wait(std::chrono::milliseconds(200)) != camera_director::Waited::arrived) continue;
-            while (const auto frame = observer_.next_frame(cameras)) {
+            if (observer_.wait(std::chrono::milliseconds(200)).value() != camera_director::Waited::arrived)
+                continue;
+            while (const auto frame = observer_.next_frame(cameras).value()) {
                 const std::int64_t received = realtime_now();
                 const auto* own = own_camera(std::span(cameras).first(frame->camera_count));
                 const std::lock_guard lock(mutex_);
                 checker_.check(*frame, own, received);
-                checker_.findings().invalid = observer_.counters().invalid;
+                checker_.findings().invalid = observer_.counters().value().invalid;
             }
         }
     }
 
     [[nodiscard]] const camera_director::Camera* own_camera(
         std::span<const camera_director::Camera> cameras) const {
-        const auto status = observer_.shot_status();
+        const auto status = observer_.shot_status().value();
         if (status.state != CDIR_SHOT_ACCEPTED) return nullptr;
         for (const camera_director::Camera& camera : cameras) {
             if (camera.camera_id == status.camera_id) return &camera;
@@ -239,9 +243,11 @@ int probe(const Options& options, const std::stop_token& stop) {
         }
         oracle = std::make_unique<oracle::Oracle>(*scene);
     }
-    const camera_director::Context context({.domain = options.network.domain,
-                                            .network_interface = options.network.interface,
-                                            .directors = options.network.directors});
+    const camera_director::Context context =
+        camera_director::Context::open({.domain = options.network.domain,
+                                        .network_interface = options.network.interface,
+                                        .directors = options.network.directors})
+            .value();
     Probes probes;
     for (std::uint32_t match = 0; match < options.matches; ++match) {
         for (std::uint32_t number = 0; number < options.observers; ++number) {

@@ -1,5 +1,6 @@
 #include "support/raw_peer.hpp"
 
+#include <algorithm>
 #include <cstring>
 #include <stdexcept>
 
@@ -22,6 +23,13 @@ void copy(char (&to)[Size], const std::string& from) {
     std::memcpy(to, from.c_str(), from.size() + 1);
 }
 
+void join(dds_qos_t* qos, const std::vector<std::string>& partitions) {
+    std::vector<const char*> names;
+    for (const std::string& partition : partitions)
+        names.push_back(partition.c_str());
+    dds_qset_partition(qos, static_cast<std::uint32_t>(names.size()), names.data());
+}
+
 dds_qos_t* reliable() {
     dds_qos_t* qos = dds_create_qos();
     dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, DDS_MSECS(100));
@@ -38,6 +46,7 @@ dds_qos_t* newest_for_late_joiners() {
 dds_qos_t* match_info_qos() {
     dds_qos_t* qos = newest_for_late_joiners();
     dds_qset_liveliness(qos, DDS_LIVELINESS_AUTOMATIC, DDS_SECS(2));
+    dds_qset_writer_data_lifecycle(qos, false);
     return qos;
 }
 
@@ -66,6 +75,12 @@ dds_qos_t* camera_frame_qos() {
     dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, 32);
     dds_qset_ownership(qos, DDS_OWNERSHIP_EXCLUSIVE);
     dds_qset_liveliness(qos, DDS_LIVELINESS_MANUAL_BY_TOPIC, DDS_INFINITY);
+    return qos;
+}
+
+dds_qos_t* shown_camera_qos() {
+    dds_qos_t* qos = camera_frame_qos();
+    dds_qset_ownership_strength(qos, 3 * 65536);
     return qos;
 }
 
@@ -107,8 +122,9 @@ RawPeer::CameraFrame copied(const camera_director_CameraFrame& sample) {
 
 }  // namespace
 
-RawPeer::RawPeer(std::uint32_t domain, const std::string& match_id, std::string partition)
-    : partition_(partition.empty() ? "match/" + match_id : std::move(partition)) {
+RawPeer::RawPeer(std::uint32_t domain, const std::string& match_id, std::vector<std::string> partitions)
+    : partitions_(std::move(partitions)) {
+    if (partitions_.empty()) partitions_.push_back("match/" + match_id);
     const dds_entity_t created = dds_create_domain(domain, loopback_xml);
     if (created != DDS_RETCODE_PRECONDITION_NOT_MET) check(created, "joining the domain");
     participant_ = dds_create_participant(domain, nullptr, nullptr);
@@ -118,7 +134,7 @@ RawPeer::RawPeer(std::uint32_t domain, const std::string& match_id, std::string 
     match_event_ = add_writer(camera_director_MatchEvent_desc, "MatchEvent", match_event_qos());
     observer_request_ =
         add_writer(camera_director_ObserverRequest_desc, "ObserverRequest", observer_request_qos());
-    status_writer_ = add_writer(camera_director_ObserverStatus_desc, "ObserverStatus", answer_qos());
+    sign_ = add_writer(camera_director_DirectorSign_desc, "DirectorSign", newest_for_late_joiners());
     camera_frame_ = add_reader(camera_director_CameraFrame_desc, "CameraFrame", camera_frame_qos());
     observer_status_ = add_reader(camera_director_ObserverStatus_desc, "ObserverStatus", answer_qos());
     shown_match_ = add_reader(camera_director_MatchInfo_desc, "ShownMatch", answer_qos());
@@ -129,7 +145,7 @@ RawPeer::~RawPeer() {
 }
 
 dds_entity_t RawPeer::add_writer(const dds_topic_descriptor_t& type, const char* topic, dds_qos_t* qos) {
-    dds_qset_partition1(qos, partition_.c_str());
+    join(qos, partitions_);
     const dds_entity_t handle = dds_create_topic(participant_, &type, topic, nullptr, nullptr);
     check(handle, "creating a topic");
     const dds_entity_t writer = dds_create_writer(participant_, handle, qos, nullptr);
@@ -139,7 +155,7 @@ dds_entity_t RawPeer::add_writer(const dds_topic_descriptor_t& type, const char*
 }
 
 dds_entity_t RawPeer::add_reader(const dds_topic_descriptor_t& type, const char* topic, dds_qos_t* qos) {
-    dds_qset_partition1(qos, partition_.c_str());
+    join(qos, partitions_);
     const dds_entity_t handle = dds_create_topic(participant_, &type, topic, nullptr, nullptr);
     check(handle, "creating a topic");
     const dds_entity_t reader = dds_create_reader(participant_, handle, qos, nullptr);
@@ -160,8 +176,14 @@ void RawPeer::write(const camera_director_MatchEvent& sample) {
 void RawPeer::write(const camera_director_ObserverRequest& sample) {
     check(dds_write(observer_request_, &sample), "writing an ObserverRequest");
 }
-void RawPeer::write(const camera_director_ObserverStatus& sample) {
-    check(dds_write(status_writer_, &sample), "writing an ObserverStatus");
+void RawPeer::write(const camera_director_DirectorSign& sample) {
+    check(dds_write(sign_, &sample), "writing a DirectorSign");
+}
+
+void RawPeer::write(const camera_director_CameraFrame& sample) {
+    if (shown_camera_ == 0)
+        shown_camera_ = add_writer(camera_director_CameraFrame_desc, "CameraFrame", shown_camera_qos());
+    check(dds_write(shown_camera_, &sample), "writing a CameraFrame");
 }
 void RawPeer::dispose(const camera_director_MatchInfo& key) {
     check(dds_dispose(match_info_, &key), "disposing MatchInfo");
@@ -209,6 +231,22 @@ std::vector<std::optional<std::uint64_t>> RawPeer::take_shown_epochs() {
         dds_return_loan(shown_match_, &sample, 1);
     }
     return epochs;
+}
+
+std::int32_t RawPeer::camera_strength() {
+    std::vector<dds_instance_handle_t> writers(16);
+    const dds_return_t count = dds_get_matched_publications(camera_frame_, writers.data(), writers.size());
+    check(count, "finding the writers of CameraFrame");
+    std::int32_t strongest = -1;
+    for (dds_return_t i = 0; i < count; ++i) {
+        std::int32_t strength = -1;
+        auto* writer = dds_get_matched_publication_data(camera_frame_, writers[static_cast<std::size_t>(i)]);
+        if (writer == nullptr) continue;
+        dds_qget_ownership_strength(writer->qos, &strength);
+        dds_builtintopic_free_endpoint(writer);
+        strongest = std::max(strongest, strength);
+    }
+    return strongest;
 }
 
 std::uint32_t RawPeer::directors() {

@@ -16,9 +16,9 @@ namespace camdir::test {
 // and the SDK's, to check both. Throws when DDS refuses.
 class RawPeer {
   public:
-    // Uses the process's domain if it has joined it, otherwise joins it on loopback. `partition` is
-    // match/<match_id> by default.
-    RawPeer(std::uint32_t domain, const std::string& match_id, std::string partition = "");
+    // Uses the process's domain if it has joined it, otherwise joins it on loopback. By default it is in
+    // match/<match_id> alone.
+    RawPeer(std::uint32_t domain, const std::string& match_id, std::vector<std::string> partitions = {});
     ~RawPeer();
     RawPeer(const RawPeer&) = delete;
     RawPeer& operator=(const RawPeer&) = delete;
@@ -27,7 +27,9 @@ class RawPeer {
     void write(const camera_director_PoseFrame& sample);
     void write(const camera_director_MatchEvent& sample);
     void write(const camera_director_ObserverRequest& sample);
-    void write(const camera_director_ObserverStatus& sample);  // with strength 0
+    void write(const camera_director_DirectorSign& sample);
+    // As a director of the third term.
+    void write(const camera_director_CameraFrame& sample);
     void dispose(const camera_director_MatchInfo& key);
     void dispose(const camera_director_ObserverRequest& key);
 
@@ -54,15 +56,17 @@ class RawPeer {
 
     // Directors whose camera writers are matched.
     [[nodiscard]] std::uint32_t directors();
+    // The ownership strength of the strongest of them.
+    [[nodiscard]] std::int32_t camera_strength();
 
   private:
     dds_entity_t add_writer(const dds_topic_descriptor_t& type, const char* topic, dds_qos_t* qos);
     dds_entity_t add_reader(const dds_topic_descriptor_t& type, const char* topic, dds_qos_t* qos);
 
     dds_entity_t participant_ = 0;
-    std::string partition_;
+    std::vector<std::string> partitions_;
     dds_entity_t match_info_ = 0, pose_frame_ = 0, match_event_ = 0, observer_request_ = 0;
-    dds_entity_t status_writer_ = 0;
+    dds_entity_t sign_ = 0, shown_camera_ = 0;
     dds_entity_t camera_frame_ = 0, observer_status_ = 0, shown_match_ = 0;
     std::map<std::string, camera_director_ObserverStatus> statuses_;
 };

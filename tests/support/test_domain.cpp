@@ -26,6 +26,12 @@ int open_lock(const std::string& path) {
 
 }  // namespace
 
+// By the DDSI standard with port base 7400.
+std::string director_address(std::uint32_t domain, int participant_index) {
+    return "127.0.0.1:" +
+           std::to_string(7400 + 250 * domain + 10 + 2 * static_cast<std::uint32_t>(participant_index));
+}
+
 TestDomain::TestDomain(const std::filesystem::path& locks) {
     ::mkdir(locks.c_str(), 0777);
     // For every user, who may not replace another's locks. Fails when it belongs to another, who has done so.

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 
 namespace camdir::test {
 
@@ -12,6 +13,9 @@ inline constexpr std::uint32_t shared_domain = 84;
 // For the SDK's tests that need a director's well-known port: they take the first free one.
 inline constexpr std::uint32_t first_director_domain = 85;
 inline constexpr std::uint32_t last_director_domain = 99;
+
+// HOST:PORT at which a director on loopback is found.
+[[nodiscard]] std::string director_address(std::uint32_t domain, int participant_index);
 
 // A domain that no other TestDomain on this machine uses until the destructor, or the process's end. The
 // constructor waits for a free one.

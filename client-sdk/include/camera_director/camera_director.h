@@ -1,6 +1,6 @@
 /*
  * The camera director's client library, for game servers and for observers (spectator clients). C11, ABI
- * version 1.
+ * version 2.
  *
  * A game server opens a context and a match, and publishes the players' poses once per server frame:
  *
@@ -21,29 +21,36 @@
  *     cdir_observer_request(observer, &request);
  *     cdir_observer_poll(observer, NULL);           once per display frame
  *     cdir_observer_display_time(observer, &time);
- *     cdir_observer_camera_at(observer, time, &view);
+ *     cdir_observer_camera_at(observer, time, &camera, &view);
  *
  * Axes and units. Right-handed, z up. Positions are in map units, angles in radians, times in nanoseconds.
  * A quaternion is x y z w and has length 1. It rotates the axes of a player's eye or of a camera (x forward,
- * y left, z up) into the axes of the map. The library's README has the conversions for common engines.
+ * y left, z up) into the axes of the map. cdir_position_from_engine() and its likes convert those of engines.
  *
  * Time. frame_time is the game's own clock within an epoch, at most 2^61 ns (73 years) from 0. source_time
- * and write_time are CLOCK_REALTIME. An epoch is one life of a match: every map change and every restart
- * begins a new one, with a greater number.
+ * and write_time are the sender's clock, since 1970-01-01 00:00 UTC. An epoch is one life of a match: every
+ * map change and every restart begins a new one, with a greater number.
  *
  * Status. Functions return 0 or more when they did what they say or had nothing to do. They return less than
  * 0 when they failed; then cdir_last_error() in the same thread gives the reason, and handles and output
  * parameters are unchanged. Null pointers, closed or invalid handles and calls in the wrong order are errors;
  * they never crash. No exception leaves the library.
  *
- * Parameter structs. Initialise a struct with its _default() function, which sets struct_size; a struct with
- * another struct_size is refused. Fields named reserved must be 0. Strings are UTF-8 and zero-terminated. The
- * library keeps no pointer that is passed to it: the caller's memory is its own again when the call returns.
+ * Structs. Every struct begins with struct_size, its size where the caller was compiled. Initialise it with
+ * its _default() function, in other languages than C and C++ with its _init() function: they set struct_size
+ * and the defaults. Later versions of this library add fields at a struct's end and change nothing else. So
+ * the library accepts every struct_size from that of ABI version 2 to its own: what a caller does not have
+ * keeps its default, and is not written. A greater one is refused: the program was compiled for a later
+ * library. In an array of structs the first one's struct_size is also the distance from each to the next.
+ * Sizes and offsets are the same on every platform: no field depends on a compiler's padding, and a pointer
+ * takes 8 bytes. Fields named reserved must be 0. Strings are UTF-8 and zero-terminated. The library keeps no
+ * pointer that is passed to it: the caller's memory is its own again when the call returns.
  *
  * Threads. Every function may be called from any thread at any time. Calls on the same match or observer are
- * serialised; calls on different ones run concurrently. Only cdir_observer_wait() blocks for long, and other
- * calls on its observer proceed meanwhile; opening and closing take milliseconds. Do not call the library
- * from a signal handler or, after fork(), from the child process.
+ * serialised; calls on different ones run concurrently. cdir_observer_wait() and cdir_context_wait() block
+ * for long, and other calls on the same handle proceed meanwhile; opening and closing a context do where a
+ * name server is slow. All else takes milliseconds at most. Do not call the library from a signal handler or,
+ * after fork(), from the child process.
  */
 #ifndef CAMERA_DIRECTOR_CAMERA_DIRECTOR_H
 #define CAMERA_DIRECTOR_CAMERA_DIRECTOR_H
@@ -51,7 +58,11 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#if defined(__GNUC__)
+#if defined(_WIN32) && defined(CDIR_BUILDING_LIBRARY)
+#define CDIR_API __declspec(dllexport)
+#elif defined(_WIN32)
+#define CDIR_API __declspec(dllimport)
+#elif defined(__GNUC__)
 #define CDIR_API __attribute__((visibility("default")))
 #else
 #define CDIR_API
@@ -64,7 +75,25 @@ extern "C" {
 #define CDIR_NOEXCEPT
 #endif
 
-#define CDIR_ABI_VERSION 1u
+#define CDIR_ABI_VERSION 2u
+
+/* A pointer in a struct, in 8 bytes also where pointers have 4: the others are not read. */
+#if UINTPTR_MAX > 0xffffffffu
+#define CDIR_POINTER(type, name) type name
+#else
+#define CDIR_POINTER(type, name) \
+    type name;                   \
+    uint32_t name##_unused
+#endif
+
+/* Declares type_init(), which does nothing with a null pointer, and type_default(). */
+#define CDIR_DEFAULTS(type)                                                  \
+    CDIR_API void type##_init(type* to, uint32_t struct_size) CDIR_NOEXCEPT; \
+    static inline type type##_default(void) {                                \
+        type made;                                                           \
+        type##_init(&made, (uint32_t)sizeof made);                           \
+        return made;                                                         \
+    }
 
 /* ---------------------------------------------------------------------------------------- status */
 
@@ -79,7 +108,8 @@ enum {
 
     CDIR_INVALID_ARGUMENT = -1, /* null pointer, value out of range, or malformed id */
     CDIR_INVALID_HANDLE = -2,   /* never opened, or closed */
-    CDIR_BUSY = -3,             /* the send queue is full: nothing was sent, try again later */
+    CDIR_BUSY = -3,             /* the send queue is full or the context not open yet: nothing was done, try
+                                   again later */
     CDIR_CONFLICT = -4,         /* contradicts what is already open or was published before */
     CDIR_NETWORK = -5,          /* DDS refused; cdir_last_error() says what and why */
     CDIR_OUT_OF_MEMORY = -6,
@@ -114,6 +144,39 @@ typedef struct cdir_observer {
     uint64_t id;
 } cdir_observer;
 
+/* --------------------------------------------------------------------------------------- library */
+
+/* Memory for what handles stand for: contexts, matches and observers. Cyclone DDS and the C++ runtime, which
+ * holds what lives during a call only, take theirs from malloc().
+ * Returns `size` bytes at a multiple of `alignment`, a power of two; null when there are none. */
+typedef void* (*cdir_allocate_function)(void* user_data, size_t size, size_t alignment);
+/* Takes back what cdir_allocate_function has returned for this size and alignment. */
+typedef void (*cdir_free_function)(void* user_data, void* memory, size_t size, size_t alignment);
+
+enum { CDIR_LOG_ERROR = 1, CDIR_LOG_WARNING = 2, CDIR_LOG_INFO = 3 };
+
+/* Takes a message of Cyclone DDS for people: one line of UTF-8 without its end, valid during the call. */
+typedef void (*cdir_log_function)(void* user_data, uint32_t level, const char* text);
+
+/* For the whole process. The functions are called on any thread, the log on one at a time. They must not
+ * throw, nor call this library. */
+typedef struct cdir_library_options {
+    uint32_t struct_size;
+    uint32_t reserved;
+    CDIR_POINTER(cdir_allocate_function, allocate); /* both or none */
+    CDIR_POINTER(cdir_free_function, free);
+    CDIR_POINTER(void*, allocator_data); /* their user_data */
+    CDIR_POINTER(cdir_log_function, log);
+    CDIR_POINTER(void*, log_data); /* its user_data */
+} cdir_library_options;
+
+/* The C++ runtime's memory; messages go to standard error. */
+CDIR_DEFAULTS(cdir_library_options)
+
+/* Replaces these options. A context, match or observer keeps the allocator that it was opened with until it
+ * is closed, calls in progress included. The previous log is not called any more when this returns. */
+CDIR_API cdir_status cdir_library_configure(const cdir_library_options* options) CDIR_NOEXCEPT;
+
 /* --------------------------------------------------------------------------------------- context */
 
 /* How this process reaches the directors. The strings must not be null unless cyclone_xml is given. */
@@ -121,22 +184,19 @@ typedef struct cdir_context_options {
     uint32_t struct_size;
     uint32_t domain; /* DDS domain, 0 .. 230 */
     /* Name or address of the network interface; empty = Cyclone DDS chooses one. */
-    const char* network_interface;
+    CDIR_POINTER(const char*, network_interface);
     /* The directors' addresses or host names, separated by commas: "10.0.0.5, 10.0.0.6" or "10.0.0.5:7412".
      * The default port is that of DDS participant index 0 on the host, which a director has by default. */
-    const char* directors;
+    CDIR_POINTER(const char*, directors);
     /* Null, or a complete Cyclone DDS configuration (XML) that replaces the two fields above, for instance
      * for multicast or DDS Security. The environment variable CYCLONEDDS_URI is ignored. */
-    const char* cyclone_xml;
+    CDIR_POINTER(const char*, cyclone_xml);
 } cdir_context_options;
 
 /* Domain 0 on this host only: network_interface "lo", directors "127.0.0.1". */
-static inline cdir_context_options cdir_context_options_default(void) {
-    cdir_context_options options = {sizeof(cdir_context_options), 0u, "lo", "127.0.0.1", NULL};
-    return options;
-}
+CDIR_DEFAULTS(cdir_context_options)
 
-/* Joins the domain.
+/* Joins the domain. Waits for a name server where `directors` has names.
  * CDIR_CONFLICT: a context of this process has the domain open with other network settings, or the process
  *   holds too many file descriptors: Cyclone DDS needs some below 1000.
  * CDIR_NETWORK: no address of `directors` can be resolved, or Cyclone DDS refuses the options, for instance
@@ -146,42 +206,94 @@ static inline cdir_context_options cdir_context_options_default(void) {
 CDIR_API cdir_status cdir_context_open(const cdir_context_options* options,
                                        cdir_context* context) CDIR_NOEXCEPT;
 
-/* Closes the context's matches and observers, and leaves the domain with its last context. Contexts that are
- * open when the process exits are closed then. */
+/* As cdir_context_open(), but returns before anything is resolved or joined, which a thread of the library
+ * does. Only malformed options fail at once. Until cdir_context_wait() says that the context is open, opening
+ * a match or an observer in it fails with CDIR_BUSY; afterwards, when it could not be opened, with the same
+ * status and reason as that. It must be closed in any case. */
+CDIR_API cdir_status cdir_context_open_async(const cdir_context_options* options,
+                                             cdir_context* context) CDIR_NOEXCEPT;
+
+/* Waits until the context is open. timeout: nanoseconds, 0 = do not wait, negative = without limit. Returns
+ * CDIR_OK, CDIR_TIMEOUT, or the status of cdir_context_open() when it could not be opened. */
+CDIR_API cdir_status cdir_context_wait(cdir_context context, int64_t timeout) CDIR_NOEXCEPT;
+
+/* Waits until an attempt to open it has ended. Closes the context's matches and observers, and leaves the
+ * domain with its last context. Contexts that are open when the process exits are closed then. */
 CDIR_API cdir_status cdir_context_close(cdir_context context) CDIR_NOEXCEPT;
+
+/* --------------------------------------------------------------------------------- axes and units */
+
+/* How an engine counts. Its orientations are quaternions x y z w that rotate its own axes. */
+enum {
+    CDIR_ENGINE_QUAKE = 1, /* Quake, GoldSrc, Source: x forward, y left, z up; 0.0254 m */
+    CDIR_ENGINE_UNITY = 2, /* x right, y up, z forward: left-handed; 1 m */
+    CDIR_ENGINE_UNREAL = 3 /* x forward, y right, z up: left-handed; 0.01 m */
+};
+
+/* Convert a position or a velocity (3 numbers, finite) from an engine's axes and units to those of a map with
+ * so many metres_per_unit (> 0, as in cdir_match_info), and back. The two arrays may be the same. */
+CDIR_API cdir_status cdir_position_from_engine(uint32_t engine, float metres_per_unit, const float* position,
+                                               float* converted) CDIR_NOEXCEPT;
+CDIR_API cdir_status cdir_position_to_engine(uint32_t engine, float metres_per_unit, const float* position,
+                                             float* converted) CDIR_NOEXCEPT;
+
+/* Convert an orientation (4 numbers, of length 1 within 1e-3) from an engine's axes to the map's, and back.
+ * The two arrays may be the same. */
+CDIR_API cdir_status cdir_orientation_from_engine(uint32_t engine, const float* orientation,
+                                                  float* converted) CDIR_NOEXCEPT;
+CDIR_API cdir_status cdir_orientation_to_engine(uint32_t engine, const float* orientation,
+                                                float* converted) CDIR_NOEXCEPT;
+
+/* Convert between the view angles (3 numbers) of Quake, GoldSrc and Source and an orientation (4 numbers).
+ * Pitch (positive looks down), yaw and roll are degrees: any finite ones, and back pitch from -90 to 90, yaw
+ * and roll from -180 to 180, and roll 0 where the view is vertical. */
+CDIR_API cdir_status cdir_orientation_from_angles(const float* angles, float* orientation) CDIR_NOEXCEPT;
+CDIR_API cdir_status cdir_orientation_to_angles(const float* orientation, float* angles) CDIR_NOEXCEPT;
 
 /* ----------------------------------------------------------------------------------- match info */
 
+/* What a director passes on to observers. It reads ids alone. */
 typedef struct cdir_player {
+    uint32_t struct_size;
     uint32_t id; /* any value but CDIR_NO_PLAYER; unique within the match */
     uint8_t team;
-    uint8_t reserved[3];
+    uint8_t reserved[7];
     char name[64];
     char player_class[32];
 } cdir_player;
 
+/* Player 0 of team 0, without name and class. */
+CDIR_DEFAULTS(cdir_player)
+
 typedef struct cdir_match_info {
     uint32_t struct_size;
-    float metres_per_unit;   /* > 0: length of one map unit in metres */
-    float rate_hz;           /* > 0: pose frames per second that the game server intends to publish */
-    float spectator_delay_s; /* 0 to 120: directors publish the match and this description so late */
-    uint64_t epoch;          /* open and restart: 0 = taken from the system clock, which makes it greater
-                                than those of earlier processes; update: ignored */
-    uint64_t map_hash;       /* xxh3-64 of the map file's bytes; 0 = unknown */
-    char match_id[64];       /* 1 .. 63 bytes without '/', '*', '?' and control characters */
-    char map_name[256];      /* 1 .. 255 bytes: the map's name in the director's configuration */
+    /* > 0: length of one map unit in metres. For observers, who convert with cdir_position_to_engine();
+     * directors go by what they know of the map. */
+    float metres_per_unit;
+    float rate_hz; /* > 0: pose frames per second that the game server intends to publish */
+    /* >= 0: observers receive cameras and this description at least so late; later when the director's
+     * operator wants a longer delay. Directors refuse every shot of a match with more than 120: reason in
+     * cdir_shot_status says so. A longer one than before stops the cameras until it is filled, a shorter one
+     * takes effect with the next epoch. */
+    float spectator_delay_s;
+    /* open and restart: 0 = taken from the system clock, which makes it greater than those of earlier
+     * processes; update: ignored. Observers drop what arrives of an earlier epoch than the one that is shown.
+     */
+    uint64_t epoch;
+    uint64_t map_hash;  /* xxh3-64 of the map file's bytes; 0 = unknown */
+    char match_id[64];  /* 1 .. 63 bytes without '/', '*', '?' and control characters */
+    char map_name[256]; /* 1 .. 255 bytes: the map's name in the director's configuration */
 } cdir_match_info;
 
 /* 0.0254 metres per unit (Quake and Half-Life maps), 60 Hz, no delay. */
-static inline cdir_match_info cdir_match_info_default(void) {
-    cdir_match_info info = {sizeof(cdir_match_info), 0.0254f, 60.0f, 0.0f, 0u, 0u, {0}, {0}};
-    return info;
-}
+CDIR_DEFAULTS(cdir_match_info)
 
 /* ----------------------------------------------------------------------------------- game server */
 
 /* Announces a match and its players. players: player_count <= CDIR_MAX_PLAYERS elements; may be null for 0. A
- * match_id must have only one game server at a time: the director cannot tell two apart. */
+ * match_id must have only one game server at a time: the director cannot tell two apart.
+ * CDIR_INVALID_ARGUMENT: a field of info or of players[i] is out of its range; cdir_last_error() names it.
+ * CDIR_BUSY: the context is not open yet, see cdir_context_open_async(). */
 CDIR_API cdir_status cdir_match_open(cdir_context context, const cdir_match_info* info,
                                      const cdir_player* players, uint32_t player_count,
                                      cdir_match* match) CDIR_NOEXCEPT;
@@ -191,7 +303,8 @@ CDIR_API cdir_status cdir_match_open(cdir_context context, const cdir_match_info
 CDIR_API cdir_status cdir_match_update(cdir_match match, const cdir_match_info* info,
                                        const cdir_player* players, uint32_t player_count) CDIR_NOEXCEPT;
 
-/* Begins a new epoch after a map change or a restart of the game. frame_time may start again.
+/* Begins a new epoch after a map change or a restart of the game. frame_time may start again, and the counts
+ * of discontinuities do. With a delay, observers see the old epoch to its end before the new one.
  * CDIR_CONFLICT: match_id differs from before, or epoch is neither 0 nor greater than before. */
 CDIR_API cdir_status cdir_match_restart(cdir_match match, const cdir_match_info* info,
                                         const cdir_player* players, uint32_t player_count) CDIR_NOEXCEPT;
@@ -205,38 +318,43 @@ enum {
     CDIR_POSE_SPECTATOR = 4      /* not in the game: never a target */
 };
 
-/* The poses of all players at one instant, in the caller's arrays. */
+/* The poses of all players at one instant, in the caller's arrays. An array's stride is the distance in bytes
+ * from one player's element to the next, so that the arrays may be fields of the engine's own structs; 0 =
+ * packed. */
 typedef struct cdir_pose_frame {
     uint32_t struct_size;
-    uint32_t player_count;     /* n <= CDIR_MAX_PLAYERS; for 0 the arrays may be null */
-    int64_t frame_time;        /* not less than that of the epoch's previous frame */
-    int64_t source_time;       /* CLOCK_REALTIME when the poses were sampled; 0 = now */
-    const uint32_t* player_id; /* n, distinct */
-    const float* eye;          /* 3n: positions of the eyes, map units, finite */
-    const float* orientation;  /* 4n: view quaternions, of length 1 within 1e-3 */
-    const float* velocity;     /* 3n: map units per second, finite; null = unknown */
-    const uint32_t* flags;     /* n: bitwise or of CDIR_POSE_ values */
+    uint32_t player_count; /* n <= CDIR_MAX_PLAYERS; for 0 the arrays may be null */
+    int64_t frame_time;    /* not less than that of the epoch's previous frame */
+    int64_t source_time;   /* when the poses were sampled, since 1970-01-01 00:00 UTC; 0 = now */
+    CDIR_POINTER(const uint32_t*, player_id); /* n, distinct */
+    CDIR_POINTER(const float*, eye);          /* n times 3: positions of the eyes, map units, finite */
+    CDIR_POINTER(const float*, orientation);  /* n times 4: view quaternions, of length 1 within 1e-3 */
+    CDIR_POINTER(const float*, velocity);     /* n times 3: map units per second, finite; null = unknown */
+    CDIR_POINTER(const uint32_t*, flags);     /* n: bitwise or of CDIR_POSE_ values */
+    uint32_t player_id_stride;
+    uint32_t eye_stride;
+    uint32_t orientation_stride;
+    uint32_t velocity_stride;
+    uint32_t flags_stride;
+    uint32_t reserved;
 } cdir_pose_frame;
 
-static inline cdir_pose_frame cdir_pose_frame_default(void) {
-    cdir_pose_frame frame = {sizeof(cdir_pose_frame), 0u, 0, 0, NULL, NULL, NULL, NULL, NULL};
-    return frame;
-}
-
-/* Stores the view quaternion (4 numbers) of the view angles (3 numbers) of Quake, GoldSrc and Source: pitch
- * (positive looks down), yaw and roll in degrees, finite. */
-CDIR_API cdir_status cdir_orientation_from_angles(const float* angles, float* orientation) CDIR_NOEXCEPT;
+/* No players, and packed arrays. */
+CDIR_DEFAULTS(cdir_pose_frame)
 
 /* Publishes one frame, best effort: a director that falls behind gets the newest. Never waits for a receiver.
+ * CDIR_INVALID_ARGUMENT: cdir_last_error() names the array that is wrong, or frame_time went back within the
+ * epoch. Nothing of the frame counts then, also not its discontinuities.
  * No discontinuity is lost with a frame: the library counts them by player within the epoch, and every frame
  * carries the counts.
  * Costs one system call per director; a game that cannot afford them in its frame calls this from a thread of
  * its own. */
 CDIR_API cdir_status cdir_match_publish_poses(cdir_match match, const cdir_pose_frame* frame) CDIR_NOEXCEPT;
 
-/* What the fields of an event mean for each kind. Names are the game's own, such as "MOD_ROCKET" or
- * "item_quad". What does not apply or is not known is CDIR_NO_PLAYER, 0 or "". A player who dies or is hurt
- * through no other player is the subject alone, by their own doing also the actor. */
+/* What the fields of an event mean for each kind. The director chooses targets by kind, actor and subject. It
+ * receives value and detail, too, and passes no event on to observers. Names are the game's own, such as
+ * "MOD_ROCKET" or "item_quad". What does not apply or is not known is CDIR_NO_PLAYER, 0 or "". A player who
+ * dies or is hurt through no other player is the subject alone, by their own doing also the actor. */
 enum {
     CDIR_EVENT_KILL = 1,          /* actor killed subject; value: points for actor; detail: means */
     CDIR_EVENT_FLAG_TAKEN = 2,    /* by actor; value: team of the flag; detail: its name */
@@ -259,11 +377,8 @@ typedef struct cdir_match_event {
     char detail[32]; /* up to 31 bytes without control characters */
 } cdir_match_event;
 
-static inline cdir_match_event cdir_match_event_default(void) {
-    cdir_match_event event = {
-        sizeof(cdir_match_event), CDIR_EVENT_KILL, 0, CDIR_NO_PLAYER, CDIR_NO_PLAYER, 0.0f, 0u, {0}};
-    return event;
-}
+/* A kill, by and of nobody. */
+CDIR_DEFAULTS(cdir_match_event)
 
 /* Publishes one event, reliably.
  * CDIR_BUSY: a director is so far behind that the send queue of 256 events is full. */
@@ -286,34 +401,33 @@ typedef struct cdir_observer_options {
 } cdir_observer_options;
 
 /* 50 ms: three frames at 60 Hz. */
-static inline cdir_observer_options cdir_observer_options_default(void) {
-    cdir_observer_options options = {sizeof(cdir_observer_options), 0u, 50000000};
-    return options;
-}
+CDIR_DEFAULTS(cdir_observer_options)
 
 /* Begins to observe a match, which need not exist yet. match_id: as in cdir_match_info. observer_id: 1 .. 63
- * bytes without control characters, unique within the match. options: null = the default. */
+ * bytes without control characters, unique within the match: while another process has opened it, or has died
+ * less than 10 s ago, that one's answers are received and this one's request waits. options: null = the
+ * default. */
 CDIR_API cdir_status cdir_observer_open(cdir_context context, const char* match_id, const char* observer_id,
                                         const cdir_observer_options* options,
                                         cdir_observer* observer) CDIR_NOEXCEPT;
 
 typedef struct cdir_shot_request {
     uint32_t struct_size;
-    uint32_t target;       /* player id or CDIR_CHOOSE_TARGET */
-    const uint32_t* group; /* group_count players among whom the director chooses; null = all */
-    const char* profile;   /* "default", "broadcast", "close", "tactical", or another one of the director's
-                              configuration, up to 31 bytes; null or "" = the one that it chooses */
-    const char* overrides; /* JSON object with a profile's keys, up to 1023 bytes; null or "" = none. The
-                              director's operator may narrow them. */
-    uint32_t group_count;  /* <= CDIR_MAX_PLAYERS */
+    uint32_t target; /* player id or CDIR_CHOOSE_TARGET */
+    /* group_count players among whom the director chooses; null = all. */
+    CDIR_POINTER(const uint32_t*, group);
+    /* "default", "broadcast", "close", "tactical", or another one of the director's configuration, up to 31
+     * bytes; null or "" = the one that it chooses. */
+    CDIR_POINTER(const char*, profile);
+    /* JSON object with a profile's keys, up to 1023 bytes; null or "" = none. The director's operator may
+     * narrow them. */
+    CDIR_POINTER(const char*, overrides);
+    uint32_t group_count; /* <= CDIR_MAX_PLAYERS */
     uint32_t reserved;
 } cdir_shot_request;
 
 /* The director chooses the target among all players, with its default profile. */
-static inline cdir_shot_request cdir_shot_request_default(void) {
-    cdir_shot_request request = {sizeof(cdir_shot_request), CDIR_CHOOSE_TARGET, NULL, NULL, NULL, 0u, 0u};
-    return request;
-}
+CDIR_DEFAULTS(cdir_shot_request)
 
 /* Requests a shot, or replaces the observer's request. Returns before a director has answered:
  * cdir_observer_shot_status() has the answer. The request ends with the observer. */
@@ -344,14 +458,19 @@ enum {
 };
 
 typedef struct cdir_camera {
+    uint32_t struct_size;
     uint32_t camera_id;
     uint32_t target;      /* player id; CDIR_CHOOSE_TARGET while the director has chosen none */
+    uint32_t flags;       /* bitwise or of CDIR_CAMERA_ values */
     float position[3];    /* map units */
     float orientation[4]; /* x y z w */
     float vertical_fov;   /* radians, greater than 0, less than pi */
     float clearance;      /* lower bound of the distance to the nearest obstacle, map units */
-    uint32_t flags;       /* bitwise or of CDIR_CAMERA_ values */
+    uint32_t reserved;
 } cdir_camera;
+
+/* At the map's origin, looking along x, with a field of view of 60 degrees. */
+CDIR_DEFAULTS(cdir_camera)
 
 typedef struct cdir_camera_frame {
     uint32_t struct_size;
@@ -360,18 +479,16 @@ typedef struct cdir_camera_frame {
     uint64_t director_id;
     int64_t frame_time;    /* of the pose frame that the cameras were computed for */
     int64_t source_time;   /* of that pose frame */
-    int64_t write_time;    /* when the director published the cameras, by its CLOCK_REALTIME */
+    int64_t write_time;    /* when the director published the cameras, by its clock */
     uint32_t frame_number; /* consecutive within the epoch and director, from 0 */
     uint32_t pose_number;  /* number of that pose frame within the epoch, from 0 */
 } cdir_camera_frame;
 
-static inline cdir_camera_frame cdir_camera_frame_default(void) {
-    cdir_camera_frame frame = {sizeof(cdir_camera_frame), 0u, 0u, 0u, 0, 0, 0, 0u, 0u};
-    return frame;
-}
+CDIR_DEFAULTS(cdir_camera_frame)
 
 /* For broadcasters and recorders: takes the next camera frame, oldest first, with the cameras of all shots of
- * the match. Stores up to capacity cameras; cameras may be null for 0. Needs no request.
+ * the match. Stores up to capacity cameras; cameras may be null for 0, and its first needs its struct_size.
+ * Needs no request.
  * CDIR_TRUNCATED: there are more, camera_count in all. CDIR_NO_DATA: no frame waits.
  * Frames that are not taken are kept up to 32, then the oldest are lost and count as gaps. */
 CDIR_API cdir_status cdir_observer_next_frame(cdir_observer observer, cdir_camera_frame* frame,
@@ -395,10 +512,7 @@ typedef struct cdir_shot_status {
     char reason[256]; /* for people; may be empty */
 } cdir_shot_status;
 
-static inline cdir_shot_status cdir_shot_status_default(void) {
-    cdir_shot_status status = {sizeof(cdir_shot_status), CDIR_SHOT_NOT_REQUESTED, 0u, 0u, 0u, {0}};
-    return status;
-}
+CDIR_DEFAULTS(cdir_shot_status)
 
 /* The state in words, such as "waiting for the map"; "unknown state" for any other number. Never null. */
 CDIR_API const char* cdir_shot_state_name(uint32_t state) CDIR_NOEXCEPT;
@@ -407,30 +521,27 @@ CDIR_API const char* cdir_shot_state_name(uint32_t state) CDIR_NOEXCEPT;
 CDIR_API cdir_status cdir_observer_shot_status(cdir_observer observer,
                                                cdir_shot_status* status) CDIR_NOEXCEPT;
 
-/* The shot's camera at one time. */
+/* Where among the frames a shot's camera was taken. */
 typedef struct cdir_view {
     uint32_t struct_size;
     uint32_t segment;   /* changes at every cut and where frames are missing: do not blend across a change */
-    int64_t frame_time; /* of this camera */
+    int64_t frame_time; /* of the camera */
     int64_t late;       /* >= 0: how much later than the newest frame the requested time is; the camera stands
                            still meanwhile */
-    cdir_camera camera;
 } cdir_view;
 
-static inline cdir_view cdir_view_default(void) {
-    cdir_view view = {sizeof(cdir_view), 0u, 0, 0, {0u, 0u, {0}, {0}, 0.0f, 0.0f, 0u}};
-    return view;
-}
+CDIR_DEFAULTS(cdir_view)
 
 /* Stores the newest camera of the shot, as received. CDIR_NO_DATA: there is none in this epoch. */
-CDIR_API cdir_status cdir_observer_newest_camera(cdir_observer observer, cdir_view* view) CDIR_NOEXCEPT;
+CDIR_API cdir_status cdir_observer_newest_camera(cdir_observer observer, cdir_camera* camera,
+                                                 cdir_view* view) CDIR_NOEXCEPT;
 
 /* Stores the shot's camera at a game time, interpolated between the frames before and after it, but never
  * across a cut or a missing frame. Position and orientation pass through the frames without kinks, and the
  * position stays on the straight way between two frames or within the clearance of one of them. The newest 64
  * frames are kept: earlier times give the oldest of them, later times the newest. CDIR_NO_DATA: there is none
  * in this epoch. */
-CDIR_API cdir_status cdir_observer_camera_at(cdir_observer observer, int64_t frame_time,
+CDIR_API cdir_status cdir_observer_camera_at(cdir_observer observer, int64_t frame_time, cdir_camera* camera,
                                              cdir_view* view) CDIR_NOEXCEPT;
 
 /* Stores the game time to display now: interpolation_delay behind the camera frames as they arrive. Advances
@@ -438,10 +549,10 @@ CDIR_API cdir_status cdir_observer_camera_at(cdir_observer observer, int64_t fra
  * CDIR_NO_DATA: no frame has been taken in this epoch. */
 CDIR_API cdir_status cdir_observer_display_time(cdir_observer observer, int64_t* frame_time) CDIR_NOEXCEPT;
 
-/* Stores the match's description and up to capacity of its players; players may be null for 0, player_count
- * (may be null) receives their number. CDIR_TRUNCATED: there are more than capacity.
- * The description is of what the cameras show, and late by the match's delay as they are. It comes from the
- * director, needs no request, and stays when the director has gone, until another one's.
+/* Stores the match's description and up to capacity of its players; players may be null for 0, and its first
+ * needs its struct_size. player_count (may be null) receives their number. CDIR_TRUNCATED: there are more
+ * than capacity. The description is of what the cameras show, and late by the match's delay as they are. It
+ * comes from the director, needs no request, and stays when the director has gone, until another one's.
  * CDIR_NO_DATA: no director shows the match, or it has been shown to its end. */
 CDIR_API cdir_status cdir_observer_match_info(cdir_observer observer, cdir_match_info* info,
                                               cdir_player* players, uint32_t capacity,
@@ -458,10 +569,7 @@ typedef struct cdir_observer_counters {
     uint64_t invalid;     /* malformed samples, dropped */
 } cdir_observer_counters;
 
-static inline cdir_observer_counters cdir_observer_counters_default(void) {
-    cdir_observer_counters counters = {sizeof(cdir_observer_counters), 0u, 0u, 0u, 0u, 0u, 0u};
-    return counters;
-}
+CDIR_DEFAULTS(cdir_observer_counters)
 
 CDIR_API cdir_status cdir_observer_get_counters(cdir_observer observer,
                                                 cdir_observer_counters* counters) CDIR_NOEXCEPT;

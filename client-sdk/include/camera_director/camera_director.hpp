@@ -1,23 +1,29 @@
-// C++20 over camera_director.h, header-only: owning objects instead of handles, exceptions instead of
-// negative statuses, std::optional instead of CDIR_NO_DATA. The C header documents each call, its units and
-// limits.
+// C++20 over camera_director.h, header-only: owning objects instead of handles, Result instead of negative
+// statuses, std::optional instead of CDIR_NO_DATA. The C header documents each call, its units and limits.
+// Compiles with and without exceptions and run-time type information.
 //
-//     camera_director::Context context;
-//     camera_director::Observer observer(context, "cup-7", "anna");
-//     observer.request({.target = 3});
-//     while (observer.wait(std::chrono::seconds(1)) == camera_director::Waited::arrived) {
-//         observer.poll();
-//         if (auto view = observer.newest_camera()) show(view->camera);
-//     }
+//     auto context = camera_director::Context::open();
+//     if (!context) return complain(context.error().what());
+//     auto observer = camera_director::Observer::open(*context, "cup-7", "anna");
+//     if (!observer) return complain(observer.error().what());
+//     if (const auto asked = observer->request({.target = 3}); !asked) return complain(asked.error().what());
+//
+// A program that uses exceptions takes what it wants with value(), which throws the Error instead:
+//
+//     auto context = camera_director::Context::open().value();
+//     auto observer = camera_director::Observer::open(context, "cup-7", "anna").value();
+//     observer.request({.target = 3}).value();
 //
 // Any thread may use an object; moving and destroying it must not overlap with other uses. A context may be
-// destroyed before its matches and observers: their calls then throw an Error with CDIR_INVALID_HANDLE.
+// destroyed before its matches and observers: their calls then fail with CDIR_INVALID_HANDLE.
 #pragma once
 
 #include <camera_director/camera_director.h>
 
 #include <chrono>
 #include <cstdint>
+#include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <optional>
 #include <span>
@@ -25,11 +31,12 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace camera_director {
 
-// What every failed call throws. what() is the text of cdir_last_error().
+// Why a call failed. what() is the text of cdir_last_error().
 class Error : public std::runtime_error {
   public:
     Error(cdir_status status, const char* text) : std::runtime_error(text), status_(status) {}
@@ -39,29 +46,98 @@ class Error : public std::runtime_error {
     cdir_status status_;
 };
 
+// What a call has returned, or why it failed. As std::expected<T, Error>, which C++20 does not have.
+template <class T>
+class [[nodiscard]] Result {
+  public:
+    Result(T value) : content_(std::in_place_index<0>, std::move(value)) {}
+    Result(Error error) : content_(std::in_place_index<1>, std::move(error)) {}
+
+    [[nodiscard]] explicit operator bool() const noexcept { return content_.index() == 0; }
+    // Of a call that failed, and undefined otherwise.
+    [[nodiscard]] const Error& error() const noexcept { return *std::get_if<1>(&content_); }
+    // Of a call that did not fail, and undefined otherwise.
+    [[nodiscard]] T& operator*() noexcept { return *std::get_if<0>(&content_); }
+    [[nodiscard]] const T& operator*() const noexcept { return *std::get_if<0>(&content_); }
+    [[nodiscard]] T* operator->() noexcept { return std::get_if<0>(&content_); }
+    [[nodiscard]] const T* operator->() const noexcept { return std::get_if<0>(&content_); }
+
+    // When the call failed, throws the Error; without exceptions, prints it and aborts.
+    T& value() & {
+        require_value();
+        return **this;
+    }
+    const T& value() const& {
+        require_value();
+        return **this;
+    }
+    T value() && {
+        require_value();
+        return std::move(**this);
+    }
+
+  private:
+    void require_value() const {
+        if (*this) return;
+#if defined(__cpp_exceptions) || defined(_CPPUNWIND)
+        throw error();
+#else
+        std::fprintf(stderr, "camera director: %s\n", error().what());
+        std::abort();
+#endif
+    }
+
+    std::variant<T, Error> content_;
+};
+
+// Of calls that return nothing.
+struct Done {};
+using Outcome = Result<Done>;
+
 namespace detail {
 
-inline cdir_status check(cdir_status status) {
-    if (status < 0) throw Error(status, cdir_last_error());
-    return status;
+inline Error last_error(cdir_status status) {
+    return {status, cdir_last_error()};
+}
+
+inline Outcome outcome(cdir_status status) {
+    if (status < 0) return last_error(status);
+    return Done{};
+}
+
+// `made`, or none when the call had no data.
+template <class T>
+Result<std::optional<T>> optional_result(cdir_status status, T made) {
+    if (status < 0) return last_error(status);
+    if (status == CDIR_NO_DATA) return std::optional<T>();
+    return std::optional<T>(std::move(made));
+}
+
+template <class T>
+Result<T> result(cdir_status status, T made) {
+    if (status < 0) return last_error(status);
+    return made;
+}
+
+inline Error too_long(const char* field, std::size_t size) {
+    const std::string text =
+        std::string(field) + " must have at most " + std::to_string(size - 1) + " bytes, none of them zero";
+    return {CDIR_INVALID_ARGUMENT, text.c_str()};
 }
 
 template <std::size_t size>
-void copy_text(char (&to)[size], std::string_view from, const char* field) {
-    if (from.size() >= size || from.find('\0') != std::string_view::npos) {
-        throw Error(CDIR_INVALID_ARGUMENT, (std::string(field) + " must have at most " +
-                                            std::to_string(size - 1) + " bytes, none of them zero")
-                                               .c_str());
-    }
+Outcome copy_text(char (&to)[size], std::string_view from, const char* field) {
+    if (from.size() >= size || from.find('\0') != std::string_view::npos) return too_long(field, size);
     std::memcpy(to, from.data(), from.size());
     to[from.size()] = '\0';
+    return Done{};
 }
 
 // Owns a handle and closes it.
 template <class Handle, cdir_status (*close)(Handle) noexcept>
 class Owner {
   public:
-    Owner() = default;
+    explicit Owner(Handle handle) : handle_(handle) {}
     Owner(Owner&& other) noexcept : handle_(std::exchange(other.handle_, Handle{})) {}
     Owner& operator=(Owner&& other) noexcept {
         std::swap(handle_, other.handle_);
@@ -74,16 +150,14 @@ class Owner {
     }
 
     [[nodiscard]] Handle get() const noexcept { return handle_; }
-    [[nodiscard]] Handle* out() noexcept { return &handle_; }
 
   private:
-    Handle handle_{};
+    Handle handle_;
 };
 
 }  // namespace detail
 
 using Camera = cdir_camera;
-using View = cdir_view;
 using CameraFrame = cdir_camera_frame;
 using ShotStatus = cdir_shot_status;
 using Counters = cdir_observer_counters;
@@ -98,18 +172,37 @@ struct ContextOptions {
 // A connection to the directors of one DDS domain.
 class Context {
   public:
-    explicit Context(const ContextOptions& options = {}) {
-        cdir_context_options raw = cdir_context_options_default();
-        raw.domain = options.domain;
-        raw.network_interface = options.network_interface.c_str();
-        raw.directors = options.directors.c_str();
-        raw.cyclone_xml = options.cyclone_xml ? options.cyclone_xml->c_str() : nullptr;
-        detail::check(cdir_context_open(&raw, owner_.out()));
+    [[nodiscard]] static Result<Context> open(const ContextOptions& options = {}) {
+        return open_by(cdir_context_open, options);
+    }
+    // Returns before the context is open: see wait().
+    [[nodiscard]] static Result<Context> open_async(const ContextOptions& options = {}) {
+        return open_by(cdir_context_open_async, options);
+    }
+
+    // Returns false when the context is not open yet. A negative timeout waits without limit.
+    [[nodiscard]] Result<bool> wait(std::chrono::nanoseconds timeout) const {
+        const cdir_status status = cdir_context_wait(owner_.get(), timeout.count());
+        return detail::result(status, status == CDIR_OK);
     }
 
     [[nodiscard]] cdir_context handle() const noexcept { return owner_.get(); }
 
   private:
+    explicit Context(cdir_context handle) : owner_(handle) {}
+
+    template <class Open>
+    static Result<Context> open_by(Open* open, const ContextOptions& options) {
+        cdir_context_options raw = cdir_context_options_default();
+        raw.domain = options.domain;
+        raw.network_interface = options.network_interface.c_str();
+        raw.directors = options.directors.c_str();
+        raw.cyclone_xml = options.cyclone_xml ? options.cyclone_xml->c_str() : nullptr;
+        cdir_context handle{};
+        if (const cdir_status status = open(&raw, &handle); status < 0) return detail::last_error(status);
+        return Context(handle);
+    }
+
     detail::Owner<cdir_context, cdir_context_close> owner_;
 };
 
@@ -154,60 +247,76 @@ struct MatchEvent {
 namespace detail {
 
 struct RawMatchInfo {
-    explicit RawMatchInfo(const MatchInfo& from) : info(cdir_match_info_default()) {
-        copy_text(info.match_id, from.match_id, "match_id");
-        copy_text(info.map_name, from.map_name, "map_name");
-        info.metres_per_unit = from.metres_per_unit;
-        info.rate_hz = from.rate_hz;
-        info.spectator_delay_s = from.spectator_delay_s;
-        info.epoch = from.epoch;
-        info.map_hash = from.map_hash;
-        for (const Player& player : from.players) {
-            cdir_player& raw = players.emplace_back();
-            raw.id = player.id;
-            raw.team = player.team;
-            copy_text(raw.name, player.name, "a player's name");
-            copy_text(raw.player_class, player.player_class, "a player's class");
-        }
-    }
     [[nodiscard]] std::uint32_t count() const { return static_cast<std::uint32_t>(players.size()); }
 
-    cdir_match_info info;
-    std::vector<cdir_player> players;
+    cdir_match_info info = cdir_match_info_default();
+    std::vector<cdir_player> players = {};
 };
+
+inline Outcome add_player(RawMatchInfo& raw, const Player& player) {
+    cdir_player& added = raw.players.emplace_back(cdir_player_default());
+    added.id = player.id;
+    added.team = player.team;
+    Outcome copied = copy_text(added.name, player.name, "a player's name");
+    if (copied) copied = copy_text(added.player_class, player.player_class, "a player's class");
+    return copied;
+}
+
+inline Result<RawMatchInfo> raw_info(const MatchInfo& from) {
+    RawMatchInfo raw;
+    raw.info.metres_per_unit = from.metres_per_unit;
+    raw.info.rate_hz = from.rate_hz;
+    raw.info.spectator_delay_s = from.spectator_delay_s;
+    raw.info.epoch = from.epoch;
+    raw.info.map_hash = from.map_hash;
+    Outcome copied = copy_text(raw.info.match_id, from.match_id, "match_id");
+    if (copied) copied = copy_text(raw.info.map_name, from.map_name, "map_name");
+    for (std::size_t i = 0; copied && i < from.players.size(); ++i)
+        copied = add_player(raw, from.players[i]);
+    if (!copied) return copied.error();
+    return raw;
+}
 
 }  // namespace detail
 
 // A match, on the game server's side.
 class Match {
   public:
-    Match(const Context& context, const MatchInfo& info) {
-        const detail::RawMatchInfo raw(info);
-        detail::check(
-            cdir_match_open(context.handle(), &raw.info, raw.players.data(), raw.count(), owner_.out()));
+    [[nodiscard]] static Result<Match> open(const Context& context, const MatchInfo& info) {
+        const auto raw = detail::raw_info(info);
+        if (!raw) return raw.error();
+        cdir_match handle{};
+        const cdir_status status =
+            cdir_match_open(context.handle(), &raw->info, raw->players.data(), raw->count(), &handle);
+        if (status < 0) return detail::last_error(status);
+        return Match(handle);
     }
 
-    void update(const MatchInfo& info) {
-        const detail::RawMatchInfo raw(info);
-        detail::check(cdir_match_update(owner_.get(), &raw.info, raw.players.data(), raw.count()));
+    Outcome update(const MatchInfo& info) {
+        const auto raw = detail::raw_info(info);
+        if (!raw) return raw.error();
+        return detail::outcome(
+            cdir_match_update(owner_.get(), &raw->info, raw->players.data(), raw->count()));
     }
 
-    void restart(const MatchInfo& info) {
-        const detail::RawMatchInfo raw(info);
-        detail::check(cdir_match_restart(owner_.get(), &raw.info, raw.players.data(), raw.count()));
+    Outcome restart(const MatchInfo& info) {
+        const auto raw = detail::raw_info(info);
+        if (!raw) return raw.error();
+        return detail::outcome(
+            cdir_match_restart(owner_.get(), &raw->info, raw->players.data(), raw->count()));
     }
 
-    [[nodiscard]] std::uint64_t epoch() const {
+    [[nodiscard]] Result<std::uint64_t> epoch() const {
         std::uint64_t epoch = 0;
-        detail::check(cdir_match_epoch(owner_.get(), &epoch));
-        return epoch;
+        const cdir_status status = cdir_match_epoch(owner_.get(), &epoch);
+        return detail::result(status, epoch);
     }
 
-    void publish(const PoseFrame& frame) {
+    Outcome publish(const PoseFrame& frame) {
         const std::size_t n = frame.player_id.size();
         if (frame.eye.size() != 3 * n || frame.orientation.size() != 4 * n || frame.flags.size() != n ||
             (!frame.velocity.empty() && frame.velocity.size() != 3 * n)) {
-            throw Error(CDIR_INVALID_ARGUMENT, "the arrays of a pose frame differ in length");
+            return Error(CDIR_INVALID_ARGUMENT, "the arrays of a pose frame differ in length");
         }
         cdir_pose_frame raw = cdir_pose_frame_default();
         raw.player_count = static_cast<std::uint32_t>(n);
@@ -218,27 +327,35 @@ class Match {
         raw.orientation = frame.orientation.data();
         raw.velocity = frame.velocity.empty() ? nullptr : frame.velocity.data();
         raw.flags = frame.flags.data();
-        detail::check(cdir_match_publish_poses(owner_.get(), &raw));
+        return publish(raw);
     }
 
-    void publish(const MatchEvent& event) {
+    // For arrays with strides.
+    Outcome publish(const cdir_pose_frame& frame) {
+        return detail::outcome(cdir_match_publish_poses(owner_.get(), &frame));
+    }
+
+    Outcome publish(const MatchEvent& event) {
         cdir_match_event raw = cdir_match_event_default();
         raw.kind = event.kind;
         raw.frame_time = event.frame_time;
         raw.actor = event.actor;
         raw.subject = event.subject;
         raw.value = event.value;
-        detail::copy_text(raw.detail, event.detail, "an event's detail");
-        detail::check(cdir_match_publish_event(owner_.get(), &raw));
+        if (auto copied = detail::copy_text(raw.detail, event.detail, "an event's detail"); !copied)
+            return copied;
+        return detail::outcome(cdir_match_publish_event(owner_.get(), &raw));
     }
 
-    [[nodiscard]] std::uint32_t director_count() const {
+    [[nodiscard]] Result<std::uint32_t> director_count() const {
         std::uint32_t count = 0;
-        detail::check(cdir_match_director_count(owner_.get(), &count));
-        return count;
+        const cdir_status status = cdir_match_director_count(owner_.get(), &count);
+        return detail::result(status, count);
     }
 
   private:
+    explicit Match(cdir_match handle) : owner_(handle) {}
+
     detail::Owner<cdir_match, cdir_match_close> owner_;
 };
 
@@ -253,101 +370,123 @@ struct ObserverOptions {
     std::chrono::nanoseconds interpolation_delay{cdir_observer_options_default().interpolation_delay};
 };
 
+// The shot's camera at one time; see cdir_view.
+struct View {
+    Camera camera = cdir_camera_default();
+    std::uint32_t segment = 0;
+    std::int64_t frame_time = 0;
+    std::int64_t late = 0;
+};
+
 enum class Waited { arrived, timeout, interrupted };
 
 // An observer of one match, on the spectator's side.
 class Observer {
   public:
-    Observer(const Context& context, const std::string& match_id, const std::string& observer_id,
-             const ObserverOptions& options = {}) {
+    [[nodiscard]] static Result<Observer> open(const Context& context, const std::string& match_id,
+                                               const std::string& observer_id,
+                                               const ObserverOptions& options = {}) {
         cdir_observer_options raw = cdir_observer_options_default();
         raw.interpolation_delay = options.interpolation_delay.count();
-        detail::check(
-            cdir_observer_open(context.handle(), match_id.c_str(), observer_id.c_str(), &raw, owner_.out()));
+        cdir_observer handle{};
+        const cdir_status status =
+            cdir_observer_open(context.handle(), match_id.c_str(), observer_id.c_str(), &raw, &handle);
+        if (status < 0) return detail::last_error(status);
+        return Observer(handle);
     }
 
-    void request(const ShotRequest& request) {
+    Outcome request(const ShotRequest& request) {
         cdir_shot_request raw = cdir_shot_request_default();
         raw.target = request.target;
         raw.group = request.group.data();
         raw.group_count = static_cast<std::uint32_t>(request.group.size());
         raw.profile = request.profile.c_str();
         raw.overrides = request.overrides.c_str();
-        detail::check(cdir_observer_request(owner_.get(), &raw));
+        return detail::outcome(cdir_observer_request(owner_.get(), &raw));
     }
 
-    void withdraw() { detail::check(cdir_observer_withdraw(owner_.get())); }
+    Outcome withdraw() { return detail::outcome(cdir_observer_withdraw(owner_.get())); }
 
     // A negative timeout waits without limit.
-    [[nodiscard]] Waited wait(std::chrono::nanoseconds timeout) {
-        const cdir_status status = detail::check(cdir_observer_wait(owner_.get(), timeout.count()));
-        if (status == CDIR_OK) return Waited::arrived;
-        return status == CDIR_TIMEOUT ? Waited::timeout : Waited::interrupted;
+    [[nodiscard]] Result<Waited> wait(std::chrono::nanoseconds timeout) {
+        const cdir_status status = cdir_observer_wait(owner_.get(), timeout.count());
+        return detail::result(status, status == CDIR_OK        ? Waited::arrived
+                                      : status == CDIR_TIMEOUT ? Waited::timeout
+                                                               : Waited::interrupted);
     }
 
-    void interrupt() { detail::check(cdir_observer_interrupt(owner_.get())); }
+    Outcome interrupt() { return detail::outcome(cdir_observer_interrupt(owner_.get())); }
 
     // Returns the number of camera frames taken.
-    std::uint32_t poll() {
+    Result<std::uint32_t> poll() {
         std::uint32_t count = 0;
-        detail::check(cdir_observer_poll(owner_.get(), &count));
-        return count;
+        const cdir_status status = cdir_observer_poll(owner_.get(), &count);
+        return detail::result(status, count);
     }
 
     // Stores up to cameras.size() of the frame's camera_count cameras. None when no frame waits.
-    [[nodiscard]] std::optional<CameraFrame> next_frame(std::span<Camera> cameras) {
+    [[nodiscard]] Result<std::optional<CameraFrame>> next_frame(std::span<Camera> cameras) {
         CameraFrame frame = cdir_camera_frame_default();
-        const cdir_status status = detail::check(cdir_observer_next_frame(
-            owner_.get(), &frame, cameras.data(), static_cast<std::uint32_t>(cameras.size())));
-        return status == CDIR_NO_DATA ? std::nullopt : std::optional(frame);
+        if (!cameras.empty()) cameras.front().struct_size = sizeof(Camera);
+        const cdir_status status = cdir_observer_next_frame(owner_.get(), &frame, cameras.data(),
+                                                            static_cast<std::uint32_t>(cameras.size()));
+        return detail::optional_result(status, frame);
     }
 
-    [[nodiscard]] ShotStatus shot_status() const {
-        ShotStatus status = cdir_shot_status_default();
-        detail::check(cdir_observer_shot_status(owner_.get(), &status));
-        return status;
+    [[nodiscard]] Result<ShotStatus> shot_status() const {
+        ShotStatus answer = cdir_shot_status_default();
+        const cdir_status status = cdir_observer_shot_status(owner_.get(), &answer);
+        return detail::result(status, answer);
     }
 
-    [[nodiscard]] std::optional<View> newest_camera() const {
-        View view = cdir_view_default();
-        const cdir_status status = detail::check(cdir_observer_newest_camera(owner_.get(), &view));
-        return status == CDIR_NO_DATA ? std::nullopt : std::optional(view);
+    [[nodiscard]] Result<std::optional<View>> newest_camera() const {
+        View view;
+        cdir_view where = cdir_view_default();
+        return view_of(cdir_observer_newest_camera(owner_.get(), &view.camera, &where), view, where);
     }
 
-    [[nodiscard]] std::optional<View> camera_at(std::int64_t frame_time) const {
-        View view = cdir_view_default();
-        const cdir_status status = detail::check(cdir_observer_camera_at(owner_.get(), frame_time, &view));
-        return status == CDIR_NO_DATA ? std::nullopt : std::optional(view);
+    [[nodiscard]] Result<std::optional<View>> camera_at(std::int64_t frame_time) const {
+        View view;
+        cdir_view where = cdir_view_default();
+        return view_of(cdir_observer_camera_at(owner_.get(), frame_time, &view.camera, &where), view, where);
     }
 
-    [[nodiscard]] std::optional<std::int64_t> display_time() const {
+    [[nodiscard]] Result<std::optional<std::int64_t>> display_time() const {
         std::int64_t time = 0;
-        const cdir_status status = detail::check(cdir_observer_display_time(owner_.get(), &time));
-        return status == CDIR_NO_DATA ? std::nullopt : std::optional(time);
+        const cdir_status status = cdir_observer_display_time(owner_.get(), &time);
+        return detail::optional_result(status, time);
     }
 
-    [[nodiscard]] std::optional<MatchInfo> match_info() const {
+    [[nodiscard]] Result<std::optional<MatchInfo>> match_info() const {
         cdir_match_info raw = cdir_match_info_default();
-        std::vector<cdir_player> players(CDIR_MAX_PLAYERS);
+        std::vector<cdir_player> players(CDIR_MAX_PLAYERS, cdir_player_default());
         std::uint32_t count = 0;
-        const cdir_status status = detail::check(
-            cdir_observer_match_info(owner_.get(), &raw, players.data(), CDIR_MAX_PLAYERS, &count));
-        if (status == CDIR_NO_DATA) return std::nullopt;
+        const cdir_status status =
+            cdir_observer_match_info(owner_.get(), &raw, players.data(), CDIR_MAX_PLAYERS, &count);
         MatchInfo info{raw.match_id,          raw.map_name, raw.metres_per_unit, raw.rate_hz,
                        raw.spectator_delay_s, raw.epoch,    raw.map_hash,        {}};
         for (const cdir_player& player : std::span(players).first(count)) {
             info.players.push_back({player.id, player.name, player.player_class, player.team});
         }
-        return info;
+        return detail::optional_result(status, std::move(info));
     }
 
-    [[nodiscard]] Counters counters() const {
+    [[nodiscard]] Result<Counters> counters() const {
         Counters counters = cdir_observer_counters_default();
-        detail::check(cdir_observer_get_counters(owner_.get(), &counters));
-        return counters;
+        const cdir_status status = cdir_observer_get_counters(owner_.get(), &counters);
+        return detail::result(status, counters);
     }
 
   private:
+    explicit Observer(cdir_observer handle) : owner_(handle) {}
+
+    static Result<std::optional<View>> view_of(cdir_status status, View& view, const cdir_view& where) {
+        view.segment = where.segment;
+        view.frame_time = where.frame_time;
+        view.late = where.late;
+        return detail::optional_result(status, view);
+    }
+
     detail::Owner<cdir_observer, cdir_observer_close> owner_;
 };
 

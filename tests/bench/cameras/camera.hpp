@@ -10,8 +10,8 @@
 
 namespace camdir::bench {
 
-// The camera at a pose, `seconds` (> 0) after the one before. It begins anew, with a cut, at a pose that is
-// marked as a discontinuity, as the first one always is.
+// The camera at a pose, `seconds` after the frame before: 0 in a trace's first. It begins anew, with a cut,
+// at a pose that is marked as a discontinuity, as a player's first one always is.
 using Follow = std::function<evaluation::CameraSample(const evaluation::TracePose& pose, double seconds)>;
 
 struct Camera {

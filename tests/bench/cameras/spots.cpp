@@ -6,6 +6,7 @@
 
 #include "bench/cameras/free_arm.hpp"
 #include "bench/cameras/view_angles.hpp"
+#include "evaluation/picture.hpp"
 
 namespace camdir::bench {
 namespace {
@@ -17,10 +18,6 @@ constexpr int elevations = 3;
 constexpr double steepest = 85.0;      // degrees, of a spot's pitch
 constexpr double damping = 6.0;        // 1/s, of the direction
 constexpr double blocked_cost = 10.0;  // radians for an arm of no length
-
-double angle_between(const Vec3d& a, const Vec3d& b) {
-    return std::acos(std::clamp(a.dot(b), -1.0, 1.0));
-}
 
 class BestOfSpots {
   public:
@@ -49,8 +46,10 @@ class BestOfSpots {
             for (int j = -yaws_to_a_side; j <= yaws_to_a_side; ++j) {
                 const ViewAngles spot{behind.yaw + j * spacing,
                                       std::clamp(behind.pitch + i * elevation_step, -steepest, steepest)};
-                const double cost = angle_between(orientation_of(spot) * Vec3d::UnitX(), now) +
-                                    blocked_cost * blocked_share(pose.eye, spot);
+                const double cost =
+                    radians_of_a_degree<double> *
+                        evaluation::degrees_between(orientation_of(spot) * Vec3d::UnitX(), now) +
+                    blocked_cost * blocked_share(pose.eye, spot);
                 if (cost < least) {
                     least = cost;
                     best = spot;

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <vector>
+
+#include "evaluation/figures.hpp"
 
 namespace camdir::bench {
 namespace {
@@ -80,11 +81,8 @@ std::vector<Line> lines_of(std::span<const Row> rows) {
     return lines;
 }
 
-std::string number(double value, int decimals) {
-    if (std::isnan(value)) return "";
-    std::array<char, 64> text{};
-    std::snprintf(text.data(), text.size(), "%.*f", decimals, value);
-    return text.data();
+std::string cell(double value, int decimals) {
+    return std::isnan(value) ? "" : evaluation::format_value(value, decimals);
 }
 
 }  // namespace
@@ -100,7 +98,7 @@ std::string to_markdown(std::span<const Row> rows) {
     for (const Line& line : lines_of(rows)) {
         text += "| " + line.match + " | " + line.camera + " |";
         for (std::size_t i = 0; i < figure_count; ++i)
-            text += ' ' + number(line.values[i], figures[i].decimals) + " |";
+            text += ' ' + cell(line.values[i], figures[i].decimals) + " |";
         text += '\n';
     }
     return text;
@@ -114,7 +112,7 @@ std::string to_csv(std::span<const Row> rows) {
     for (const Line& line : lines_of(rows)) {
         text += line.match + ',' + line.camera;
         for (std::size_t i = 0; i < figure_count; ++i)
-            text += ',' + number(line.values[i], 6);
+            text += ',' + cell(line.values[i], 6);
         text += '\n';
     }
     return text;

@@ -85,7 +85,7 @@ TEST_F(BakeCommand, RefusesToWriteOverItsMap) {
     for (const std::string& output : {map, output_}) {
         ChildProcess process(command({map, "-o", output}));
         EXPECT_EQ(process.wait(), 1);
-        EXPECT_THAT(process.errors(), HasSubstr(output + ": is the map"));
+        EXPECT_THAT(process.errors(), HasSubstr(output + ": is read, too"));
     }
     EXPECT_EQ(fs::file_size(map), content.size());
 }

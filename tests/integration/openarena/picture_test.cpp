@@ -226,10 +226,11 @@ class Markers {
         });
     }
 
-    // Alive, whole in the picture, and hidden by neither the map nor other players.
+    // Alive, in its own colour, whole in the picture, and hidden by neither the map nor other players.
     bool is_in_sight(const Judged& picture, const Vec3d& place, const PixelBox& box) const {
         const witness_record& next = path_.snapshots()[picture.drawn.newest].frame;
         if (picture.from->players[marker].health <= 0 || next.players[marker].health <= 0) return false;
+        if (picture.from->players[marker].powerups != 0 || next.players[marker].powerups != 0) return false;
         if (box.left < 0 || box.top < 0 || box.right > picture.picture.width ||
             box.bottom > picture.picture.height)
             return false;
@@ -257,7 +258,7 @@ class Markers {
 };
 
 TEST_F(Picture, ShowsTheFollowedPlayerWhereTheCameraProjectsThem) {
-    constexpr int enough_pictures = 300, enough_in_sight = 60, most_rounds = 30;
+    constexpr int enough_pictures = 300, enough_in_sight = 150, most_rounds = 30;
     const auto scene = scene::load(*openarena_map("oa_dm1"));
     ASSERT_TRUE(scene);
     const oracle::Oracle map(*scene);
@@ -286,8 +287,8 @@ TEST_F(Picture, ShowsTheFollowedPlayerWhereTheCameraProjectsThem) {
     RecordProperty("drawn", drawn);
     EXPECT_GE(count, enough_pictures) << logs();
     EXPECT_GE(in_sight, enough_in_sight) << "pictures with the marked player in sight, of " << count;
-    // Explosions and smoke may hide the rest.
-    EXPECT_GE(drawn, 0.9 * in_sight);
+    // Explosions and smoke may hide the rest: each some 20 pictures long.
+    EXPECT_GE(drawn, 0.8 * in_sight);
 
     const CommandedPath path(server_->witnessed(), spectator().slot());
     expect_declared_cuts(path, spectator().slot());

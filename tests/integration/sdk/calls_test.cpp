@@ -62,8 +62,9 @@ class Calls : public testing::Test {
             {"observer_poll", [&] { return cdir_observer_poll(observer_, nullptr); }},
             {"observer_next_frame", [&] { return cdir_observer_next_frame(observer_, &frame_, nullptr, 0); }},
             {"observer_shot_status", [&] { return cdir_observer_shot_status(observer_, &status_); }},
-            {"observer_newest_camera", [&] { return cdir_observer_newest_camera(observer_, &view_); }},
-            {"observer_camera_at", [&] { return cdir_observer_camera_at(observer_, 0, &view_); }},
+            {"observer_newest_camera",
+             [&] { return cdir_observer_newest_camera(observer_, &camera_, &view_); }},
+            {"observer_camera_at", [&] { return cdir_observer_camera_at(observer_, 0, &camera_, &view_); }},
             {"observer_display_time", [&] { return cdir_observer_display_time(observer_, &time_); }},
             {"observer_match_info",
              [&] { return cdir_observer_match_info(observer_, &received_, nullptr, 0, nullptr); }},
@@ -85,6 +86,7 @@ class Calls : public testing::Test {
     cdir_shot_request request_ = cdir_shot_request_default();
     cdir_camera_frame frame_ = cdir_camera_frame_default();
     cdir_shot_status status_ = cdir_shot_status_default();
+    cdir_camera camera_ = cdir_camera_default();
     cdir_view view_ = cdir_view_default();
     cdir_observer_counters counters_ = cdir_observer_counters_default();
     std::uint32_t count_ = 0;
@@ -168,8 +170,10 @@ TEST_F(Calls, NullPointersAreRefused) {
         {"next_frame", [&] { return cdir_observer_next_frame(observer_, nullptr, nullptr, 0); }},
         {"next_frame cameras", [&] { return cdir_observer_next_frame(observer_, &frame_, nullptr, 1); }},
         {"shot_status", [&] { return cdir_observer_shot_status(observer_, nullptr); }},
-        {"newest_camera", [&] { return cdir_observer_newest_camera(observer_, nullptr); }},
-        {"camera_at", [&] { return cdir_observer_camera_at(observer_, 0, nullptr); }},
+        {"newest_camera", [&] { return cdir_observer_newest_camera(observer_, nullptr, &view_); }},
+        {"newest_camera view", [&] { return cdir_observer_newest_camera(observer_, &camera_, nullptr); }},
+        {"camera_at", [&] { return cdir_observer_camera_at(observer_, 0, nullptr, &view_); }},
+        {"camera_at view", [&] { return cdir_observer_camera_at(observer_, 0, &camera_, nullptr); }},
         {"display_time", [&] { return cdir_observer_display_time(observer_, nullptr); }},
         {"match_info", [&] { return cdir_observer_match_info(observer_, nullptr, nullptr, 0, nullptr); }},
         {"match_info players",
@@ -212,15 +216,15 @@ TEST_F(Calls, WrongArgumentsAreRefusedAndNamed) {
     cdir_observer_options options = cdir_observer_options_default();
     options.interpolation_delay = -1;
     EXPECT_EQ(cdir_observer_open(context_, "a", "b", &options, &observer), CDIR_INVALID_ARGUMENT);
-    const std::vector<cdir_player> crowd(CDIR_MAX_PLAYERS + 1);
+    const std::vector<cdir_player> crowd(CDIR_MAX_PLAYERS + 1, cdir_player_default());
     EXPECT_EQ(cdir_match_update(match_, &info_, crowd.data(), CDIR_MAX_PLAYERS + 1), CDIR_INVALID_ARGUMENT);
     event_.reserved = 1;
     EXPECT_EQ(cdir_match_publish_event(match_, &event_), CDIR_INVALID_ARGUMENT);
     EXPECT_THAT(cdir_last_error(), HasSubstr("reserved"));
     request_.reserved = 1;
     EXPECT_EQ(cdir_observer_request(observer_, &request_), CDIR_INVALID_ARGUMENT);
-    cdir_player player{};
-    player.reserved[2] = 1;
+    cdir_player player = cdir_player_default();
+    player.reserved[6] = 1;
     EXPECT_EQ(cdir_match_update(match_, &info_, &player, 1), CDIR_INVALID_ARGUMENT);
     options = cdir_observer_options_default();
     options.reserved = 1;
@@ -242,6 +246,9 @@ TEST_F(Calls, WrongArgumentsAreRefusedAndNamed) {
     request_.overrides = overrides.c_str();
     EXPECT_EQ(cdir_observer_request(observer_, &request_), CDIR_INVALID_ARGUMENT);
     EXPECT_THAT(cdir_last_error(), HasSubstr("overrides"));
+    poses_.reserved = 1;
+    EXPECT_EQ(cdir_match_publish_poses(match_, &poses_), CDIR_INVALID_ARGUMENT);
+    EXPECT_THAT(cdir_last_error(), HasSubstr("frame.reserved"));
     EXPECT_EQ(match.id + observer.id, 0U);
 }
 

@@ -25,8 +25,10 @@ read -ra flags <<<"$(pkg-config --cflags --libs camera-director-client)"
 warnings=(-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror)
 "$cc" -std=c11 "${warnings[@]}" "${sanitize_flags[@]}" "$sources/consumer.c" -o "$work/consumer-c" "${flags[@]}" -pthread
 "$cxx" -std=c++20 "${warnings[@]}" "${sanitize_flags[@]}" "$sources/consumer.cpp" -o "$work/consumer-cxx" "${flags[@]}" -pthread
+"$cxx" -std=c++20 -fno-exceptions -fno-rtti "${warnings[@]}" "${sanitize_flags[@]}" "$sources/consumer.cpp" \
+    -o "$work/consumer-cxx-bare" "${flags[@]}" -pthread
 library_dir=$(dirname "$(find "$prefix" -name libcamera-director-client.so)")
-for program in consumer-c consumer-cxx; do
+for program in consumer-c consumer-cxx consumer-cxx-bare; do
     LD_LIBRARY_PATH=$library_dir "$work/$program"
 done
 

@@ -37,6 +37,7 @@ void direct(FakeDirector& director, const ReceivedPoses& poses, std::uint32_t nu
     frame.frame_time = poses.frame_time;
     frame.source_time = poses.source_time;
     frame.add_camera(6, poses.eye[0], 2);
+    frame.target[0] = poses.player_id[0];
     frame.position[1] = poses.eye[1];
     frame.position[2] = poses.eye[2] + 50.0F;
     director.write(frame);
@@ -81,11 +82,13 @@ TEST_F(Examples, ObserverPrintsTheDirectorsCameraOfTheWalkingPlayer) {
 
     std::uint32_t number = 0;
     ASSERT_TRUE(eventually([&] {
+        (void)director.show_match();
         while (const auto poses = director.take_poses()) {
             if (number == 0) director.write_status("example-observer", poses->epoch, 1, 6);
             direct(director, *poses, number++);
         }
-        return lines_of(watcher.output()).size() >= 60;
+        return lines_of(watcher.output()).size() >= 60 &&
+               watcher.errors().find("target: walker") != std::string::npos;
     })) << server.errors()
         << watcher.errors();
 

@@ -17,7 +17,7 @@ class GameServer : public testing::Test {
   protected:
     // Every test has its own match, because tests run concurrently in one domain.
     const std::string match_id_ = testing::UnitTest::GetInstance()->current_test_info()->name();
-    cd::Context context_{{.domain = shared_domain}};
+    cd::Context context_ = cd::Context::open({.domain = shared_domain}).value();
 
     [[nodiscard]] cd::MatchInfo info() const {
         return {.match_id = match_id_,
@@ -45,22 +45,24 @@ class GameServer : public testing::Test {
 TEST_F(GameServer, PosesArriveAsTheyWerePublished) {
     cd::MatchInfo match_info = info();
     match_info.epoch = 9;
-    cd::Match match(context_, match_info);
+    cd::Match match = cd::Match::open(context_, match_info).value();
     FakeDirector director(shared_domain, match_id_);
-    ASSERT_TRUE(eventually([&] { return match.director_count() == 1; }));
+    ASSERT_TRUE(eventually([&] { return match.director_count().value() == 1; }));
 
     const std::uint32_t ids[2] = {7, 300};
     const std::uint32_t flags[2] = {CDIR_POSE_ALIVE, CDIR_POSE_DISCONTINUITY | CDIR_POSE_SPECTATOR};
     const float eye[6] = {1, 2, 3, -4, 5e6F, 6};
     const float orientation[8] = {0, 0, 0, 1, 0.6F, 0, 0.8F, 0};
     const float velocity[6] = {9, 8, 7, 6, 5, 4};
-    match.publish(cd::PoseFrame{.frame_time = 50'000'000,
-                                .source_time = 12345,
-                                .player_id = ids,
-                                .eye = eye,
-                                .orientation = orientation,
-                                .velocity = velocity,
-                                .flags = flags});
+    match
+        .publish(cd::PoseFrame{.frame_time = 50'000'000,
+                               .source_time = 12345,
+                               .player_id = ids,
+                               .eye = eye,
+                               .orientation = orientation,
+                               .velocity = velocity,
+                               .flags = flags})
+        .value();
     std::optional<ReceivedPoses> poses;
     ASSERT_TRUE(eventually([&] { return (poses = director.take_poses()).has_value(); }));
     EXPECT_EQ(poses->match_id, match_id_);
@@ -75,29 +77,34 @@ TEST_F(GameServer, PosesArriveAsTheyWerePublished) {
     EXPECT_THAT(poses->flags, testing::ElementsAreArray(flags));
 
     const auto before = std::chrono::system_clock::now().time_since_epoch();
-    match.publish(one_player(50'000'000));
+    match.publish(one_player(50'000'000)).value();
     ASSERT_TRUE(eventually([&] { return (poses = director.take_poses()).has_value(); }));
     EXPECT_EQ(poses->frame_number, 1U);
     EXPECT_THAT(poses->velocity, IsEmpty());
     EXPECT_GE(poses->source_time, std::chrono::nanoseconds(before).count()) << "filled in by the library";
 
-    match.publish(cd::PoseFrame{.frame_time = 50'000'001});
+    match.publish(cd::PoseFrame{.frame_time = 50'000'001}).value();
     ASSERT_TRUE(eventually([&] { return (poses = director.take_poses()).has_value(); }));
     EXPECT_THAT(poses->player_id, IsEmpty());
 }
 
 TEST_F(GameServer, DiscontinuitiesAreCountedByPlayerWithinAnEpoch) {
-    cd::Match match(context_, info());
+    cd::Match match = cd::Match::open(context_, info()).value();
     FakeDirector director(shared_domain, match_id_);
-    ASSERT_TRUE(eventually([&] { return match.director_count() == 1; }));
+    ASSERT_TRUE(eventually([&] { return match.director_count().value() == 1; }));
     std::int64_t time = 0;
     const auto publish = [&](std::vector<std::uint32_t> ids, std::vector<std::uint32_t> flags) {
         const std::vector<float> eye(3 * ids.size());
         std::vector<float> orientation;
         for (std::size_t i = 0; i < ids.size(); ++i)
             orientation.insert(orientation.end(), {0.0F, 0.0F, 0.0F, 1.0F});
-        match.publish(cd::PoseFrame{
-            .frame_time = ++time, .player_id = ids, .eye = eye, .orientation = orientation, .flags = flags});
+        match
+            .publish(cd::PoseFrame{.frame_time = ++time,
+                                   .player_id = ids,
+                                   .eye = eye,
+                                   .orientation = orientation,
+                                   .flags = flags})
+            .value();
         std::optional<ReceivedPoses> poses;
         EXPECT_TRUE(eventually([&] { return (poses = director.take_poses()).has_value(); }));
         return poses ? poses->discontinuities : std::vector<std::uint32_t>{};
@@ -110,17 +117,17 @@ TEST_F(GameServer, DiscontinuitiesAreCountedByPlayerWithinAnEpoch) {
     EXPECT_THAT(publish({300, 7}, {alive, jumped}), ElementsAre(2, 1)) << "whatever their order";
     EXPECT_THAT(publish({}, {}), IsEmpty());
     EXPECT_THAT(publish({7}, {alive}), ElementsAre(1)) << "also after an absence";
-    match.restart(info());
+    match.restart(info()).value();
     EXPECT_THAT(publish({7, 300}, {jumped, alive}), ElementsAre(1, 0));
 }
 
 TEST_F(GameServer, RefusedFrameIsNotCounted) {
-    cd::Match match(context_, info());
+    cd::Match match = cd::Match::open(context_, info()).value();
     FakeDirector director(shared_domain, match_id_);
-    ASSERT_TRUE(eventually([&] { return match.director_count() == 1; }));
-    match.publish(one_player(100));
-    EXPECT_THROW(match.publish(one_player(99)), cd::Error) << "the game's clock went back";
-    match.publish(one_player(101));
+    ASSERT_TRUE(eventually([&] { return match.director_count().value() == 1; }));
+    match.publish(one_player(100)).value();
+    EXPECT_THROW(match.publish(one_player(99)).value(), cd::Error) << "the game's clock went back";
+    match.publish(one_player(101)).value();
     std::optional<ReceivedPoses> poses;
     ASSERT_TRUE(eventually([&] {
         if (auto taken = director.take_poses()) poses = taken;
@@ -130,7 +137,7 @@ TEST_F(GameServer, RefusedFrameIsNotCounted) {
 }
 
 TEST_F(GameServer, ALateDirectorReceivesTheMatchAndItsEnd) {
-    std::optional<cd::Match> match(std::in_place, context_, info());
+    std::optional<cd::Match> match = cd::Match::open(context_, info()).value();
     FakeDirector director(shared_domain, match_id_);
     std::optional<ReceivedInfo> received;
     ASSERT_TRUE(eventually([&] { return (received = director.take_info()).has_value(); }));
@@ -149,46 +156,46 @@ TEST_F(GameServer, ALateDirectorReceivesTheMatchAndItsEnd) {
 }
 
 TEST_F(GameServer, UpdateKeepsTheEpochAndRestartBeginsAnother) {
-    cd::Match match(context_, info());
+    cd::Match match = cd::Match::open(context_, info()).value();
     FakeDirector director(shared_domain, match_id_);
-    ASSERT_TRUE(eventually([&] { return match.director_count() == 1; }));
+    ASSERT_TRUE(eventually([&] { return match.director_count().value() == 1; }));
     std::optional<ReceivedInfo> first;
     ASSERT_TRUE(eventually([&] { return (first = director.take_info()).has_value(); }));
-    match.publish(one_player(1000));
+    match.publish(one_player(1000)).value();
 
     cd::MatchInfo changed = info();
     changed.players.push_back({8, "carl", "", 1});
-    match.update(changed);
+    match.update(changed).value();
     std::optional<ReceivedInfo> second;
     ASSERT_TRUE(eventually([&] { return (second = director.take_info()).has_value(); }));
     EXPECT_EQ(second->epoch, first->epoch);
-    EXPECT_EQ(match.epoch(), first->epoch);
+    EXPECT_EQ(match.epoch().value(), first->epoch);
     EXPECT_THAT(second->player_id, ElementsAre(7, 300, 8));
 
     changed.map_name = "oa_dm3";
-    EXPECT_THROW(match.update(changed), cd::Error) << "another map needs a restart";
-    match.restart(changed);
+    EXPECT_THROW(match.update(changed).value(), cd::Error) << "another map needs a restart";
+    match.restart(changed).value();
     std::optional<ReceivedInfo> third;
     ASSERT_TRUE(eventually([&] { return (third = director.take_info()).has_value(); }));
     EXPECT_GT(third->epoch, first->epoch);
-    EXPECT_EQ(match.epoch(), third->epoch);
+    EXPECT_EQ(match.epoch().value(), third->epoch);
     EXPECT_EQ(third->map_name, "oa_dm3");
 
     while (director.take_poses()) {
     }
-    match.publish(one_player(10));  // the game's clock starts again with the epoch
+    match.publish(one_player(10)).value();  // the game's clock starts again with the epoch
     std::optional<ReceivedPoses> poses;
     ASSERT_TRUE(eventually([&] { return (poses = director.take_poses()).has_value(); }));
     EXPECT_EQ(poses->epoch, third->epoch);
     EXPECT_EQ(poses->frame_number, 0U);
 
     changed.epoch = third->epoch;
-    EXPECT_THROW(match.restart(changed), cd::Error) << "an epoch is used once";
+    EXPECT_THROW(match.restart(changed).value(), cd::Error) << "an epoch is used once";
 }
 
 TEST_F(GameServer, EpochOfALaterProcessIsGreater) {
     const auto epoch = [&] {
-        cd::Match match(context_, info());
+        cd::Match match = cd::Match::open(context_, info()).value();
         FakeDirector director(shared_domain, match_id_);
         std::optional<ReceivedInfo> received;
         EXPECT_TRUE(eventually([&] { return (received = director.take_info()).has_value(); }));
@@ -199,24 +206,26 @@ TEST_F(GameServer, EpochOfALaterProcessIsGreater) {
 }
 
 TEST_F(GameServer, EventsAllArriveInOrder) {
-    cd::Match match(context_, info());
+    cd::Match match = cd::Match::open(context_, info()).value();
     FakeDirector director(shared_domain, match_id_);
-    ASSERT_TRUE(eventually([&] { return match.director_count() == 1; }));
+    ASSERT_TRUE(eventually([&] { return match.director_count().value() == 1; }));
     // The event writer is matched independently of the pose writer.
     ASSERT_TRUE(eventually([&] {
-        match.publish(cd::MatchEvent{.kind = CDIR_EVENT_AWARD});
+        match.publish(cd::MatchEvent{.kind = CDIR_EVENT_AWARD}).value();
         return director.take_event().has_value();
     }));
     while (director.take_event()) {
     }
     const auto detail = [](std::uint32_t i) { return std::string(i % 32, 'x'); };
     for (std::uint32_t i = 0; i < 200; ++i) {
-        match.publish(cd::MatchEvent{.kind = CDIR_EVENT_KILL,
-                                     .frame_time = i,
-                                     .actor = i,
-                                     .subject = i + 1,
-                                     .value = 0.5F,
-                                     .detail = detail(i)});
+        match
+            .publish(cd::MatchEvent{.kind = CDIR_EVENT_KILL,
+                                    .frame_time = i,
+                                    .actor = i,
+                                    .subject = i + 1,
+                                    .value = 0.5F,
+                                    .detail = detail(i)})
+            .value();
     }
     for (std::uint32_t i = 0; i < 200; ++i) {
         std::optional<camera_director_MatchEvent> event;
@@ -231,10 +240,10 @@ TEST_F(GameServer, EventsAllArriveInOrder) {
 }
 
 TEST_F(GameServer, ADetailThatIsTooLongIsRefused) {
-    cd::Match match(context_, info());
+    cd::Match match = cd::Match::open(context_, info()).value();
     for (const std::string& wrong : {std::string(32, 'x'), std::string("a\0b", 3)}) {
         try {
-            match.publish(cd::MatchEvent{.detail = wrong});
+            match.publish(cd::MatchEvent{.detail = wrong}).value();
             ADD_FAILURE() << "published";
         } catch (const cd::Error& error) {
             EXPECT_EQ(error.status(), CDIR_INVALID_ARGUMENT);
@@ -244,8 +253,8 @@ TEST_F(GameServer, ADetailThatIsTooLongIsRefused) {
 }
 
 TEST_F(GameServer, WritersOfferTheContractsQualityOfService) {
-    cd::Match match(context_, info());
-    cd::Observer observer(context_, match_id_, "anna");
+    cd::Match match = cd::Match::open(context_, info()).value();
+    cd::Observer observer = cd::Observer::open(context_, match_id_, "anna").value();
     FakeDirector director(shared_domain, match_id_);
     int looked = 0;
     const auto expect = [&](const char* topic, dds_reliability_kind_t reliability,
@@ -271,8 +280,8 @@ TEST_F(GameServer, WritersOfferTheContractsQualityOfService) {
             EXPECT_EQ(offered_lease, lease) << topic;
         });
     };
-    ASSERT_TRUE(eventually([&] { return match.director_count() == 1 && director.take_info(); }));
-    observer.request({});
+    ASSERT_TRUE(eventually([&] { return match.director_count().value() == 1 && director.take_info(); }));
+    observer.request({}).value();
     ASSERT_TRUE(eventually([&] { return director.take_request().has_value(); }));
     expect("MatchInfo", DDS_RELIABILITY_RELIABLE, DDS_DURABILITY_TRANSIENT_LOCAL, DDS_HISTORY_KEEP_LAST, 1,
            DDS_SECS(2));

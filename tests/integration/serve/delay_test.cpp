@@ -49,12 +49,12 @@ class DelayTest : public testing::Test {
 TEST_F(DelayTest, NothingIsEarlyAndAKilledGameServerIsShownToItsEnd) {
     Server server(domain_.id(), Server::Options{.minimum_delay_s = 1.0});
     ASSERT_TRUE(server.ready()) << server.log();
-    const Context context(connection(domain_.id()));
-    Observer observer(context, "game-0", "anna");
-    observer.request({.target = 1});
+    const Context context = Context::open(connection(domain_.id())).value();
+    Observer observer = Observer::open(context, "game-0", "anna").value();
+    observer.request({.target = 1}).value();
     const auto game = game_process("2");
     ASSERT_TRUE(comes_to(observer, CDIR_SHOT_WAITING_FOR_MAP)) << server.log();
-    EXPECT_THAT(observer.shot_status().reason,
+    EXPECT_THAT(observer.shot_status().value().reason,
                 HasSubstr("shown with a delay of 2 s: the cameras begin at 2"));
 
     int frames = 0;
@@ -65,11 +65,11 @@ TEST_F(DelayTest, NothingIsEarlyAndAKilledGameServerIsShownToItsEnd) {
     })) << server.log();
 
     // An observer that joins now need not wait.
-    Observer late(context, "game-0", "late");
-    late.request({.target = 2});
+    Observer late = Observer::open(context, "game-0", "late").value();
+    late.request({.target = 2}).value();
     ASSERT_TRUE(eventually([&] {
-        late.poll();
-        const std::uint32_t state = late.shot_status().state;
+        late.poll().value();
+        const std::uint32_t state = late.shot_status().value().state;
         EXPECT_NE(state, std::uint32_t{CDIR_SHOT_WAITING_FOR_MAP});
         return state == CDIR_SHOT_ACCEPTED;
     }));
@@ -94,7 +94,7 @@ TEST_F(DelayTest, NothingIsEarlyAndAKilledGameServerIsShownToItsEnd) {
 TEST_F(DelayTest, AMapChangeIsShownWithTheDelayToo) {
     Server server(domain_.id(), Server::Options{.minimum_delay_s = 2.0});
     ASSERT_TRUE(server.ready()) << server.log();
-    const Context context(connection(domain_.id()));
+    const Context context = Context::open(connection(domain_.id())).value();
     RawPeer observer(domain_.id(), "cup");
     Game game(context, "cup", "hall");
     observer.write(raw_request("cup", "anna", 0));
@@ -126,10 +126,10 @@ TEST_F(DelayTest, AMapChangeIsShownWithTheDelayToo) {
 TEST_F(DelayTest, AnObserverKnowsOfTheNextMapWhenTheOneBeforeIsShownToItsEnd) {
     Server server(domain_.id(), Server::Options{.minimum_delay_s = 2.0});
     ASSERT_TRUE(server.ready()) << server.log();
-    const Context context(connection(domain_.id()));
+    const Context context = Context::open(connection(domain_.id())).value();
     Game game(context, "cup", "hall", 4);
-    Observer observer(context, "cup", "anna");
-    observer.request({.target = 0});
+    Observer observer = Observer::open(context, "cup", "anna").value();
+    observer.request({.target = 0}).value();
     std::uint64_t first_epoch = 0;
     std::int64_t changed = 0;
     int old_ones = 0;  // of the first epoch, after its end
@@ -137,7 +137,7 @@ TEST_F(DelayTest, AnObserverKnowsOfTheNextMapWhenTheOneBeforeIsShownToItsEnd) {
         expect_not_early(frame);
         if (first_epoch == 0) first_epoch = frame.epoch;
         const bool first = frame.epoch == first_epoch;
-        const auto info = observer.match_info();
+        const auto info = observer.match_info().value();
         EXPECT_TRUE(info);
         if (!info) return true;
         EXPECT_EQ(info->epoch, frame.epoch);
@@ -149,7 +149,7 @@ TEST_F(DelayTest, AnObserverKnowsOfTheNextMapWhenTheOneBeforeIsShownToItsEnd) {
         }
         if (first && frame.source_time < changed && frame.write_time > changed) {
             old_ones += cameras.size() == 1 ? 1 : 0;
-            EXPECT_EQ(observer.shot_status().state, std::uint32_t{CDIR_SHOT_ACCEPTED});
+            EXPECT_EQ(observer.shot_status().value().state, std::uint32_t{CDIR_SHOT_ACCEPTED});
         }
         return !first && cameras.size() == 1;
     })) << server.log();
@@ -157,33 +157,35 @@ TEST_F(DelayTest, AnObserverKnowsOfTheNextMapWhenTheOneBeforeIsShownToItsEnd) {
     EXPECT_TRUE(sees_own_camera(observer)) << server.log();
 }
 
-TEST_F(DelayTest, ALeaderThatStartsLeavesTheMatchToTheStandbyUntilItsDelayIsFull) {
-    Server standby(domain_.id(), {.participant_index = 1, .director_id = 20, .minimum_delay_s = 2.0});
-    ASSERT_TRUE(standby.ready()) << standby.log();
-    const Context context(connection(domain_.id()));
+TEST_F(DelayTest, ADirectorThatStartsLeavesTheMatchToTheOneWhoseDelayIsFull) {
+    Server first(domain_.id(), {.participant_index = 1, .director_id = 20, .minimum_delay_s = 2.0});
+    ASSERT_TRUE(first.ready()) << first.log();
+    const Context context = Context::open(connection(domain_.id())).value();
     const Game game(context, "cup", "hall");
-    Observer observer(context, "cup", "anna");
-    observer.request({.target = 1});
-    ASSERT_TRUE(sees_own_camera(observer)) << standby.log();
-    Server leader(domain_.id(), {.strength = 200, .director_id = 10, .minimum_delay_s = 2.0});
+    Observer observer = Observer::open(context, "cup", "anna").value();
+    observer.request({.target = 1}).value();
+    ASSERT_TRUE(sees_own_camera(observer)) << first.log();
+    Server second(domain_.id(), {.strength = 200, .director_id = 10, .minimum_delay_s = 2.0});
+    ASSERT_TRUE(second.ready()) << second.log();
+    EXPECT_TRUE(serves_on(observer, 20, 300)) << second.log();
+    first.process().send_signal(SIGKILL);
     EXPECT_TRUE(sees(observer, [&](const auto& frame, auto cameras) {
-        EXPECT_EQ(observer.shot_status().state, std::uint32_t{CDIR_SHOT_ACCEPTED});
         return frame.director_id == 10 && cameras.size() == 1;
-    })) << leader.log();
-    EXPECT_TRUE(sees_own_camera(observer)) << leader.log();
+    })) << second.log();
 }
 
 TEST_F(DelayTest, ADelayThatIsTooLongIsRefused) {
     Server server(domain_.id());
     ASSERT_TRUE(server.ready()) << server.log();
-    const Context context(connection(domain_.id()));
+    const Context context = Context::open(connection(domain_.id())).value();
     const auto game = game_process("150");
-    Observer observer(context, "game-0", "anna");
-    observer.request({.target = 1});
+    Observer observer = Observer::open(context, "game-0", "anna").value();
+    observer.request({.target = 1}).value();
     ASSERT_TRUE(comes_to(observer, CDIR_SHOT_REFUSED)) << server.log();
-    EXPECT_STREQ(observer.shot_status().reason, "a delay of 150 s is wanted; the longest possible is 120 s");
+    EXPECT_STREQ(observer.shot_status().value().reason,
+                 "a delay of 150 s is wanted; the longest possible is 120 s");
     EXPECT_THAT(server.log(), HasSubstr("match game-0: refused: a delay of 150 s is wanted"));
-    EXPECT_EQ(observer.counters().frames, 0U);
+    EXPECT_EQ(observer.counters().value().frames, 0U);
 }
 
 }  // namespace

@@ -2,15 +2,18 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
 #include <fstream>
+#include <optional>
 #include <stdexcept>
 
 #include "base/file.hpp"
 #include "freespace/freespace.hpp"
 #include "support/eventually.hpp"
+#include "support/test_domain.hpp"
 
 namespace camdir::test {
 
@@ -33,12 +36,14 @@ void write_hall(const std::filesystem::path& file) {
 
 Server::Server(std::uint32_t domain, const Options& options) {
     write_hall(folder_ / "hall.vfs");
-    write_hall(folder_ / "yard.vfs");
+    if (options.has_yard) write_hall(folder_ / "yard.vfs");
     const auto config = folder_ / "config.json";
     // A lease long enough for a busy machine.
     std::ofstream(config) << R"({"dds": {"domain": )" << domain << R"(, "participant_index": )"
                           << options.participant_index << R"(, "strength": )" << options.strength
-                          << R"(, "director_id": )" << options.director_id << R"(, "lease_ms": 1000},
+                          << R"(, "director_id": )" << options.director_id << R"(, "lease_ms": 1000,
+        "peers": [")" << director_address(domain, 1 - options.participant_index)
+                          << R"("]},
         "http": {"enabled": false},
         "matches": {"minimum_delay_s": )"
                           << options.minimum_delay_s << R"(},
@@ -52,17 +57,15 @@ bool Server::ready() const {
 }
 
 camera_director::ContextOptions connection(std::uint32_t domain) {
-    // The port of participant 1, by the DDSI standard with port base 7400. Participant 0 has the default
-    // port.
-    const std::uint32_t standby_port = 7400 + 250 * domain + 10 + 2;
-    return {.domain = domain, .directors = "127.0.0.1, 127.0.0.1:" + std::to_string(standby_port)};
+    return {.domain = domain, .directors = director_address(domain, 0) + ", " + director_address(domain, 1)};
 }
 
 namespace {
 
 camera_director::MatchInfo info_of(const std::string& match_id, const std::string& map_name,
-                                   std::uint32_t players) {
+                                   std::uint32_t players, std::uint64_t epoch) {
     camera_director::MatchInfo info;
+    info.epoch = epoch;
     info.match_id = match_id;
     info.map_name = map_name;
     for (std::uint32_t player = 0; player < players; ++player) {
@@ -74,8 +77,9 @@ camera_director::MatchInfo info_of(const std::string& match_id, const std::strin
 }  // namespace
 
 Game::Game(const camera_director::Context& context, const std::string& match_id, const std::string& map_name,
-           std::uint32_t players)
-    : info_(info_of(match_id, map_name, players)), match_(context, info_) {
+           std::uint32_t players, std::uint64_t epoch)
+    : info_(info_of(match_id, map_name, players, epoch)),
+      match_(camera_director::Match::open(context, info_).value()) {
     thread_ = std::jthread([this](const std::stop_token& stop) {
         auto due = std::chrono::steady_clock::now();
         while (!stop.stop_requested()) {
@@ -93,8 +97,8 @@ Game::~Game() = default;
 
 void Game::change_map(const std::string& map_name, std::uint32_t players) {
     const std::lock_guard lock(mutex_);
-    info_ = info_of(info_.match_id, map_name, players);
-    match_.restart(info_);
+    info_ = info_of(info_.match_id, map_name, players, 0);
+    match_.restart(info_).value();
     frames_ = 0;
 }
 
@@ -111,17 +115,19 @@ void Game::publish(std::uint32_t frame) {
         eyes.insert(eyes.end(), {radius * std::cos(angle), radius * std::sin(angle), 0.0F});
         orientations.insert(orientations.end(), {0.0F, 0.0F, std::sin(heading / 2), std::cos(heading / 2)});
     }
-    match_.publish({.frame_time = std::int64_t{16'666'667} * frame,
-                    .player_id = ids,
-                    .eye = eyes,
-                    .orientation = orientations,
-                    .flags = flags});
+    match_
+        .publish({.frame_time = std::int64_t{16'666'667} * frame,
+                  .player_id = ids,
+                  .eye = eyes,
+                  .orientation = orientations,
+                  .flags = flags})
+        .value();
 }
 
 bool sees(camera_director::Observer& observer, const FrameTest& wanted) {
     std::array<camera_director::Camera, CDIR_MAX_CAMERAS> cameras;
     return eventually([&] {
-        while (const auto frame = observer.next_frame(cameras)) {
+        while (const auto frame = observer.next_frame(cameras).value()) {
             if (wanted(*frame, std::span(cameras).first(frame->camera_count))) return true;
         }
         return false;
@@ -130,7 +136,7 @@ bool sees(camera_director::Observer& observer, const FrameTest& wanted) {
 
 bool sees_own_camera(camera_director::Observer& observer) {
     return sees(observer, [&](const auto& /*frame*/, auto cameras) {
-        const auto status = observer.shot_status();
+        const auto status = observer.shot_status().value();
         if (status.state != CDIR_SHOT_ACCEPTED) return false;
         for (const auto& camera : cameras) {
             if (camera.camera_id == status.camera_id) return true;
@@ -139,10 +145,30 @@ bool sees_own_camera(camera_director::Observer& observer) {
     });
 }
 
+testing::AssertionResult serves_on(camera_director::Observer& observer, std::uint64_t director_id,
+                                   int frames) {
+    testing::AssertionResult result = testing::AssertionSuccess();
+    std::optional<std::int64_t> last;
+    const bool came = sees(observer, [&](const auto& frame, auto cameras) {
+        const auto status = observer.shot_status().value();
+        const bool own = std::ranges::any_of(
+            cameras, [&](const auto& camera) { return camera.camera_id == status.camera_id; });
+        if (frame.director_id != director_id)
+            result = testing::AssertionFailure() << "director " << frame.director_id;
+        else if (status.state != CDIR_SHOT_ACCEPTED || !own)
+            result = testing::AssertionFailure() << "no camera, state " << status.state;
+        else if (last && frame.frame_time <= *last)
+            result = testing::AssertionFailure() << "a frame of an earlier time";
+        last = frame.frame_time;
+        return !result || --frames == 0;
+    });
+    return came ? result : testing::AssertionFailure() << "the frames end, " << frames << " early";
+}
+
 bool comes_to(camera_director::Observer& observer, std::uint32_t state) {
     return eventually([&] {
-        observer.poll();
-        return observer.shot_status().state == state;
+        observer.poll().value();
+        return observer.shot_status().value().state == state;
     });
 }
 

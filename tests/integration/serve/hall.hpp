@@ -1,6 +1,8 @@
 // For the tests of serve: a hall without obstacles, a server with it as a map, a game in it.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <camera_director/camera_director.hpp>
 #include <cstdint>
 #include <filesystem>
@@ -19,14 +21,16 @@ inline constexpr float hall_half_width = 1000.0F;
 inline constexpr float hall_half_height = 150.0F;
 void write_hall(const std::filesystem::path& file);
 
-// A running `camera-director serve` with the maps "hall" and "yard", which are both the hall.
+// A running `camera-director serve` with the maps "hall" and "yard", which are both the hall. Those of one
+// domain know each other.
 class Server {
   public:
     struct Options {
-        std::int64_t participant_index = 0;
+        int participant_index = 0;
         std::int64_t strength = 100;
         std::int64_t director_id = 1;
         double minimum_delay_s = 0.0;
+        bool has_yard = true;
     };
     Server(std::uint32_t domain, const Options& options);
     explicit Server(std::uint32_t domain) : Server(domain, Options{}) {}
@@ -43,11 +47,12 @@ class Server {
 // The SDK's options for directors on this machine with participant indices 0 and 1.
 [[nodiscard]] camera_director::ContextOptions connection(std::uint32_t domain);
 
-// A game server in this process: players walk in circles in the hall, at 60 frames per second.
+// A game server in this process: players walk in circles in the hall, at 60 frames per second. Epoch 0:
+// chosen by the SDK.
 class Game {
   public:
     Game(const camera_director::Context& context, const std::string& match_id, const std::string& map_name,
-         std::uint32_t players = 4);
+         std::uint32_t players = 4, std::uint64_t epoch = 0);
     ~Game();
 
     void change_map(const std::string& map_name, std::uint32_t players = 4);
@@ -69,6 +74,11 @@ using FrameTest =
 
 // A frame with the observer's own camera arrives.
 [[nodiscard]] bool sees_own_camera(camera_director::Observer& observer);
+
+// The next `frames` frames come from this director, with the observer's own camera, each newer than the one
+// before.
+[[nodiscard]] testing::AssertionResult serves_on(camera_director::Observer& observer,
+                                                 std::uint64_t director_id, int frames);
 
 // The observer's shot reaches this state (CDIR_SHOT_...).
 [[nodiscard]] bool comes_to(camera_director::Observer& observer, std::uint32_t state);

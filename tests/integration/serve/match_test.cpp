@@ -26,22 +26,22 @@ class MatchTest : public testing::Test {
 
     TestDomain domain_;
     Server server_{domain_.id()};
-    Context context_{connection(domain_.id())};
+    Context context_ = Context::open(connection(domain_.id())).value();
 };
 
 TEST_F(MatchTest, EveryObserverGetsItsOwnCameraInsideTheFreespace) {
     const Game game(context_, "cup", "hall");
-    Observer first(context_, "cup", "first");
-    Observer second(context_, "cup", "second");
-    first.request({.target = 1});
-    second.request({.target = 2});
+    Observer first = Observer::open(context_, "cup", "first").value();
+    Observer second = Observer::open(context_, "cup", "second").value();
+    first.request({.target = 1}).value();
+    second.request({.target = 2}).value();
     ASSERT_TRUE(comes_to(first, CDIR_SHOT_ACCEPTED)) << server_.log();
     ASSERT_TRUE(comes_to(second, CDIR_SHOT_ACCEPTED));
-    ASSERT_NE(first.shot_status().camera_id, second.shot_status().camera_id);
+    ASSERT_NE(first.shot_status().value().camera_id, second.shot_status().value().camera_id);
 
     int frames = 0;
     std::uint64_t missing = 0;  // 0 unless this machine is busy for longer than 32 frames
-    const std::uint64_t missed = first.counters().gaps;
+    const std::uint64_t missed = first.counters().value().gaps;
     std::optional<camera_director::CameraFrame> before;
     EXPECT_TRUE(sees(first, [&](const auto& frame, auto cameras) {
         if (before) {
@@ -54,7 +54,7 @@ TEST_F(MatchTest, EveryObserverGetsItsOwnCameraInsideTheFreespace) {
         for (const auto& camera : cameras) {
             EXPECT_LE(std::abs(camera.position[2]), hall_half_height);
             EXPECT_LE(std::hypot(camera.position[0], camera.position[1]), hall_half_width);
-            const auto own = first.shot_status();
+            const auto own = first.shot_status().value();
             if (camera.camera_id == own.camera_id) {
                 EXPECT_EQ(camera.target, 1U);
                 ++frames;
@@ -62,25 +62,25 @@ TEST_F(MatchTest, EveryObserverGetsItsOwnCameraInsideTheFreespace) {
         }
         return frames >= 60;
     }));
-    EXPECT_GE(first.counters().gaps - missed, missing);
+    EXPECT_GE(first.counters().value().gaps - missed, missing);
 }
 
 TEST_F(MatchTest, EqualRequestsShareACamera) {
     const Game game(context_, "cup", "hall");
-    Observer first(context_, "cup", "first");
-    Observer second(context_, "cup", "second");
-    first.request({.target = 3});
-    second.request({.target = 3});
+    Observer first = Observer::open(context_, "cup", "first").value();
+    Observer second = Observer::open(context_, "cup", "second").value();
+    first.request({.target = 3}).value();
+    second.request({.target = 3}).value();
     ASSERT_TRUE(comes_to(first, CDIR_SHOT_ACCEPTED));
     ASSERT_TRUE(comes_to(second, CDIR_SHOT_ACCEPTED));
-    EXPECT_EQ(first.shot_status().camera_id, second.shot_status().camera_id);
+    EXPECT_EQ(first.shot_status().value().camera_id, second.shot_status().value().camera_id);
     EXPECT_TRUE(sees(first, [](const auto& /*frame*/, auto cameras) { return cameras.size() == 1; }));
 }
 
 TEST_F(MatchTest, AMapChangeBeginsANewEpochWithACut) {
     Game game(context_, "cup", "hall");
-    Observer observer(context_, "cup", "anna");
-    observer.request({.target = 0});
+    Observer observer = Observer::open(context_, "cup", "anna").value();
+    observer.request({.target = 0}).value();
     ASSERT_TRUE(sees_own_camera(observer)) << server_.log();
     std::uint64_t before = 0;
     ASSERT_TRUE(sees(observer, [&](const auto& frame, auto /*cameras*/) {
@@ -98,34 +98,34 @@ TEST_F(MatchTest, AMapChangeBeginsANewEpochWithACut) {
 
 TEST_F(MatchTest, AnUnknownMapIsReportedByName) {
     const Game game(context_, "cup", "atlantis");
-    Observer observer(context_, "cup", "anna");
-    observer.request({.target = 0});
+    Observer observer = Observer::open(context_, "cup", "anna").value();
+    observer.request({.target = 0}).value();
     ASSERT_TRUE(comes_to(observer, CDIR_SHOT_WAITING_FOR_MAP)) << server_.log();
-    EXPECT_THAT(observer.shot_status().reason, HasSubstr("atlantis"));
+    EXPECT_THAT(observer.shot_status().value().reason, HasSubstr("atlantis"));
 }
 
 TEST_F(MatchTest, AnInvalidRequestIsRefusedWithAReason) {
     const Game game(context_, "cup", "hall");
-    Observer observer(context_, "cup", "anna");
-    observer.request({.target = 0, .profile = "no-such-profile"});
+    Observer observer = Observer::open(context_, "cup", "anna").value();
+    observer.request({.target = 0, .profile = "no-such-profile"}).value();
     ASSERT_TRUE(comes_to(observer, CDIR_SHOT_REFUSED)) << server_.log();
-    EXPECT_THAT(observer.shot_status().reason, HasSubstr("no-such-profile"));
-    observer.request({.target = 0, .overrides = R"({"no_such_key": 1})"});
+    EXPECT_THAT(observer.shot_status().value().reason, HasSubstr("no-such-profile"));
+    observer.request({.target = 0, .overrides = R"({"no_such_key": 1})"}).value();
     ASSERT_TRUE(eventually([&] {
-        observer.poll();
-        return std::string(observer.shot_status().reason).find("no_such_key") != std::string::npos;
+        observer.poll().value();
+        return std::string(observer.shot_status().value().reason).find("no_such_key") != std::string::npos;
     })) << server_.log();
-    observer.request({.target = 0});
+    observer.request({.target = 0}).value();
     EXPECT_TRUE(sees_own_camera(observer));
 }
 
 TEST_F(MatchTest, TheShotOfAnObserverThatLeavesEnds) {
     const Game game(context_, "cup", "hall");
-    Observer stays(context_, "cup", "stays");
-    stays.request({.target = 0});
+    Observer stays = Observer::open(context_, "cup", "stays").value();
+    stays.request({.target = 0}).value();
     {
-        Observer leaves(context_, "cup", "leaves");
-        leaves.request({.target = 1});
+        Observer leaves = Observer::open(context_, "cup", "leaves").value();
+        leaves.request({.target = 1}).value();
         ASSERT_TRUE(sees(stays, [](const auto& /*frame*/, auto cameras) { return cameras.size() == 2; }));
     }
     EXPECT_TRUE(sees(stays, [](const auto& /*frame*/, auto cameras) { return cameras.size() == 1; }));
@@ -133,21 +133,21 @@ TEST_F(MatchTest, TheShotOfAnObserverThatLeavesEnds) {
 
 TEST_F(MatchTest, AnObserverIsInformedThatItsMatchHasEnded) {
     std::optional<Game> game(std::in_place, context_, "cup", "hall");
-    Observer observer(context_, "cup", "anna");
-    observer.request({.target = 0});
+    Observer observer = Observer::open(context_, "cup", "anna").value();
+    observer.request({.target = 0}).value();
     ASSERT_TRUE(sees_own_camera(observer)) << server_.log();
     game.reset();
     ASSERT_TRUE(comes_to(observer, CDIR_SHOT_WAITING_FOR_MAP)) << server_.log();
-    EXPECT_THAT(observer.shot_status().reason, HasSubstr("no game server"));
+    EXPECT_THAT(observer.shot_status().value().reason, HasSubstr("no game server"));
 }
 
 TEST_F(MatchTest, ARequestRightAfterAWithdrawalIsAnswered) {
     const Game game(context_, "cup", "hall");
-    Observer observer(context_, "cup", "anna");
+    Observer observer = Observer::open(context_, "cup", "anna").value();
     for (int round = 0; round < 10; ++round) {
-        observer.request({.target = 0});
+        observer.request({.target = 0}).value();
         ASSERT_TRUE(comes_to(observer, CDIR_SHOT_ACCEPTED)) << "round " << round << ": " << server_.log();
-        observer.withdraw();
+        observer.withdraw().value();
     }
 }
 
@@ -155,9 +155,9 @@ TEST_F(MatchTest, ARequestRightAfterAWithdrawalIsAnswered) {
 TEST_F(MatchTest, MalformedSamplesAreDroppedWithAReason) {
     RawPeer raw(domain_.id(), "raw");
     raw.write(raw_match_info("raw", 1));
-    Observer observer(context_, "cup", "anna");
+    Observer observer = Observer::open(context_, "cup", "anna").value();
     const Game game(context_, "cup", "hall");
-    observer.request({.target = 0});
+    observer.request({.target = 0}).value();
     ASSERT_TRUE(sees_own_camera(observer));
 
     const auto dropped = [&](RawPoseFrame frame, const std::string& reason) {
@@ -191,8 +191,8 @@ TEST_F(MatchTest, ATeleportIsACutAlsoWhenItsFrameIsLost) {
     camera_director_MatchInfo info = raw_match_info("raw", 1);
     info.map_name = map_name;
     game.write(info);
-    Observer observer(context_, "raw", "anna");
-    observer.request({.target = 0});
+    Observer observer = Observer::open(context_, "raw", "anna").value();
+    observer.request({.target = 0}).value();
 
     std::uint32_t number = 0;
     float place = 0.0F;
@@ -205,7 +205,7 @@ TEST_F(MatchTest, ATeleportIsACutAlsoWhenItsFrameIsLost) {
             frame.eye = {place, 0.0F, 0.0F};
             frame.discontinuities = {discontinuities};
             game.write(frame.sample());
-            while (const auto taken = observer.next_frame(cameras))
+            while (const auto taken = observer.next_frame(cameras).value())
                 if (taken->camera_count > 0 && wanted(*taken, cameras[0])) return true;
             return false;
         });
@@ -226,13 +226,13 @@ TEST_F(MatchTest, ATeleportIsACutAlsoWhenItsFrameIsLost) {
 
 TEST_F(MatchTest, SigtermDrainsAndWithdrawsTheStatuses) {
     const Game game(context_, "cup", "hall");
-    Observer observer(context_, "cup", "anna");
-    observer.request({.target = 0});
+    Observer observer = Observer::open(context_, "cup", "anna").value();
+    observer.request({.target = 0}).value();
     ASSERT_TRUE(sees_own_camera(observer));
     server_.process().send_signal(SIGTERM);
     EXPECT_EQ(server_.process().wait_for(patience), 0) << server_.log();
     EXPECT_TRUE(comes_to(observer, CDIR_SHOT_UNANSWERED));
-    EXPECT_TRUE(eventually([&] { return observer.counters().directors == 0; }));
+    EXPECT_TRUE(eventually([&] { return observer.counters().value().directors == 0; }));
 }
 
 }  // namespace

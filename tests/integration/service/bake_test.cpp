@@ -84,8 +84,8 @@ TEST(Bake, IsNotReadyWhileBakingAndStopsAtOnce) {
                       {{"name", "square"}, {"file", "square.vfs"}}};
     Served served(folder, config);
     ASSERT_TRUE(served.logged("map dm1: baking")) << served.log();
-    EXPECT_THAT(served.get("/readyz", 503), HasSubstr("map dm1: "));
-    EXPECT_EQ(served.get("/healthz"), "ok\n");
+    EXPECT_THAT(served.get("/-/ready", 503), HasSubstr("map dm1: "));
+    EXPECT_EQ(served.get("/-/healthy"), "ok\n");
     EXPECT_EQ(served.status()["maps"][1]["state"], "ready") << "maps that need no bake come first";
     served.signal(SIGTERM);
     EXPECT_EQ(served.exit_code(), 0) << served.log();

@@ -27,7 +27,8 @@ json config_for_a_match(const TestDomain& domain) {
 class GameServer {
   public:
     GameServer(const TestDomain& domain, const std::string& map_name)
-        : context_({.domain = domain.id()}), match_(context_, info(map_name)) {}
+        : context_(sdk::Context::open({.domain = domain.id()}).value()),
+          match_(sdk::Match::open(context_, info(map_name)).value()) {}
 
     void send_frame() {
         time_ += 20'000'000;
@@ -36,11 +37,13 @@ class GameServer {
                                           50.0F, 0.0F};
         const std::array<float, 4> orientation = {0.0F, 0.0F, 0.0F, 1.0F};
         const std::array<std::uint32_t, 1> flags = {CDIR_POSE_ALIVE};
-        match_.publish(sdk::PoseFrame{.frame_time = time_,
-                                      .player_id = player,
-                                      .eye = eye,
-                                      .orientation = orientation,
-                                      .flags = flags});
+        match_
+            .publish(sdk::PoseFrame{.frame_time = time_,
+                                    .player_id = player,
+                                    .eye = eye,
+                                    .orientation = orientation,
+                                    .flags = flags})
+            .value();
     }
 
     [[nodiscard]] const sdk::Context& context() const { return context_; }
@@ -62,8 +65,8 @@ class GameServer {
 bool play_until(GameServer& server, sdk::Observer& observer, const std::function<bool()>& condition) {
     return eventually([&] {
         server.send_frame();
-        (void)observer.wait(std::chrono::milliseconds(10));
-        observer.poll();
+        (void)observer.wait(std::chrono::milliseconds(10)).value();
+        observer.poll().value();
         return condition();
     });
 }
@@ -77,19 +80,19 @@ TEST(Reload, LoadsTheMapThatAMatchWaitsFor) {
     Served served(folder, config);
     ASSERT_TRUE(served.logged("\"ready\"")) << served.log();
     GameServer server(domain, "late");
-    sdk::Observer observer(server.context(), "cup", "o");
-    observer.request({});
+    sdk::Observer observer = sdk::Observer::open(server.context(), "cup", "o").value();
+    observer.request({}).value();
     ASSERT_TRUE(play_until(server, observer, [&] {
-        return observer.shot_status().state == static_cast<std::uint32_t>(CDIR_SHOT_WAITING_FOR_MAP);
+        return observer.shot_status().value().state == static_cast<std::uint32_t>(CDIR_SHOT_WAITING_FOR_MAP);
     })) << served.log();
-    EXPECT_STREQ(observer.shot_status().reason, "map 'late' is not configured; known: square");
+    EXPECT_STREQ(observer.shot_status().value().reason, "map 'late' is not configured; known: square");
 
     config["maps"].push_back({{"name", "late"}, {"file", "late.vfs"}});
     folder.write("config.json", config.dump());
     served.signal(SIGHUP);
-    ASSERT_TRUE(play_until(server, observer, [&] { return observer.newest_camera().has_value(); }))
+    ASSERT_TRUE(play_until(server, observer, [&] { return observer.newest_camera().value().has_value(); }))
         << served.log();
-    EXPECT_EQ(observer.newest_camera()->camera.target, 7U);
+    EXPECT_EQ(observer.newest_camera().value()->camera.target, 7U);
     served.signal(SIGTERM);
     EXPECT_EQ(served.exit_code(), 0) << served.log();
 }

@@ -6,9 +6,7 @@
 #include "base/file.hpp"
 #include "support/eventually.hpp"
 #include "support/freespace_meshes.hpp"
-
-// After Eigen, whose names collide with a macro of its <resolv.h>.
-#include <httplib.h>
+#include "support/http_client.hpp"
 
 namespace camdir::test {
 namespace {
@@ -65,13 +63,10 @@ int Served::port() const {
 }
 
 std::string Served::get(const std::string& path, int status) {
-    httplib::Client client("127.0.0.1", port());
-    client.set_read_timeout(60);
-    const auto answer = client.Get(path.c_str());
-    if (!answer) throw std::runtime_error("no answer to GET " + path);
-    if (answer->status != status)
-        throw std::runtime_error("GET " + path + ": " + std::to_string(answer->status) + " " + answer->body);
-    return answer->body;
+    const HttpAnswer answer = HttpClient(port()).ask("GET", path);
+    if (answer.status != status)
+        throw std::runtime_error("GET " + path + ": " + std::to_string(answer.status) + " " + answer.body);
+    return answer.body;
 }
 
 }  // namespace camdir::test

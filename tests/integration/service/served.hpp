@@ -41,6 +41,8 @@ class Served {
 
     // Waits until the log contains the text; false after a generous timeout.
     [[nodiscard]] bool logged(const std::string& text) const;
+    // The port of HTTP, when it listens on 127.0.0.1.
+    [[nodiscard]] int port() const;
     // The body of a GET. Throws when the status differs.
     [[nodiscard]] std::string get(const std::string& path, int status = 200);
     [[nodiscard]] nlohmann::json status() { return nlohmann::json::parse(get("/status")); }
@@ -51,7 +53,6 @@ class Served {
     [[nodiscard]] std::string log() const { return process_->errors(); }
 
   private:
-    [[nodiscard]] int port() const;
     std::unique_ptr<ChildProcess> process_;
 };
 

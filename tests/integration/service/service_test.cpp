@@ -25,8 +25,8 @@ TEST(Service, IsReadyShowsItselfAndStopsOnSigterm) {
     folder.write_square("square.vfs");
     Served served(folder, with_square());
     ASSERT_TRUE(served.logged("\"ready\"")) << served.log();
-    EXPECT_EQ(served.get("/healthz"), "ok\n");
-    EXPECT_EQ(served.get("/readyz"), "ready\n");
+    EXPECT_EQ(served.get("/-/healthy"), "ok\n");
+    EXPECT_EQ(served.get("/-/ready"), "ready\n");
     EXPECT_THAT(served.get("/metrics"), AllOf(HasSubstr("camera_director_map_loaded{map=\"square\"} 1\n"),
                                               HasSubstr("camera_director_matches 0\n"),
                                               HasSubstr("camera_director_wire_received_total{topic=")));

@@ -24,7 +24,7 @@ class CameraTape {
     // All so far, oldest first.
     [[nodiscard]] std::vector<Entry> entries() const;
     // Camera frames that the observer missed.
-    [[nodiscard]] std::uint64_t gaps() const { return observer_.counters().gaps; }
+    [[nodiscard]] std::uint64_t gaps() const { return observer_.counters().value().gaps; }
 
   private:
     void run(const std::stop_token& stop);

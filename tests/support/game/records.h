@@ -18,8 +18,8 @@ struct witness_player {
     int32_t pm_type, pm_flags, view_flags, client_num, view_height, health;
     float origin[3], angles[3]; /* degrees: pitch yaw roll */
     /* entityState: what other clients see of it */
-    int32_t entity_flags;
-    float base[3], velocity[3]; /* clients go on at the velocity while the next snapshot is late */
+    int32_t entity_flags, powerups; /* a bit for each power-up */
+    float base[3], velocity[3];     /* clients go on at the velocity while the next snapshot is late */
 };
 
 /* What a dead player leaves behind at their respawn; drawn with the player's model. */

@@ -40,6 +40,7 @@ enum {
     entity_base = 24,
     entity_velocity = 36,
     entity_slot = 168,
+    entity_powerups = 188,
     entity_linked = 416,
     entity_server_flags = 424,
     server_flag_bot = 8
@@ -120,6 +121,7 @@ static void sample(struct witness_player* player, int slot) {
     memcpy(player->origin, state + player_origin, sizeof player->origin);
     memcpy(player->angles, state + player_angles, sizeof player->angles);
     player->entity_flags = int_at(entity, entity_flags);
+    player->powerups = int_at(entity, entity_powerups);
     memcpy(player->base, entity + entity_base, sizeof player->base);
     memcpy(player->velocity, entity + entity_velocity, sizeof player->velocity);
 }

@@ -59,6 +59,7 @@ TEST(FreeBeams, MoveAlongWithThePlan) {
         beams.of_sample(i).clearance = static_cast<float>(i);
     beams.advance(5);
     EXPECT_EQ(beams.of_sample(0).clearance, 5.0F);
+    EXPECT_EQ(beams.number(0), 5U);
     EXPECT_EQ(beams.of_sample(Future::capacity - 6).clearance, static_cast<float>(Future::capacity - 1));
     EXPECT_LT(beams.of_sample(Future::capacity - 5).clearance, 0.0F);
     beams.advance(Future::capacity + 1);

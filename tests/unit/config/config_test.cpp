@@ -51,7 +51,9 @@ TEST(Config, ReadsKeysOfEverySection) {
 
 TEST(Config, ResolvesRelativePathsFromTheFilesFolder) {
     const Config config = good(R"({"maps": [{"name": "a", "file": "x/a.vfs", "source": "pak.pk3:maps/a.bsp"},
-                                            {"name": "b", "file": "/data/b.vfs"}]})");
+                                            {"name": "b", "file": "/data/b.vfs"}],
+                                   "http": {"token_file": "token"}})");
+    EXPECT_EQ(config.http.token_file, "/etc/director/token");
     EXPECT_EQ(config.maps[0].file, "/etc/director/x/a.vfs");
     EXPECT_EQ(config.maps[0].source, "/etc/director/pak.pk3:maps/a.bsp");
     EXPECT_EQ(config.maps[1].file, "/data/b.vfs");

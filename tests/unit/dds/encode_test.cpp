@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <limits>
 #include <random>
 
 #include "dds/decode.hpp"
@@ -91,9 +92,8 @@ RC_GTEST_PROP(EncodeShownMatch, IsDecodedToTheSame, ()) {
         for (std::uint32_t i = 0; i < players; ++i)
             info.players.push_back(
                 {i * 7, std::string(i % 64, 'n'), std::string(i % 32, 'c'), static_cast<std::uint8_t>(i)});
-        (void)encoder.encode(info);
         director::MatchInfo decoded;
-        RC_ASSERT(!decode(encoder.sample(), decoded));
+        RC_ASSERT(!decode(encoder.encode(info), decoded));
         RC_ASSERT(decoded == info);
     }
 }
@@ -124,6 +124,56 @@ TEST(EncodeObserverStatus, CutsStringsBetweenCharacters) {
     EXPECT_EQ(std::string(sample.reason), std::string(254, 'x'));
     status.reason = std::string(253, 'x') + "ä";
     EXPECT_EQ(std::string(encode(status).reason), status.reason);
+}
+
+TEST(EncodeSign, IsDecodedAsItWas) {
+    const Sign sign{.director_id = 7,
+                    .term = max_term,
+                    .rank = max_rank,
+                    .lease = max_lease,
+                    .leads = true,
+                    .has_cameras = true};
+    Sign decoded;
+    camera_director_DirectorSign sample = encode("cup", sign);
+    EXPECT_STREQ(sample.match_id, "cup");
+    EXPECT_FALSE(decode(sample, decoded));
+    EXPECT_EQ(decoded, sign);
+    sample.term = max_term + 1;
+    EXPECT_EQ(decode(sample, decoded), ValidationError::out_of_range);
+    sample = encode("cup", sign);
+    sample.rank = max_rank + 1;
+    EXPECT_EQ(decode(sample, decoded), ValidationError::out_of_range);
+    sample = encode("cup", sign);
+    for (const std::uint32_t lease_ms : {0U, 60'001U}) {
+        sample.lease_ms = lease_ms;
+        EXPECT_EQ(decode(sample, decoded), ValidationError::out_of_range);
+    }
+}
+
+TEST(EncodeCameraFrame, IsDecodedAsItWasAndCountsOn) {
+    director::CameraFrame frame;
+    frame.epoch = 3;
+    frame.frame_number = 0xffffffffU;
+    frame.pose_number = 9;
+    frame.cameras.resize(2);
+    frame.cameras[1] = {.camera_id = 4, .target = 5, .position = {1.0F, 2.0F, 3.0F}, .flags = 1};
+    CameraFrameEncoder encoder("cup", 7);
+    camera_director_CameraFrame sample = encoder.encode(frame, 11, 6);
+    director::CameraFrame decoded;
+    EXPECT_FALSE(decode(sample, decoded));
+    EXPECT_EQ(decoded.frame_number, 5U);
+    EXPECT_EQ(decoded.pose_number, 9U);
+    ASSERT_EQ(decoded.cameras.size(), 2U);
+    EXPECT_EQ(decoded.cameras[1].camera_id, 4U);
+    EXPECT_EQ(decoded.cameras[1].target, 5U);
+    EXPECT_EQ(decoded.cameras[1].position, frame.cameras[1].position);
+    EXPECT_EQ(decoded.cameras[1].flags, 1U);
+
+    sample.flags._length = 1;
+    EXPECT_EQ(decode(sample, decoded), ValidationError::array_length);
+    sample = encoder.encode(frame, 11);
+    sample.position._buffer[2] = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_EQ(decode(sample, decoded), ValidationError::not_finite);
 }
 
 }  // namespace

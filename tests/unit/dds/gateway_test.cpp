@@ -1,124 +1,15 @@
-#include "dds/gateway.hpp"
+#include "gateway_test.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include <algorithm>
 #include <limits>
-#include <mutex>
 #include <optional>
-#include <stdexcept>
+#include <thread>
 
 #include "dds/encode.hpp"
-#include "support/eventually.hpp"
-#include "support/raw_peer.hpp"
-#include "support/test_domain.hpp"
 
 namespace camdir::dds {
 namespace {
-
-using test::eventually;
-using test::RawPeer;
-using test::RawPoseFrame;
-
-// Records the calls of the gateway as lines.
-class Recorder final : public director::Ingress {
-  public:
-    bool admit(const std::string& match_id) override {
-        note("admit " + match_id);
-        return accepts;
-    }
-    bool receive(const director::MatchInfo& info) override {
-        note("info " + info.match_id + " " + std::to_string(info.epoch));
-        if (director::Publisher* publisher = shows_at_once) publisher->publish(info);
-        return accepts;
-    }
-    void server_lost(const std::string& match_id) override { note("silent " + match_id); }
-    void match_ended(const std::string& match_id) override { note("over " + match_id); }
-    void receive(const std::string& match_id, const director::PoseFrame& frame) override {
-        note("pose " + match_id + " " + std::to_string(frame.frame_number));
-    }
-    void receive(const std::string& match_id, const director::MatchEvent& event) override {
-        note("event " + match_id + " " + std::to_string(event.kind) + " " + event.detail);
-    }
-    void receive(const director::ObserverRequest& request) override {
-        note("request " + request.observer_id + " " + std::to_string(request.target));
-    }
-    void request_ended(const std::string& /*match_id*/, const std::string& observer_id) override {
-        note("gone " + observer_id);
-    }
-    bool responsive(std::chrono::milliseconds /*limit*/) const override { return answers; }
-
-    [[nodiscard]] bool has(const std::string& line) const { return count(line) > 0; }
-    [[nodiscard]] std::ptrdiff_t count(const std::string& line) const {
-        const std::lock_guard lock(mutex_);
-        return std::count(lines_.begin(), lines_.end(), line);
-    }
-    [[nodiscard]] std::vector<std::string> lines() const {
-        const std::lock_guard lock(mutex_);
-        return lines_;
-    }
-
-    std::atomic<bool> accepts{true};
-    std::atomic<bool> answers{true};
-    std::atomic<director::Publisher*> shows_at_once{nullptr};
-
-  private:
-    void note(std::string line) {
-        const std::lock_guard lock(mutex_);
-        lines_.push_back(std::move(line));
-    }
-    mutable std::mutex mutex_;
-    std::vector<std::string> lines_;
-};
-
-class GatewayTest : public testing::Test {
-  protected:
-    void SetUp() override {
-        config_.domain = domain_.id();
-        config_.director_id = 77;
-        auto gateway = Gateway::open(config_);
-        ASSERT_TRUE(gateway) << gateway.error().message;
-        gateway_ = std::move(*gateway);
-        gateway_->start(recorder_);
-    }
-    void TearDown() override {
-        // Before the gateway, which shuts down all of DDS in the process.
-        peers_.clear();
-        gateway_.reset();
-    }
-
-    RawPeer& peer(const std::string& match_id, const std::string& partition = "") {
-        return *peers_.emplace_back(std::make_unique<RawPeer>(domain_.id(), match_id, partition));
-    }
-    // A peer whose match the gateway has found, with all endpoints matched.
-    RawPeer& game(const std::string& match_id, std::uint64_t epoch = 1) {
-        const std::uint32_t before = gateway_->counters().matches;
-        RawPeer& raw = peer(match_id);
-        raw.write(test::raw_match_info(match_id, epoch));
-        // Endpoints are matched before the match is complete.
-        if (!eventually([&] { return raw.directors() == 1 && gateway_->counters().matches > before; })) {
-            throw std::runtime_error("the match was not found");
-        }
-        return raw;
-    }
-    std::uint64_t dropped(Topic topic, ValidationError error) {
-        return gateway_->counters().of(topic).dropped[static_cast<std::size_t>(error)];
-    }
-    // Poses are best effort: writes until one has arrived.
-    bool arrives(RawPeer& raw, RawPoseFrame& frame, const std::string& line) {
-        return eventually([&] {
-            raw.write(frame.sample());
-            return recorder_.has(line);
-        });
-    }
-
-    test::TestDomain domain_;
-    config::Dds config_;
-    Recorder recorder_;
-    std::unique_ptr<Gateway> gateway_;
-    std::vector<std::unique_ptr<RawPeer>> peers_;
-};
 
 director::MatchInfo info_of(const std::string& match_id, std::uint64_t epoch) {
     director::MatchInfo info;
@@ -218,34 +109,110 @@ TEST_F(GatewayTest, WhatIsShownIsWrittenForLateObserversAndAgainUntilItsEnd) {
     EXPECT_EQ(gateway_->counters().shown_matches_written, 3U) << "without those written again";
 }
 
-TEST_F(GatewayTest, AnswersWithoutACameraStandBelowThoseOfAnotherDirector) {
-    RawPeer& raw = game("cup");
-    RawPeer& standby = peer("cup");
-    standby.write(encode(status_of("anna", "the standby's")));
-    const auto reads = [&](const std::string& observer_id, const std::string& reason) {
-        return eventually([&] {
-            const auto found = raw.statuses().find(observer_id);
-            return found != raw.statuses().end() && found->second.reason == reason;
+// Says that another director leads "cup", again and again, while it lives.
+class Leader {
+  public:
+    Leader(RawPeer& peer, std::uint32_t term) {
+        signs_ = std::jthread([&peer, term](const std::stop_token& stop) {
+            while (!stop.stop_requested()) {
+                peer.write(encode("cup", {.director_id = 5,
+                                          .term = term,
+                                          .lease = std::chrono::milliseconds(1500),
+                                          .leads = true,
+                                          .has_cameras = true}));
+                std::this_thread::sleep_for(std::chrono::milliseconds(20));
+            }
         });
-    };
-    ASSERT_TRUE(reads("anna", "the standby's"));
-    director::ObserverStatus waiting = status_of("anna", "waiting");
-    waiting.state = director::RequestState::waiting_for_map;
-    gateway_->publish(waiting);
-    waiting.observer_id = "bert";
-    gateway_->publish(waiting);
-    ASSERT_TRUE(reads("bert", "waiting")) << "nobody else answers";
-    EXPECT_STREQ(raw.statuses().at("anna").reason, "the standby's");
-    gateway_->publish(status_of("anna", "the leader's"));
-    EXPECT_TRUE(reads("anna", "the leader's"));
-    waiting.reason = "still waiting";
-    gateway_->publish(waiting);
-    EXPECT_TRUE(reads("bert", "still waiting"));
-    gateway_->withdraw("cup", "bert");
-    EXPECT_TRUE(eventually([&] { return raw.statuses().count("bert") == 0; }));
-    RawPeer& late = peer("cup");
-    EXPECT_TRUE(eventually([&] { return late.statuses().count("anna") == 1; }));
-    EXPECT_EQ(late.statuses().count("bert"), 0U);
+    }
+
+  private:
+    std::jthread signs_;
+};
+
+class StandbyTest : public GatewayTest {
+  protected:
+    StandbyTest() { config_.lease_ms = 1500; }  // for a busy machine
+    std::size_t frames(RawPeer& raw) { return frames_ += raw.take_cameras().size(); }
+
+    std::size_t frames_ = 0;
+};
+
+TEST_F(StandbyTest, WritesWhatItKeptWhenTheLeaderFailsAndStandsByUnderALaterOne) {
+    RawPeer& other = peer("cup");
+    auto leader = std::make_unique<Leader>(other, 3);
+    RawPeer& raw = game("cup");
+    gateway_->publish(info_of("cup", 1));
+    gateway_->publish(status_of("anna", ""));
+    for (std::uint32_t i = 0; i < 5; ++i)
+        gateway_->publish("cup", one_camera(i));
+    RawPeer& later = peer("cup");
+    ASSERT_TRUE(eventually([&] { return later.directors() == 1; }));
+    EXPECT_TRUE(raw.statuses().empty() && frames(raw) == 0 && raw.take_shown_epochs().empty());
+
+    leader.reset();
+    EXPECT_TRUE(eventually([&] { return raw.statuses().size() == 1 && frames(raw) == 5; }));
+    EXPECT_FALSE(raw.take_shown_epochs().empty());
+
+    leader = std::make_unique<Leader>(other, 3);  // it was only stopped
+    gateway_->publish("cup", one_camera(5));
+    EXPECT_TRUE(eventually([&] { return frames(raw) == 6; }));
+    leader.reset();
+    leader = std::make_unique<Leader>(other, 9);
+    EXPECT_TRUE(eventually([&] { return raw.statuses().empty(); })) << "they are the leader's now";
+    leader.reset();
+}
+
+// A standby that sees frame 40, of pose 0, of a leader, computes `count` cameras more and takes over.
+class TakeOverTest : public StandbyTest {
+  protected:
+    std::vector<std::uint32_t> numbers_after(std::uint32_t count) {
+        RawPeer& other = peer("cup");
+        auto leader = std::make_unique<Leader>(other, 3);
+        RawPeer& raw = game("cup");
+        CameraFrameEncoder encoder("cup", 5);
+        EXPECT_TRUE(eventually([&] {  // until the gateway's reader is found
+            other.write(encoder.encode(camera_of_pose(0), 0, 40));
+            return recorder_.has("follow cup 0");
+        }));
+        for (std::uint32_t i = 0; i <= count; ++i)  // that of pose 0 was shown
+            gateway_->publish("cup", camera_of_pose(i));
+        leader.reset();
+        std::vector<std::uint32_t> numbers;
+        EXPECT_TRUE(eventually([&] {
+            for (const auto& frame : raw.take_cameras())
+                if (frame.director_id == 77) numbers.push_back(frame.frame_number);
+            return !numbers.empty();
+        }));
+        return numbers;
+    }
+
+  private:
+    static director::CameraFrame camera_of_pose(std::uint32_t number) {
+        director::CameraFrame frame = one_camera(number);
+        frame.pose_number = number;
+        return frame;
+    }
+};
+
+TEST_F(TakeOverTest, FramesCountOnFromTheLeaders) {
+    EXPECT_EQ(numbers_after(3), (std::vector<std::uint32_t>{41, 42, 43}));
+}
+
+TEST_F(TakeOverTest, AGapTellsOfFramesThatNobodyWrote) {
+    const auto numbers = numbers_after(40);
+    ASSERT_EQ(numbers.size(), 32U);
+    EXPECT_EQ(numbers.front(), 42U);
+    EXPECT_EQ(numbers.back(), 73U);
+}
+
+TEST_F(StandbyTest, OwnsWhatItWritesBeforeALeaderThatWasOnlyStopped) {
+    RawPeer& other = peer("cup");
+    auto leader = std::make_unique<Leader>(other, 3);
+    RawPeer& raw = game("cup");
+    gateway_->publish("cup", one_camera(0));
+    leader.reset();
+    ASSERT_TRUE(eventually([&] { return frames(raw) == 1; }));
+    EXPECT_GE(raw.camera_strength(), 4 * 65536);
 }
 
 TEST_F(GatewayTest, WhatTheDirectorShowsAtOnceIsWritten) {
@@ -272,8 +239,9 @@ TEST_F(GatewayTest, AnIdleReaderLosesNothingWithin32Frames) {
 }
 
 TEST_F(GatewayTest, LateObserversSeeStatusesButNoOldCameras) {
-    game("cup");
+    RawPeer& raw = game("cup");
     gateway_->publish("cup", one_camera(0));
+    ASSERT_TRUE(eventually([&] { return !raw.take_cameras().empty(); }));
     for (int i = 0; i < 256; ++i) {
         gateway_->publish(status_of(std::to_string(i), ""));
     }
@@ -283,13 +251,14 @@ TEST_F(GatewayTest, LateObserversSeeStatusesButNoOldCameras) {
 }
 
 TEST_F(GatewayTest, RequestsFromBeforeTheMatchAreReceived) {
+    const auto count = static_cast<std::uint32_t>(limits_.participant_observers);
     RawPeer& observer = peer("cup");
-    for (std::uint32_t i = 0; i < 256; ++i) {
+    for (std::uint32_t i = 0; i < count; ++i) {
         observer.write(test::raw_request("cup", "early " + std::to_string(i), i));
     }
     game("cup");
     EXPECT_TRUE(eventually([&] {
-        for (std::uint32_t i = 0; i < 256; ++i) {
+        for (std::uint32_t i = 0; i < count; ++i) {
             if (!recorder_.has("request early " + std::to_string(i) + " " + std::to_string(i))) return false;
         }
         return true;
@@ -384,6 +353,20 @@ TEST_F(GatewayTest, ADirectorThatHangsStopsAssertingItsLiveliness) {
     EXPECT_EQ(gateway_->counters().liveliness_withheld, 0U);
     recorder_.answers = false;
     EXPECT_TRUE(eventually([&] { return gateway_->counters().liveliness_withheld > 2; }));
+}
+
+TEST_F(GatewayTest, ReceptionThatHangsIsNotResponsiveUntilItGoesOn) {
+    constexpr std::chrono::milliseconds late{100};
+    RawPeer& raw = game("cup");
+    EXPECT_TRUE(gateway_->responsive(test::patience));
+    recorder_.hangs = true;
+    raw.write(test::raw_match_info("cup", 2));
+    EXPECT_TRUE(eventually([&] { return recorder_.has("info cup 2") && !gateway_->responsive(late); }));
+    EXPECT_TRUE(gateway_->responsive(test::patience));
+    recorder_.hangs = false;
+    EXPECT_TRUE(eventually([&] { return gateway_->responsive(late); }));
+    gateway_->stop_receiving();
+    EXPECT_TRUE(gateway_->responsive(std::chrono::nanoseconds(0)));
 }
 
 TEST_F(GatewayTest, ClosingReleasesTheMatchesAndNothingIsReceivedAfterStopping) {

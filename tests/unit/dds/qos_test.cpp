@@ -19,12 +19,11 @@ std::pair<dds_liveliness_kind_t, dds_duration_t> liveliness_of(const Qos& qos) {
 TEST(DirectorsQos, WritersEndWithTheLeaseAndAnswersNotWithinASecond) {
     for (const auto& [lease, of_answers] :
          {std::pair(milliseconds(200), DDS_SECS(1)), std::pair(milliseconds(5000), DDS_SECS(5))}) {
-        const Leadership leadership{.strength = 7, .lease = lease};
-        const Qos cameras = writer_qos(Topic::camera_frame, leadership);
+        const Qos cameras = writer_qos(Topic::camera_frame, lease);
         EXPECT_EQ(liveliness_of(cameras),
                   std::pair(DDS_LIVELINESS_MANUAL_BY_TOPIC, DDS_MSECS(lease.count())));
         for (const Topic topic : {Topic::observer_status, Topic::shown_match})
-            EXPECT_EQ(liveliness_of(writer_qos(topic, leadership)),
+            EXPECT_EQ(liveliness_of(writer_qos(topic, lease)),
                       std::pair(DDS_LIVELINESS_MANUAL_BY_TOPIC, dds_duration_t{of_answers}));
     }
 }

@@ -34,7 +34,8 @@ class DelayBufferTest : public testing::Test {
 
     // What leaves at this time; `next_due_` is set.
     const Inbox::Content& release(std::int64_t now) {
-        next_due_ = buffer_.release(now, inbox_).next_due;
+        buffer_.release(now, inbox_);
+        next_due_ = buffer_.state().next_due;
         inbox_.take(content_);
         return content_;
     }
@@ -103,6 +104,40 @@ TEST_F(DelayBufferTest, TheDelayTakesOutWhatTheWayAdds) {
     }
 }
 
+// The director stood still, or the network: it is seen once, when it happens, and not in what leaves later.
+TEST_F(DelayBufferTest, WhatWaitedInAStallLeavesAsItWasSent) {
+    buffer_.announce(1, 4.0, 0);
+    for (std::uint32_t number = 1; number < 400; ++number) {
+        const std::int64_t sent = number * 20 * ms;
+        const bool stalled = sent >= one_s && sent < 3 * one_s;
+        PoseFrame frame = frame_at(number, sent);
+        frame.source_time = sent;
+        ASSERT_EQ(buffer_.put(frame, stalled ? 3 * one_s : sent), Admission::delayed);
+    }
+    for (std::uint32_t number = 1; number < 400; ++number) {
+        const std::int64_t due = number * 20 * ms + 4 * one_s;
+        EXPECT_FALSE(release(due - 1).has_frame) << number;
+        ASSERT_TRUE(release(due).has_frame) << number;
+        EXPECT_EQ(content_.frame.frame_number, number);
+    }
+}
+
+// A clock that goes back a little with every frame is no stall that grows.
+TEST_F(DelayBufferTest, AClockThatCreepsBackMakesNothingEarlierThanJitterMay) {
+    buffer_.announce(1, 4.0, 0);
+    int left = 0;
+    for (std::int64_t number = 1; number < 600; ++number) {
+        const std::int64_t now = number * 20 * ms;
+        PoseFrame frame = frame_at(static_cast<std::uint32_t>(number), now);
+        frame.source_time = 1000 * one_s + now - number * 90 * ms;
+        ASSERT_EQ(buffer_.put(frame, now), Admission::delayed);
+        if (!release(now).has_frame) continue;
+        ++left;
+        EXPECT_LE(content_.frame.frame_number * 20 * ms, now - 4 * one_s + 100 * ms);
+    }
+    EXPECT_GT(left, 300);
+}
+
 TEST_F(DelayBufferTest, NoClockOfASenderMakesFramesEarly) {
     constexpr std::int64_t limit = std::numeric_limits<std::int64_t>::max();
     std::mt19937_64 random(11);
@@ -166,8 +201,8 @@ TEST_F(DelayBufferTest, ABurstLeavesAtThePaceOfTheGame) {
     // No drift: punctual frames catch up.
     for (std::uint32_t number = 6; number < 60; ++number)
         put(number, number * 20 * ms);
-    while (next_due_ = buffer_.release(last, inbox_).next_due, next_due_ != DelayBuffer::never)
-        last = next_due_;
+    while (buffer_.release(last, inbox_), buffer_.state().next_due != DelayBuffer::never)
+        last = buffer_.state().next_due;
     EXPECT_EQ(last, 59 * 20 * ms + one_s);
 }
 

@@ -129,6 +129,19 @@ TEST(WorkerPool, DetectsAWorkerThatHangs) {
     pool.detach(strand);
 }
 
+// Also workers that hang where no turn of theirs shows it.
+TEST(WorkerPool, DetectsATurnThatNobodyBegins) {
+    WorkerPool pool(1, 1);
+    FunctionStrand waits([] {});
+    ASSERT_TRUE(pool.attach(waits));
+    EXPECT_TRUE(pool.responsive(std::chrono::nanoseconds(0)));
+    pool.stop();
+    pool.schedule(waits);
+    while (pool.responsive(std::chrono::milliseconds(1)))
+        std::this_thread::yield();
+    EXPECT_TRUE(pool.responsive(std::chrono::hours(1)));
+}
+
 TEST(WorkerPool, EveryItemOfATurnIsDoneOnceByOneWorkerOnALane) {
     constexpr std::size_t strands = 5;
     WorkerPool pool(4, strands);

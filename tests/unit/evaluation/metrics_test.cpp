@@ -6,7 +6,7 @@
 #include <random>
 
 #include "box_scene.hpp"
-#include "evaluation/report.hpp"
+#include "evaluation/figures.hpp"
 #include "tiny_trace.hpp"
 
 namespace camdir::evaluation {
@@ -261,6 +261,47 @@ TEST(Metrics, RefusesASceneThatIsTooLargeToExplore) {
     const auto metrics = measure(scene, oracle::Oracle(scene), scenario.trace, scenario.cameras, {}, {});
     ASSERT_FALSE(metrics);
     EXPECT_THAT(metrics.error().message, testing::StartsWith("plain.obj: the bounds of"));
+}
+
+// One judgement a frame, and the figures are their summary.
+TEST(Metrics, SummariseTheJudgements) {
+    const CameraSample perfect = looking_at({-120, 0, 100}, eye);
+    CameraSample close = looking_at({-30, 0, 100}, eye, true);
+    const Standing scenario({perfect, close, perfect, perfect});
+    const scene::Scene scene = room();
+    const oracle::Oracle oracle(scene);
+    const auto reachability = oracle::Reachability::explore(oracle, scene, {}, {}).value();
+    const auto judgements = evaluation::judge(oracle, reachability, Thresholds(scene.metres_per_unit),
+                                              scenario.trace, scenario.cameras, {})
+                                .value();
+    ASSERT_EQ(judgements.size(), 10U);
+    EXPECT_TRUE(judgements[0].cut_at_event);
+    EXPECT_FALSE(judgements[5].counted);
+    EXPECT_TRUE(judgements[6].counted);
+    EXPECT_EQ(judgements[6].faults, 0);
+    EXPECT_EQ(judgements[6].clearance, Thresholds(scene.metres_per_unit).largest_clearance);
+    EXPECT_TRUE(judgements[7].cut);
+    EXPECT_EQ(judgements[7].faults, wrong_distance);
+    EXPECT_NEAR(judgements[7].distance_error, 90.0, 1e-9);
+    EXPECT_EQ(judgements[7].body_points, body_point_count);
+    EXPECT_TRUE(judgements[8].pop);
+    EXPECT_NEAR(judgements[8].speed, 900.0, 1e-6);
+    EXPECT_EQ(to_json(summarise(judgements)), to_json(judge(scene, scenario.trace, scenario.cameras)));
+    EXPECT_EQ(summarise(std::span(judgements).subspan(7, 1)).good, 0.0);
+}
+
+// A page shows what to_json has.
+TEST(Figures, AreThoseOfTheJson) {
+    const Metrics metrics = judge(room(), std::vector(5, looking_at({-120, 0, 100}, eye)));
+    std::string names;
+    for (const Figure& figure : figures_of(metrics)) {
+        EXPECT_FALSE(figure.meaning.empty()) << figure.name;
+        names += figure.name + ' ';
+    }
+    EXPECT_THAT(names, testing::HasSubstr("good visible_head"));
+    EXPECT_THAT(names, testing::HasSubstr("acc.rms acc.p95 acc.p99 jerk.rms"));
+    EXPECT_EQ(format_value(1.005, 1), "1.0");
+    EXPECT_EQ(format_value(unmeasured, 1), "-");
 }
 
 // The same match in metres instead of units of 0.0254 m.

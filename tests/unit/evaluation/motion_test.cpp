@@ -3,8 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "evaluation/statistics.hpp"
 
@@ -21,26 +23,51 @@ CameraSample at(double x, double yaw_degrees = 0.0) {
     return {Vec3d(x, 0, 0), quake_orientation(0, yaw_degrees, 0), false};
 }
 
+// What was measured of all cameras.
+class Samples {
+  public:
+    void add(std::int64_t time, const CameraSample& camera) {
+        const Motion motion = meter_.add(time, camera);
+        keep(motion.acceleration, acceleration);
+        keep(motion.jerk, jerk);
+        keep(motion.angular_speed, angular_speed);
+        keep(motion.angular_acceleration, angular_acceleration);
+        if (!std::isnan(motion.rotation)) largest_rotation = std::max(largest_rotation, motion.rotation);
+        comfortable += motion.comfortable;
+    }
+
+    void end_segment() { meter_.end_segment(); }
+
+    std::vector<double> acceleration, jerk, angular_speed, angular_acceleration;
+    double largest_rotation = 0.0;
+    std::size_t comfortable = 0;
+
+  private:
+    static void keep(double value, std::vector<double>& values) {
+        if (!std::isnan(value)) values.push_back(value);
+    }
+
+    MotionMeter meter_;
+};
+
 // x = 0, 1, 4, 10 at t = 0, 1, 2, 4: v = 1, 3, 3; a = 2/1, 0/1.5; jerk = 2 / ((2 + 2*1 + 1) / 4).
 TEST(Motion, UnevenStepsByHand) {
-    MotionSamples samples;
-    MotionMeter meter(samples);
-    meter.add(0 * second, at(0));
-    meter.add(1 * second, at(1));
-    meter.add(2 * second, at(4));
-    meter.add(4 * second, at(10));
+    Samples samples;
+    samples.add(0 * second, at(0));
+    samples.add(1 * second, at(1));
+    samples.add(2 * second, at(4));
+    samples.add(4 * second, at(10));
     EXPECT_THAT(samples.acceleration, ElementsAre(2.0, 0.0));
     EXPECT_THAT(samples.jerk, ElementsAre(DoubleNear(2.0 / 1.25, tolerance)));
 }
 
 // Yaw 170, 180, 200, 200: 10, 20, 0 degrees a second, through the wrap of the angle.
 TEST(Motion, TurnsByHand) {
-    MotionSamples samples;
-    MotionMeter meter(samples);
-    meter.add(0 * second, at(0, 170));
-    meter.add(1 * second, at(0, 180));
-    meter.add(2 * second, at(0, -160));
-    meter.add(3 * second, at(0, 200));
+    Samples samples;
+    samples.add(0 * second, at(0, 170));
+    samples.add(1 * second, at(0, 180));
+    samples.add(2 * second, at(0, -160));
+    samples.add(3 * second, at(0, 200));
     EXPECT_THAT(samples.angular_speed,
                 ElementsAre(DoubleNear(10, tolerance), DoubleNear(20, tolerance), DoubleNear(0, tolerance)));
     EXPECT_THAT(samples.angular_acceleration,
@@ -49,24 +76,22 @@ TEST(Motion, TurnsByHand) {
 }
 
 TEST(Motion, OppositeQuaternionsAreTheSameOrientation) {
-    MotionSamples samples;
-    MotionMeter meter(samples);
+    Samples samples;
     CameraSample turned = at(0, 90);
-    meter.add(0 * second, turned);
+    samples.add(0 * second, turned);
     turned.orientation.coeffs() *= -1.0;
-    meter.add(1 * second, turned);
+    samples.add(1 * second, turned);
     EXPECT_THAT(samples.angular_speed, ElementsAre(DoubleNear(0, tolerance)));
 }
 
 TEST(Motion, SegmentsDoNotMix) {
-    MotionSamples samples;
-    MotionMeter meter(samples);
-    meter.add(0 * second, at(0));
-    meter.add(1 * second, at(1));
-    meter.end_segment();
-    meter.add(2 * second, at(1000, 90));
-    meter.add(3 * second, at(1001, 90));
-    meter.add(4 * second, at(1002, 90));
+    Samples samples;
+    samples.add(0 * second, at(0));
+    samples.add(1 * second, at(1));
+    samples.end_segment();
+    samples.add(2 * second, at(1000, 90));
+    samples.add(3 * second, at(1001, 90));
+    samples.add(4 * second, at(1002, 90));
     EXPECT_THAT(samples.acceleration, ElementsAre(0.0));
     EXPECT_EQ(samples.angular_speed.size(), 3U);
     EXPECT_NEAR(samples.largest_rotation, 0.0, tolerance);
@@ -74,12 +99,11 @@ TEST(Motion, SegmentsDoNotMix) {
 
 // `turns` in degrees from frame to frame, of which there are 10 a second.
 std::size_t comfortable(const std::vector<double>& turns) {
-    MotionSamples samples;
-    MotionMeter meter(samples);
+    Samples samples;
     double yaw = 0.0;
-    meter.add(0, at(0));
+    samples.add(0, at(0));
     for (std::size_t i = 0; i < turns.size(); ++i)
-        meter.add(static_cast<std::int64_t>(i + 1) * second / 10, at(0, yaw += turns[i]));
+        samples.add(static_cast<std::int64_t>(i + 1) * second / 10, at(0, yaw += turns[i]));
     return samples.comfortable;
 }
 
@@ -102,32 +126,29 @@ TEST(Comfort, SweepIsTheMeanOfTheLastSecond) {
 }
 
 TEST(Comfort, IgnoresRollAndTheWayInTheSweep) {
-    MotionSamples samples;
-    MotionMeter meter(samples);
+    Samples samples;
     for (int i = 0; i <= 20; ++i)
-        meter.add(i * second / 10, {Vec3d(100.0 * i, 0, 0), quake_orientation(0, 0, 11.9 * i), false});
+        samples.add(i * second / 10, {Vec3d(100.0 * i, 0, 0), quake_orientation(0, 0, 11.9 * i), false});
     EXPECT_EQ(samples.comfortable, 20U);
 }
 
 TEST(Comfort, BeginsAnewWithTheSegment) {
-    MotionSamples samples;
-    MotionMeter meter(samples);
+    Samples samples;
     for (int i = 0; i <= 5; ++i)
-        meter.add(i * second / 10, at(0, 11.0 * i));
+        samples.add(i * second / 10, at(0, 11.0 * i));
     EXPECT_EQ(samples.comfortable, 0U);
-    meter.end_segment();
-    meter.add(6 * second / 10, at(0, 180));
-    meter.add(7 * second / 10, at(0, 180));
+    samples.end_segment();
+    samples.add(6 * second / 10, at(0, 180));
+    samples.add(7 * second / 10, at(0, 180));
     EXPECT_EQ(samples.comfortable, 1U);
 }
 
 // Frames farther apart than the second that is looked at.
 TEST(Comfort, OfRareFramesIsThatOfOneStep) {
-    MotionSamples samples;
-    MotionMeter meter(samples);
-    meter.add(0, at(0));
-    meter.add(2 * second, at(0, 114));
-    meter.add(4 * second, at(0, 230));
+    Samples samples;
+    samples.add(0, at(0));
+    samples.add(2 * second, at(0, 114));
+    samples.add(4 * second, at(0, 230));
     EXPECT_EQ(samples.comfortable, 1U);
 }
 

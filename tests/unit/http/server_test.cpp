@@ -1,171 +1,148 @@
-#include "http/server.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <arpa/inet.h>
-#include <sys/socket.h>
-#include <unistd.h>
-
-#include <atomic>
 #include <thread>
 
-#include "http/metrics.hpp"
-
-// After Eigen, whose names collide with a macro of its <resolv.h>.
-#include <httplib.h>
+#include "test_server.hpp"
 
 namespace camdir::http {
 namespace {
 
+using test::http_request;
+using test::HttpAnswer;
+using test::HttpClient;
 using testing::HasSubstr;
 
-class ServerTest : public testing::Test {
-  protected:
-    ServerTest() {
-        config_.port = 0;
-        Sources sources;
-        sources.healthy = [this] { return healthy_.load(); };
-        sources.missing = [this] {
-            return ready_ ? std::vector<std::string>{}
-                          : std::vector<std::string>{"map a: loading", "map b: baking: sample 3 %"};
-        };
-        sources.metrics = [] {
-            auto family = counter_family("things_total", "Things.");
-            add_metric(family, 3.0, {{"kind", "a \"quoted\" one"}});
-            return std::vector{family};
-        };
-        sources.status = [] { return std::string("{}"); };
-        auto server = Server::start(config_, sources);
-        if (!server) throw std::runtime_error(server.error().message);
-        server_ = std::move(*server);
+TEST(Server, ReportsHealth) {
+    TestServer server;
+    HttpClient client(server.port());
+    EXPECT_EQ(client.ask("GET", "/-/healthy").status, 200);
+    server.healthy = false;
+    EXPECT_EQ(client.ask("GET", "/-/healthy").status, 503);
+}
+
+TEST(Server, ReportsWhatReadinessWaitsFor) {
+    TestServer server;
+    HttpClient client(server.port());
+    EXPECT_EQ(client.ask("GET", "/-/ready").status, 200);
+    server.ready = false;
+    const HttpAnswer answer = client.ask("GET", "/-/ready");
+    EXPECT_EQ(answer.status, 503);
+    EXPECT_EQ(answer.body, "map a: loading\nmap b: baking: sample 3 %\n");
+}
+
+TEST(Server, WritesMetricsAsPrometheusReadsThem) {
+    const TestServer server;
+    const HttpAnswer answer = server.ask("GET", "/metrics");
+    ASSERT_EQ(answer.status, 200);
+    EXPECT_THAT(answer.header.at("content-type"), HasSubstr("text/plain; version=0.0.4"));
+    EXPECT_THAT(answer.body, HasSubstr("# TYPE camera_director_things_total counter\n"));
+    EXPECT_THAT(answer.body, HasSubstr("camera_director_things_total{kind=\"a \\\"quoted\\\" one\"} 3\n"));
+}
+
+TEST(Server, ServesNothingElse) {
+    const TestServer server;
+    const HttpAnswer status = server.ask("GET", "/status?of=all");
+    EXPECT_EQ(status.status, 200);
+    EXPECT_EQ(status.header.at("content-type"), "application/json");
+    EXPECT_EQ(status.header.at("cache-control"), "no-store");
+    for (const char* path : {"/", "/-/healthy/", "/../../etc/passwd", "/%2e%2e/etc/passwd", "*"})
+        EXPECT_EQ(server.status_of("GET", path), 404) << path;
+    for (const char* method : {"POST", "PUT", "DELETE", "OPTIONS", "BREW"}) {
+        const HttpAnswer answer = server.ask(method, "/-/healthy");
+        EXPECT_EQ(answer.status, 405) << method;
+        EXPECT_EQ(answer.header.at("allow"), "GET, HEAD");
     }
+}
 
-    [[nodiscard]] httplib::Client client() const {
-        httplib::Client http("127.0.0.1", server_->port());
-        http.set_connection_timeout(60);
-        http.set_read_timeout(60);
-        return http;
+TEST(Server, AnswersHeadWithTheHeaderAlone) {
+    const TestServer server;
+    HttpClient client(server.port());
+    for (const char* path : {"/-/healthy", "/metrics", "/nothing"}) {
+        const HttpAnswer head = client.ask("HEAD", path);
+        const HttpAnswer whole = client.ask("GET", path);
+        EXPECT_EQ(head.status, whole.status) << path;
+        EXPECT_EQ(head.header, whole.header) << path;
     }
-
-    config::Http config_;
-    std::atomic<bool> healthy_{true};
-    std::atomic<bool> ready_{true};
-    std::unique_ptr<Server> server_;
-};
-
-TEST_F(ServerTest, ReportsHealth) {
-    auto http = client();
-    EXPECT_EQ(http.Get("/healthz")->status, 200);
-    healthy_ = false;
-    EXPECT_EQ(http.Get("/healthz")->status, 503);
 }
 
-TEST_F(ServerTest, ReportsWhatReadinessWaitsFor) {
-    auto http = client();
-    EXPECT_EQ(http.Get("/readyz")->status, 200);
-    ready_ = false;
-    const auto answer = http.Get("/readyz");
-    EXPECT_EQ(answer->status, 503);
-    EXPECT_EQ(answer->body, "map a: loading\nmap b: baking: sample 3 %\n");
+TEST(Server, AnswersEveryRequestOfAConnectionInOrder) {
+    const TestServer server;
+    HttpClient client(server.port());
+    ASSERT_TRUE(client.send(http_request("GET", "/metrics") + http_request("GET", "/-/healthy") +
+                            http_request("POST", "/-/ready", "", "ignored") + http_request("GET", "/") +
+                            http_request("GET", "/status", "Connection: close\r\n")));
+    for (const int status : {200, 200, 405, 404, 200})
+        EXPECT_EQ(client.receive().status, status);
+    EXPECT_THROW((void)client.receive(), std::runtime_error) << "closed, as asked for";
 }
 
-TEST_F(ServerTest, WritesMetricsAsPrometheusReadsThem) {
-    const auto answer = client().Get("/metrics");
-    ASSERT_EQ(answer->status, 200);
-    EXPECT_THAT(answer->get_header_value("Content-Type"), HasSubstr("text/plain; version=0.0.4"));
-    EXPECT_THAT(answer->body, HasSubstr("# TYPE camera_director_things_total counter\n"));
-    EXPECT_THAT(answer->body, HasSubstr("camera_director_things_total{kind=\"a \\\"quoted\\\" one\"} 3\n"));
+TEST(Server, AnswersHttp10) {
+    const TestServer server;
+    HttpClient client(server.port());
+    ASSERT_TRUE(client.send("GET /-/healthy HTTP/1.0\r\n\r\n"));
+    EXPECT_EQ(client.receive().body, "ok\n");
+    EXPECT_THROW((void)client.receive(), std::runtime_error);
 }
 
-TEST_F(ServerTest, ServesNothingElse) {
-    auto http = client();
-    EXPECT_EQ(http.Get("/status")->get_header_value("Content-Type"), "application/json");
-    EXPECT_EQ(http.Get("/")->status, 404);
-    EXPECT_EQ(http.Get("/../../etc/passwd")->status, 404);
-    EXPECT_EQ(http.Delete("/healthz")->status, 404);
-    const auto posted = http.Post("/healthz", std::string(100'000, 'x'), "text/plain");
-    EXPECT_TRUE(!posted || posted->status >= 400) << "answered with an error or cut off";
-    EXPECT_EQ(client().Get("/healthz")->status, 200);
-}
-
-// A connection that sends bytes which httplib's client would not send.
-class RawClient {
-  public:
-    explicit RawClient(std::uint16_t port) : socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
-        sockaddr_in to{};
-        to.sin_family = AF_INET;
-        to.sin_port = htons(port);
-        to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-        if (::connect(socket_, reinterpret_cast<const sockaddr*>(&to), sizeof to) != 0)
-            throw std::runtime_error("cannot connect");
+TEST(Server, RefusesWhatIsNoRequest) {
+    const TestServer server;
+    for (const char* bytes :
+         {"\x16\x03\x01 hello\r\n\r\n", "GET\r\n\r\n", "GET / HTTP/3.0\r\n\r\n", "GET / HTTP/1.1\r\n\r\n",
+          "GET / HTTP/1.1\r\nHost: a\r\nHost: b\r\n\r\n", "GET / HTTP/1.1\r\nHost\r\n\r\n",
+          "GET / HTTP/1.1\r\nHost: a\r\nContent-Length: x\r\n\r\n",
+          "GET / HTTP/1.1\r\nHost: a\r\nTransfer-Encoding: chunked\r\n\r\nx\r\n"}) {
+        HttpClient client(server.port());
+        ASSERT_TRUE(client.send(bytes));
+        EXPECT_EQ(client.receive().status, 400) << bytes;
     }
-    ~RawClient() { ::close(socket_); }
-    RawClient(const RawClient&) = delete;
-    RawClient& operator=(const RawClient&) = delete;
-
-    // False when the server has closed the connection.
-    [[nodiscard]] bool send(const std::string& bytes) const {
-        return ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL) >= 0;
-    }
-
-  private:
-    int socket_;
-};
-
-TEST_F(ServerTest, CutsOffAnEndlessRequest) {
-    const RawClient endless(server_->port());
-    const std::string more(1 << 20U, 'x');
-    int megabytes = 0;
-    while (megabytes < 64 && endless.send(more))
-        ++megabytes;
-    EXPECT_LT(megabytes, 64);
+    EXPECT_EQ(server.status_of("GET", "/-/healthy"), 200);
 }
 
-TEST_F(ServerTest, SlowClientsDoNotBlockOthers) {
-    std::vector<std::unique_ptr<RawClient>> slow;
-    for (int i = 0; i < 5; ++i)
-        slow.push_back(std::make_unique<RawClient>(server_->port()));
-    std::atomic<bool> answered{false};
-    std::thread sender([&] {
-        while (!answered) {
-            for (const auto& each : slow)
-                (void)each->send("x");
-            std::this_thread::sleep_for(std::chrono::milliseconds(100));
-        }
-    });
-    const auto answer = client().Get("/healthz");
-    answered = true;
-    sender.join();
-    EXPECT_TRUE(answer);
+TEST(Server, PromptPagesDoNotWaitForOthers) {
+    TestServer server;
+    server.hold_status();
+    std::vector<std::unique_ptr<HttpClient>> waiting;
+    for (int i = 0; i < 10; ++i)
+        ASSERT_TRUE(waiting.emplace_back(std::make_unique<HttpClient>(server.port()))
+                        ->send(http_request("GET", "/status")));
+    EXPECT_EQ(server.status_of("GET", "/-/healthy"), 200);
+    EXPECT_EQ(server.status_of("GET", "/-/ready"), 200);
+    server.let_status_go();
+    for (const auto& client : waiting)
+        EXPECT_EQ(client->receive().status, 200);
 }
 
-TEST_F(ServerTest, ServesManyClientsAtOnce) {
+TEST(Server, ServesManyClientsAtOnce) {
+    const TestServer server;
     std::vector<std::thread> threads;
     std::atomic<int> good{0};
     for (int i = 0; i < 40; ++i)
         threads.emplace_back([&] {
-            const auto answer = client().Get("/metrics");
-            if (answer && answer->status == 200) ++good;
+            if (server.status_of("GET", "/metrics") == 200) ++good;
         });
     for (std::thread& thread : threads)
         thread.join();
     EXPECT_EQ(good, 40);
 }
 
-TEST_F(ServerTest, FailsOnAPortInUse) {
+TEST(Server, FailsOnAPortInUse) {
+    const TestServer server;
     config::Http taken;
-    taken.port = server_->port();
+    taken.port = server.port();
     const auto second = Server::start(taken, {});
     ASSERT_FALSE(second);
-    EXPECT_EQ(second.error().message,
-              "http: cannot listen on 127.0.0.1 port " + std::to_string(server_->port()));
+    EXPECT_EQ(second.error().message, "http: cannot listen on 127.0.0.1 port " +
+                                          std::to_string(server.port()) + ": Address already in use");
 }
 
 TEST(Server, FailsOnAnInvalidAddress) {
     config::Http config;
     config.address = "no such address";
-    EXPECT_FALSE(Server::start(config, {}));
+    const auto server = Server::start(config, {});
+    ASSERT_FALSE(server);
+    EXPECT_THAT(server.error().message, HasSubstr("http: /http/address: \"no such address\": "));
+    EXPECT_FALSE(Server::check(config));
 }
 
 }  // namespace

@@ -23,7 +23,11 @@ struct Frame {
 };
 
 cdir_camera camera_at_x(float x) {
-    return {1, 7, {x, 0.0F, 0.0F}, {0.0F, 0.0F, 0.0F, 1.0F}, 1.0F, 10.0F, 0};
+    cdir_camera camera = cdir_camera_default();
+    camera.position[0] = x;
+    camera.vertical_fov = 1.0F;
+    camera.clearance = 10.0F;
+    return camera;
 }
 
 CameraTrack track_of(const std::vector<Frame>& frames) {
@@ -122,7 +126,7 @@ RC_GTEST_PROP(CameraTrack, BetweenUnconnectedFramesTheCameraIsTheEarlierOne, ())
         const Frame& b = frames[i];
         if (b.time - a.time < 2) continue;
         const std::int64_t time = a.time + *rc::gen::inRange<std::int64_t>(1, b.time - a.time);
-        const cdir_view view = *track.at(time);
+        const View view = *track.at(time);
         RC_ASSERT(view.frame_time == time && view.late == 0);
         RC_ASSERT(b.connected || same(view.camera, a.camera));
     }
@@ -280,7 +284,7 @@ RC_GTEST_PROP(CameraTrack, ClearanceStaysALowerBound, ()) {
     }
     const Frame a{1000, frames[1], true};
     const Frame b{2000, frames[2], true};
-    const cdir_view view = *track.at(*rc::gen::inRange<std::int64_t>(1001, 2000));
+    const View view = *track.at(*rc::gen::inRange<std::int64_t>(1001, 2000));
     const bool inside_a =
         view.camera.clearance <= a.camera.clearance - distance_between(a.camera, view.camera) + 1e-2F;
     const bool inside_b =

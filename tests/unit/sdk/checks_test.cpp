@@ -65,7 +65,7 @@ TEST(Checks, MatchInfoWithImpossibleNumbersIsRefused) {
 }
 
 TEST(Checks, PlayersAreDistinctAndNamed) {
-    std::vector<cdir_player> players(2);
+    std::vector<cdir_player> players(2, cdir_player_default());
     players[0].id = 3;
     players[1].id = 4;
     EXPECT_NO_THROW(check(valid_info(), players));
@@ -78,53 +78,12 @@ TEST(Checks, PlayersAreDistinctAndNamed) {
     EXPECT_THROW(check(valid_info(), players), Failure);
 }
 
-TEST(Checks, PoseFrameIsFiniteAndItsOrientationsAreUnit) {
-    const std::uint32_t ids[2] = {1, 2};
-    const std::uint32_t flags[2] = {1, 1};
-    float eye[6] = {};
-    float orientation[8] = {0, 0, 0, 1, 0.6F, 0, 0.8F, 0};
-    float velocity[6] = {};
-    cdir_pose_frame frame = cdir_pose_frame_default();
-    frame.player_count = 2;
-    frame.player_id = ids;
-    frame.eye = eye;
-    frame.orientation = orientation;
-    frame.velocity = velocity;
-    frame.flags = flags;
-    EXPECT_NO_THROW(check(frame));
-    for (float* number : {&eye[0], &eye[5], &orientation[2], &orientation[7], &velocity[0], &velocity[5]}) {
-        for (const float wrong : {nan, infinity, -infinity}) {
-            const float right = *number;
-            *number = wrong;
-            EXPECT_THROW(check(frame), Failure);
-            *number = right;
-        }
-    }
-    orientation[3] = 1.0005F;
-    EXPECT_NO_THROW(check(frame));
-    orientation[3] = 0.998F;
-    EXPECT_THROW(check(frame), Failure);
-    orientation[3] = 1.0F;
-    for (const void** array :
-         {reinterpret_cast<const void**>(&frame.player_id), reinterpret_cast<const void**>(&frame.eye),
-          reinterpret_cast<const void**>(&frame.orientation), reinterpret_cast<const void**>(&frame.flags)}) {
-        const void* right = *array;
-        *array = nullptr;
-        EXPECT_THROW(check(frame), Failure);
-        *array = right;
-    }
-    frame.velocity = nullptr;
-    EXPECT_NO_THROW(check(frame));
-    frame.player_count = CDIR_MAX_PLAYERS + 1;
-    EXPECT_THROW(check(frame), Failure);
-    frame.player_count = 2;
+TEST(Checks, FrameTimesAreWithin73Years) {
     for (const std::int64_t far :
          {std::numeric_limits<std::int64_t>::min(), std::numeric_limits<std::int64_t>::max()}) {
-        frame.frame_time = far;
-        EXPECT_THROW(check(frame), Failure);
         EXPECT_THROW(check_frame_time(far), Failure);
     }
-    EXPECT_NO_THROW(check(cdir_pose_frame_default())) << "a frame without players needs no arrays";
+    EXPECT_NO_THROW(check_frame_time(0));
 }
 
 std::string refusal(const cdir_match_event& event) {

@@ -251,6 +251,17 @@ TEST_F(ReceivedMatchTest, AnotherDirectorIsAHandOverAndNoGap) {
     EXPECT_NE(segment(), before) << "the first director's last frames may have held a cut";
 }
 
+TEST_F(ReceivedMatchTest, ADirectorThatCountsOnContinuesTheShot) {
+    answer(1, 5);
+    accept(1, 100, 1.0F, 0, 1);
+    const std::uint32_t before = segment();
+    accept(1, 101, 2.0F, 0, 2);
+    EXPECT_EQ(match_.counters().hand_overs, 1U);
+    EXPECT_EQ(segment(), before);
+    accept(1, 102, 2.0F, CDIR_CAMERA_CUT, 3);
+    EXPECT_NE(segment(), before);
+}
+
 TEST_F(ReceivedMatchTest, CutAbsenceAndAnotherCameraBeginASegment) {
     answer(1, 5);
     accept(1, 0, 1.0F);

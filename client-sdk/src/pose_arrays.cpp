@@ -1,0 +1,47 @@
+#include "pose_arrays.hpp"
+
+#include <cstring>
+#include <string>
+
+#include "checks.hpp"
+
+namespace camdir::sdk {
+
+namespace {
+
+// Elements of `width` numbers, which need not be aligned.
+template <std::size_t width, class Number>
+void gather_array(const std::string& name, const Number* from, std::size_t stride, std::size_t count,
+                  Number* to) {
+    constexpr std::size_t size = width * sizeof(Number);
+    if (from == nullptr) throw Failure{CDIR_INVALID_ARGUMENT, name + " is null"};
+    if (stride == 0) stride = size;
+    if (stride < size) {
+        throw Failure{CDIR_INVALID_ARGUMENT, name + "_stride is " + std::to_string(stride) +
+                                                 ", neither 0 nor at least " + std::to_string(size)};
+    }
+    const auto* bytes = reinterpret_cast<const unsigned char*>(from);
+    for (std::size_t i = 0; i < count; ++i)
+        std::memcpy(to + i * width, bytes + i * stride, size);
+}
+
+}  // namespace
+
+void PoseArrays::gather(const cdir_pose_frame& frame) {
+    require(frame.player_count <= CDIR_MAX_PLAYERS, "player_count is greater than CDIR_MAX_PLAYERS");
+    require(frame.reserved == 0, "frame.reserved is not 0");
+    count_ = frame.player_count;
+    has_velocity_ = count_ > 0 && frame.velocity != nullptr;
+    if (count_ == 0) return;
+    gather_array<1>("player_id", frame.player_id, frame.player_id_stride, count_, player_id_.data());
+    gather_array<3>("eye", frame.eye, frame.eye_stride, count_, eye_.data());
+    gather_array<4>("orientation", frame.orientation, frame.orientation_stride, count_, orientation_.data());
+    gather_array<1>("flags", frame.flags, frame.flags_stride, count_, flags_.data());
+    require(all_finite(eye_.data(), 3 * count_), "an eye position is not finite");
+    require(all_unit(orientation_.data(), count_), "an orientation is not of length 1");
+    if (!has_velocity_) return;
+    gather_array<3>("velocity", frame.velocity, frame.velocity_stride, count_, velocity_.data());
+    require(all_finite(velocity_.data(), 3 * count_), "a velocity is not finite");
+}
+
+}  // namespace camdir::sdk

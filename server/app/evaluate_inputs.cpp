@@ -1,0 +1,44 @@
+#include "app/evaluate_inputs.hpp"
+
+#include "evaluation/resample.hpp"
+#include "maps/source.hpp"
+#include "scene/load.hpp"
+
+namespace camdir::app {
+
+Result<Match> read_match(const EvaluateOptions& options) {
+    auto trace = evaluation::read_trace(options.trace);
+    if (!trace) return tl::unexpected(trace.error());
+    Match match;
+    if (!options.events.empty()) {
+        auto kills = evaluation::read_kills(options.events, *trace);
+        if (!kills) return tl::unexpected(kills.error());
+        match.kills = std::move(*kills);
+    }
+    auto frames = options.output_hz == 0.0 ? Result<evaluation::Trace>(*trace)
+                                           : evaluation::resample(*trace, options.output_hz);
+    if (!frames) return fail(options.trace + ": " + frames.error().message);
+    match.poses = std::move(*trace);
+    match.frames = std::move(*frames);
+    return match;
+}
+
+// The baked file holds the options for reading a mesh or a point cloud.
+Result<SourceMap> open_map(const EvaluateOptions& options) {
+    if (options.freespace.empty()) {
+        auto scene = scene::load(options.map);
+        if (!scene) return tl::unexpected(scene.error());
+        if (scene->points.empty()) return SourceMap{std::move(*scene), {}};
+        return fail(options.map +
+                    ": is a point cloud; name the FILE.vfs too, which says how far its "
+                    "surfaces may be from its points");
+    }
+    auto freespace = freespace::Freespace::open(options.freespace);
+    if (!freespace) return tl::unexpected(freespace.error());
+    auto scene = maps::load_source(*freespace, options.map);
+    if (!scene) return tl::unexpected(scene.error());
+    const double d0 = freespace->metadata().d0;
+    return SourceMap{std::move(*scene), std::move(*freespace), d0};
+}
+
+}  // namespace camdir::app

@@ -1,0 +1,54 @@
+// What `evaluate` reads: its options, the match and the map.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "evaluation/kills.hpp"
+#include "evaluation/trace.hpp"
+#include "freespace/freespace.hpp"
+#include "scene/scene.hpp"
+
+namespace camdir::app {
+
+inline constexpr const char* tracker = "tracker";
+inline constexpr const char* planner = "planner";
+inline constexpr const char* paper = "paper";
+
+struct EvaluateOptions {
+    std::string freespace;
+    std::string map;
+    std::string trace;
+    std::string events;
+    std::string camera = tracker;
+    std::string judge;
+    std::string profile = "default";
+    std::string config;
+    std::string cameras;
+    std::string terms;
+    std::string json;
+    std::string report;
+    double output_hz = 0.0;  // 0 = the trace's own frames
+    double look_ahead = 0.0;
+    std::string solver;  // empty: the profile's
+
+    [[nodiscard]] bool tracks() const { return judge.empty() && camera == tracker; }
+};
+
+struct Match {
+    evaluation::Trace poses;   // as recorded
+    evaluation::Trace frames;  // the instants of the cameras
+    std::optional<std::vector<evaluation::Kill>> kills;
+};
+[[nodiscard]] Result<Match> read_match(const EvaluateOptions& options);
+
+struct SourceMap {
+    scene::Scene scene;
+    std::optional<freespace::Freespace> freespace;  // where the options name one
+    double point_radius = 0.0;                      // of the obstacles in a cloud
+};
+[[nodiscard]] Result<SourceMap> open_map(const EvaluateOptions& options);
+
+}  // namespace camdir::app

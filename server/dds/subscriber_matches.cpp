@@ -1,0 +1,161 @@
+// Subscriber: which matches there are, and whose.
+#include <spdlog/spdlog.h>
+
+#include <utility>
+
+#include "dds/decode.hpp"
+#include "dds/subscriber.hpp"
+
+namespace camdir::dds {
+
+void Subscriber::match_info_found(const camera_director_MatchInfo& sample, const dds_sample_info_t& info) {
+    Ownership::Claim claim;
+    if (const auto error = decode(sample, claim.info)) {
+        return drop(Topic::match_info, *error, sample.match_id);
+    }
+    const std::string match_id = claim.info.match_id;
+    const MatchedWriter writer = find_writer(match_info_reader_, info.publication_handle);
+    if (!writer || !writes_in(*writer, match_partition(match_id))) {
+        return drop(Topic::match_info, ValidationError::wrong_partition, match_id);
+    }
+    // The endpoints first, because the director publishes at once. It counts and logs what it refuses.
+    const bool known = matches_.contains(match_id);
+    if (!known && !may_open_match(sender_of(*writer)))
+        return drop(Topic::match_info, ValidationError::participant_limit, match_id);
+    if (!known && !(ingress_->admit(match_id) && add_match(match_id))) return;
+    Match& match = *matches_[match_id];
+    claim.sender = sender_of(*writer);
+    claim.writer = info.publication_handle;
+    const auto standing = match.ownership.describe(std::move(claim), Clock::now());
+    if (standing == Ownership::Standing::stranger)
+        return drop(Topic::match_info, ValidationError::not_owner, match_id);
+    ++counters_.of(Topic::match_info).accepted;
+    if (standing == Ownership::Standing::successor) return begin_anew(match);
+    match.forgotten = !ingress_->receive(match.ownership.info());
+    if (!match.forgotten) cancel_forget(match_id);
+}
+
+bool Subscriber::may_open_match(const SenderId& sender) const {
+    const auto owned = std::ranges::count_if(
+        matches_, [&](const auto& entry) { return entry.second->ownership.owns(sender); });
+    return static_cast<std::size_t>(owned) < options_.participant_matches;
+}
+
+void Subscriber::match_info_lost(const camera_director_MatchInfo& key, const dds_sample_info_t& info) {
+    const auto known = matches_.find(key.match_id);
+    if (known == matches_.end()) return;
+    Ownership& ownership = known->second->ownership;
+    put_into_effect(info.instance_state == DDS_NOT_ALIVE_DISPOSED_INSTANCE_STATE
+                        ? ownership.dispose(info.publication_handle, !info.valid_data, Clock::now())
+                        : ownership.lose(),
+                    key.match_id);
+}
+
+// A game server that is gone is not told of where another describes its match too.
+void Subscriber::notice_unmatched() {
+    dds_subscription_matched_status_t status{};
+    dds_get_subscription_matched_status(match_info_reader_, &status);
+    const std::vector<WriterHandle> matched = matched_writers(match_info_reader_);
+    std::vector<std::string> match_ids;
+    for (const auto& [match_id, match] : matches_)
+        match_ids.push_back(match_id);
+    for (const std::string& match_id : match_ids)
+        put_into_effect(matches_[match_id]->ownership.retain(matched, Clock::now()), match_id);
+}
+
+void Subscriber::put_into_effect(Ownership::Change change, const std::string& match_id) {
+    Match& match = *matches_[match_id];
+    if (change == Ownership::Change::none) return;
+    if (change == Ownership::Change::succeeded) return begin_anew(match);
+    if (match.forgotten) return remove_match(match_id);
+    if (change == Ownership::Change::ended)
+        ingress_->match_ended(match_id);
+    else
+        ingress_->server_lost(match_id);
+}
+
+// Epochs, frame numbers and clocks of its owner before mean nothing.
+void Subscriber::begin_anew(Match& match) {
+    spdlog::warn("match {}: another game server continues it", match.id());
+    ingress_->match_ended(match.id());
+    match.forgotten = !ingress_->receive(match.ownership.info());
+    if (!match.forgotten) cancel_forget(match.id());
+}
+
+// The director knows the match again: an earlier forget() must not remove it.
+void Subscriber::cancel_forget(const std::string& match_id) {
+    const std::lock_guard lock(forgotten_mutex_);
+    std::erase(forgotten_, match_id);
+}
+
+bool Subscriber::add_match(const std::string& match_id) {
+    const auto opened = open_match(match_id);
+    if (opened) return true;
+    ++counters_.endpoint_failures;
+    spdlog::error("match '{}' cannot be served: {}", match_id, opened.error().message);
+    remove_match(match_id);
+    ingress_->match_ended(match_id);
+    return false;
+}
+
+// On failure the caller removes the match.
+Result<void> Subscriber::open_match(const std::string& match_id) {
+    auto endpoints =
+        MatchEndpoints::open(participant_, match_id, options_.leadership, options_.director_id, counters_);
+    if (!endpoints) return tl::unexpected(endpoints.error());
+    auto& match = matches_[match_id];
+    match = std::make_unique<Match>(options_.participant_observers);
+    match->endpoints = std::move(*endpoints);
+    match->poses = {match.get(), &Subscriber::take_poses};
+    match->events = {match.get(), &Subscriber::take_events};
+    match->requests = {match.get(), &Subscriber::take_requests};
+    match->requesters = {match.get(), &Subscriber::notice_unmatched_requests};
+    match->cameras = {match.get(), &Subscriber::take_cameras};
+    match->signs = {match.get(), &Subscriber::take_signs};
+    table_.add(match->endpoints);
+    next_decision_ = Clock::now();
+    counters_.matches = static_cast<std::uint32_t>(matches_.size());
+    for (const auto& [reader, source] : {std::pair{match->endpoints->pose_reader(), &match->poses},
+                                         std::pair{match->endpoints->event_reader(), &match->events},
+                                         std::pair{match->endpoints->request_reader(), &match->requests},
+                                         std::pair{match->endpoints->camera_reader(), &match->cameras},
+                                         std::pair{match->endpoints->sign_reader(), &match->signs}}) {
+        if (auto watched = watch(reader, source); !watched) return watched;
+    }
+    if (auto watched = watch_writers(match->endpoints->request_reader(), &match->requesters); !watched)
+        return watched;
+    triggered_.resize(3 + 6 * matches_.size());
+    return {};
+}
+
+void Subscriber::remove_match(const std::string& match_id) {
+    table_.remove(match_id);
+    matches_.erase(match_id);
+    counters_.matches = static_cast<std::uint32_t>(matches_.size());
+}
+
+void Subscriber::remove_forgotten() {
+    std::vector<std::string> forgotten;
+    {
+        const std::lock_guard lock(forgotten_mutex_);
+        forgotten.swap(forgotten_);
+    }
+    for (const std::string& match_id : forgotten) {
+        const auto known = matches_.find(match_id);
+        if (known == matches_.end()) continue;
+        // A paused game server may send poses again without another MatchInfo.
+        if (known->second->ownership.has_live_owner()) {
+            known->second->forgotten = true;
+        } else {
+            remove_match(match_id);
+        }
+    }
+}
+
+// Announces a match again that the director has forgotten. Returns false when it was refused.
+bool Subscriber::reintroduce(Match& match) {
+    if (match.forgotten) match.forgotten = !ingress_->receive(match.ownership.info());
+    return !match.forgotten;
+}
+
+}  // namespace camdir::dds

@@ -1,0 +1,102 @@
+// Who of a match's directors leads it: whoever serves it, serves on; another follows only where the leader
+// dies, hangs, leaves or has no cameras.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <unordered_map>
+
+namespace camdir::dds {
+
+inline constexpr std::uint32_t max_term = 0x7fff;
+inline constexpr std::uint32_t max_rank = 0xffff;
+inline constexpr std::chrono::milliseconds max_lease{60'000};
+
+// What a director tells the others of itself.
+struct Sign {
+    std::uint64_t director_id = 0;
+    std::uint32_t term = 0;  // of a standby: in which it would lead, greater than its leader's
+    std::uint32_t rank = 0;
+    std::chrono::milliseconds lease{0};  // without a sign for longer it is dead
+    bool leads = false;
+    bool has_cameras = false;  // and could lead with them
+
+    bool operator==(const Sign&) const = default;
+};
+
+// The view of one director. One thread at a time. Only what says so makes it take over; all else that may
+// change own() makes it stand by.
+class Succession {
+  public:
+    using Clock = std::chrono::steady_clock;
+    using Time = Clock::time_point;
+
+    // How long the directors of a match that begins look for each other.
+    static constexpr std::chrono::milliseconds settling{250};
+    // How long a leader may be without cameras where a standby has them; so long a director has cameras after
+    // it has computed some.
+    static constexpr std::chrono::milliseconds patience{300};
+    // Directors that were apart for longer than `apart` have forgotten each other, and need so long until
+    // they have met again.
+    static constexpr std::chrono::seconds apart{5}, meeting{3};
+    // After so long a first leader's term is later than that of one that begins and has not found it yet.
+    static constexpr std::chrono::seconds establishing{1};
+    static constexpr std::size_t max_others = 64;
+    // Calls of live() in a lease: some may come late.
+    static constexpr int beats = 4;
+
+    // A director is dead to the others, and to itself, after `lease` without a sign.
+    Succession(std::uint64_t director_id, std::uint32_t rank, std::chrono::milliseconds lease, Time now);
+
+    // It has computed cameras.
+    void produce(Time now) { produced_ = now; }
+    // May take over. Counts for nothing where max_others live.
+    void see(const Sign& other, Time now);
+    // It left: the next one takes over at once.
+    void leave(std::uint64_t director_id, Time now);
+    // This director lives and responds. One that was silent for longer than its lease stands by, if there
+    // were others, and looks for a new leader. May take over.
+    void live(Time now);
+    // Leads no more until live() is called, if there is another that lives.
+    void resign(Time now);
+    // Whether another lives that has cameras, if this one has some.
+    [[nodiscard]] bool has_successor(Time now) const;
+    // To be called before anything is written.
+    void notice_absence(Time now);
+    // What time alone changes: may take over. To be called when all signs that have come are seen, and not
+    // later than next_change().
+    void decide(Time now);
+
+    [[nodiscard]] const Sign& own() const { return own_; }
+    [[nodiscard]] Time next_change(Time now) const;
+
+  private:
+    struct Other {
+        Sign sign;
+        Time seen;
+        Time camera_change;
+    };
+
+    [[nodiscard]] static bool lives(const Other& other, Time now) {
+        return now <= other.seen + other.sign.lease;
+    }
+    [[nodiscard]] Clock::duration longest_silence() const;
+    void notice_cameras(Time now);
+    [[nodiscard]] const Other* leader(Time now) const;
+    [[nodiscard]] bool is_first(Time now) const;
+    [[nodiscard]] Time may_depose_from(const Other& leader) const;
+    [[nodiscard]] bool may_depose(const Other& leader, Time now) const;
+
+    Sign own_;
+    bool resigned_ = false;
+    Time lived_;    // last sign of its own life
+    Time settled_;  // until then it does not take over
+    Time barred_;   // the same after an absence: until then others need not wait for it
+    Time led_since_;
+    Time produced_;
+    Time camera_change_;
+    std::unordered_map<std::uint64_t, Other> others_;
+};
+
+}  // namespace camdir::dds

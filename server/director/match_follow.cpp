@@ -1,0 +1,106 @@
+// Match: the shots of a standby go on from the cameras of the director that leads.
+#include <algorithm>
+
+#include "director/clock.hpp"
+#include "director/match.hpp"
+
+namespace camdir::director {
+namespace {
+
+// In metres and in the cosine of half the angle between views.
+struct Tolerance {
+    float place, view;
+};
+// Trackers of the same poses agree better than this.
+constexpr Tolerance in_time{0.0127F, 0.99999F};
+// Where news is late only its guess can be followed: worth it where a shot is elsewhere.
+constexpr Tolerance late{0.25F, 0.99F};
+constexpr double longest_step_s = 0.25;
+
+bool agree(const ShotCamera& a, const ShotCamera& b, float metres_per_unit, const Tolerance& tolerance) {
+    return a.target == b.target && (a.position - b.position).norm() * metres_per_unit < tolerance.place &&
+           std::abs(a.orientation.dot(b.orientation)) > tolerance.view;
+}
+
+const ShotCamera* camera_of(const CameraFrame& frame, std::uint32_t camera_id) {
+    const auto found = std::ranges::find(frame.cameras, camera_id, &ShotCamera::camera_id);
+    return found == frame.cameras.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+// A frame of a pose that is not processed yet waits until it is.
+void Match::follow() {
+    if (content_.has_shown) {
+        std::swap(followed_before_, followed_);
+        std::swap(followed_, content_.shown);
+        is_followed_ = false;
+    }
+    if (is_followed_ || !freespace_) return;
+    const CameraFrame* frame = own_frame(followed_);
+    if (frame == nullptr) return;
+    is_followed_ = true;
+    const Tolerance& tolerance = frame->pose_number == cameras_.pose_number ? in_time : late;
+    bool agrees = true;
+    for (const ShotCamera& own : frame->cameras) {
+        const ShotCamera* shown = camera_of(followed_, own.camera_id);
+        if (shown == nullptr || agree(own, *shown, freespace_->metadata().metres_per_unit, tolerance))
+            continue;
+        follow({own, *shown});
+        agrees = false;
+    }
+    if (!agrees) own_frame_count_ = 0;  // they are not what the shots go on from
+}
+
+// Where this director is ahead, the leader's camera is taken to have moved since as its own did.
+void Match::follow(const Disagreement& disagreement) {
+    const auto& [own, shown] = disagreement;
+    std::vector<Shot>& shots = requests_.shots();
+    const auto shot = std::ranges::find(shots, own.camera_id, &Shot::camera_id);
+    const ShotCamera* newest = camera_of(cameras_, own.camera_id);
+    if (shot == shots.end() || newest == nullptr) return;
+    if (shown.target != own.target) {
+        shot->automatic = {.player = shown.target, .chosen_at = followed_.frame_time};
+        return;  // the next frame begins with its player
+    }
+    const ShotCamera* before = camera_of(followed_before_, own.camera_id);
+    const double dt = seconds_between(followed_before_.frame_time, followed_.frame_time);
+    const bool moved = before != nullptr && followed_before_.epoch == followed_.epoch && dt > 0.0 &&
+                       dt <= longest_step_s && (shown.flags & camera::cut) == 0;
+    if (!moved) return;
+    const Vec3f way = newest->position - own.position;
+    const Quatf turn = newest->orientation * own.orientation.conjugate();
+    const auto since = [&](const ShotCamera& camera) {
+        return camera::View{camera.position + way, turn * camera.orientation};
+    };
+    if (camera::go_on_from(*freespace_, shot->profile, since(*before), since(shown), dt, shot->state))
+        shot->is_prepared = false;
+}
+
+void Match::remember_own() {
+    own_frames_[own_frame_count_++ % own_frames_.size()] = cameras_;
+}
+
+std::span<const CameraFrame> Match::own_frames() const {
+    return std::span(own_frames_).first(std::min(own_frame_count_, own_frames_.size()));
+}
+
+// Of the same pose; null when there is none yet, or no more.
+const CameraFrame* Match::own_frame(const CameraFrame& shown) const {
+    const auto frames = own_frames();
+    const auto found = std::ranges::find_if(frames, [&](const CameraFrame& own) {
+        return own.epoch == shown.epoch && own.pose_number == shown.pose_number;
+    });
+    return found == frames.end() ? nullptr : &*found;
+}
+
+bool Match::has_cut_since(const CameraFrame& shown, std::uint32_t camera_id) const {
+    return std::ranges::any_of(own_frames(), [&](const CameraFrame& own) {
+        const bool is_later =
+            own.epoch > shown.epoch || static_cast<std::int32_t>(own.pose_number - shown.pose_number) > 0;
+        const ShotCamera* camera = camera_of(own, camera_id);
+        return is_later && camera != nullptr && (camera->flags & camera::cut) != 0;
+    });
+}
+
+}  // namespace camdir::director

@@ -1,0 +1,44 @@
+// The pages and what is answered to requests for them.
+#pragma once
+
+#include <boost/beast/http/message.hpp>
+#include <boost/beast/http/string_body.hpp>
+#include <optional>
+#include <string>
+
+#include "http/access.hpp"
+#include "http/server.hpp"
+
+namespace camdir::http {
+
+using Request = boost::beast::http::request<boost::beast::http::string_body>;
+using Response = boost::beast::http::response<boost::beast::http::string_body>;
+using Status = boost::beast::http::status;
+
+struct Content {
+    Status status;
+    std::string type;
+    std::string text;
+};
+
+struct Page {
+    const char* path;
+    bool acts;    // is asked for by POST and changes the server, instead of GET or HEAD
+    bool open;    // for everyone, also from other hosts
+    bool prompt;  // waits for nothing and is small
+    Content (*make)(const Sources& sources);
+};
+
+// The page that a request names; null: there is none.
+[[nodiscard]] const Page* find_page(const Request& request);
+
+// The answer that carries `content`; to HEAD, its header.
+[[nodiscard]] Response answer(const Request& request, Content content);
+
+// The answer to a request that is not served for the reason of `status`.
+[[nodiscard]] Response refusal(const Request& request, Status status);
+
+// The same, for what is wrong with the request; nullopt: the page is to be made. `page` may be null.
+[[nodiscard]] std::optional<Response> check(const Request& request, const Page* page, const Access& access);
+
+}  // namespace camdir::http

@@ -1,0 +1,382 @@
+#include "dds/succession.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace camdir::dds {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr milliseconds lease{200};
+constexpr milliseconds beat{50};
+
+// Directors of one match whose signs reach the others at once, on a clock of their own.
+class Directors : public testing::Test {
+  protected:
+    struct Member {
+        Succession succession;
+        bool runs = true;
+        bool has_cameras = false;
+    };
+
+    std::size_t add(std::uint32_t rank) {
+        members_.push_back({Succession(members_.size() + 1, rank, lease, now_)});
+        return members_.size() - 1;
+    }
+    void pass(milliseconds time) {
+        for (const auto end = now_ + time; now_ < end;) {
+            now_ += beat;
+            for (Member& member : members_) {
+                if (!member.runs) continue;
+                if (member.has_cameras) member.succession.produce(now_);
+                member.succession.live(now_);
+            }
+            if (connected_) tell();
+        }
+    }
+    void tell() {
+        for (const Member& from : members_)
+            for (Member& to : members_)
+                if (from.runs && to.runs) to.succession.see(from.succession.own(), now_);
+    }
+    [[nodiscard]] bool leads(std::size_t member) const { return members_[member].succession.own().leads; }
+    [[nodiscard]] std::size_t leaders() const {
+        return static_cast<std::size_t>(std::ranges::count_if(
+            members_, [](const Member& member) { return member.runs && member.succession.own().leads; }));
+    }
+    Succession& leader() {
+        return std::ranges::find_if(members_,
+                                    [](const Member& member) { return member.succession.own().leads; })
+            ->succession;
+    }
+    Succession& of(std::size_t member) { return members_[member].succession; }
+
+    bool connected_ = true;
+    Succession::Time now_{};
+    std::vector<Member> members_;
+};
+
+TEST_F(Directors, OneAloneLeadsAfterLookingForOthers) {
+    const auto only = add(100);
+    pass(milliseconds(200));
+    EXPECT_EQ(of(only).next_change(now_), now_ + milliseconds(50));
+    EXPECT_FALSE(leads(only));
+    pass(milliseconds(50));
+    EXPECT_TRUE(leads(only));
+}
+
+TEST_F(Directors, TheStrongestOfThoseThatBeginTogetherLeads) {
+    const auto weak = add(100);
+    const auto strong = add(200);
+    pass(milliseconds(1000));
+    EXPECT_TRUE(leads(strong));
+    EXPECT_FALSE(leads(weak));
+    EXPECT_GT(of(weak).own().term, of(strong).own().term) << "what it writes must count when it takes over";
+}
+
+TEST_F(Directors, OneWithCamerasLeadsBeforeAStrongerOneWithout) {
+    const auto weak = add(100);
+    const auto strong = add(200);
+    members_[weak].has_cameras = true;
+    pass(milliseconds(1000));
+    EXPECT_TRUE(leads(weak));
+    EXPECT_FALSE(leads(strong));
+}
+
+TEST_F(Directors, WhoeverServesServesOn) {
+    const auto first = add(100);
+    pass(milliseconds(1000));
+    const auto stronger = add(200);
+    pass(milliseconds(5000));
+    EXPECT_TRUE(leads(first));
+    EXPECT_FALSE(leads(stronger));
+}
+
+TEST_F(Directors, AStandbyTakesOverWhenTheLeaderIsSilentForALeaseOrLeaves) {
+    const auto leader = add(200);
+    const auto standby = add(100);
+    pass(milliseconds(1000));
+    members_[leader].runs = false;
+    EXPECT_EQ(of(standby).next_change(now_), now_ + lease + milliseconds(1));
+    pass(milliseconds(200));
+    EXPECT_FALSE(leads(standby));
+    now_ += milliseconds(1);
+    of(standby).decide(now_);
+    EXPECT_TRUE(leads(standby));
+
+    const auto next = add(100);
+    pass(milliseconds(1000));
+    members_[standby].runs = false;
+    of(next).leave(of(standby).own().director_id, now_);
+    EXPECT_TRUE(leads(next));
+}
+
+TEST_F(Directors, ALeaderIsSilentForAsLongAsItSays) {
+    const auto standby = add(100);
+    const Sign patient{.director_id = 9, .term = 4, .lease = milliseconds(1000), .leads = true};
+    of(standby).see(patient, now_);
+    pass(milliseconds(1000));
+    EXPECT_FALSE(leads(standby));
+    pass(milliseconds(50));
+    EXPECT_TRUE(leads(standby));
+}
+
+TEST_F(Directors, ALeaderResignsWhereAnotherLives) {
+    const auto leader = add(200);
+    pass(milliseconds(1000));
+    of(leader).resign(now_);
+    EXPECT_TRUE(leads(leader)) << "it is alone";
+    const auto standby = add(100);
+    pass(milliseconds(1000));
+    of(leader).resign(now_);
+    EXPECT_FALSE(leads(leader));
+    members_[leader].runs = false;
+    of(standby).leave(of(leader).own().director_id, now_);
+    EXPECT_TRUE(leads(standby));
+    of(leader).live(now_);
+    EXPECT_FALSE(leads(leader)) << "although it has not heard yet that another leads";
+    members_[leader].runs = true;
+    pass(milliseconds(1000));
+    EXPECT_TRUE(leads(standby));
+    EXPECT_EQ(leaders(), 1U);
+}
+
+TEST_F(Directors, ALeaderHandsOverToOneThatServesAsWell) {
+    const auto leader = add(200);
+    members_[leader].has_cameras = true;
+    pass(milliseconds(1000));
+    EXPECT_FALSE(of(leader).has_successor(now_)) << "it is alone";
+    const auto standby = add(100);
+    pass(milliseconds(1000));
+    EXPECT_FALSE(of(leader).has_successor(now_)) << "the other has no cameras";
+    members_[standby].has_cameras = true;
+    pass(milliseconds(1000));
+    ASSERT_TRUE(of(leader).has_successor(now_));
+    of(leader).resign(now_);
+    of(standby).leave(of(leader).own().director_id, now_);
+    EXPECT_TRUE(leads(standby));
+    pass(milliseconds(5000));
+    EXPECT_TRUE(leads(standby));
+    EXPECT_EQ(leaders(), 1U);
+}
+
+TEST_F(Directors, ALeaderThatWasAbsentStandsByBeforeItWritesAnything) {
+    const auto leader = add(200);
+    const auto standby = add(100);
+    pass(milliseconds(1000));
+    members_[leader].runs = false;
+    pass(milliseconds(6000));
+    ASSERT_TRUE(leads(standby));
+    of(leader).notice_absence(now_);
+    EXPECT_FALSE(leads(leader));
+    members_[leader].runs = true;
+    pass(milliseconds(6000));
+    EXPECT_TRUE(leads(standby));
+    EXPECT_FALSE(leads(leader));
+    EXPECT_GT(of(leader).own().term, of(standby).own().term);
+    members_[standby].runs = false;
+    pass(milliseconds(300));
+    EXPECT_TRUE(leads(leader)) << "as the standby that it is now";
+}
+
+TEST_F(Directors, ALeaderThatWasAwayForLongWaitsUntilItHasMetTheOthersAgain) {
+    const auto leader = add(200);
+    const auto standby = add(100);
+    pass(milliseconds(1000));
+    members_[leader].runs = false;
+    pass(milliseconds(15'000));
+    ASSERT_TRUE(leads(standby));
+    of(leader).see(of(standby).own(), now_);  // what it still had in its buffers
+    members_[leader].runs = true;
+    connected_ = false;
+    pass(milliseconds(2000));
+    EXPECT_FALSE(leads(leader));
+    connected_ = true;
+    pass(milliseconds(5000));
+    EXPECT_TRUE(leads(standby));
+    EXPECT_FALSE(leads(leader));
+}
+
+TEST_F(Directors, OnlyTheOthersThatLivedKeepALeaderFromServingOnAfterAnAbsence) {
+    const auto leader = add(200);
+    const auto standby = add(100);
+    pass(milliseconds(1000));
+    members_[standby].runs = false;
+    pass(Succession::apart + milliseconds(100));
+    now_ += milliseconds(300);
+    of(leader).notice_absence(now_);
+    EXPECT_TRUE(leads(leader));
+}
+
+// Whenever it stops listening between two signs of the leader, and for however long.
+TEST_F(Directors, AStandbyDoesNotTakeALeaderForDeadThatItDidNotListenTo) {
+    const Sign leads{.director_id = 9, .term = 4, .lease = lease, .leads = true, .has_cameras = true};
+    for (milliseconds offset{0}; offset < beat; ++offset)
+        for (milliseconds stall{1}; stall < 3 * lease; ++stall) {
+            Succession standby(1, 100, lease, now_);
+            for (int i = 0; i < 20; ++i) {
+                now_ += beat;
+                standby.see(leads, now_);
+                standby.live(now_ + offset);
+            }
+            standby.produce(now_ + offset);
+            standby.decide(now_ + offset + stall);
+            ASSERT_FALSE(standby.own().leads) << offset.count() << " ms after a sign, for " << stall.count();
+        }
+}
+
+TEST_F(Directors, AStandbyThatStallsAgainAndAgainTakesOverWhenItHasListenedForALease) {
+    const auto leader = add(200);
+    const auto standby = add(100);
+    pass(milliseconds(1000));
+    members_[leader].runs = false;
+    for (int i = 0; i < 4; ++i) {
+        ASSERT_FALSE(leads(standby));
+        now_ += milliseconds(140);
+        of(standby).live(now_);
+        now_ += milliseconds(60);
+        of(standby).live(now_);
+    }
+    EXPECT_TRUE(leads(standby));
+}
+
+TEST_F(Directors, OneThatIsNotAllowedToLeadYetKeepsNobodyFromIt) {
+    const auto leader = add(200);
+    const auto second = add(150);
+    const auto third = add(100);
+    for (Member& member : members_)
+        member.has_cameras = true;
+    pass(milliseconds(1000));
+    members_[second].runs = false;
+    pass(milliseconds(6000));
+    members_[second].runs = true;
+    pass(milliseconds(100));
+    members_[leader].runs = false;
+    pass(milliseconds(300));
+    EXPECT_TRUE(leads(third));
+}
+
+TEST_F(Directors, AStrongerOneThatDidNotFindALeaderAtFirstStandsByWhenItDoes) {
+    const auto leader = add(100);
+    pass(milliseconds(2000));
+    connected_ = false;
+    const auto stronger = add(200);
+    pass(milliseconds(500));
+    ASSERT_TRUE(leads(stronger));
+    connected_ = true;
+    pass(milliseconds(500));
+    EXPECT_TRUE(leads(leader));
+    EXPECT_FALSE(leads(stronger));
+}
+
+TEST_F(Directors, NobodyTakesOverWhileItIsAskedWhetherItMayWrite) {
+    const auto leader = add(200);
+    const auto standby = add(100);
+    pass(milliseconds(1000));
+    members_[leader].runs = false;
+    for (int i = 0; i < 50; ++i) {
+        now_ += milliseconds(16);
+        of(standby).produce(now_);
+        of(standby).notice_absence(now_);
+        ASSERT_FALSE(leads(standby));
+    }
+}
+
+TEST_F(Directors, StrangersBeyondTheLimitCountForNothing) {
+    const auto only = add(0);
+    for (std::uint64_t id = 100; id < 100 + 2 * Succession::max_others; ++id)
+        of(only).see({.director_id = id, .lease = lease, .leads = id == 100 + Succession::max_others}, now_);
+    EXPECT_EQ(of(only).own().term, 0U);
+    pass(milliseconds(1000));
+    EXPECT_TRUE(leads(only)) << "they are dead";
+    const auto other = add(100);
+    pass(milliseconds(1000));
+    EXPECT_GT(of(other).own().term, of(only).own().term) << "they know of each other";
+}
+
+TEST_F(Directors, AStandbyThatWasAbsentDoesNotTakeTheOthersForDead) {
+    const auto leader = add(200);
+    const auto standby = add(100);
+    pass(milliseconds(1000));
+    members_[standby].runs = false;
+    pass(milliseconds(6000));
+    of(standby).live(now_);
+    EXPECT_FALSE(leads(standby));
+    members_[standby].runs = true;
+    pass(milliseconds(1000));
+    EXPECT_TRUE(leads(leader));
+    EXPECT_FALSE(leads(standby));
+}
+
+TEST_F(Directors, OneAloneServesOnAfterAnAbsence) {
+    const auto only = add(100);
+    pass(milliseconds(1000));
+    now_ += milliseconds(6000);
+    of(only).decide(now_);
+    EXPECT_TRUE(leads(only));
+}
+
+TEST_F(Directors, OfTwoLeadersTheOneOfTheLaterTermServesOn) {
+    const auto left = add(100);
+    const auto right = add(200);
+    connected_ = false;
+    pass(milliseconds(1000));
+    ASSERT_EQ(leaders(), 2U) << "they do not know of each other";
+    connected_ = true;
+    pass(milliseconds(1000));
+    EXPECT_EQ(leaders(), 1U);
+    EXPECT_TRUE(leads(right)) << "of the same term the stronger one";
+    members_[right].runs = false;
+    pass(milliseconds(500));
+    ASSERT_TRUE(leads(left));
+    connected_ = false;
+    members_[right].runs = true;
+    pass(milliseconds(1000));
+    ASSERT_EQ(leaders(), 2U) << "they do not hear of each other";
+    connected_ = true;
+    pass(milliseconds(1000));
+    EXPECT_EQ(leaders(), 1U);
+}
+
+TEST_F(Directors, ALeaderWithoutCamerasGivesWayToAStandbyThatHasThem) {
+    const auto leader = add(200);
+    const auto standby = add(100);
+    pass(milliseconds(1000));
+    members_[standby].has_cameras = true;
+    pass(milliseconds(250));
+    members_[leader].has_cameras = true;
+    pass(milliseconds(5000));
+    EXPECT_TRUE(leads(leader)) << "it had them soon";
+    members_[leader].has_cameras = false;
+    pass(milliseconds(750));
+    EXPECT_TRUE(leads(standby));
+    EXPECT_EQ(leaders(), 1U);
+}
+
+TEST_F(Directors, OneLeadsWhateverHappened) {
+    rc::check([this] {
+        members_.clear();
+        for (int i = 0; i < 3; ++i)
+            add(*rc::gen::inRange(0U, 3U));
+        for (const auto& [member, time] : *rc::gen::container<std::vector<std::pair<std::size_t, int>>>(
+                 rc::gen::pair(rc::gen::inRange<std::size_t>(0, 3), rc::gen::inRange(0, 20)))) {
+            members_[member].runs = !members_[member].runs;
+            pass(time * beat);
+        }
+        for (Member& member : members_)
+            member.runs = true;
+        pass(Succession::meeting + milliseconds(1000));
+        RC_ASSERT(leaders() == 1);
+        const std::uint32_t term = leader().own().term;
+        pass(milliseconds(3000));
+        RC_ASSERT(leaders() == 1);
+        RC_ASSERT(leader().own().term == term);
+    });
+}
+
+}  // namespace
+}  // namespace camdir::dds

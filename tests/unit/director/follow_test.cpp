@@ -1,0 +1,131 @@
+// A standby that goes on from the cameras of the director that leads.
+#include <gtest/gtest.h>
+
+#include "stage.hpp"
+
+namespace camdir::director {
+namespace {
+
+class FollowTest : public testing::Test {
+  protected:
+    static constexpr std::uint32_t begins = 40;  // the standby, with a cut
+    static constexpr float near = 2.0F;          // it does not know yet how the player has moved
+
+    FollowTest() {
+        for (std::uint32_t i = 0; i < begins; ++i)
+            play_first(i);
+    }
+    void begin(Stage& stage, const ObserverRequest& wanted) {
+        stage.start();
+        stage.ask(wanted);
+    }
+    void play_first(std::uint32_t number) {
+        if (number == 0) begin(leader_, wanted_);
+        leader_.send(Stage::poses(number));
+    }
+    // Leader, standby, and the standby's news of the leader.
+    void play(std::uint32_t number) {
+        leader_.send(Stage::poses(number));
+        standby_.send(Stage::poses(number));
+        alone_.send(Stage::poses(number));
+        standby_.director.follow("m", leader_.publisher.frames().back());
+        standby_.director.flush();
+    }
+    static float distance(const Stage& a, const Stage& b) {
+        return (camera(a).position - camera(b).position).norm();
+    }
+    static ShotCamera camera(const Stage& stage) { return stage.publisher.frames().back().cameras.at(0); }
+
+    ObserverRequest wanted_ = Stage::request("a", 1);
+    Stage leader_;
+    Stage standby_;
+    Stage alone_;  // a standby that does not follow
+};
+
+TEST_F(FollowTest, TheCamerasOfAStandbyThatBeganLaterAreTheLeaders) {
+    begin(standby_, wanted_);
+    begin(alone_, wanted_);
+    play(begins);
+    play(begins + 1);
+    play(begins + 2);
+    EXPECT_GT(distance(leader_, alone_), 5.0F);
+    EXPECT_LT(distance(leader_, standby_), near);
+    EXPECT_EQ(camera(standby_).flags, camera(leader_).flags);
+}
+
+TEST_F(FollowTest, NewsOfAFrameThatIsNotProcessedYetWaits) {
+    begin(standby_, wanted_);
+    for (const std::uint32_t number : {begins, begins + 1}) {
+        leader_.send(Stage::poses(number));
+        standby_.director.follow("m", leader_.publisher.frames().back());
+        standby_.director.flush();
+        standby_.send(Stage::poses(number));
+    }
+    leader_.send(Stage::poses(begins + 2));
+    standby_.send(Stage::poses(begins + 2));
+    EXPECT_LT(distance(leader_, standby_), near);
+}
+
+TEST_F(FollowTest, ForeignNewsChangesNothing) {
+    begin(standby_, wanted_);
+    begin(alone_, wanted_);
+    for (std::uint32_t number = begins; number < begins + 5; ++number) {
+        standby_.send(Stage::poses(number));
+        alone_.send(Stage::poses(number));
+        CameraFrame news = standby_.publisher.frames().back();
+        news.cameras.at(0).position += Vec3f(1e6F, 0.0F, 0.0F);  // outside of the map
+        standby_.director.follow("m", news);
+        news.cameras.at(0).camera_id += 1;
+        standby_.director.follow("m", news);
+        news.epoch += 1;
+        standby_.director.follow("m", news);
+        standby_.director.follow("another", news);
+        standby_.director.flush();
+    }
+    EXPECT_EQ(distance(standby_, alone_), 0.0F);
+}
+
+class FollowAutomatic : public FollowTest {
+  protected:
+    static constexpr std::uint32_t joins = begins + 150;
+
+    FollowAutomatic() {
+        wanted_ = Stage::request("a", no_player);
+        leader_.ask(wanted_);
+        MatchEvent kill{
+            .epoch = 1, .frame_time = begins * 50 * ms, .kind = 1, .actor = 3, .subject = 2, .value = 1};
+        for (int i = 0; i < 5; ++i)
+            leader_.director.receive("m", kill);
+        for (std::uint32_t number = begins; number < joins; ++number)
+            leader_.send(Stage::poses(number));
+        begin(standby_, wanted_);
+        begin(alone_, wanted_);
+    }
+};
+
+TEST_F(FollowAutomatic, TheTargetIsTheLeaders) {
+    ASSERT_EQ(camera(leader_).target, 3U);
+    for (std::uint32_t number = joins; number < joins + 4; ++number)
+        play(number);
+    EXPECT_NE(camera(alone_).target, 3U);
+    EXPECT_EQ(camera(standby_).target, 3U);
+    EXPECT_LT(distance(leader_, standby_), near);
+}
+
+TEST_F(FollowAutomatic, NewsThatComesAFrameLateCountsToo) {
+    ASSERT_EQ(camera(leader_).target, 3U);
+    for (std::uint32_t number = joins; number < joins + 8; ++number) {
+        const CameraFrame news = leader_.publisher.frames().back();
+        standby_.send(Stage::poses(number));
+        alone_.send(Stage::poses(number));
+        leader_.send(Stage::poses(number));
+        standby_.director.follow("m", news);
+        standby_.director.flush();
+    }
+    EXPECT_NE(camera(alone_).target, 3U);
+    EXPECT_EQ(camera(standby_).target, 3U);
+    EXPECT_LT(distance(leader_, standby_), 10.0F);
+}
+
+}  // namespace
+}  // namespace camdir::director

@@ -1,0 +1,237 @@
+// Cameras of delayed frames are computed before the frames are due, and leave when they are.
+#include <gtest/gtest.h>
+
+#include <numeric>
+#include <optional>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "director/clock.hpp"
+#include "director/match.hpp"
+#include "stage.hpp"
+
+namespace camdir::director {
+namespace {
+
+constexpr std::int64_t delay_ns = 3000 * ms;
+constexpr std::int64_t step_ns = 50 * ms;  // between frames
+constexpr std::int64_t lead_ns = DelayBuffer::lead_ns;
+
+constexpr std::int64_t received(std::uint32_t number) {
+    return number * step_ns;
+}
+constexpr std::int64_t due(std::uint32_t number) {
+    return received(number) + delay_ns;
+}
+
+// A match with a delay of 3 s and made-up times, in ns after its description was received.
+class DelayedTimes {
+  public:
+    DelayedTimes() {
+        maps_.add("square", false);
+        maps_.set_ready("square", Stage::square());
+        EXPECT_TRUE(pool_.attach(match_));
+        match_.delay().announce(1, 3.0, start_);
+        put(Stage::info(), 0);
+        tell(Stage::request("a"));
+    }
+
+    void put(Message message, std::int64_t time) {
+        EXPECT_EQ(match_.delay().put(message, start_ + time), DelayBuffer::Admission::delayed);
+    }
+    void put_frame(std::uint32_t number) {
+        EXPECT_EQ(match_.delay().put(Stage::poses(number), start_ + received(number)),
+                  DelayBuffer::Admission::delayed);
+    }
+    void put_frames(std::uint32_t count) {
+        for (std::uint32_t number = 0; number < count; ++number)
+            put_frame(number);
+    }
+    // Past the delay.
+    void tell(Message message) {
+        match_.inbox().put(std::move(message));
+        run();
+    }
+    void at(std::int64_t time) {
+        if (match_.delay().release(start_ + time, match_.inbox()).any) run();
+    }
+    [[nodiscard]] bool any_due(std::int64_t time) { return match_.delay().state().next_due <= start_ + time; }
+    [[nodiscard]] std::size_t shown() const { return publisher.frames().size(); }
+    [[nodiscard]] std::uint64_t steps() const {
+        Statistics sum;
+        match_.counters().add_to(sum);
+        return std::accumulate(sum.step.buckets.begin(), sum.step.buckets.end(), std::uint64_t{0});
+    }
+    [[nodiscard]] DelayBuffer& delay() { return match_.delay(); }
+    [[nodiscard]] std::int64_t start() const { return start_; }
+
+    MemoryPublisher publisher;
+
+  private:
+    void run() {
+        pool_.schedule(match_);
+        WorkerPool::wait_idle(match_);
+    }
+
+    const std::int64_t start_ = now_ns() - 3600 * 1000 * ms;  // the answers to requests read the clock
+    MapLibrary maps_;
+    Match match_{"m", std::make_shared<config::Config>(Stage::default_config()), maps_, publisher};
+    WorkerPool pool_{2, 1};
+};
+
+TEST(PreparedCameras, LeaveWhenTheyAreDueAndInOrder) {
+    DelayedTimes match;
+    match.put_frames(10);
+    match.put(MatchEnded{}, received(9));
+    match.at(due(0));
+    ASSERT_EQ(match.steps(), 1U) << "the first, with which the shot begins";
+    for (std::uint32_t number = 1; number < 10; ++number) {
+        match.at(due(number) - lead_ns - 1);
+        EXPECT_EQ(match.steps(), number);
+        match.at(due(number) - lead_ns);
+        EXPECT_EQ(match.steps(), number + 1) << "it is computed";
+        match.at(due(number) - 1);
+        EXPECT_EQ(match.shown(), number) << "but not shown";
+        EXPECT_TRUE(match.publisher.shown()) << "neither is the end";
+        match.at(due(number));
+        ASSERT_EQ(match.shown(), number + 1);
+        EXPECT_EQ(match.publisher.frames().back().pose_number, number);
+        EXPECT_EQ(match.steps(), number + 1) << "not once more";
+    }
+    EXPECT_FALSE(match.publisher.shown());
+}
+
+TEST(PreparedCameras, AreAllComputedWhereTheyTakeManyTurns) {
+    DelayedTimes match;
+    for (int distance = 100; distance < 150; ++distance) {
+        ObserverRequest request = Stage::request(std::to_string(distance));
+        request.overrides = "{\"distance\": " + request.observer_id + "}";
+        match.tell(request);
+    }
+    match.put_frames(2);
+    match.at(due(0));
+    ASSERT_EQ(match.steps(), 51U);
+    match.at(due(1) - lead_ns);
+    EXPECT_EQ(match.steps(), 102U);
+    match.at(due(1));
+    EXPECT_EQ(match.steps(), 102U);
+    EXPECT_EQ(match.publisher.frames().back().cameras.size(), 51U);
+}
+
+TEST(PreparedCameras, WaitOnWhenTheDelayGrows) {
+    DelayedTimes match;
+    match.put_frames(3);
+    match.at(due(0));
+    match.at(due(1) - lead_ns);
+    ASSERT_EQ(match.steps(), 2U);
+    EXPECT_TRUE(match.delay().set_minimum(10.0, match.start() + due(1) - 1));
+    match.tell(DelayChanged{});
+    const std::int64_t due = received(1) + 10'000 * ms;
+    match.at(due - 1);
+    EXPECT_EQ(match.shown(), 1U);
+    match.at(due);
+    EXPECT_EQ(match.shown(), 2U);
+    EXPECT_EQ(match.publisher.frames().back().pose_number, 1U);
+}
+
+TEST(PreparedCameras, AreDroppedWithARefusedDelay) {
+    DelayedTimes match;
+    match.put_frames(3);
+    match.at(due(0));
+    match.at(due(1) - lead_ns);
+    ASSERT_EQ(match.steps(), 2U);
+    EXPECT_TRUE(match.delay().set_minimum(500.0, match.start() + due(1) - 1));
+    match.tell(DelayChanged{});
+    EXPECT_EQ(match.publisher.status("a").state, RequestState::refused);
+    match.at(1000 * 1000 * ms);
+    EXPECT_EQ(match.shown(), 1U);
+    EXPECT_TRUE(match.delay().set_minimum(0.0, match.start() + received(4)));
+    match.tell(DelayChanged{});
+    match.put_frame(4);
+    match.at(due(4));
+    ASSERT_EQ(match.shown(), 2U);
+    EXPECT_EQ(match.publisher.frames().back().pose_number, 4U);
+}
+
+TEST(PreparedCameras, LeaveRequestsToBeAnsweredAtOnce) {
+    DelayedTimes match;
+    match.put_frames(3);
+    match.at(due(0));
+    match.at(due(1) - lead_ns);
+    match.tell(Stage::request("b", 2));
+    EXPECT_EQ(match.publisher.status("b").state, RequestState::accepted);
+    match.tell(RequestEnded{"a"});
+    match.at(due(1));
+    ASSERT_EQ(match.publisher.frames().back().cameras.size(), 1U);
+    EXPECT_EQ(match.publisher.frames().back().cameras[0].target, 2U);
+}
+
+using Plan = std::vector<std::pair<std::int64_t, std::optional<Message>>>;
+
+// What is shown when the frames are released at these times, and the messages are told; with the cameras
+// prepared, or not before they are due.
+std::vector<CameraFrame> shown_by(const Plan& plan, bool prepared) {
+    DelayedTimes match;
+    match.tell(Stage::request("automatic", no_player));
+    for (std::uint32_t number = 0; number < 60; ++number) {
+        if (number % 7 == 0)
+            match.put(MatchEvent{1, Stage::poses(number).frame_time, 1, number % 3 + 1, number % 2 + 1, 1.0F},
+                      received(number));
+        match.put_frame(number);
+    }
+    for (const auto& [time, message] : plan) {
+        if (prepared || match.any_due(time)) match.at(time);
+        if (message) match.tell(*message);
+    }
+    return match.publisher.frames();
+}
+
+Message random_message(std::mt19937& random) {
+    config::Config config = Stage::default_config();
+    config.profiles["default"].distance = 60.0F + static_cast<float>(random() % 3) * 30.0F;
+    switch (random() % 4) {
+        case 0:
+            return Reconfigured{std::make_shared<config::Config>(config)};
+        case 1:
+            return Stage::request("b", 1 + static_cast<std::uint32_t>(random() % 3));
+        case 2:
+            return RequestEnded{"b"};
+        default:
+            return ServerLost{};
+    }
+}
+
+TEST(PreparedCameras, AreThoseThatWouldBeComputedWhenDue) {
+    std::mt19937 random(3);
+    for (int round = 0; round < 20; ++round) {
+        Plan plan;
+        std::int64_t time = delay_ns - 100 * ms;
+        while (time < due(60)) {  // a step above 50 ms makes frames superseded
+            time += static_cast<std::int64_t>(random() % (random() % 8 == 0 ? 150 : 20)) * ms;
+            plan.emplace_back(time, std::nullopt);
+            if (random() % 8 == 0) plan.back().second = random_message(random);
+        }
+        const auto prepared = shown_by(plan, true);
+        const auto direct = shown_by(plan, false);
+        ASSERT_EQ(prepared.size(), direct.size());
+        ASSERT_GT(prepared.size(), 20U);
+        for (std::size_t i = 0; i < prepared.size(); ++i) {
+            ASSERT_EQ(prepared[i].pose_number, direct[i].pose_number);
+            ASSERT_EQ(prepared[i].cameras.size(), direct[i].cameras.size());
+            for (std::size_t c = 0; c < prepared[i].cameras.size(); ++c) {
+                const ShotCamera& a = prepared[i].cameras[c];
+                const ShotCamera& b = direct[i].cameras[c];
+                ASSERT_EQ(a.camera_id, b.camera_id);
+                ASSERT_EQ(a.target, b.target);
+                ASSERT_EQ(a.flags, b.flags);
+                ASSERT_EQ(a.position, b.position) << "frame " << prepared[i].pose_number;
+                ASSERT_EQ(a.orientation.coeffs(), b.orientation.coeffs());
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace camdir::director

@@ -1,0 +1,78 @@
+// A server of these tests with pages that they change.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <stdexcept>
+#include <vector>
+
+#include "http/metrics.hpp"
+#include "http/server.hpp"
+#include "support/http_client.hpp"
+
+namespace camdir::http {
+
+class TestServer {
+  public:
+    explicit TestServer(config::Http config = {}, const Limits& limits = {}) {
+        config.port = 0;
+        auto started = Server::start(config, sources(), limits);
+        if (!started) throw std::runtime_error(started.error().message);
+        server_ = std::move(*started);
+    }
+
+    TestServer(const TestServer&) = delete;
+    TestServer& operator=(const TestServer&) = delete;
+    ~TestServer() { let_status_go(); }
+
+    [[nodiscard]] int port() const { return server_->port(); }
+    [[nodiscard]] Result<void> reload() { return server_->reload(); }
+    // Of a connection of its own.
+    [[nodiscard]] test::HttpAnswer ask(const std::string& method, const std::string& path,
+                                       const std::string& header = "", const std::string& body = "") const {
+        return test::HttpClient(port()).ask(method, path, header, body);
+    }
+    [[nodiscard]] int status_of(const std::string& method, const std::string& path,
+                                const std::string& header = "") const {
+        return ask(method, path, header).status;
+    }
+
+    std::atomic<bool> healthy{true};
+    std::atomic<bool> ready{true};
+    std::atomic<std::size_t> kept{0};  // of three matches
+    std::atomic<int> status_begun{0};  // how often
+    // /status is not finished between these.
+    void hold_status() { status_held_ = true; }
+    void let_status_go() {
+        status_held_ = false;
+        status_held_.notify_all();
+    }
+    std::atomic<std::size_t> status_size{2};  // in bytes
+
+  private:
+    Sources sources() {
+        Sources sources;
+        sources.healthy = [this] { return healthy.load(); };
+        sources.missing = [this] {
+            return ready ? std::vector<std::string>{}
+                         : std::vector<std::string>{"map a: loading", "map b: baking: sample 3 %"};
+        };
+        sources.metrics = [] {
+            auto family = counter_family("things_total", "Things.");
+            add_metric(family, 3.0, {{"kind", "a \"quoted\" one"}});
+            return std::vector{family};
+        };
+        sources.hand_over = [this] { return HandOver{3, kept.load()}; };
+        sources.status = [this] {
+            ++status_begun;
+            status_held_.wait(true);
+            return "{" + std::string(status_size - 2, ' ') + "}";
+        };
+        return sources;
+    }
+
+    std::atomic<bool> status_held_{false};
+    std::unique_ptr<Server> server_;
+};
+
+}  // namespace camdir::http
