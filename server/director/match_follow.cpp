@@ -58,7 +58,7 @@ void Match::follow(const Disagreement& disagreement) {
     std::vector<Shot>& shots = requests_.shots();
     const auto shot = std::ranges::find(shots, own.camera_id, &Shot::camera_id);
     const ShotCamera* newest = camera_of(cameras_, own.camera_id);
-    if (shot == shots.end() || newest == nullptr) return;
+    if (shot == shots.end() || newest == nullptr || has_cut_since(followed_, own.camera_id)) return;
     if (shown.target != own.target) {
         shot->automatic = {.player = shown.target, .chosen_at = followed_.frame_time};
         return;  // the next frame begins with its player

@@ -66,6 +66,27 @@ TEST_F(FollowTest, NewsOfAFrameThatIsNotProcessedYetWaits) {
     EXPECT_LT(distance(leader_, standby_), near);
 }
 
+// The leader's camera has cut since, too: to where is not known yet.
+TEST_F(FollowTest, NewsFromBeforeACutChangesNothing) {
+    begin(standby_, wanted_);
+    begin(alone_, wanted_);
+    play(begins);
+    leader_.send(Stage::poses(begins + 1));
+    PoseFrame teleported = Stage::poses(begins + 2);
+    for (PlayerPose& pose : teleported.poses)
+        pose.flags |= pose_discontinuity;
+    for (Stage* stage : {&standby_, &alone_}) {
+        stage->send(Stage::poses(begins + 1));
+        stage->send(teleported);
+    }
+    ASSERT_NE(camera(standby_).flags & camera::cut, 0U);
+    standby_.director.follow("m", leader_.publisher.frames().back());
+    standby_.director.flush();
+    for (Stage* stage : {&standby_, &alone_})
+        stage->send(Stage::poses(begins + 3));
+    EXPECT_EQ(distance(standby_, alone_), 0.0F);
+}
+
 TEST_F(FollowTest, ForeignNewsChangesNothing) {
     begin(standby_, wanted_);
     begin(alone_, wanted_);
