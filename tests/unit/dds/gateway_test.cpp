@@ -179,9 +179,13 @@ class TakeOverTest : public StandbyTest {
         leader.reset();
         std::vector<std::uint32_t> numbers;
         EXPECT_TRUE(eventually([&] {
-            for (const auto& frame : raw.take_cameras())
-                if (frame.director_id == 77) numbers.push_back(frame.frame_number);
-            return !numbers.empty();
+            bool is_last = false;
+            for (const auto& frame : raw.take_cameras()) {
+                if (frame.director_id != 77) continue;
+                numbers.push_back(frame.frame_number);
+                is_last = frame.pose_number == count;
+            }
+            return is_last;
         }));
         return numbers;
     }
