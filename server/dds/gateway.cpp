@@ -20,6 +20,7 @@ Subscriber::Options subscriber_options(const config::Dds& config, const config::
                            .lease = std::chrono::milliseconds(config.lease_ms)},
             .director_id = director_id,
             .partitions = config.partitions,
+            .matches = static_cast<std::size_t>(limits.matches),
             .participant_matches = static_cast<std::size_t>(limits.participant_matches),
             .participant_observers = static_cast<std::size_t>(limits.participant_observers)};
 }

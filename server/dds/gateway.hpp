@@ -5,9 +5,9 @@
 #include <memory>
 #include <string>
 
+#include "base/log_limit.hpp"
 #include "config/config.hpp"
 #include "dds/counters.hpp"
-#include "dds/log_limit.hpp"
 #include "dds/match_table.hpp"
 #include "dds/participant.hpp"
 #include "dds/subscriber.hpp"

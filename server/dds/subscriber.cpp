@@ -31,6 +31,7 @@ Subscriber::Subscriber(const Participant& participant, Options options, MatchTab
       options_(std::move(options)),
       table_(table),
       counters_(counters),
+      waiting_(options_.matches, options_.participant_matches),
       match_info_samples_(topic_type(Topic::match_info), samples_per_take),
       pose_samples_(topic_type(Topic::pose_frame), samples_per_take),
       event_samples_(topic_type(Topic::match_event), samples_per_take),
@@ -124,6 +125,7 @@ void Subscriber::run() noexcept {
         remove_forgotten();
         if (Clock::now() >= next_assertion_.load()) {
             assert_liveliness();
+            admit_waiting();
             next_assertion_ = Clock::now() + assertion_interval();
         }
         // Last, when all signs that had come by then are seen.

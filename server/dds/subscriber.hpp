@@ -11,15 +11,16 @@
 #include <unordered_map>
 #include <vector>
 
+#include "base/log_limit.hpp"
 #include "config/config.hpp"
 #include "dds/counters.hpp"
-#include "dds/log_limit.hpp"
 #include "dds/match_table.hpp"
 #include "dds/ownership.hpp"
 #include "dds/participant.hpp"
 #include "dds/request_owners.hpp"
 #include "dds/sender.hpp"
 #include "dds/take_buffer.hpp"
+#include "dds/waiting_matches.hpp"
 #include "director/ports.hpp"
 
 namespace camdir::dds {
@@ -35,6 +36,7 @@ class Subscriber {
         Leadership leadership;
         std::uint64_t director_id = 0;
         std::vector<std::string> partitions;
+        std::size_t matches = 0;
         std::size_t participant_matches = 0;
         std::size_t participant_observers = 0;  // of a match
     };
@@ -112,6 +114,9 @@ class Subscriber {
 
     void match_info_found(const camera_director_MatchInfo& sample, const dds_sample_info_t& info);
     void match_info_lost(const camera_director_MatchInfo& key, const dds_sample_info_t& info);
+    // Of a match that may be new.
+    void described(Ownership::Claim claim);
+    void admit_waiting();
     void notice_unmatched();
     void put_into_effect(Ownership::Change change, const std::string& match_id);
     void begin_anew(Match& match);
@@ -143,6 +148,7 @@ class Subscriber {
     std::thread thread_;
 
     // Used by the thread only.
+    WaitingMatches waiting_;
     std::unordered_map<std::string, std::unique_ptr<Match>> matches_;
     Clock::time_point listened_{};                                // to all who send
     Clock::time_point next_decision_ = Clock::time_point::max();  // when matches may change hands

@@ -18,14 +18,23 @@ void Subscriber::match_info_found(const camera_director_MatchInfo& sample, const
     if (!writer || !writes_in(*writer, match_partition(match_id))) {
         return drop(Topic::match_info, ValidationError::wrong_partition, match_id);
     }
-    // The endpoints first, because the director publishes at once. It counts and logs what it refuses.
-    const bool known = matches_.contains(match_id);
-    if (!known && !may_open_match(sender_of(*writer)))
-        return drop(Topic::match_info, ValidationError::participant_limit, match_id);
-    if (!known && !(ingress_->admit(match_id) && add_match(match_id))) return;
-    Match& match = *matches_[match_id];
     claim.sender = sender_of(*writer);
     claim.writer = info.publication_handle;
+    described(std::move(claim));
+}
+
+void Subscriber::described(Ownership::Claim claim) {
+    const std::string match_id = claim.info.match_id;
+    const bool known = matches_.contains(match_id);
+    if (!known && !may_open_match(claim.sender)) {
+        drop(Topic::match_info, ValidationError::participant_limit, match_id);
+        return waiting_.keep(std::move(claim));
+    }
+    // It counts and logs what it refuses.
+    if (!known && !ingress_->admit(match_id)) return waiting_.keep(std::move(claim));
+    // The endpoints first, because the director publishes at once.
+    if (!known && !add_match(match_id)) return;
+    Match& match = *matches_[match_id];
     const auto standing = match.ownership.describe(std::move(claim), Clock::now());
     if (standing == Ownership::Standing::stranger)
         return drop(Topic::match_info, ValidationError::not_owner, match_id);
@@ -35,6 +44,15 @@ void Subscriber::match_info_found(const camera_director_MatchInfo& sample, const
     if (!match.forgotten) cancel_forget(match_id);
 }
 
+void Subscriber::admit_waiting() {
+    const auto may_open = [this](const SenderId& sender) { return may_open_match(sender); };
+    while (!waiting_.empty() && ingress_->has_room()) {
+        std::optional<Ownership::Claim> claim = waiting_.take(may_open);
+        if (!claim) return;
+        described(std::move(*claim));
+    }
+}
+
 bool Subscriber::may_open_match(const SenderId& sender) const {
     const auto owned = std::ranges::count_if(
         matches_, [&](const auto& entry) { return entry.second->ownership.owns(sender); });
@@ -42,6 +60,7 @@ bool Subscriber::may_open_match(const SenderId& sender) const {
 }
 
 void Subscriber::match_info_lost(const camera_director_MatchInfo& key, const dds_sample_info_t& info) {
+    waiting_.remove(key.match_id, info.publication_handle);
     const auto known = matches_.find(key.match_id);
     if (known == matches_.end()) return;
     Ownership& ownership = known->second->ownership;
@@ -56,6 +75,7 @@ void Subscriber::notice_unmatched() {
     dds_subscription_matched_status_t status{};
     dds_get_subscription_matched_status(match_info_reader_, &status);
     const std::vector<WriterHandle> matched = matched_writers(match_info_reader_);
+    waiting_.retain(matched);
     std::vector<std::string> match_ids;
     for (const auto& [match_id, match] : matches_)
         match_ids.push_back(match_id);

@@ -8,6 +8,7 @@
 #include <shared_mutex>
 #include <unordered_map>
 
+#include "base/log_limit.hpp"
 #include "director/clock.hpp"
 #include "director/match.hpp"
 
@@ -51,6 +52,7 @@ struct Director::Impl {
     // Whether it passes the delay at once; `counts` where it is refused.
     bool passes(Match& match, DelayBuffer::Admission admission, bool counts);
     std::size_t count(bool has_server) const;
+    bool has_room() const { return count(true) < static_cast<std::size_t>(config->limits.matches); }
 
     // With the mutex held exclusively.
     Entry* find_or_add(const std::string& match_id);
@@ -69,6 +71,7 @@ struct Director::Impl {
     const MapLibrary& maps;
     Publisher& publisher;
     MatchCounters unmatched;  // of messages without a match
+    LogLimit refusals;
 
     // Held exclusively to add and remove matches and to change the configuration, otherwise shared. Guards
     // the members below.
@@ -146,11 +149,12 @@ Director::Impl::Entry* Director::Impl::admit(const std::string& match_id) {
     if (!accepting) return nullptr;
     Match* known = find(match_id);
     const bool has_server = known != nullptr && matches[match_id].has_server;
-    const bool fits = has_server || count(true) < static_cast<std::size_t>(config->limits.matches);
+    const bool fits = has_server || has_room();
     if (Entry* entry = fits ? find_or_add(match_id) : nullptr) return entry;
     unmatched.add(Counter::refused_matches);
     const std::string reason = too_many_matches(config->limits);
-    spdlog::warn("match {}: refused: {}", match_id, reason);
+    if (const auto times = refusals.due())
+        spdlog::warn("match {}: refused: {} ({} since the last such line)", match_id, reason, *times);
     if (known != nullptr) post(*known, MatchRefused{reason});
     return nullptr;
 }
@@ -232,6 +236,11 @@ Director::~Director() {
 bool Director::admit(const std::string& match_id) {
     const std::unique_lock lock(impl_->mutex);
     return impl_->admit(match_id) != nullptr;
+}
+
+bool Director::has_room() const {
+    const std::shared_lock lock(impl_->mutex);
+    return impl_->accepting && impl_->has_room();
 }
 
 bool Director::receive(const MatchInfo& info) {

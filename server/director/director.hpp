@@ -23,6 +23,7 @@ class Director final : public Ingress {
     ~Director() override;  // drains
 
     [[nodiscard]] bool admit(const std::string& match_id) override;
+    [[nodiscard]] bool has_room() const override;
     bool receive(const MatchInfo& info) override;
     void server_lost(const std::string& match_id) override;
     void match_ended(const std::string& match_id) override;

@@ -167,7 +167,7 @@ void Match::handle(const ObserverRequest& request) {
 }
 
 void Match::handle(const RequestEnded& ended) {
-    requests_.remove(ended.observer_id);
+    requests_.remove(ended.observer_id, *config_);
     reconcile_needed_ = true;
 }
 

@@ -14,8 +14,10 @@ class Ingress {
   public:
     virtual ~Ingress() = default;
     // To be asked before the first MatchInfo of a match is passed on. Returns false when limits.matches are
-    // running already: nothing is kept, and the next MatchInfo of the match is another attempt.
+    // running already: nothing is kept, and there may be another attempt when there is room.
     [[nodiscard]] virtual bool admit(const std::string& match_id) = 0;
+    // Whether limits.matches lets another match in.
+    [[nodiscard]] virtual bool has_room() const = 0;
     // A match is new, has changed or is back. The director may publish before this returns. Returns false as
     // admit() does.
     virtual bool receive(const MatchInfo& info) = 0;

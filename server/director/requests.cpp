@@ -76,22 +76,44 @@ std::uint32_t camera_id_of(const ShotKey& key) {
 }  // namespace
 
 void Requests::put(const ObserverRequest& request, const config::Config& config, std::uint64_t epoch) {
-    const auto found = observers_.find(request.observer_id);
-    if (found == observers_.end() && observers_.size() >= static_cast<std::size_t>(config.limits.observers)) {
-        counters_.add(Counter::refused_requests);
-        const std::string reason =
-            std::to_string(config.limits.observers) + " observers watch this match already";
-        return publisher_.publish({match_id_, request.observer_id, epoch, RequestState::refused, 0, reason});
-    }
-    Observer& observer = found != observers_.end() ? found->second : observers_[request.observer_id];
+    const bool has_place = observers_.contains(request.observer_id) ||
+                           observers_.size() < static_cast<std::size_t>(config.limits.observers);
+    if (has_place)
+        keep(request, config);
+    else
+        wait(request, config, epoch);
+}
+
+void Requests::keep(const ObserverRequest& request, const config::Config& config) {
+    Observer& observer = observers_[request.observer_id];
     observer.request = request;
     observer.published = false;  // the answer is sent again even if it is the same
     resolve(observer, config);
 }
 
-void Requests::remove(const std::string& observer_id) {
-    observers_.erase(observer_id);
+void Requests::wait(const ObserverRequest& request, const config::Config& config, std::uint64_t epoch) {
+    const auto most = static_cast<std::size_t>(config.limits.observers);
+    const auto known = std::ranges::find(waiting_, request.observer_id, &ObserverRequest::observer_id);
+    std::string reason = std::to_string(most) + " observers watch this match already";
+    if (known != waiting_.end()) {
+        *known = request;
+    } else if (waiting_.size() < most) {
+        waiting_.push_back(request);
+    } else {
+        reason += ", and as many wait";
+    }
+    counters_.add(Counter::refused_requests);
+    publisher_.publish({match_id_, request.observer_id, epoch, RequestState::refused, 0, reason});
+}
+
+void Requests::remove(const std::string& observer_id, const config::Config& config) {
+    std::erase_if(waiting_,
+                  [&](const ObserverRequest& request) { return request.observer_id == observer_id; });
+    const bool leaves_place = observers_.erase(observer_id) > 0;
     publisher_.withdraw(match_id_, observer_id);
+    if (!leaves_place || waiting_.empty()) return;
+    keep(waiting_.front(), config);
+    waiting_.pop_front();
 }
 
 void Requests::resolve_again(const config::Config& config) {
@@ -198,7 +220,9 @@ void Requests::publish(Observer& observer, Decision decision, std::uint64_t epoc
         return;
     if (status.state == RequestState::refused) {
         counters_.add(Counter::refused_requests);
-        spdlog::info("match {}: observer {} is refused: {}", match_id_, status.observer_id, status.reason);
+        if (const auto times = refusals_.due())
+            spdlog::info("match {}: observer {} is refused: {} ({} since the last such line)", match_id_,
+                         status.observer_id, status.reason, *times);
     }
     current = std::move(status);
     observer.published = true;

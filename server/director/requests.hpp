@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <list>
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "base/log_limit.hpp"
 #include "camera/tracker.hpp"
 #include "config/config.hpp"
 #include "director/attention.hpp"
@@ -71,9 +73,9 @@ class Requests {
         : match_id_(std::move(match_id)), publisher_(publisher), counters_(counters) {}
 
     // Keeps the request until the next reconcile(). Refuses it at once when limits.observers are kept
-    // already.
+    // already: it waits for one of them to leave, with at most as many others.
     void put(const ObserverRequest& request, const config::Config& config, std::uint64_t epoch);
-    void remove(const std::string& observer_id);
+    void remove(const std::string& observer_id, const config::Config& config);
 
     // Looks profiles up again after a configuration change.
     void resolve_again(const config::Config& config);
@@ -106,6 +108,8 @@ class Requests {
         std::string reason;
     };
 
+    void keep(const ObserverRequest& request, const config::Config& config);
+    void wait(const ObserverRequest& request, const config::Config& config, std::uint64_t epoch);
     static void resolve(Observer& observer, const config::Config& config);
     [[nodiscard]] static Decision decide(const Observer& observer, const RequestContext& context);
     void assign(const Observer& observer, std::int64_t max_shots, Decision& decision);
@@ -116,7 +120,9 @@ class Requests {
     const std::string match_id_;
     Publisher& publisher_;
     MatchCounters& counters_;
+    LogLimit refusals_;
     std::map<std::string, Observer> observers_;
+    std::list<ObserverRequest> waiting_;  // for a place, in the order of arrival
     std::vector<Shot> shots_;
 };
 

@@ -340,7 +340,7 @@ TEST_F(GatewayTest, AForgottenMatchWithAPausedServerReturnsWithItsPoses) {
     EXPECT_TRUE(arrives(raw, frame, "pose cup 7"));
 }
 
-TEST_F(GatewayTest, ARefusedMatchGetsNoEndpointsUntilItIsAccepted) {
+TEST_F(GatewayTest, ARefusedMatchGetsNoEndpointsUntilThereIsRoom) {
     recorder_.accepts = false;
     RawPeer& raw = peer("cup");
     raw.write(test::raw_match_info("cup", 1));
@@ -348,8 +348,7 @@ TEST_F(GatewayTest, ARefusedMatchGetsNoEndpointsUntilItIsAccepted) {
     EXPECT_EQ(gateway_->counters().matches, 0U);
     EXPECT_FALSE(recorder_.has("info cup 1"));
     recorder_.accepts = true;
-    raw.write(test::raw_match_info("cup", 1));
-    EXPECT_TRUE(eventually([&] { return raw.directors() == 1; }));
+    EXPECT_TRUE(eventually([&] { return raw.directors() == 1 && recorder_.has("info cup 1"); }));
 }
 
 TEST_F(GatewayTest, ADirectorThatHangsStopsAssertingItsLiveliness) {

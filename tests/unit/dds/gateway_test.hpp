@@ -31,6 +31,7 @@ class Recorder final : public director::Ingress {
         note("admit " + match_id);
         return accepts;
     }
+    bool has_room() const override { return accepts; }
     bool receive(const director::MatchInfo& info) override {
         note("info " + info.match_id + " " + std::to_string(info.epoch));
         while (hangs)

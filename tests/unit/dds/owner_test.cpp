@@ -283,6 +283,35 @@ TEST_F(LimitsTest, AParticipantHasSoManyMatchesAndNoMore) {
         eventually([&] { return dropped(Topic::match_info, ValidationError::participant_limit) > 0; }));
     EXPECT_EQ(gateway_->counters().matches, 2U);
     game("cup");
+    EXPECT_FALSE(recorder_.has("info c 1"));
+    greedy.dispose(test::raw_match_info("a", 1));
+    EXPECT_TRUE(eventually([&] { return recorder_.has("info c 1"); })) << "it has waited";
+}
+
+TEST(WaitingMatches, KeepsTheNewestDescriptionOfEachWithinItsBoundsUntilItIsGone) {
+    WaitingMatches waiting(4, 2);
+    const auto claim = [](unsigned char sender, const std::string& match_id, std::uint64_t epoch = 1) {
+        Ownership::Claim claim = claim_of({sender});
+        claim.info.match_id = match_id;
+        claim.info.epoch = epoch;
+        return claim;
+    };
+    for (const char* match_id : {"a", "b", "c"})
+        waiting.keep(claim(1, match_id));
+    waiting.keep(claim(1, "a", 2));
+    waiting.keep(claim(2, "a"));
+    waiting.keep(claim(3, "d"));
+    waiting.keep(claim(4, "e"));
+    waiting.remove("a", 2);
+    waiting.remove("b", 3);
+    const std::array<WriterHandle, 1> matched{1};
+    const auto anybody = [](const SenderId&) { return true; };
+    EXPECT_FALSE(waiting.take([](const SenderId& sender) { return sender == SenderId{4}; }));
+    EXPECT_EQ(waiting.take([](const SenderId& sender) { return sender == SenderId{3}; })->info.match_id, "d");
+    waiting.retain(matched);
+    EXPECT_EQ(waiting.take(anybody)->info.epoch, 2U);
+    EXPECT_EQ(waiting.take(anybody)->info.match_id, "b");
+    EXPECT_TRUE(waiting.empty());
 }
 
 }  // namespace

@@ -239,18 +239,30 @@ TEST(Director, LimitsAreEnforced) {
     stage.ask(Stage::request("c", 3));
     EXPECT_EQ(stage.publisher.status("c").state, RequestState::refused);
     EXPECT_EQ(stage.publisher.status("c").reason, "this match has 2 cameras already");
-    stage.ask(Stage::request("d", 1));
+    stage.ask(Stage::request("d", 2));
     EXPECT_EQ(stage.publisher.status("d").state, RequestState::refused);
     EXPECT_EQ(stage.publisher.status("d").reason, "3 observers watch this match already");
+    stage.ask(Stage::request("e", 1));
+    stage.ask(Stage::request("f", 2));
+    stage.ask(Stage::request("g", 1));
+    EXPECT_EQ(stage.publisher.status("g").reason, "3 observers watch this match already, and as many wait");
 
     stage.send(Stage::poses(1));
     EXPECT_EQ(stage.director.statistics()[Counter::drop_players], 1U);
     EXPECT_EQ(stage.director.statistics()[Counter::refused_matches], 1U);
 
-    // The camera of an observer that leaves goes to one that was refused.
+    // The camera of an observer that leaves goes to one that was refused, and its place to the first that
+    // waits.
     stage.director.request_ended("m", "a");
     stage.director.flush();
     EXPECT_EQ(stage.publisher.status("c").state, RequestState::accepted);
+    EXPECT_EQ(stage.publisher.status("d").state, RequestState::accepted);
+    EXPECT_EQ(stage.publisher.status("e").state, RequestState::refused);
+    stage.director.request_ended("m", "e");
+    stage.director.request_ended("m", "d");
+    stage.director.flush();
+    EXPECT_EQ(stage.publisher.status("f").state, RequestState::accepted);
+    EXPECT_FALSE(stage.publisher.has_status("e"));
 }
 
 TEST(Director, ObserversOfARefusedMatchAreRefused) {

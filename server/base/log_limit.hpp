@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace camdir::dds {
+namespace camdir {
 
 // One kind of line, at most one per second. Thread-safe.
 class LogLimit {
@@ -29,4 +29,4 @@ class LogLimit {
     std::atomic<std::uint64_t> unlogged_{0};
 };
 
-}  // namespace camdir::dds
+}  // namespace camdir

@@ -1,0 +1,45 @@
+// Matches that were refused for a limit.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <list>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "dds/ownership.hpp"
+
+namespace camdir::dds {
+
+// Keeps their newest descriptions, in the order of arrival, until there is room. One thread at a time.
+class WaitingMatches {
+  public:
+    // At most so many, and so many of one participant; what comes later is not kept.
+    WaitingMatches(std::size_t most, std::size_t most_of_sender)
+        : most_(most), most_of_sender_(most_of_sender) {}
+
+    void keep(Ownership::Claim claim);
+    // This writer has withdrawn its description.
+    void remove(const std::string& match_id, WriterHandle writer);
+    // Those whose writers are not among these (ascending) are gone.
+    void retain(std::span<const WriterHandle> matched);
+    // Takes the first whose sender may open a match.
+    template <class MayOpen>
+    [[nodiscard]] std::optional<Ownership::Claim> take(const MayOpen& may_open) {
+        const auto found = std::ranges::find_if(
+            claims_, [&](const Ownership::Claim& claim) { return may_open(claim.sender); });
+        if (found == claims_.end()) return std::nullopt;
+        std::optional<Ownership::Claim> claim = std::move(*found);
+        claims_.erase(found);
+        return claim;
+    }
+    [[nodiscard]] bool empty() const { return claims_.empty(); }
+
+  private:
+    const std::size_t most_, most_of_sender_;
+    std::list<Ownership::Claim> claims_;
+};
+
+}  // namespace camdir::dds
