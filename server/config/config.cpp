@@ -222,7 +222,19 @@ void read_root(const json& root, Config& config, ValidationErrors& errors) {
     }
 }
 
+void check_shards(const Dds& dds, ValidationErrors& errors) {
+    if (dds.shards.empty() != dds.shard.empty())
+        errors.add("/dds/shard", dds.shard,
+                   dds.shards.empty() ? "an empty string where there are no shards"
+                                      : "the name of this director's shard");
+    std::vector<std::string> names = dds.shards;
+    std::ranges::sort(names);
+    if (std::ranges::adjacent_find(names) != names.end())
+        errors.add("/dds/shards", dds.shards, "names that differ");
+}
+
 void check_references(const Config& config, ValidationErrors& errors) {
+    check_shards(config.dds, errors);
     if (!config.profiles.contains(config.matches.default_profile))
         errors.add("/matches/default_profile", config.matches.default_profile, "the name of a profile");
 }

@@ -22,10 +22,12 @@ struct Dds {
     std::int64_t port = 7400;            // the domain's base port
     std::vector<std::string> peers;      // addresses, contacted by unicast
     std::vector<std::string> partitions = {"match/*"};
-    std::int64_t director_id = 0;  // 0 = chosen at random at start
-    std::int64_t strength = 100;   // of directors that begin a match together, the strongest leads it
-    std::int64_t lease_ms = 200;   // after which a hung director is replaced by its standby
-    std::string xml;               // Cyclone configuration that replaces the keys of the network
+    std::int64_t director_id = 0;     // 0 = chosen at random at start
+    std::int64_t strength = 100;      // of directors that begin a match together, the strongest leads it
+    std::int64_t lease_ms = 200;      // after which a hung director is replaced by its standby
+    std::vector<std::string> shards;  // names; empty: every director serves every match
+    std::string shard;                // this director's
+    std::string xml;                  // Cyclone configuration that replaces the keys of the network
 };
 
 struct Http {

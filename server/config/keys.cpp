@@ -73,6 +73,27 @@ void add_dds(std::vector<Key>& table) {
     table.push_back({section, "lease_ms", slot(&Dds::lease_ms),
                      "Time after which a director that hangs or has died is replaced by its standby.", "ms",
                      20, 60000});
+    table.push_back({section,
+                     "shards",
+                     slot(&Dds::shards),
+                     "Names of the shards over which the domain's matches are spread; empty: every director "
+                     "serves every match.",
+                     "",
+                     0,
+                     1024,
+                     {},
+                     false,
+                     true});
+    table.push_back({section,
+                     "shard",
+                     slot(&Dds::shard),
+                     "This director's shard. One that is not among `shards` hands all its matches over.",
+                     "",
+                     0,
+                     255,
+                     {},
+                     false,
+                     true});
     table.push_back(
         {section, "xml", slot(&Dds::xml),
          "Cyclone DDS configuration (XML) that replaces interface, multicast, participant_index, port and "
@@ -434,7 +455,7 @@ std::string shipped() {
 
 const std::vector<Section>& sections() {
     static const std::vector<Section> list = {
-        {"/dds", "The network. Takes effect at a restart."},
+        {"/dds", "The network. Takes effect at a restart; `shards` and `shard` are reloaded by SIGHUP."},
         {"/http", "Health, readiness, metrics and status. Takes effect at a restart."},
         {"/maps", "The list of maps that are served. Reloaded by SIGHUP."},
         {"/profiles",
@@ -448,7 +469,10 @@ const std::vector<Section>& sections() {
          "`\"overrides\": {\"distance\": [80, 200], \"vertical_fov\": [40, 90]}`. Reloaded by SIGHUP."},
         {"/matches",
          "Lifetime and delay of matches, and the choice of automatic targets. Reloaded by SIGHUP."},
-        {"/limits", "Whatever exceeds a limit is refused. Takes effect at a restart."},
+        {"/limits",
+         "Whatever exceeds a limit is refused. Matches beyond `matches` and `participant_matches`, and "
+         "observers beyond `observers`, wait for room in the order in which they came, as many of them as "
+         "may be served. Takes effect at a restart."},
         {"/log", "Written to standard error. `level` is reloaded by SIGHUP."}};
     return list;
 }

@@ -24,11 +24,12 @@ struct WireCounters {
     WireCounter camera_frames_written{0};
     WireCounter statuses_written{0};
     WireCounter statuses_withdrawn{0};
-    WireCounter write_failures{0};              // samples lost because DDS refused them or timed out
-    WireCounter endpoint_failures{0};           // matches whose endpoints could not be created
-    WireCounter liveliness_withheld{0};         // assertions omitted: the director did not respond
-    std::atomic<std::uint32_t> matches{0};      // with endpoints now
-    std::atomic<std::uint32_t> matches_led{0};  // of these by this director
+    WireCounter write_failures{0};                  // samples lost because DDS refused them or timed out
+    WireCounter endpoint_failures{0};               // matches whose endpoints could not be created
+    WireCounter liveliness_withheld{0};             // assertions omitted: the director did not respond
+    std::atomic<std::uint32_t> matches{0};          // with endpoints now
+    std::atomic<std::uint32_t> matches_led{0};      // of these by this director
+    std::atomic<std::uint32_t> matches_leaving{0};  // of these, those of other shards
 
     [[nodiscard]] PerTopic& of(Topic topic) { return received[static_cast<std::size_t>(topic)]; }
     [[nodiscard]] const PerTopic& of(Topic topic) const { return received[static_cast<std::size_t>(topic)]; }

@@ -20,6 +20,7 @@ Subscriber::Options subscriber_options(const config::Dds& config, const config::
                            .lease = std::chrono::milliseconds(config.lease_ms)},
             .director_id = director_id,
             .partitions = config.partitions,
+            .shards = {config.shard, config.shards},
             .matches = static_cast<std::size_t>(limits.matches),
             .participant_matches = static_cast<std::size_t>(limits.participant_matches),
             .participant_observers = static_cast<std::size_t>(limits.participant_observers)};
@@ -59,6 +60,10 @@ Gateway::HandOver Gateway::hand_over() {
         if (!match->hand_over()) ++done.kept;
     }
     return done;
+}
+
+void Gateway::reshard(const config::Dds& config) {
+    subscriber_.reshard({config.shard, config.shards});
 }
 
 void Gateway::close() {

@@ -44,6 +44,8 @@ class Gateway final : public director::Publisher {
     };
     // Leaves every match to a standby that has cameras, if it has some, and stands by. Thread-safe.
     HandOver hand_over();
+    // Takes effect soon: matches of other shards go on here until they do there. Thread-safe.
+    void reshard(const config::Dds& config);
     // Nothing more is handed to the ingress. Standbys take over at once; where there is none, publishing
     // still works.
     void stop_receiving();

@@ -320,6 +320,11 @@ bool MatchEndpoints::is_leading() {
     return in_effect_.leads;
 }
 
+bool MatchEndpoints::is_following() {
+    const std::lock_guard lock(deciding_);
+    return succession_.follows(Clock::now());
+}
+
 void MatchEndpoints::assert_liveliness() {
     change([](Succession& succession, Clock::time_point now) { succession.live(now); });
     write_sign();

@@ -65,6 +65,8 @@ class MatchEndpoints {
     // there is none.
     [[nodiscard]] bool hand_over();
     [[nodiscard]] bool is_leading();
+    // Another director leads.
+    [[nodiscard]] bool is_following();
     // Releases the ownership of the match: observers receive the next director, if there is one.
     void release_ownership();
 

@@ -55,8 +55,9 @@ class Ownership {
         return std::ranges::find(claims_, sender, &Claim::sender) != claims_.end();
     }
     [[nodiscard]] bool has_live_owner() const { return !claims_.empty() && !lost_; }
-    // To be called while there has been an owner since the last `ended`.
-    [[nodiscard]] const director::MatchInfo& info() const { return claims_.front().info; }
+    // The following are to be called while there has been an owner since the last `ended`.
+    [[nodiscard]] const Claim& owner() const { return claims_.front(); }
+    [[nodiscard]] const director::MatchInfo& info() const { return owner().info; }
 
   private:
     using Claims = std::vector<Claim>;

@@ -54,6 +54,13 @@ std::vector<RequestOwners::Outcome> RequestOwners::retain(std::span<const Writer
     return outcomes;
 }
 
+std::vector<std::string> RequestOwners::observers() const {
+    std::vector<std::string> observers;
+    for (const auto& [observer_id, owner] : owners_)
+        observers.push_back(observer_id);
+    return observers;
+}
+
 RequestOwners::Outcome RequestOwners::end(Owners::iterator known) {
     Owner& owner = known->second;
     Outcome outcome{known->first, std::nullopt};

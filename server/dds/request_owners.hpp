@@ -43,6 +43,8 @@ class RequestOwners {
     // Writers that are not among these (ascending) are gone.
     [[nodiscard]] std::vector<Outcome> retain(std::span<const WriterHandle> matched);
 
+    [[nodiscard]] std::vector<std::string> observers() const;
+
   private:
     struct Waiting {
         WriterHandle writer;

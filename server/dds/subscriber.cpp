@@ -31,7 +31,9 @@ Subscriber::Subscriber(const Participant& participant, Options options, MatchTab
       options_(std::move(options)),
       table_(table),
       counters_(counters),
+      shards_(options_.shards),
       waiting_(options_.matches, options_.participant_matches),
+      elsewhere_(none_elsewhere()),
       match_info_samples_(topic_type(Topic::match_info), samples_per_take),
       pose_samples_(topic_type(Topic::pose_frame), samples_per_take),
       event_samples_(topic_type(Topic::match_event), samples_per_take),
@@ -101,8 +103,16 @@ void Subscriber::stop() {
 
 void Subscriber::forget(const std::string& match_id) {
     {
-        const std::lock_guard lock(forgotten_mutex_);
+        const std::lock_guard lock(mutex_);
         forgotten_.push_back(match_id);
+    }
+    dds_set_guardcondition(guard_.handle(), true);
+}
+
+void Subscriber::reshard(Shards shards) {
+    {
+        const std::lock_guard lock(mutex_);
+        new_shards_ = std::move(shards);
     }
     dds_set_guardcondition(guard_.handle(), true);
 }
@@ -123,8 +133,10 @@ void Subscriber::run() noexcept {
         notice_absence();
         if (count > 0) take_triggered(static_cast<std::size_t>(count));
         remove_forgotten();
+        put_new_shards_into_effect();
         if (Clock::now() >= next_assertion_.load()) {
             assert_liveliness();
+            leave_matches();
             admit_waiting();
             next_assertion_ = Clock::now() + assertion_interval();
         }

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <unordered_map>
@@ -19,6 +20,7 @@
 #include "dds/participant.hpp"
 #include "dds/request_owners.hpp"
 #include "dds/sender.hpp"
+#include "dds/shards.hpp"
 #include "dds/take_buffer.hpp"
 #include "dds/waiting_matches.hpp"
 #include "director/ports.hpp"
@@ -36,6 +38,7 @@ class Subscriber {
         Leadership leadership;
         std::uint64_t director_id = 0;
         std::vector<std::string> partitions;
+        Shards shards;
         std::size_t matches = 0;
         std::size_t participant_matches = 0;
         std::size_t participant_observers = 0;  // of a match
@@ -51,8 +54,10 @@ class Subscriber {
     void start(director::Ingress& ingress);
     // Ends handing on samples and asserting liveliness.
     void stop();
-    // The director has forgotten the match. Thread-safe, returns at once.
+    // The following are thread-safe and return at once. The director has forgotten the match.
     void forget(const std::string& match_id);
+    // Matches of other shards go on here until they do there.
+    void reshard(Shards shards);
 
     // False when the thread is late by more than `limit` with what it does several times per lease.
     // Thread-safe.
@@ -126,6 +131,11 @@ class Subscriber {
     [[nodiscard]] Result<void> open_match(const std::string& match_id);
     void remove_match(const std::string& match_id);
     void remove_forgotten();
+    void put_new_shards_into_effect();
+    // Hands over matches of other shards, and leaves those that another director leads.
+    void leave_matches();
+    void leave(const std::string& match_id);
+    [[nodiscard]] WaitingMatches none_elsewhere() const;
     void cancel_forget(const std::string& match_id);
     [[nodiscard]] bool reintroduce(Match& match);
 
@@ -142,13 +152,16 @@ class Subscriber {
     Entity waitset_;
     Entity guard_;
     std::atomic<bool> stopping_{false};
-    std::mutex forgotten_mutex_;
+    std::mutex mutex_;  // guards the next two
     std::vector<std::string> forgotten_;
+    std::optional<Shards> new_shards_;
     std::atomic<Clock::time_point> next_assertion_{Clock::time_point::max()};  // max: the thread does not run
     std::thread thread_;
 
     // Used by the thread only.
-    WaitingMatches waiting_;
+    Shards shards_;
+    WaitingMatches waiting_;    // for room
+    WaitingMatches elsewhere_;  // of other shards
     std::unordered_map<std::string, std::unique_ptr<Match>> matches_;
     Clock::time_point listened_{};                                // to all who send
     Clock::time_point next_decision_ = Clock::time_point::max();  // when matches may change hands

@@ -26,6 +26,7 @@ void Subscriber::match_info_found(const camera_director_MatchInfo& sample, const
 void Subscriber::described(Ownership::Claim claim) {
     const std::string match_id = claim.info.match_id;
     const bool known = matches_.contains(match_id);
+    if (!known && !shards_.serves(match_id)) return elsewhere_.keep(std::move(claim));
     if (!known && !may_open_match(claim.sender)) {
         drop(Topic::match_info, ValidationError::participant_limit, match_id);
         return waiting_.keep(std::move(claim));
@@ -45,7 +46,7 @@ void Subscriber::described(Ownership::Claim claim) {
 }
 
 void Subscriber::admit_waiting() {
-    const auto may_open = [this](const SenderId& sender) { return may_open_match(sender); };
+    const auto may_open = [this](const Ownership::Claim& claim) { return may_open_match(claim.sender); };
     while (!waiting_.empty() && ingress_->has_room()) {
         std::optional<Ownership::Claim> claim = waiting_.take(may_open);
         if (!claim) return;
@@ -61,6 +62,7 @@ bool Subscriber::may_open_match(const SenderId& sender) const {
 
 void Subscriber::match_info_lost(const camera_director_MatchInfo& key, const dds_sample_info_t& info) {
     waiting_.remove(key.match_id, info.publication_handle);
+    elsewhere_.remove(key.match_id, info.publication_handle);
     const auto known = matches_.find(key.match_id);
     if (known == matches_.end()) return;
     Ownership& ownership = known->second->ownership;
@@ -76,6 +78,7 @@ void Subscriber::notice_unmatched() {
     dds_get_subscription_matched_status(match_info_reader_, &status);
     const std::vector<WriterHandle> matched = matched_writers(match_info_reader_);
     waiting_.retain(matched);
+    elsewhere_.retain(matched);
     std::vector<std::string> match_ids;
     for (const auto& [match_id, match] : matches_)
         match_ids.push_back(match_id);
@@ -104,7 +107,7 @@ void Subscriber::begin_anew(Match& match) {
 
 // The director knows the match again: an earlier forget() must not remove it.
 void Subscriber::cancel_forget(const std::string& match_id) {
-    const std::lock_guard lock(forgotten_mutex_);
+    const std::lock_guard lock(mutex_);
     std::erase(forgotten_, match_id);
 }
 
@@ -157,7 +160,7 @@ void Subscriber::remove_match(const std::string& match_id) {
 void Subscriber::remove_forgotten() {
     std::vector<std::string> forgotten;
     {
-        const std::lock_guard lock(forgotten_mutex_);
+        const std::lock_guard lock(mutex_);
         forgotten.swap(forgotten_);
     }
     for (const std::string& match_id : forgotten) {
@@ -170,6 +173,49 @@ void Subscriber::remove_forgotten() {
             remove_match(match_id);
         }
     }
+}
+
+// As many as the other shards may serve.
+WaitingMatches Subscriber::none_elsewhere() const {
+    const std::size_t others = shards_.count();
+    return {others * options_.matches, others * options_.participant_matches};
+}
+
+void Subscriber::put_new_shards_into_effect() {
+    {
+        const std::lock_guard lock(mutex_);
+        if (!new_shards_) return;
+        shards_ = *std::exchange(new_shards_, std::nullopt);
+    }
+    WaitingMatches unserved = std::exchange(elsewhere_, none_elsewhere());
+    while (auto claim = unserved.take([](const Ownership::Claim&) { return true; }))
+        described(std::move(*claim));
+}
+
+void Subscriber::leave_matches() {
+    std::vector<std::string> left;
+    std::uint32_t leaving = 0;
+    for (const auto& [match_id, match] : matches_) {
+        if (shards_.serves(match_id)) continue;
+        ++leaving;
+        if (match->endpoints->is_leading())
+            (void)match->endpoints->hand_over();  // again, until another has cameras
+        else if (match->endpoints->is_following())
+            left.push_back(match_id);
+    }
+    for (const std::string& match_id : left)
+        leave(match_id);
+    counters_.matches_leaving = leaving - static_cast<std::uint32_t>(left.size());
+}
+
+void Subscriber::leave(const std::string& match_id) {
+    Match& match = *matches_[match_id];
+    spdlog::info("match {}: left to another shard", match_id);
+    if (match.ownership.has_live_owner()) elsewhere_.keep(match.ownership.owner());
+    for (const std::string& observer_id : match.request_owners.observers())
+        ingress_->request_ended(match_id, observer_id);
+    ingress_->match_ended(match_id);
+    remove_match(match_id);
 }
 
 // Announces a match again that the director has forgotten. Returns false when it was refused.

@@ -62,6 +62,8 @@ class Succession {
     void resign(Time now);
     // Whether another lives that has cameras, if this one has some.
     [[nodiscard]] bool has_successor(Time now) const;
+    // Whether another lives that leads.
+    [[nodiscard]] bool follows(Time now) const { return !own_.leads && leader(now) != nullptr; }
     // To be called before anything is written.
     void notice_absence(Time now);
     // What time alone changes: may take over. To be called when all signs that have come are seen, and not

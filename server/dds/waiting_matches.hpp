@@ -1,4 +1,4 @@
-// Matches that were refused for a limit.
+// Matches that are not served: for want of room, or because another shard serves them.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace camdir::dds {
 
-// Keeps their newest descriptions, in the order of arrival, until there is room. One thread at a time.
+// Keeps their newest descriptions, in the order of arrival. One thread at a time.
 class WaitingMatches {
   public:
     // At most so many, and so many of one participant; what comes later is not kept.
@@ -25,11 +25,10 @@ class WaitingMatches {
     void remove(const std::string& match_id, WriterHandle writer);
     // Those whose writers are not among these (ascending) are gone.
     void retain(std::span<const WriterHandle> matched);
-    // Takes the first whose sender may open a match.
-    template <class MayOpen>
-    [[nodiscard]] std::optional<Ownership::Claim> take(const MayOpen& may_open) {
-        const auto found = std::ranges::find_if(
-            claims_, [&](const Ownership::Claim& claim) { return may_open(claim.sender); });
+    // Takes the first that is wanted.
+    template <class IsWanted>
+    [[nodiscard]] std::optional<Ownership::Claim> take(const IsWanted& is_wanted) {
+        const auto found = std::ranges::find_if(claims_, is_wanted);
         if (found == claims_.end()) return std::nullopt;
         std::optional<Ownership::Claim> claim = std::move(*found);
         claims_.erase(found);
@@ -38,7 +37,7 @@ class WaitingMatches {
     [[nodiscard]] bool empty() const { return claims_.empty(); }
 
   private:
-    const std::size_t most_, most_of_sender_;
+    std::size_t most_, most_of_sender_;
     std::list<Ownership::Claim> claims_;
 };
 

@@ -152,6 +152,8 @@ void Service::reload() {
     }
     for (const std::string& pointer : config::changes_for_restart(config_, *loaded))
         spdlog::warn("{}: {} takes effect after a restart", file_.string(), pointer);
+    config_.dds.shard = std::move(loaded->dds.shard);
+    config_.dds.shards = std::move(loaded->dds.shards);
     config_.maps = std::move(loaded->maps);
     config_.profiles = std::move(loaded->profiles);
     config_.overrides = std::move(loaded->overrides);
@@ -159,6 +161,7 @@ void Service::reload() {
     config_.log.level = std::move(loaded->log.level);
     set_log_level(config_.log);
     director_.reconfigure(config_);
+    gateway_->reshard(config_.dds);
     loader_.load(config_.maps);
     spdlog::info("{}: reloaded", file_.string());
 }

@@ -49,7 +49,9 @@ std::vector<prometheus::MetricFamily> wire_metrics(const dds::WireCounters& coun
                 "Signs of life omitted because a worker was busy for longer than dds.lease_ms.",
                 counters.liveliness_withheld),
         gauge("matches_led", "Matches that this director leads; for the others it stands by.",
-              counters.matches_led)};
+              counters.matches_led),
+        gauge("matches_leaving", "Matches of other shards that this director serves until these do.",
+              counters.matches_leaving)};
 }
 
 }  // namespace camdir::service

@@ -6,6 +6,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <csignal>
 #include <fstream>
 #include <optional>
 #include <stdexcept>
@@ -34,22 +35,30 @@ void write_hall(const std::filesystem::path& file) {
     }
 }
 
-Server::Server(std::uint32_t domain, const Options& options) {
+Server::Server(std::uint32_t domain, const Options& options) : domain_(domain) {
     write_hall(folder_ / "hall.vfs");
     if (options.has_yard) write_hall(folder_ / "yard.vfs");
-    const auto config = folder_ / "config.json";
+    write_config(options);
+    process_ = std::make_unique<ChildProcess>(std::vector<std::string>{
+        CAMDIR_BIN_DIR "/camera-director", "serve", "--config", (folder_ / "config.json").string()});
+}
+
+void Server::write_config(const Options& options) const {
     // A lease long enough for a busy machine.
-    std::ofstream(config) << R"({"dds": {"domain": )" << domain << R"(, "participant_index": )"
-                          << options.participant_index << R"(, "strength": )" << options.strength
-                          << R"(, "director_id": )" << options.director_id << R"(, "lease_ms": 1000,
-        "peers": [")" << director_address(domain, 1 - options.participant_index)
-                          << R"("]},
+    std::ofstream(folder_ / "config.json")
+        << R"({"dds": {"domain": )" << domain_ << R"(, "participant_index": )" << options.participant_index
+        << R"(, "strength": )" << options.strength << R"(, "director_id": )" << options.director_id
+        << R"(, "lease_ms": 1000, "shard": ")" << options.shard << R"(", "shards": )" << options.shards
+        << R"(, "peers": [")" << director_address(domain_, 1 - options.participant_index) << R"("]},
         "http": {"enabled": false},
         "matches": {"minimum_delay_s": )"
-                          << options.minimum_delay_s << R"(},
+        << options.minimum_delay_s << R"(},
         "maps": [{"name": "hall", "file": "hall.vfs"}, {"name": "yard", "file": "yard.vfs"}]})";
-    process_ = std::make_unique<ChildProcess>(
-        std::vector<std::string>{CAMDIR_BIN_DIR "/camera-director", "serve", "--config", config.string()});
+}
+
+void Server::reload(const Options& options) {
+    write_config(options);
+    process_->send_signal(SIGHUP);
 }
 
 bool Server::ready() const {

@@ -31,6 +31,8 @@ class Server {
         std::int64_t director_id = 1;
         double minimum_delay_s = 0.0;
         bool has_yard = true;
+        std::string shard = {};
+        std::string shards = "[]";  // JSON
     };
     Server(std::uint32_t domain, const Options& options);
     explicit Server(std::uint32_t domain) : Server(domain, Options{}) {}
@@ -38,8 +40,13 @@ class Server {
     [[nodiscard]] ChildProcess& process() { return *process_; }
     [[nodiscard]] std::string log() const { return process_->errors(); }
     [[nodiscard]] bool ready() const;
+    // Of what takes effect without a restart.
+    void reload(const Options& options);
 
   private:
+    void write_config(const Options& options) const;
+
+    const std::uint32_t domain_;
     TemporaryFolder folder_;
     std::unique_ptr<ChildProcess> process_;
 };

@@ -99,6 +99,18 @@ TEST(Config, RefusesToBakeOverASource) {
     EXPECT_THAT(absolute.error().message, HasSubstr("expected a file that is not a map's source"));
 }
 
+TEST(Config, ADirectorOfShardsHasOneOfItsOwn) {
+    EXPECT_EQ(problem(R"({"dds": {"shards": ["a", "b"], "shard": "a"}})"), "no problem");
+    EXPECT_EQ(problem(R"({"dds": {"shards": ["a", "b"], "shard": "gone"}})"), "no problem")
+        << "it is drained";
+    EXPECT_THAT(problem(R"({"dds": {"shards": ["a", "b"]}})"),
+                HasSubstr("/dds/shard: \"\": expected the name of this director's shard"));
+    EXPECT_THAT(problem(R"({"dds": {"shard": "a"}})"),
+                HasSubstr("/dds/shard: \"a\": expected an empty string where there are no shards"));
+    EXPECT_THAT(problem(R"({"dds": {"shards": ["a", "b", "a"], "shard": "a"}})"),
+                HasSubstr("/dds/shards: [\"a\",\"b\",\"a\"]: expected names that differ"));
+}
+
 TEST(Config, RefusesMissingKeys) {
     EXPECT_THAT(problem(R"({"maps": [{"file": "1"}]})"),
                 HasSubstr("/maps/0/name: missing: expected a string"));

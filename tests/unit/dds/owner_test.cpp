@@ -305,12 +305,14 @@ TEST(WaitingMatches, KeepsTheNewestDescriptionOfEachWithinItsBoundsUntilItIsGone
     waiting.remove("a", 2);
     waiting.remove("b", 3);
     const std::array<WriterHandle, 1> matched{1};
-    const auto anybody = [](const SenderId&) { return true; };
-    EXPECT_FALSE(waiting.take([](const SenderId& sender) { return sender == SenderId{4}; }));
-    EXPECT_EQ(waiting.take([](const SenderId& sender) { return sender == SenderId{3}; })->info.match_id, "d");
+    const auto of = [&](unsigned char sender) {
+        return waiting.take([&](const Ownership::Claim& claim) { return claim.sender == SenderId{sender}; });
+    };
+    EXPECT_FALSE(of(4));
+    EXPECT_EQ(of(3)->info.match_id, "d");
     waiting.retain(matched);
-    EXPECT_EQ(waiting.take(anybody)->info.epoch, 2U);
-    EXPECT_EQ(waiting.take(anybody)->info.match_id, "b");
+    EXPECT_EQ(of(1)->info.epoch, 2U);
+    EXPECT_EQ(of(1)->info.match_id, "b");
     EXPECT_TRUE(waiting.empty());
 }
 

@@ -1,0 +1,30 @@
+// Which of the directors that share a domain's matches serve a match.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace camdir::dds {
+
+// Every match has one shard, by rendezvous hashing (Thaler, Ravishankar 1998): one more shard takes its part
+// of the matches, equally from all others, and no match moves between these.
+class Shards {
+  public:
+    // One shard, which serves every match.
+    Shards() = default;
+    // `own` serves nothing where it is not among `all`.
+    Shards(std::string own, std::vector<std::string> all) : own_(std::move(own)), all_(std::move(all)) {}
+
+    [[nodiscard]] bool serves(std::string_view match_id) const;
+    [[nodiscard]] std::size_t count() const { return std::max<std::size_t>(all_.size(), 1); }
+
+  private:
+    std::string own_;
+    std::vector<std::string> all_;
+};
+
+}  // namespace camdir::dds
