@@ -63,7 +63,7 @@ TEST_F(GatewayTest, HandsOnTheSamplesOfAMatch) {
 }
 
 TEST_F(GatewayTest, WritesCamerasAndStatuses) {
-    RawPeer& raw = game("cup");
+    RawPeer& raw = led_game("cup");
     gateway_->publish("cup", one_camera(0));
     std::vector<RawPeer::CameraFrame> frames;
     ASSERT_TRUE(eventually([&] { return !(frames = raw.take_cameras()).empty(); }));
@@ -109,29 +109,27 @@ TEST_F(GatewayTest, WhatIsShownIsWrittenForLateObserversAndAgainUntilItsEnd) {
     EXPECT_EQ(gateway_->counters().shown_matches_written, 3U) << "without those written again";
 }
 
-// Says that another director leads "cup", again and again, while it lives.
+// Another director that leads "cup" as long as this lives, and is then silent for longer than it said.
 class Leader {
   public:
-    Leader(RawPeer& peer, std::uint32_t term) {
-        signs_ = std::jthread([&peer, term](const std::stop_token& stop) {
-            while (!stop.stop_requested()) {
-                peer.write(encode("cup", {.director_id = 5,
-                                          .term = term,
-                                          .lease = std::chrono::milliseconds(1500),
-                                          .leads = true,
-                                          .has_cameras = true}));
-                std::this_thread::sleep_for(std::chrono::milliseconds(20));
-            }
-        });
-    }
+    Leader(RawPeer& peer, std::uint32_t term) : peer_(peer), term_(term) { lead(max_lease); }
+    Leader(const Leader&) = delete;
+    Leader& operator=(const Leader&) = delete;
+    ~Leader() { lead(std::chrono::milliseconds(1)); }
 
   private:
-    std::jthread signs_;
+    void lead(std::chrono::milliseconds lease) {
+        peer_.write(encode(
+            "cup", {.director_id = 5, .term = term_, .lease = lease, .leads = true, .has_cameras = true}));
+    }
+
+    RawPeer& peer_;
+    const std::uint32_t term_;
 };
 
 class StandbyTest : public GatewayTest {
   protected:
-    StandbyTest() { config_.lease_ms = 1500; }  // for a busy machine
+    StandbyTest() { config_.lease_ms = max_lease.count(); }  // what it keeps does not grow too old
     std::size_t frames(RawPeer& raw) { return frames_ += raw.take_cameras().size(); }
 
     std::size_t frames_ = 0;
@@ -229,7 +227,7 @@ TEST_F(GatewayTest, WhatTheDirectorShowsAtOnceIsWritten) {
 }
 
 TEST_F(GatewayTest, AnIdleReaderLosesNothingWithin32Frames) {
-    RawPeer& raw = game("cup");
+    RawPeer& raw = led_game("cup");
     for (std::uint32_t i = 0; i < 32; ++i)
         gateway_->publish("cup", one_camera(i));
     std::vector<RawPeer::CameraFrame> frames;
@@ -243,7 +241,7 @@ TEST_F(GatewayTest, AnIdleReaderLosesNothingWithin32Frames) {
 }
 
 TEST_F(GatewayTest, LateObserversSeeStatusesButNoOldCameras) {
-    RawPeer& raw = game("cup");
+    RawPeer& raw = led_game("cup");
     gateway_->publish("cup", one_camera(0));
     ASSERT_TRUE(eventually([&] { return !raw.take_cameras().empty(); }));
     for (int i = 0; i < 256; ++i) {
@@ -373,7 +371,7 @@ TEST_F(GatewayTest, ReceptionThatHangsIsNotResponsiveUntilItGoesOn) {
 }
 
 TEST_F(GatewayTest, ClosingReleasesTheMatchesAndNothingIsReceivedAfterStopping) {
-    RawPeer& raw = game("cup");
+    RawPeer& raw = led_game("cup");
     gateway_->publish("cup", one_camera(0));
     gateway_->publish(status_of("anna", ""));
     ASSERT_TRUE(eventually([&] { return raw.statuses().size() == 1; }));

@@ -105,14 +105,23 @@ class GatewayTest : public testing::Test {
     RawPeer& peer(const std::string& match_id, const std::vector<std::string>& partitions = {}) {
         return *peers_.emplace_back(std::make_unique<RawPeer>(domain_.id(), match_id, partitions));
     }
-    // A peer whose match the gateway has found, with all endpoints matched.
+    // A peer whose match the gateway has found and handed on, with all endpoints matched.
     RawPeer& game(const std::string& match_id, std::uint64_t epoch = 1) {
-        const std::uint32_t before = gateway_->counters().matches;
+        const std::string line = "info " + match_id + " " + std::to_string(epoch);
+        const std::ptrdiff_t before = recorder_.count(line);
         RawPeer& raw = peer(match_id);
         raw.write(test::raw_match_info(match_id, epoch));
-        // Endpoints are matched before the match is complete.
-        if (!eventually([&] { return raw.directors() == 1 && gateway_->counters().matches > before; })) {
+        if (!eventually([&] { return raw.directors() == 1 && recorder_.count(line) > before; })) {
             throw std::runtime_error("the match was not found");
+        }
+        return raw;
+    }
+    // The same, of which the gateway writes what is published instead of keeping it.
+    RawPeer& led_game(const std::string& match_id) {
+        const std::uint32_t before = gateway_->counters().matches_led;
+        RawPeer& raw = game(match_id);
+        if (!eventually([&] { return gateway_->counters().matches_led > before; })) {
+            throw std::runtime_error("the gateway does not lead the match");
         }
         return raw;
     }
