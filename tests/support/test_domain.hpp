@@ -1,5 +1,6 @@
 // DDS domains for tests, which run concurrently. Domains up to 99 have ports (7400 + 250 per domain) below
-// the system's ephemeral ones: 1 to 80 are for TestDomain, 83 to 99 for the tests of the SDK.
+// the system's ephemeral ones: 1 to 80 are for TestDomain, 81 for directors without a match, 83 to 99 for the
+// tests of the SDK.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +9,8 @@
 
 namespace camdir::test {
 
+// For directors without a well-known port, which therefore find nobody.
+inline constexpr std::uint32_t quiet_domain = 81;
 // Shared by the SDK's tests within one process, each with a match of its own.
 inline constexpr std::uint32_t shared_domain = 84;
 // For the SDK's tests that need a director's well-known port: they take the first free one.

@@ -7,6 +7,7 @@
 #include "support/eventually.hpp"
 #include "support/freespace_meshes.hpp"
 #include "support/http_client.hpp"
+#include "support/test_domain.hpp"
 
 namespace camdir::test {
 namespace {
@@ -36,7 +37,7 @@ Ran run_director(const std::vector<std::string>& arguments) {
 }
 
 json quiet_config() {
-    return {{"dds", {{"domain", 61}, {"participant_index", -1}}},
+    return {{"dds", {{"domain", quiet_domain}, {"participant_index", -1}}},
             {"http", {{"port", 0}}},
             {"log", {{"format", "json"}, {"level", "debug"}}}};
 }
