@@ -186,7 +186,7 @@ std::vector<CameraFrame> shown_by(std::int64_t workers) {
         stage.ask(Stage::request("observer " + std::to_string(target), target));
     for (std::uint32_t number = 0; number < recorded; ++number) {
         stage.director.receive("m", Stage::poses(number));
-        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
     EXPECT_TRUE(eventually([&] {
         const auto shown = stage.publisher.frames();
