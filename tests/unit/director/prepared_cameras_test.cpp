@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "director/clock.hpp"
 #include "director/match.hpp"
 #include "stage.hpp"
 
@@ -75,7 +74,8 @@ class DelayedTimes {
         WorkerPool::wait_idle(match_);
     }
 
-    const std::int64_t start_ = now_ns() - 3600 * 1000 * ms;  // the answers to requests read the clock
+    // Long ago, even if this machine has just started: the answers to requests read the clock.
+    const std::int64_t start_ = ms;
     MapLibrary maps_;
     Match match_{"m", std::make_shared<config::Config>(Stage::default_config()), maps_, publisher};
     WorkerPool pool_{2, 1};
