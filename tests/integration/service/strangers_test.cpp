@@ -5,6 +5,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <vector>
 
@@ -25,30 +26,48 @@ void allow_open_files(rlim_t count) {
     ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &limit), 0);
 }
 
+// A connection that sends nothing, or the beginning of a request.
+class Stranger {
+  public:
+    // `limit`: the server's, on how long it waits for the rest.
+    Stranger(int port, const std::string& beginning, std::chrono::seconds limit)
+        : keeps_until_(Clock::now() + limit), client_(port) {
+        EXPECT_TRUE(client_.send(beginning));
+    }
+    void dribble() const { (void)client_.send("x"); }
+    // Not closed before its time.
+    [[nodiscard]] bool is_borne() const { return !client_.closed() || Clock::now() >= keeps_until_; }
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point keeps_until_;
+    const HttpClient client_;
+};
+
 TEST(Strangers, DoNotKeepHealthFromAnswering) {
     ASSERT_NO_FATAL_FAILURE(allow_open_files(2 * strangers));
     const Folder folder;
     Served served(folder, quiet_config());
     const int port = served.port();
-    std::vector<std::unique_ptr<HttpClient>> idle;
-    std::vector<std::unique_ptr<HttpClient>> dribbling;
+    std::vector<std::unique_ptr<Stranger>> idle;
+    std::vector<std::unique_ptr<Stranger>> dribbling;
     while (idle.size() + dribbling.size() < strangers) {
-        idle.push_back(std::make_unique<HttpClient>(port));
-        dribbling.push_back(std::make_unique<HttpClient>(port));
-        ASSERT_TRUE(dribbling.back()->send("GET /status HTTP/1.1\r\nSlow: "));
+        idle.push_back(std::make_unique<Stranger>(port, "", std::chrono::seconds(60)));
+        dribbling.push_back(
+            std::make_unique<Stranger>(port, "GET /status HTTP/1.1\r\nSlow: ", std::chrono::seconds(20)));
     }
     auto slowest = std::chrono::steady_clock::duration::zero();
     for (int round = 0; round < 50; ++round) {
-        for (const auto& client : dribbling)
-            ASSERT_TRUE(client->send("x"));
+        for (const auto& stranger : dribbling)
+            stranger->dribble();
         const auto asked = std::chrono::steady_clock::now();
         EXPECT_EQ(HttpClient(port).ask("GET", "/-/healthy").status, 200);
         slowest = std::max(slowest, std::chrono::steady_clock::now() - asked);
     }
     RecordProperty("slowest_ms", std::to_string(std::chrono::duration<double, std::milli>(slowest).count()));
-    for (const auto* clients : {&idle, &dribbling})
-        EXPECT_TRUE(std::none_of(clients->begin(), clients->end(),
-                                 [](const auto& client) { return client->closed(); }));
+    for (const auto* all : {&idle, &dribbling})
+        EXPECT_TRUE(
+            std::all_of(all->begin(), all->end(), [](const auto& stranger) { return stranger->is_borne(); }));
     served.signal(SIGTERM);
     EXPECT_EQ(served.exit_code(), 0) << served.log();
 }
