@@ -83,7 +83,7 @@ using FrameTest =
 [[nodiscard]] bool sees_own_camera(camera_director::Observer& observer);
 
 // The next `frames` frames come from this director, with the observer's own camera, each newer than the one
-// before.
+// before, and none is lost on its way.
 [[nodiscard]] testing::AssertionResult serves_on(camera_director::Observer& observer,
                                                  std::uint64_t director_id, int frames);
 
