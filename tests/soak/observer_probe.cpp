@@ -311,7 +311,8 @@ void add_options(CLI::App& app, Options& options) {
                    "Seconds, after the delay, within which all observers must be served")
         ->check(CLI::NonNegativeNumber)
         ->capture_default_str();
-    app.add_option("--max-step", options.limits.step, "Longest undeclared step, map units")
+    app.add_option("--max-step", options.limits.step,
+                   "Longest undeclared step from one pose frame to the next, map units")
         ->capture_default_str();
     app.add_option("--min-clearance", options.limits.clearance,
                    "Cameras nearer than this to an obstacle count as in it, map units")

@@ -1,5 +1,6 @@
 #include "shot_checker.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace camdir::soak {
@@ -39,7 +40,8 @@ void ShotChecker::check(const camera_director::CameraFrame& frame, const camera_
         check_camera(*own);
         const bool comparable = consecutive && previous_->own && previous_->own->camera_id == own->camera_id;
         if (comparable && (own->flags & CDIR_CAMERA_CUT) == 0) {
-            check_step(position_of(*previous_->own), position_of(*own));
+            check_step(position_of(*previous_->own), position_of(*own),
+                       frame.pose_number - previous_->frame.pose_number);
         }
     }
     previous_ = {frame, own != nullptr ? std::optional(*own) : std::nullopt};
@@ -78,8 +80,9 @@ void ShotChecker::check_camera(const camera_director::Camera& camera) {
     }
 }
 
-void ShotChecker::check_step(const Vec3d& from, const Vec3d& to) {
-    if ((to - from).norm() > limits_.step) ++findings_.jumps;
+// A director that had to wait goes on with the newest pose frame.
+void ShotChecker::check_step(const Vec3d& from, const Vec3d& to, std::uint32_t pose_frames) {
+    if ((to - from).norm() > limits_.step * std::max(1U, pose_frames)) ++findings_.jumps;
     if (oracle_ != nullptr && !oracle_->segment_clear(from, to)) ++findings_.through_geometry;
 }
 

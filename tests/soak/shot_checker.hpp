@@ -32,7 +32,7 @@ struct Findings {
 };
 
 struct Limits {
-    double step = 64.0;      // map units between consecutive frames
+    double step = 64.0;      // map units from one pose frame to the next
     double clearance = 0.0;  // map units; cameras nearer to an obstacle count as in it
     double delay = 0.0;      // s, of the match: frames are due so long after the source_time of their poses
 };
@@ -61,7 +61,7 @@ class ShotChecker {
 
     [[nodiscard]] bool follows(const camera_director::CameraFrame& frame);
     void check_camera(const camera_director::Camera& camera);
-    void check_step(const Vec3d& from, const Vec3d& to);
+    void check_step(const Vec3d& from, const Vec3d& to, std::uint32_t pose_frames);
 
     const oracle::Oracle* oracle_;
     Limits limits_;

@@ -77,6 +77,16 @@ TEST_F(ShotCheckerTest, ALongStepCountsUnlessItIsACutOrFramesAreMissing) {
     EXPECT_EQ(found().jumps, 1U) << "there was no camera in between";
 }
 
+TEST_F(ShotCheckerTest, AStepOverSkippedPosesMayBeLonger) {
+    camera_at(100.0F);
+    frame_.pose_number += 3;
+    camera_at(290.0F);
+    EXPECT_EQ(found().jumps, 0U);
+    frame_.pose_number += 3;
+    camera_at(485.0F);
+    EXPECT_EQ(found().jumps, 1U);
+}
+
 TEST_F(ShotCheckerTest, ACameraInTheWallCounts) {
     camera_at(-0.5F);
     EXPECT_EQ(found().in_obstacle, 1U);
