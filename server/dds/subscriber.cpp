@@ -132,6 +132,7 @@ void Subscriber::run() noexcept {
             dds_waitset_wait(waitset_.handle(), triggered_.data(), triggered_.size(), patience.count());
         notice_absence();
         if (count > 0) take_triggered(static_cast<std::size_t>(count));
+        take_signs_of_new_matches();
         remove_forgotten();
         put_new_shards_into_effect();
         if (Clock::now() >= next_assertion_.load()) {
@@ -333,6 +334,13 @@ void Subscriber::take_signs(Match& match) {
             next_decision_ = std::min(next_decision_, match.endpoints->decide());
         }
     });
+}
+
+// The director may have taken longer to begin them than it looks for others.
+void Subscriber::take_signs_of_new_matches() {
+    for (const std::string& match_id : new_matches_)
+        if (const auto known = matches_.find(match_id); known != matches_.end()) take_signs(*known->second);
+    new_matches_.clear();
 }
 
 void Subscriber::warn_of_namesake(const std::string& match_id) {

@@ -115,6 +115,7 @@ class Subscriber {
     void notice_unmatched_requests(Match& match);
     void take_cameras(Match& match);
     void take_signs(Match& match);
+    void take_signs_of_new_matches();
     void warn_of_namesake(const std::string& match_id);
 
     void match_info_found(const camera_director_MatchInfo& sample, const dds_sample_info_t& info);
@@ -163,6 +164,7 @@ class Subscriber {
     WaitingMatches waiting_;    // for room
     WaitingMatches elsewhere_;  // of other shards
     std::unordered_map<std::string, std::unique_ptr<Match>> matches_;
+    std::vector<std::string> new_matches_;                        // whose signs were not looked at yet
     Clock::time_point listened_{};                                // to all who send
     Clock::time_point next_decision_ = Clock::time_point::max();  // when matches may change hands
     std::vector<dds_attach_t> triggered_;

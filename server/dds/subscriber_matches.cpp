@@ -148,6 +148,7 @@ Result<void> Subscriber::open_match(const std::string& match_id) {
     if (auto watched = watch_writers(match->endpoints->request_reader(), &match->requesters); !watched)
         return watched;
     triggered_.resize(3 + 6 * matches_.size());
+    new_matches_.push_back(match_id);
     return {};
 }
 

@@ -160,6 +160,20 @@ TEST_F(StandbyTest, WritesWhatItKeptWhenTheLeaderFailsAndStandsByUnderALaterOne)
     leader.reset();
 }
 
+TEST_F(StandbyTest, LooksForALeaderHoweverLongTheDirectorTakesToBeginTheMatch) {
+    RawPeer& other = peer("cup");
+    const Leader leader(other, 3);
+    recorder_.hangs = true;
+    RawPeer& raw = peer("cup");
+    raw.write(test::raw_match_info("cup", 1));
+    ASSERT_TRUE(eventually([&] { return recorder_.has("info cup 1"); }));
+    gateway_->publish("cup", one_camera(0));
+    std::this_thread::sleep_for(Succession::settling);
+    recorder_.hangs = false;
+    EXPECT_TRUE(eventually([&] { return gateway_->counters().of(Topic::director_sign).accepted > 0; }));
+    EXPECT_EQ(frames(raw), 0U);
+}
+
 // A standby that sees frame 40, of pose 0, of a leader, computes `count` cameras more and takes over.
 class TakeOverTest : public StandbyTest {
   protected:
