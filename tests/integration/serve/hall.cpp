@@ -154,15 +154,10 @@ bool sees_own_camera(camera_director::Observer& observer) {
     });
 }
 
-namespace {
-
-// Whether it waited for the reader for about as long as it is kept. Those before it may have waited longer.
 bool came_late(const camera_director::CameraFrame& frame) {
     const auto now = std::chrono::system_clock::now().time_since_epoch();
     return now - std::chrono::nanoseconds(frame.write_time) > std::chrono::milliseconds(300);
 }
-
-}  // namespace
 
 testing::AssertionResult serves_on(camera_director::Observer& observer, std::uint64_t director_id,
                                    int frames) {

@@ -79,6 +79,9 @@ using FrameTest =
     std::function<bool(const camera_director::CameraFrame&, std::span<const camera_director::Camera>)>;
 [[nodiscard]] bool sees(camera_director::Observer& observer, const FrameTest& wanted);
 
+// Whether it waited for the reader for about as long as it is kept: those before it may have waited longer.
+[[nodiscard]] bool came_late(const camera_director::CameraFrame& frame);
+
 // A frame with the observer's own camera arrives.
 [[nodiscard]] bool sees_own_camera(camera_director::Observer& observer);
 
