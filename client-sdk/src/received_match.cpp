@@ -11,8 +11,7 @@ namespace camdir::sdk {
 
 namespace {
 
-constexpr std::int64_t max_step_back =
-    1'000'000'000;  // ns; what comes late by less is one frame out of order
+constexpr std::int64_t max_step_back = 1'000'000'000;  // ns; what comes late by less has been shown
 
 cdir_player player_at(const camera_director_MatchInfo& info, std::uint32_t index) {
     cdir_player player{};
@@ -84,9 +83,21 @@ void ReceivedMatch::take_early_status() {
     if (early_status_) accept(*std::exchange(early_status_, std::nullopt));
 }
 
+// Directors that did not know of each other have written the same frames, and one that could not be reached
+// sends its last ones again. The time of a game that pauses stands still, and the numbers go on.
+bool ReceivedMatch::is_repeated(const camera_director_CameraFrame& frame) const {
+    if (!last_frame_ || is_of_past(frame)) return false;
+    if (frame.frame_time != last_frame_->frame_time) return frame.frame_time < last_frame_->frame_time;
+    return static_cast<std::int32_t>(frame.frame_number - last_frame_->frame_number) <= 0;
+}
+
+bool ReceivedMatch::is_of_past(const camera_director_CameraFrame& frame) const {
+    return last_frame_ && frame.frame_time < last_frame_->frame_time - max_step_back;
+}
+
 // A frame of the far future would keep out all later ones.
 void ReceivedMatch::forget_future(const camera_director_CameraFrame& frame) {
-    if (!last_frame_ || frame.frame_time >= last_frame_->frame_time - max_step_back) return;
+    if (!is_of_past(frame)) return;
     track_.clear();
     clock_.clear();
 }
@@ -132,6 +143,10 @@ bool ReceivedMatch::accept(const camera_director_CameraFrame& frame, std::int64_
         return false;
     }
     if (!is_of_epoch(frame.epoch)) return false;
+    if (is_repeated(frame)) {
+        ++counters_.repeated;
+        return false;
+    }
     ++counters_.frames;
     forget_future(frame);
     if (!follows_last(frame)) track_.interrupt();

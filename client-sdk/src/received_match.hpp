@@ -17,8 +17,9 @@ namespace camdir::sdk {
 // accept() drops and counts samples that are malformed or of an earlier epoch. A newer epoch discards the
 // cameras and the director's answer of the earlier one. Once a director has described the match, a
 // description alone begins an epoch: an answer for a later one waits, and frames are dropped. Until then, an
-// answer for an earlier one waits for its description. Frames whose
-// time goes back by more than a second discard the cameras before them. One thread at a time.
+// answer for an earlier one waits for its description. Within an
+// epoch, frames of what has been shown are dropped and counted, too; those whose time goes back
+// by more than a second discard the cameras before them. One thread at a time.
 class ReceivedMatch {
   public:
     ReceivedMatch(std::string match_id, std::string observer_id, std::int64_t interpolation_delay);
@@ -60,6 +61,8 @@ class ReceivedMatch {
     [[nodiscard]] bool is_of_epoch(std::uint64_t epoch);
     void begin_epoch(std::uint64_t epoch);
     void take_early_status();
+    [[nodiscard]] bool is_repeated(const camera_director_CameraFrame& frame) const;
+    [[nodiscard]] bool is_of_past(const camera_director_CameraFrame& frame) const;
     void forget_future(const camera_director_CameraFrame& frame);
     [[nodiscard]] bool follows_last(const camera_director_CameraFrame& frame);
     [[nodiscard]] std::optional<cdir_camera> camera_of_shot(const camera_director_CameraFrame& frame) const;

@@ -567,6 +567,7 @@ typedef struct cdir_observer_counters {
     uint64_t hand_overs;  /* changes of the publishing director within an epoch */
     uint64_t stale_epoch; /* samples of an earlier epoch, dropped */
     uint64_t invalid;     /* malformed samples, dropped */
+    uint64_t repeated;    /* camera frames that had been shown before, dropped */
 } cdir_observer_counters;
 
 CDIR_DEFAULTS(cdir_observer_counters)

@@ -29,4 +29,4 @@ _Static_assert(sizeof(cdir_camera) == 56 && offsetof(cdir_camera, position) == 1
 _Static_assert(sizeof(cdir_camera_frame) == 56 && offsetof(cdir_camera_frame, frame_number) == 48, "");
 _Static_assert(sizeof(cdir_shot_status) == 280 && offsetof(cdir_shot_status, reason) == 24, "");
 _Static_assert(sizeof(cdir_view) == 24 && offsetof(cdir_view, late) == 16, "");
-_Static_assert(sizeof(cdir_observer_counters) == 48 && offsetof(cdir_observer_counters, frames) == 8, "");
+_Static_assert(sizeof(cdir_observer_counters) == 56 && offsetof(cdir_observer_counters, frames) == 8, "");

@@ -262,6 +262,26 @@ TEST_F(ReceivedMatchTest, ADirectorThatCountsOnContinuesTheShot) {
     EXPECT_NE(segment(), before);
 }
 
+TEST_F(ReceivedMatchTest, FramesThatHaveBeenShownAreDroppedAndCounted) {
+    answer(1, 5);
+    accept(1, 100, 1.0F, 0, 1);
+    EXPECT_TRUE(accept(1, 101, 2.0F, 0, 1));
+    const std::uint32_t before = segment();
+    EXPECT_FALSE(accept(1, 101, 2.5F, 0, 2)) << "by another director, which did not know";
+    EXPECT_FALSE(accept(1, 100, 1.0F, 0, 1)) << "sent again by one that could not be reached";
+    EXPECT_EQ(match_.counters().repeated, 2U);
+    EXPECT_EQ(match_.counters().frames, 2U);
+    EXPECT_EQ(match_.counters().hand_overs, 0U);
+    EXPECT_TRUE(accept(1, 102, 3.0F, 0, 1));
+    EXPECT_EQ(segment(), before) << "the motion goes on";
+    CameraFrameArrays paused = frame_of(1, 103);
+    paused.director_id = 1;
+    paused.frame_time = 102 * 16 * ms;
+    EXPECT_TRUE(accept(paused)) << "the game's time stands still";
+    EXPECT_FALSE(accept(paused));
+    EXPECT_TRUE(accept(2, 1, 3.0F)) << "in another epoch";
+}
+
 TEST_F(ReceivedMatchTest, CutAbsenceAndAnotherCameraBeginASegment) {
     answer(1, 5);
     accept(1, 0, 1.0F);
