@@ -1,5 +1,6 @@
 #include "dds/subscriber.hpp"
 
+#include <pthread.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -91,6 +92,7 @@ void Subscriber::start(director::Ingress& ingress) {
     assert(!thread_.joinable());
     ingress_ = &ingress;
     thread_ = std::thread([this] { run(); });
+    ::pthread_setname_np(thread_.native_handle(), "reception");
 }
 
 void Subscriber::stop() {

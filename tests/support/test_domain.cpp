@@ -27,8 +27,8 @@ int open_lock(const std::string& path) {
 }  // namespace
 
 // By the DDSI standard with port base 7400.
-std::string director_address(std::uint32_t domain, int participant_index) {
-    return "127.0.0.1:" +
+std::string director_address(std::uint32_t domain, int participant_index, const std::string& host) {
+    return host + ":" +
            std::to_string(7400 + 250 * domain + 10 + 2 * static_cast<std::uint32_t>(participant_index));
 }
 

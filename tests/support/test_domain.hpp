@@ -17,8 +17,9 @@ inline constexpr std::uint32_t shared_domain = 84;
 inline constexpr std::uint32_t first_director_domain = 85;
 inline constexpr std::uint32_t last_director_domain = 99;
 
-// HOST:PORT at which a director on loopback is found.
-[[nodiscard]] std::string director_address(std::uint32_t domain, int participant_index);
+// HOST:PORT at which a director is found.
+[[nodiscard]] std::string director_address(std::uint32_t domain, int participant_index,
+                                           const std::string& host = "127.0.0.1");
 
 // A domain that no other TestDomain on this machine uses until the destructor, or the process's end. The
 // constructor waits for a free one.
