@@ -298,6 +298,10 @@ bool MatchEndpoints::see(const director::CameraFrame& shown) {
     return true;
 }
 
+void MatchEndpoints::hear() {
+    change([](Succession& succession, Clock::time_point now) { succession.hear(now); });
+}
+
 void MatchEndpoints::see(const Sign& sign) {
     change([&](Succession& succession, Clock::time_point now) { succession.see(sign, now); });
 }

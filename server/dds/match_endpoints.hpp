@@ -48,7 +48,9 @@ class MatchEndpoints {
     // Disposes the observer's status.
     [[nodiscard]] Written withdraw(const std::string& observer_id);
 
-    // What other directors do. One thread at a time, as for all that follows up to decide().
+    // The game server has sent a pose frame. One thread at a time, as for all that follows up to decide().
+    void hear();
+    // What other directors do.
     void see(const Sign& sign);
     void leave(std::uint64_t director_id);
     // Returns whether this director stands by: what comes later of a former leader counts for nothing.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <tuple>
+#include <utility>
 
 namespace camdir::dds {
 namespace {
@@ -18,7 +19,11 @@ auto aptness_of(const Sign& sign) {
 
 Succession::Succession(std::uint64_t director_id, std::uint32_t rank, std::chrono::milliseconds lease,
                        Time now)
-    : lived_(now), settled_(now + settling), produced_(now - 2 * patience), camera_change_(now) {
+    : heard_(now - 2 * lease),
+      lived_(now),
+      settled_(now + settling),
+      produced_(now - 2 * patience),
+      camera_change_(now) {
     own_.director_id = director_id;
     own_.rank = rank;
     own_.lease = lease;
@@ -26,6 +31,7 @@ Succession::Succession(std::uint64_t director_id, std::uint32_t rank, std::chron
 
 void Succession::see(const Sign& other, Time now) {
     if (other.director_id == own_.director_id) return;
+    come_back(now);
     auto known = others_.find(other.director_id);
     if (known == others_.end()) {
         if (others_.size() >= max_others)
@@ -36,10 +42,18 @@ void Succession::see(const Sign& other, Time now) {
     if (known->second.sign.has_cameras != other.has_cameras) known->second.camera_change = now;
     known->second.sign = other;
     known->second.seen = now;
+    notice_reunion(now);
+    decide(now);
+}
+
+void Succession::hear(Time now) {
+    come_back(now);
+    heard_ = now;
     decide(now);
 }
 
 void Succession::leave(std::uint64_t director_id, Time now) {
+    come_back(now);
     others_.erase(director_id);
     decide(now);
 }
@@ -69,25 +83,75 @@ Succession::Clock::duration Succession::longest_silence() const {
     return own_.leads ? Clock::duration(own_.lease) : own_.lease - own_.lease * 3 / (2 * beats);
 }
 
-// Only the time that it listened counts: what the others did meanwhile they have the rest of their leases to
-// say, a whole one to a leader, and longer where they have to be met again.
 void Succession::notice_absence(Time now) {
     const Clock::duration absence = now - lived_;
     if (absence <= longest_silence()) return;
-    std::erase_if(others_, [&](const auto& entry) { return entry.second.seen + apart < lived_; });
+    if (!cut_off_) forget_dead(lived_);
     if (settled_ > lived_) settled_ += absence;
     lived_ = now;
+    miss(absence, now);
+}
+
+// Only the time that it listened counts: what the others did meanwhile they have the rest of their leases to
+// say, a whole one to a leader, and longer where they have to be met again.
+void Succession::miss(Clock::duration absence, Time now) {
     if (others_.empty()) return;
     if (absence > apart) barred_ = now + meeting;
     if (own_.leads) barred_ = std::max(barred_, now + std::max<Clock::duration>(own_.lease, settling));
     settled_ = std::max(settled_, barred_);
     own_.leads = false;
+    heard_ = std::min(now, heard_ + absence);
     for (auto& [id, other] : others_)
         other.seen = std::min(now, other.seen + absence);
 }
 
+const Succession::Other* Succession::last_heard() const {
+    const Other* last = nullptr;
+    for (const auto& [id, other] : others_)
+        if (last == nullptr || other.seen > last->seen) last = &other;
+    return last;
+}
+
+// The game server and the others together, and none of them has been heard since.
+bool Succession::all_fell_silent(Time now) const {
+    const Other* last = last_heard();
+    return last != nullptr && !lives(*last, now) && last->seen <= heard_ + own_.lease &&
+           heard_ <= last->seen + last->sign.lease;
+}
+
+void Succession::notice_cut(Time now) {
+    if (cut_off_ || !all_fell_silent(now) || now <= heard_ + own_.lease) return;
+    cut_off_ = std::max(heard_, last_heard()->seen);
+    own_.leads = false;
+}
+
+void Succession::come_back(Time now) {
+    notice_absence(now);
+    notice_cut(now);
+    if (!cut_off_) return;
+    const Time cut = *std::exchange(cut_off_, std::nullopt);
+    forget_dead(cut);
+    returned_ = now;
+    barred_ = now + std::max<Clock::duration>(own_.lease, settling);
+    miss(now - cut, now);
+}
+
+// Others that were dead for long by then.
+void Succession::forget_dead(Time then) {
+    std::erase_if(others_, [&](const auto& entry) { return entry.second.seen + apart < then; });
+}
+
+// Who leads is known again.
+void Succession::notice_reunion(Time now) {
+    if (!returned_ ||
+        std::ranges::any_of(others_, [&](const auto& entry) { return entry.second.seen <= *returned_; }))
+        return;
+    returned_.reset();
+    barred_ = settled_ = now;
+}
+
 void Succession::notice_cameras(Time now) {
-    const bool has_cameras = now - produced_ <= patience && now >= barred_;
+    const bool has_cameras = now - produced_ <= patience && now >= barred_ && !cut_off_;
     if (has_cameras == own_.has_cameras) return;
     own_.has_cameras = has_cameras;
     camera_change_ = now;
@@ -95,14 +159,15 @@ void Succession::notice_cameras(Time now) {
 
 void Succession::decide(Time now) {
     notice_absence(now);
+    notice_cut(now);
     notice_cameras(now);
-    if (resigned_) {
+    if (resigned_ || cut_off_) {
         own_.leads = false;
     } else if (const Other* other = leader(now)) {
         own_.leads = own_.leads ? claim_of(own_) > claim_of(other->sign) : may_depose(*other, now);
         if (!own_.leads) own_.term = std::min(max_term, std::max(own_.term, other->sign.term + 1));
     } else if (!own_.leads) {
-        own_.leads = now >= settled_ && is_first(now);
+        own_.leads = now >= settled_ && is_first(now) && !all_fell_silent(now);
         if (own_.leads) led_since_ = now;
     }
     if (own_.leads && now - led_since_ > establishing) own_.term = std::max(own_.term, 1U);
@@ -140,11 +205,12 @@ Succession::Time Succession::next_change(Time now) const {
         if (then > now) next = std::min(next, then);
     };
     consider(produced_ + patience + afterwards);
-    if (own_.leads) return next;
+    consider(heard_ + own_.lease + afterwards);
     consider(settled_);
     for (const auto& [id, other] : others_) {
         consider(other.seen + other.sign.lease + afterwards);
-        if (other.sign.leads && own_.has_cameras) consider(may_depose_from(other) + afterwards);
+        if (!own_.leads && other.sign.leads && own_.has_cameras)
+            consider(may_depose_from(other) + afterwards);
     }
     return next;
 }

@@ -1,10 +1,11 @@
 // Who of a match's directors leads it: whoever serves it, serves on; another follows only where the leader
-// dies, hangs, leaves or has no cameras.
+// dies, hangs, leaves, is cut off or has no cameras.
 #pragma once
 
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <unordered_map>
 
 namespace camdir::dds {
@@ -25,8 +26,9 @@ struct Sign {
     bool operator==(const Sign&) const = default;
 };
 
-// The view of one director. One thread at a time. Only what says so makes it take over; all else that may
-// change own() makes it stand by.
+// The view of one director. Where the game server and all other directors fall silent within a lease, it is
+// itself that cannot be reached: it stands by until it hears one of them again. One thread at a time. Only
+// what says so makes it take over; all else that may change own() makes it stand by.
 class Succession {
   public:
     using Clock = std::chrono::steady_clock;
@@ -51,6 +53,8 @@ class Succession {
 
     // It has computed cameras.
     void produce(Time now) { produced_ = now; }
+    // The game server was heard. May take over.
+    void hear(Time now);
     // May take over. Counts for nothing where max_others live.
     void see(const Sign& other, Time now);
     // It left: the next one takes over at once.
@@ -84,6 +88,13 @@ class Succession {
         return now <= other.seen + other.sign.lease;
     }
     [[nodiscard]] Clock::duration longest_silence() const;
+    [[nodiscard]] const Other* last_heard() const;
+    [[nodiscard]] bool all_fell_silent(Time now) const;
+    void notice_cut(Time now);
+    void come_back(Time now);
+    void forget_dead(Time then);
+    void notice_reunion(Time now);
+    void miss(Clock::duration absence, Time now);
     void notice_cameras(Time now);
     [[nodiscard]] const Other* leader(Time now) const;
     [[nodiscard]] bool is_first(Time now) const;
@@ -92,9 +103,12 @@ class Succession {
 
     Sign own_;
     bool resigned_ = false;
-    Time lived_;    // last sign of its own life
-    Time settled_;  // until then it does not take over
-    Time barred_;   // the same after an absence: until then others need not wait for it
+    std::optional<Time> cut_off_;   // when it heard somebody for the last time
+    std::optional<Time> returned_;  // since when it hears somebody again, as long as it has not heard all
+    Time heard_;                    // the game server
+    Time lived_;                    // last sign of its own life
+    Time settled_;                  // until then it does not take over
+    Time barred_;                   // the same after an absence: until then others need not wait for it
     Time led_since_;
     Time produced_;
     Time camera_change_;

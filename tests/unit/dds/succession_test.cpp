@@ -4,6 +4,8 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <tuple>
 #include <vector>
 
 namespace camdir::dds {
@@ -21,6 +23,7 @@ class Directors : public testing::Test {
         Succession succession;
         bool runs = true;
         bool has_cameras = false;
+        bool hears = true, is_heard = true;  // over the network
     };
 
     std::size_t add(std::uint32_t rank) {
@@ -32,7 +35,8 @@ class Directors : public testing::Test {
             now_ += beat;
             for (Member& member : members_) {
                 if (!member.runs) continue;
-                if (member.has_cameras) member.succession.produce(now_);
+                if (plays_ && member.hears) member.succession.hear(now_);
+                if (member.has_cameras || (plays_ && member.hears)) member.succession.produce(now_);
                 member.succession.live(now_);
             }
             if (connected_) tell();
@@ -41,7 +45,8 @@ class Directors : public testing::Test {
     void tell() {
         for (const Member& from : members_)
             for (Member& to : members_)
-                if (from.runs && to.runs) to.succession.see(from.succession.own(), now_);
+                if (from.runs && to.runs && from.is_heard && to.hears)
+                    to.succession.see(from.succession.own(), now_);
     }
     [[nodiscard]] bool leads(std::size_t member) const { return members_[member].succession.own().leads; }
     [[nodiscard]] std::size_t leaders() const {
@@ -55,7 +60,11 @@ class Directors : public testing::Test {
     }
     Succession& of(std::size_t member) { return members_[member].succession; }
 
+    // From and to the network.
+    void cut_off(std::size_t member, bool cut) { members_[member].hears = members_[member].is_heard = !cut; }
+
     bool connected_ = true;
+    bool plays_ = false;  // the game server, whose poses all can hear
     Succession::Time now_{};
     std::vector<Member> members_;
 };
@@ -357,25 +366,144 @@ TEST_F(Directors, ALeaderWithoutCamerasGivesWayToAStandbyThatHasThem) {
     EXPECT_EQ(leaders(), 1U);
 }
 
+TEST_F(Directors, OneThatWasCutOffDoesNotTakeTheMatchFromTheOneThatServes) {
+    for (const milliseconds absence : {milliseconds(300), milliseconds(6000), milliseconds(15'000)})
+        for (const bool strong : {false, true}) {
+            SCOPED_TRACE(absence.count());
+            members_.clear();
+            plays_ = true;
+            const auto leader = add(strong ? 100 : 200);
+            pass(milliseconds(2000));
+            const auto standby = add(strong ? 200 : 100);
+            pass(milliseconds(2000));
+            ASSERT_TRUE(leads(leader));
+            cut_off(standby, true);
+            pass(absence);
+            EXPECT_FALSE(leads(standby)) << "nobody would see what it shows";
+            cut_off(standby, false);
+            pass(milliseconds(5000));
+            EXPECT_TRUE(leads(leader));
+            EXPECT_FALSE(leads(standby));
+        }
+}
+
+TEST_F(Directors, OneThatHearsTheGameTakesOverFromALeaderThatIsCutOff) {
+    plays_ = true;
+    const auto leader = add(200);
+    pass(milliseconds(1000));
+    const auto standby = add(100);
+    pass(milliseconds(2000));
+    cut_off(leader, true);
+    pass(lease + 2 * beat);
+    EXPECT_TRUE(leads(standby));
+    EXPECT_FALSE(leads(leader));
+    cut_off(leader, false);
+    pass(milliseconds(5000));
+    EXPECT_TRUE(leads(standby));
+    EXPECT_EQ(leaders(), 1U);
+}
+
+TEST_F(Directors, ALeaderThatHearsNothingLeavesTheMatchToTheOthers) {
+    plays_ = true;
+    const auto leader = add(200);
+    pass(milliseconds(1000));
+    const auto standby = add(100);
+    pass(milliseconds(2000));
+    members_[leader].hears = false;
+    EXPECT_LE(of(leader).next_change(now_), now_ + lease + milliseconds(1));
+    pass(lease + 2 * beat);
+    EXPECT_FALSE(leads(leader));
+    EXPECT_TRUE(leads(standby));
+}
+
+TEST_F(Directors, ALeaderServesOnWhenOnlyTheGameOrOnlyTheOthersAreSilent) {
+    plays_ = true;
+    const auto leader = add(200);
+    const auto standby = add(100);
+    pass(milliseconds(2000));
+    plays_ = false;
+    pass(milliseconds(6000));
+    EXPECT_TRUE(leads(leader)) << "the game pauses";
+    members_[standby].runs = false;
+    pass(milliseconds(1000));
+    EXPECT_TRUE(leads(leader)) << "the standby dies meanwhile";
+    plays_ = true;
+    pass(milliseconds(1000));
+    members_[standby].runs = true;
+    pass(milliseconds(5000));
+    ASSERT_TRUE(leads(leader));
+    members_[standby].runs = false;
+    pass(milliseconds(1000));
+    EXPECT_TRUE(leads(leader)) << "the standby dies alone";
+    plays_ = false;
+    pass(milliseconds(6000));
+    EXPECT_TRUE(leads(leader)) << "the game pauses later";
+}
+
+TEST_F(Directors, AStandbyTakesOverWhileTheGamePauses) {
+    plays_ = true;
+    const auto leader = add(200);
+    const auto standby = add(100);
+    pass(milliseconds(2000));
+    plays_ = false;
+    pass(milliseconds(1000));
+    members_[leader].runs = false;
+    pass(milliseconds(300));
+    EXPECT_TRUE(leads(standby));
+}
+
+TEST_F(Directors, OneLeadsAgainAsSoonAsAllThatWereCutOffHaveMet) {
+    plays_ = true;
+    const auto leader = add(200);
+    const auto standby = add(100);
+    pass(milliseconds(2000));
+    for (const auto member : {leader, standby})
+        cut_off(member, true);
+    pass(milliseconds(6000));
+    EXPECT_EQ(leaders(), 0U);
+    for (const auto member : {leader, standby})
+        cut_off(member, false);
+    pass(3 * beat);
+    EXPECT_EQ(leaders(), 1U);
+}
+
+TEST_F(Directors, OneThatWasCutOffAloneLeadsAgainWhenNobodyElseComesBack) {
+    plays_ = true;
+    const auto leader = add(200);
+    const auto standby = add(100);
+    pass(milliseconds(2000));
+    cut_off(leader, true);
+    members_[standby].runs = false;
+    pass(milliseconds(6000));
+    EXPECT_FALSE(leads(leader));
+    cut_off(leader, false);
+    pass(Succession::meeting + milliseconds(100));
+    EXPECT_TRUE(leads(leader));
+}
+
 TEST_F(Directors, OneLeadsWhateverHappened) {
-    rc::check([this] {
+    EXPECT_TRUE(rc::check([this] {
         members_.clear();
+        plays_ = false;
         for (int i = 0; i < 3; ++i)
             add(*rc::gen::inRange(0U, 3U));
-        for (const auto& [member, time] : *rc::gen::container<std::vector<std::pair<std::size_t, int>>>(
-                 rc::gen::pair(rc::gen::inRange<std::size_t>(0, 3), rc::gen::inRange(0, 20)))) {
-            members_[member].runs = !members_[member].runs;
+        using Happening = std::tuple<std::size_t, int, int>;  // what to whom, and for how many beats
+        for (const auto& [member, what, time] : *rc::gen::container<std::vector<Happening>>(rc::gen::tuple(
+                 rc::gen::inRange<std::size_t>(0, 3), rc::gen::inRange(0, 4), rc::gen::inRange(0, 20)))) {
+            Member& whose = members_[member];
+            bool& flag = *std::array{&whose.runs, &whose.hears, &whose.is_heard, &plays_}.at(what);
+            flag = !flag;
             pass(time * beat);
         }
         for (Member& member : members_)
-            member.runs = true;
-        pass(Succession::meeting + milliseconds(1000));
-        RC_ASSERT(leaders() == 1);
+            member.runs = member.hears = member.is_heard = true;
+        pass(Succession::meeting + Succession::establishing + milliseconds(1000));
+        RC_ASSERT(leaders() == 1U);
         const std::uint32_t term = leader().own().term;
         pass(milliseconds(3000));
-        RC_ASSERT(leaders() == 1);
+        RC_ASSERT(leaders() == 1U);
         RC_ASSERT(leader().own().term == term);
-    });
+    }));
 }
 
 }  // namespace
