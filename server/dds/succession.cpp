@@ -19,7 +19,7 @@ auto aptness_of(const Sign& sign) {
 
 Succession::Succession(std::uint64_t director_id, std::uint32_t rank, std::chrono::milliseconds lease,
                        Time now)
-    : heard_(now - 2 * lease),
+    : heard_(now - 2 * together),
       lived_(now),
       settled_(now + settling),
       produced_(now - 2 * patience),
@@ -112,16 +112,19 @@ const Succession::Other* Succession::last_heard() const {
     return last;
 }
 
-// The game server and the others together, and none of them has been heard since.
-bool Succession::all_fell_silent(Time now) const {
+// The game server that was heard until about the last sign of the others has not been heard since they are
+// dead: it tells whether it is they who are gone.
+bool Succession::waits_for_game(Time now) const {
     const Other* last = last_heard();
-    return last != nullptr && !lives(*last, now) && last->seen <= heard_ + own_.lease &&
+    return last != nullptr && !lives(*last, now) && last->seen <= heard_ + together &&
            heard_ <= last->seen + last->sign.lease;
 }
 
 void Succession::notice_cut(Time now) {
-    if (cut_off_ || !all_fell_silent(now) || now <= heard_ + own_.lease) return;
-    cut_off_ = std::max(heard_, last_heard()->seen);
+    const Other* last = last_heard();
+    if (cut_off_ || last == nullptr || lives(*last, now) || now <= heard_ + own_.lease) return;
+    if (last->seen > heard_ + together || heard_ > last->seen + together) return;
+    cut_off_ = std::max(heard_, last->seen);
     own_.leads = false;
 }
 
@@ -167,7 +170,7 @@ void Succession::decide(Time now) {
         own_.leads = own_.leads ? claim_of(own_) > claim_of(other->sign) : may_depose(*other, now);
         if (!own_.leads) own_.term = std::min(max_term, std::max(own_.term, other->sign.term + 1));
     } else if (!own_.leads) {
-        own_.leads = now >= settled_ && is_first(now) && !all_fell_silent(now);
+        own_.leads = now >= settled_ && is_first(now) && !waits_for_game(now);
         if (own_.leads) led_since_ = now;
     }
     if (own_.leads && now - led_since_ > establishing) own_.term = std::max(own_.term, 1U);

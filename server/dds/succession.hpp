@@ -26,8 +26,8 @@ struct Sign {
     bool operator==(const Sign&) const = default;
 };
 
-// The view of one director. Where the game server and all other directors fall silent within a lease, it is
-// itself that cannot be reached: it stands by until it hears one of them again. One thread at a time. Only
+// The view of one director. Where the game server and all other directors fall silent together, it is itself
+// that cannot be reached: it stands by until it hears one of them again. One thread at a time. Only
 // what says so makes it take over; all else that may change own() makes it stand by.
 class Succession {
   public:
@@ -42,6 +42,8 @@ class Succession {
     // Directors that were apart for longer than `apart` have forgotten each other, and need so long until
     // they have met again.
     static constexpr std::chrono::seconds apart{5}, meeting{3};
+    // Others who have lost this director forget it, and fall silent, within so long of each other.
+    static constexpr std::chrono::seconds together{2};
     // After so long a first leader's term is later than that of one that begins and has not found it yet.
     static constexpr std::chrono::seconds establishing{1};
     static constexpr std::size_t max_others = 64;
@@ -89,7 +91,7 @@ class Succession {
     }
     [[nodiscard]] Clock::duration longest_silence() const;
     [[nodiscard]] const Other* last_heard() const;
-    [[nodiscard]] bool all_fell_silent(Time now) const;
+    [[nodiscard]] bool waits_for_game(Time now) const;
     void notice_cut(Time now);
     void come_back(Time now);
     void forget_dead(Time then);

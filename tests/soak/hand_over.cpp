@@ -2,14 +2,11 @@
 // back.
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
-#include <csignal>
-#include <functional>
 #include <iomanip>
 #include <iostream>
-#include <iterator>
 
 #include "evaluation/resample.hpp"
+#include "hand_over_rows.hpp"
 #include "hand_over_stage.hpp"
 
 namespace camdir::soak {
@@ -17,146 +14,16 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr milliseconds absence{6000};
-// DDS forgets who is silent for 10 s.
-constexpr milliseconds long_absence{12'000}, forgotten_absence{15'000};
 constexpr milliseconds afterwards{4000};  // at least so long is measured
 
 struct Options {
     Stage::Options stage;
     double seconds = 10.0;
     int runs = 1;
-    std::string only;
+    std::vector<std::string> only;
     double longest_gap_ms = 450.0;  // the lease and as much again, for a busy machine
     bool logs = false;
 };
-
-struct Row {
-    std::string name;
-    std::function<void(Stage&)> happens;
-    bool from_start = false;   // measures from the first frame
-    double more_gap_ms = 0.0;  // where it is not the directors' fault
-    std::uint64_t forced = 0;  // cuts where the game's own poses jump
-    enum class Means { processes, hosts, clocks } means = Means::processes;
-};
-
-const std::vector<Stage::Way> leader_cut_off{{Stage::leaders, Stage::standbys},
-                                             {Stage::standbys, Stage::leaders},
-                                             {Stage::leaders, Stage::clients},
-                                             {Stage::clients, Stage::leaders}};
-const std::vector<Stage::Way> standby_cut_off{{Stage::leaders, Stage::standbys},
-                                              {Stage::standbys, Stage::leaders},
-                                              {Stage::standbys, Stage::clients},
-                                              {Stage::clients, Stage::standbys}};
-const std::vector<Stage::Way> directors_apart{{Stage::leaders, Stage::standbys},
-                                              {Stage::standbys, Stage::leaders}};
-const std::vector<Stage::Way> leader_deaf{{Stage::standbys, Stage::leaders},
-                                          {Stage::clients, Stage::leaders}};
-const std::vector<Stage::Way> leader_dumb{{Stage::leaders, Stage::standbys},
-                                          {Stage::leaders, Stage::clients}};
-
-// What the network does between hosts.
-std::vector<Row> network_rows() {
-    const auto row = [](const std::string& name, const std::vector<Stage::Way>& ways, milliseconds duration) {
-        const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(duration).count();
-        return Row{.name = name + " " + std::to_string(seconds) + " s",
-                   .happens = [&ways, duration](Stage& s) { s.cut(ways, duration); },
-                   .means = Row::Means::hosts};
-    };
-    return {
-        {.name = "nothing, three hosts", .happens = [](Stage&) {}, .means = Row::Means::hosts},
-        row("leader cut off", leader_cut_off, absence),
-        row("leader cut off", leader_cut_off, forgotten_absence),
-        row("leader deaf", leader_deaf, absence),
-        row("leader deaf", leader_deaf, forgotten_absence),
-        row("leader dumb", leader_dumb, absence),
-        row("leader dumb", leader_dumb, forgotten_absence),
-        row("standby cut off", standby_cut_off, absence),
-        row("standby cut off", standby_cut_off, forgotten_absence),
-        row("directors apart", directors_apart, absence),
-        row("directors apart", directors_apart, forgotten_absence),
-    };
-}
-
-std::vector<Row> clock_rows() {
-    const auto row = [](const std::string& name, auto clock, std::chrono::seconds by) {
-        return Row{.name = name + (by.count() < 0 ? " an hour back" : " an hour on"),
-                   .happens = [=](Stage& s) { (s.*clock)->step(by); },
-                   .means = Row::Means::clocks};
-    };
-    constexpr std::chrono::hours hour{1};
-    return {row("leader's clock", &Stage::leader_clock, hour),
-            row("leader's clock", &Stage::leader_clock, -hour), row("game's clock", &Stage::game_clock, hour),
-            row("game's clock", &Stage::game_clock, -hour)};
-}
-
-std::vector<Row> process_rows() {
-    const auto pause = [] { std::this_thread::sleep_for(absence); };
-    return {
-        {"nothing", [](Stage&) {}},
-        {"leader killed", [](Stage& s) { s.leader->signal(SIGKILL); }},
-        {"leader SIGTERM", [](Stage& s) { s.leader->signal(SIGTERM); }},
-        {"leader hands over", [](Stage& s) { s.leader->hand_over(); }},
-        {"leader stopped 6 s",
-         [=](Stage& s) {
-             s.leader->signal(SIGSTOP);
-             pause();
-             s.leader->signal(SIGCONT);
-         }},
-        {"leader stopped 12 s",
-         [](Stage& s) {
-             s.leader->signal(SIGSTOP);
-             std::this_thread::sleep_for(long_absence);
-             s.leader->signal(SIGCONT);
-         }},
-        {"leader killed, back",
-         [=](Stage& s) {
-             s.leader->signal(SIGKILL);
-             s.leader->wait();
-             pause();
-             s.start_leader();
-         }},
-        {"both start together", [](Stage&) {}, true},
-        {"leader back, baking",
-         [=](Stage& s) {
-             s.leader->signal(SIGKILL);
-             s.leader->wait();
-             std::this_thread::sleep_for(milliseconds(1000));
-             s.return_while_the_map_is_baked();
-         }},
-        {"standby stopped 6 s",
-         [=](Stage& s) {
-             s.standby->signal(SIGSTOP);
-             pause();
-             s.standby->signal(SIGCONT);
-         }},
-        {"standby killed", [](Stage& s) { s.standby->signal(SIGKILL); }},
-        {"leader's workers hang 6 s", [](Stage& s) { s.leader->hang_threads("worker-", absence); }},
-        {"leader's reception hangs 6 s", [](Stage& s) { s.leader->hang_threads("reception", absence); }},
-        {"observer late 1 s", [](Stage& s) { s.pause_observer(milliseconds(1000)); }, false, 1000.0},
-        {"game stopped 6 s",
-         [=](Stage& s) {
-             s.game->send_signal(SIGSTOP);
-             pause();
-             s.game->send_signal(SIGCONT);
-         },
-         false, 6000.0, 1},
-        {"game restarted",
-         [](Stage& s) {
-             s.game->send_signal(SIGKILL);
-             s.game->wait();
-             s.start_game();
-         },
-         false, 1000.0},
-    };
-}
-
-std::vector<Row> rows() {
-    std::vector<Row> all;
-    for (std::vector<Row>& some : std::array{process_rows(), network_rows(), clock_rows()})
-        std::ranges::move(some, std::back_inserter(all));
-    return all;
-}
 
 // The hosts of the rows that need some, or why there are none.
 struct Network {
@@ -216,10 +83,17 @@ std::string fault(const HandOver& found, const Row& row, const Options& options)
     constexpr double farthest_leap = 40.0;  // cameras turn round a player faster than the player moves
     if (found.silent_s > longest_silence_s) return "no cameras any more";
     if (found.stale > 0) return "stale frames";
+    if (found.changes > row.changes) return "the match taken from a leader that serves it";
     if (found.unforced > row.forced) return "a cut without a reason";
     if (found.leap > farthest_leap) return "a jump";
     if (found.gap_ms > options.longest_gap_ms + row.more_gap_ms) return "a long gap";
     return "";
+}
+
+bool is_wanted(const Row& row, const Options& options) {
+    return options.only.empty() || std::ranges::any_of(options.only, [&](const std::string& part) {
+               return row.name.find(part) != std::string::npos;
+           });
 }
 
 void print_head() {
@@ -249,7 +123,7 @@ int run(const Options& options) {
     int played = 0;
     bool flawless = true;
     for (const Row& row : rows()) {
-        if (row.name.find(options.only) == std::string::npos) continue;
+        if (!is_wanted(row, options)) continue;
         if (const std::string lacking = lacks(row, network); !lacking.empty()) {
             std::cout << std::left << std::setw(32) << row.name << "  needs " << lacking << std::endl;
             continue;
@@ -281,7 +155,7 @@ int main(int argc, char** argv) {
     app.add_option("--delay", options.stage.delay_s, "Spectator delay, s")->capture_default_str();
     app.add_option("--seconds", options.seconds, "Measured in each row")->capture_default_str();
     app.add_option("--runs", options.runs, "Of each row")->capture_default_str();
-    app.add_option("--only", options.only, "Rows whose name contains this");
+    app.add_option("--only", options.only, "Rows whose name contains this; may be repeated");
     app.add_option("--max-gap", options.longest_gap_ms, "A longer gap is a fault, ms")->capture_default_str();
     app.add_flag("--logs", options.logs, "Shows the directors' logs");
     CLI11_PARSE(app, argc, argv);

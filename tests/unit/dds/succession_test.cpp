@@ -23,7 +23,7 @@ class Directors : public testing::Test {
         Succession succession;
         bool runs = true;
         bool has_cameras = false;
-        bool hears = true, is_heard = true;  // over the network
+        bool hears = true, hears_game = true, is_heard = true;  // over the network
     };
 
     std::size_t add(std::uint32_t rank) {
@@ -35,8 +35,9 @@ class Directors : public testing::Test {
             now_ += beat;
             for (Member& member : members_) {
                 if (!member.runs) continue;
-                if (plays_ && member.hears) member.succession.hear(now_);
-                if (member.has_cameras || (plays_ && member.hears)) member.succession.produce(now_);
+                const bool has_poses = plays_ && member.hears_game;
+                if (has_poses) member.succession.hear(now_);
+                if (member.has_cameras || has_poses) member.succession.produce(now_);
                 member.succession.live(now_);
             }
             if (connected_) tell();
@@ -61,7 +62,9 @@ class Directors : public testing::Test {
     Succession& of(std::size_t member) { return members_[member].succession; }
 
     // From and to the network.
-    void cut_off(std::size_t member, bool cut) { members_[member].hears = members_[member].is_heard = !cut; }
+    void cut_off(std::size_t member, bool cut) {
+        members_[member].hears = members_[member].hears_game = members_[member].is_heard = !cut;
+    }
 
     bool connected_ = true;
     bool plays_ = false;  // the game server, whose poses all can hear
@@ -409,7 +412,7 @@ TEST_F(Directors, ALeaderThatHearsNothingLeavesTheMatchToTheOthers) {
     pass(milliseconds(1000));
     const auto standby = add(100);
     pass(milliseconds(2000));
-    members_[leader].hears = false;
+    members_[leader].hears = members_[leader].hears_game = false;
     EXPECT_LE(of(leader).next_change(now_), now_ + lease + milliseconds(1));
     pass(lease + 2 * beat);
     EXPECT_FALSE(leads(leader));
@@ -433,11 +436,36 @@ TEST_F(Directors, ALeaderServesOnWhenOnlyTheGameOrOnlyTheOthersAreSilent) {
     pass(milliseconds(5000));
     ASSERT_TRUE(leads(leader));
     members_[standby].runs = false;
-    pass(milliseconds(1000));
+    pass(Succession::together + milliseconds(500));
     EXPECT_TRUE(leads(leader)) << "the standby dies alone";
     plays_ = false;
     pass(milliseconds(6000));
     EXPECT_TRUE(leads(leader)) << "the game pauses later";
+}
+
+// The others forget one that only hears them after 10 s, each at its own time.
+TEST_F(Directors, OneThatIsNotHeardDoesNotTakeTheMatchWhenItIsHeardAgain) {
+    for (const milliseconds offset : {milliseconds(-1000), milliseconds(-300), milliseconds(300)}) {
+        SCOPED_TRACE(offset.count());
+        members_.clear();
+        plays_ = true;
+        const auto leader = add(200);
+        pass(milliseconds(2000));
+        const auto standby = add(100);
+        pass(milliseconds(2000));
+        members_[leader].is_heard = false;
+        pass(milliseconds(10'000));
+        ASSERT_TRUE(leads(standby));
+        (offset.count() < 0 ? members_[leader].hears_game : members_[leader].hears) = false;
+        pass(std::max(offset, -offset));
+        members_[leader].hears = members_[leader].hears_game = false;
+        pass(milliseconds(5000));
+        EXPECT_FALSE(leads(leader));
+        members_[leader].hears = members_[leader].hears_game = members_[leader].is_heard = true;
+        pass(milliseconds(5000));
+        EXPECT_TRUE(leads(standby));
+        EXPECT_EQ(leaders(), 1U);
+    }
 }
 
 TEST_F(Directors, AStandbyTakesOverWhileTheGamePauses) {
@@ -446,7 +474,7 @@ TEST_F(Directors, AStandbyTakesOverWhileTheGamePauses) {
     const auto standby = add(100);
     pass(milliseconds(2000));
     plays_ = false;
-    pass(milliseconds(1000));
+    pass(Succession::together + milliseconds(500));
     members_[leader].runs = false;
     pass(milliseconds(300));
     EXPECT_TRUE(leads(standby));
@@ -489,14 +517,15 @@ TEST_F(Directors, OneLeadsWhateverHappened) {
             add(*rc::gen::inRange(0U, 3U));
         using Happening = std::tuple<std::size_t, int, int>;  // what to whom, and for how many beats
         for (const auto& [member, what, time] : *rc::gen::container<std::vector<Happening>>(rc::gen::tuple(
-                 rc::gen::inRange<std::size_t>(0, 3), rc::gen::inRange(0, 4), rc::gen::inRange(0, 20)))) {
+                 rc::gen::inRange<std::size_t>(0, 3), rc::gen::inRange(0, 5), rc::gen::inRange(0, 20)))) {
             Member& whose = members_[member];
-            bool& flag = *std::array{&whose.runs, &whose.hears, &whose.is_heard, &plays_}.at(what);
+            bool& flag =
+                *std::array{&whose.runs, &whose.hears, &whose.hears_game, &whose.is_heard, &plays_}.at(what);
             flag = !flag;
             pass(time * beat);
         }
         for (Member& member : members_)
-            member.runs = member.hears = member.is_heard = true;
+            member.runs = member.hears = member.hears_game = member.is_heard = true;
         pass(Succession::meeting + Succession::establishing + milliseconds(1000));
         RC_ASSERT(leaders() == 1U);
         const std::uint32_t term = leader().own().term;
