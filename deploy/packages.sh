@@ -23,8 +23,9 @@ map_packages=(openarena-081-maps)
 game_packages=(openarena-server openarena xvfb libgl1-mesa-dri)
 # Videos of it.
 film_packages=(ffmpeg)
-# What test.sh needs in addition. Of prometheus it is promtool, which checks the alerts.
-test_packages=(clang-format-14 openarena-088-data prometheus)
+# What test.sh needs in addition. Of prometheus it is promtool, which checks the alerts; iproute2 makes networks that
+# can be cut, libfaketime clocks that can be stepped.
+test_packages=(clang-format-14 openarena-088-data prometheus iproute2 libfaketime)
 # What test.sh --all needs in addition.
 lint_packages=(clang-14 clang-tidy-14 libclang-rt-14-dev)
 # For building Debian packages, and for testing them in an empty Debian.

@@ -1,14 +1,17 @@
 #!/usr/bin/env bash
-# Shows in a table what an observer of a replayed match sees when a director or the game server dies, stops, hangs or
-# comes back, with a leader and a standby.
+# Shows in a table what an observer of a replayed match sees when a director or the game server dies, stops, hangs, is
+# cut off or comes back, or its clock is stepped, with a leader and a standby.
 #
 #     hand_over.sh [--bin FOLDER] [--work FOLDER] [OPTION OF hand-over]...
 #
 # The map is oa_dm1 of Debian's openarena-081-maps, the match deploy/demo/match.csv.gz. The baked map stays in the work
-# folder for the next run. Columns: the longest time without the observer's camera; pose frames without one; frames
-# older than the one before; changes of the director; cuts where the player did not respawn or teleport; the largest
-# step of the camera without a cut, less the player's own, in map units; frames without the observer's shot; what no
-# viewer should have seen. Exit codes: 0 nothing of that, 1 something, or failed, 2 bad usage, 77 no map.
+# folder for the next run. In some rows leader, standby and the others have a host each, made of network namespaces: a
+# host that is cut off neither receives nor reaches anybody, a deaf one receives nothing, a dumb one reaches nobody, and
+# directors that are apart do not reach each other. What this machine lacks for a row is named in its place. Columns: the
+# longest time without the observer's camera; pose frames without one; frames older than the one before; changes of the
+# director; cuts where the player did not respawn or teleport; the largest step of the camera without a cut, less the
+# player's own, in map units; frames without the observer's shot; what no viewer should have seen. Exit codes: 0 nothing
+# of that, 1 something, or failed, 2 bad usage, 77 no map, or what all of the rows need.
 set -euo pipefail
 
 here=$(cd "$(dirname "$0")" && pwd)
