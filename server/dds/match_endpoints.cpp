@@ -298,8 +298,10 @@ bool MatchEndpoints::see(const director::CameraFrame& shown) {
     return true;
 }
 
-void MatchEndpoints::hear() {
-    change([](Succession& succession, Clock::time_point now) { succession.hear(now); });
+bool MatchEndpoints::hear() {
+    bool awaited = false;
+    change([&](Succession& succession, Clock::time_point now) { awaited = succession.hear(now); });
+    return awaited;
 }
 
 void MatchEndpoints::see(const Sign& sign) {

@@ -48,8 +48,9 @@ class MatchEndpoints {
     // Disposes the observer's status.
     [[nodiscard]] Written withdraw(const std::string& observer_id);
 
-    // The game server has sent a pose frame. One thread at a time, as for all that follows up to decide().
-    void hear();
+    // The game server has sent a pose frame. Returns whether decide() is due. One thread at a time, as for
+    // all that follows up to decide().
+    [[nodiscard]] bool hear();
     // What other directors do.
     void see(const Sign& sign);
     void leave(std::uint64_t director_id);

@@ -247,7 +247,7 @@ void Subscriber::take_poses(Match& match) {
     pose_samples_.take(match.endpoints->pose_reader(), [&](const auto& sample, const auto& info) {
         if (!info.valid_data || !is_valid(match, Topic::pose_frame, sample, pose_frame_)) return;
         if (!is_of_owner(match, info)) return drop(Topic::pose_frame, ValidationError::not_owner, match.id());
-        match.endpoints->hear();
+        if (match.endpoints->hear()) next_decision_ = Clock::now();
         if (accept(match, Topic::pose_frame)) ingress_->receive(match.id(), pose_frame_);
     });
 }

@@ -46,10 +46,11 @@ void Succession::see(const Sign& other, Time now) {
     decide(now);
 }
 
-void Succession::hear(Time now) {
+bool Succession::hear(Time now) {
+    const bool awaited = waits_for_game(now);
     come_back(now);
     heard_ = now;
-    decide(now);
+    return awaited;
 }
 
 void Succession::leave(std::uint64_t director_id, Time now) {
@@ -95,6 +96,7 @@ void Succession::notice_absence(Time now) {
 // Only the time that it listened counts: what the others did meanwhile they have the rest of their leases to
 // say, a whole one to a leader, and longer where they have to be met again.
 void Succession::miss(Clock::duration absence, Time now) {
+    returned_.reset();
     if (others_.empty()) return;
     if (absence > apart) barred_ = now + meeting;
     if (own_.leads) barred_ = std::max(barred_, now + std::max<Clock::duration>(own_.lease, settling));
@@ -134,9 +136,9 @@ void Succession::come_back(Time now) {
     if (!cut_off_) return;
     const Time cut = *std::exchange(cut_off_, std::nullopt);
     forget_dead(cut);
-    returned_ = now;
-    barred_ = now + std::max<Clock::duration>(own_.lease, settling);
+    barred_ = std::max(barred_, now + std::max<Clock::duration>(own_.lease, settling));
     miss(now - cut, now);
+    returned_ = now;
 }
 
 // Others that were dead for long by then.

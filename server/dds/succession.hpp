@@ -55,8 +55,8 @@ class Succession {
 
     // It has computed cameras.
     void produce(Time now) { produced_ = now; }
-    // The game server was heard. May take over.
-    void hear(Time now);
+    // The game server was heard. Returns whether a decision has waited for it: decide() is due.
+    [[nodiscard]] bool hear(Time now);
     // May take over. Counts for nothing where max_others live.
     void see(const Sign& other, Time now);
     // It left: the next one takes over at once.

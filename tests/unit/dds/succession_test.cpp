@@ -36,7 +36,7 @@ class Directors : public testing::Test {
             for (Member& member : members_) {
                 if (!member.runs) continue;
                 const bool has_poses = plays_ && member.hears_game;
-                if (has_poses) member.succession.hear(now_);
+                if (has_poses) std::ignore = member.succession.hear(now_);
                 if (member.has_cameras || has_poses) member.succession.produce(now_);
                 member.succession.live(now_);
             }
@@ -404,6 +404,21 @@ TEST_F(Directors, OneThatHearsTheGameTakesOverFromALeaderThatIsCutOff) {
     pass(milliseconds(5000));
     EXPECT_TRUE(leads(standby));
     EXPECT_EQ(leaders(), 1U);
+}
+
+TEST_F(Directors, AStandbyWaitsForTheGameBeforeItTakesALeaderForDead) {
+    plays_ = true;
+    const auto leader = add(200);
+    const auto standby = add(100);
+    pass(milliseconds(2000));
+    members_[leader].runs = false;
+    pass(lease);
+    const auto dead = now_ + milliseconds(1);
+    of(standby).decide(dead);
+    EXPECT_FALSE(leads(standby));
+    EXPECT_TRUE(of(standby).hear(dead + milliseconds(2)));
+    of(standby).decide(dead + milliseconds(2));
+    EXPECT_TRUE(leads(standby));
 }
 
 TEST_F(Directors, ALeaderThatHearsNothingLeavesTheMatchToTheOthers) {
