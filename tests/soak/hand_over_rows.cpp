@@ -26,6 +26,13 @@ const std::vector<Stage::Way> standby_cut_off{{Stage::leaders, Stage::standbys},
                                               {Stage::clients, Stage::standbys}};
 const std::vector<Stage::Way> directors_apart{{Stage::leaders, Stage::standbys},
                                               {Stage::standbys, Stage::leaders}};
+const std::vector<Stage::Way> clients_cut_off{{Stage::leaders, Stage::clients},
+                                              {Stage::clients, Stage::leaders},
+                                              {Stage::standbys, Stage::clients},
+                                              {Stage::clients, Stage::standbys}};
+const std::vector<Stage::Way> all_cut_off{
+    {Stage::leaders, Stage::clients},  {Stage::clients, Stage::leaders},  {Stage::standbys, Stage::clients},
+    {Stage::clients, Stage::standbys}, {Stage::leaders, Stage::standbys}, {Stage::standbys, Stage::leaders}};
 const std::vector<Stage::Way> leader_deaf{{Stage::standbys, Stage::leaders},
                                           {Stage::clients, Stage::leaders}};
 const std::vector<Stage::Way> leader_dumb{{Stage::leaders, Stage::standbys},
@@ -41,6 +48,11 @@ std::vector<Row> network_rows() {
                    .changes = changes,
                    .means = Row::Means::hosts};
     };
+    // Nobody can serve the observer for that long, and when they meet again all must be sent anew.
+    const auto blind = [](Row row, milliseconds duration) {
+        row.more_gap_ms = std::chrono::duration<double, std::milli>(duration + milliseconds(500)).count();
+        return row;
+    };
     return {
         {.name = "nothing, three hosts", .happens = [](Stage&) {}, .means = Row::Means::hosts},
         row("leader cut off", leader_cut_off, absence, 1),
@@ -53,6 +65,10 @@ std::vector<Row> network_rows() {
         row("standby cut off", standby_cut_off, forgotten_absence, 0),
         row("directors apart", directors_apart, absence, 1),
         row("directors apart", directors_apart, forgotten_absence, 1),
+        blind(row("clients cut off", clients_cut_off, absence, 0), absence),
+        blind(row("clients cut off", clients_cut_off, forgotten_absence, 0), forgotten_absence),
+        blind(row("all cut off", all_cut_off, absence, 1), absence),
+        blind(row("all cut off", all_cut_off, forgotten_absence, 1), forgotten_absence),
     };
 }
 
