@@ -80,7 +80,8 @@ HandOver play(const Row& row, const Options& options, const evaluation::Trace& t
 // What no viewer should see; empty when there was none of it.
 std::string fault(const HandOver& found, const Row& row, const Options& options) {
     constexpr double longest_silence_s = 1.0;
-    constexpr double farthest_leap = 40.0;  // cameras turn round a player faster than the player moves
+    // Cameras turn round a player faster than the player moves, also while a busy machine shows nothing.
+    const double farthest_leap = std::max(40.0, 0.1 * found.gap_ms);
     if (found.silent_s > longest_silence_s) return "no cameras any more";
     if (found.stale > 0) return "stale frames";
     if (found.changes > row.changes) return "the match taken from a leader that serves it";
