@@ -39,6 +39,8 @@ bool connection_option(cdir_context_options* options, const char* name, const ch
         options->network_interface = value;
     } else if (strcmp(name, "directors") == 0) {
         options->directors = value;
+    } else if (strcmp(name, "security") == 0) {
+        options->security = value;
     } else {
         return false;
     }

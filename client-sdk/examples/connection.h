@@ -11,6 +11,7 @@
     "  --domain N            DDS domain (default 0)\n"                         \
     "  --interface NAME      network interface or address (default lo)\n"      \
     "  --directors LIST      addresses of the directors (default 127.0.0.1)\n" \
+    "  --security FOLDER     identity for DDS Security (default: plain DDS)\n" \
     "  --help\n"
 
 /* Exit codes: 0 done, 1 failed, 2 bad usage. */
@@ -20,7 +21,8 @@ enum { EXIT_USAGE = 2 };
 extern volatile sig_atomic_t stop_requested;
 void catch_signals(void);
 
-/* Stores the value of --domain, --interface or --directors; returns false when `name` is none of them. */
+/* Stores the value of --domain, --interface, --directors or --security; returns false when `name` is none of
+ * them. */
 bool connection_option(cdir_context_options* options, const char* name, const char* value);
 
 /* The number in an option's value. Ends the program with EXIT_USAGE when it is not a number from min to max.

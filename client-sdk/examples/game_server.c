@@ -99,17 +99,13 @@ static void copy_string(char* to, size_t size, const char* from) {
 }
 
 int main(int argc, char** argv) {
-    static const struct option known[] = {{"match", required_argument, NULL, 0},
-                                          {"map", required_argument, NULL, 0},
-                                          {"centre", required_argument, NULL, 0},
-                                          {"radius", required_argument, NULL, 0},
-                                          {"rate", required_argument, NULL, 0},
-                                          {"seconds", required_argument, NULL, 0},
-                                          {"domain", required_argument, NULL, 0},
-                                          {"interface", required_argument, NULL, 0},
-                                          {"directors", required_argument, NULL, 0},
-                                          {"help", no_argument, NULL, 'h'},
-                                          {NULL, 0, NULL, 0}};
+    static const struct option known[] = {
+        {"match", required_argument, NULL, 0},     {"map", required_argument, NULL, 0},
+        {"centre", required_argument, NULL, 0},    {"radius", required_argument, NULL, 0},
+        {"rate", required_argument, NULL, 0},      {"seconds", required_argument, NULL, 0},
+        {"domain", required_argument, NULL, 0},    {"interface", required_argument, NULL, 0},
+        {"directors", required_argument, NULL, 0}, {"security", required_argument, NULL, 0},
+        {"help", no_argument, NULL, 'h'},          {NULL, 0, NULL, 0}};
 
     cdir_context_options options = cdir_context_options_default();
     cdir_match_info info = cdir_match_info_default();

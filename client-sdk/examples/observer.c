@@ -111,19 +111,14 @@ static void print_usage(FILE* to) {
 }
 
 int main(int argc, char** argv) {
-    static const struct option known[] = {{"match", required_argument, NULL, 0},
-                                          {"id", required_argument, NULL, 0},
-                                          {"target", required_argument, NULL, 0},
-                                          {"profile", required_argument, NULL, 0},
-                                          {"overrides", required_argument, NULL, 0},
-                                          {"rate", required_argument, NULL, 0},
-                                          {"seconds", required_argument, NULL, 0},
-                                          {"patience", required_argument, NULL, 0},
-                                          {"domain", required_argument, NULL, 0},
-                                          {"interface", required_argument, NULL, 0},
-                                          {"directors", required_argument, NULL, 0},
-                                          {"help", no_argument, NULL, 'h'},
-                                          {NULL, 0, NULL, 0}};
+    static const struct option known[] = {
+        {"match", required_argument, NULL, 0},     {"id", required_argument, NULL, 0},
+        {"target", required_argument, NULL, 0},    {"profile", required_argument, NULL, 0},
+        {"overrides", required_argument, NULL, 0}, {"rate", required_argument, NULL, 0},
+        {"seconds", required_argument, NULL, 0},   {"patience", required_argument, NULL, 0},
+        {"domain", required_argument, NULL, 0},    {"interface", required_argument, NULL, 0},
+        {"directors", required_argument, NULL, 0}, {"security", required_argument, NULL, 0},
+        {"help", no_argument, NULL, 'h'},          {NULL, 0, NULL, 0}};
 
     cdir_context_options options = cdir_context_options_default();
     cdir_shot_request request = cdir_shot_request_default();

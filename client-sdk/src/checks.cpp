@@ -6,6 +6,7 @@
 #include <set>
 
 #include "failure.hpp"
+#include "idl/security.hpp"
 
 namespace camdir::sdk {
 
@@ -76,6 +77,12 @@ std::string checked_observer_id(const char* text) {
 
 void check_frame_time(std::int64_t frame_time) {
     require(is_time(frame_time), "frame_time must be within 73 years of 0");
+}
+
+void check_identity(const std::string& folder) {
+    require(!folder.empty(), "security is empty: expected the folder of an identity, or null for plain DDS");
+    const std::string problem = wire::identity_problem(folder);
+    require(problem.empty(), ("security: " + problem).c_str());
 }
 
 void check(const cdir_match_info& info, std::span<const cdir_player> players) {

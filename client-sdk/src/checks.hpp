@@ -21,6 +21,8 @@ void require(bool condition, const char* text);
 [[nodiscard]] std::string checked_match_id(const char* text);
 [[nodiscard]] std::string checked_observer_id(const char* text);
 void check_frame_time(std::int64_t frame_time);
+// The folder of an identity for DDS Security, with all its files.
+void check_identity(const std::string& folder);
 void check(const cdir_match_info& info, std::span<const cdir_player> players);
 void check(const cdir_match_event& event);
 

@@ -96,6 +96,7 @@ std::shared_ptr<PendingContext> begin_open(const cdir_context_options* options) 
     require(read.cyclone_xml != nullptr || read.network_interface != nullptr, "network_interface is null");
     require(read.cyclone_xml != nullptr || read.directors != nullptr, "directors is null");
     (void)network_configuration(read);  // fails when it is malformed
+    if (read.security != nullptr) check_identity(read.security);
     end_attempts_at_exit();
     return make_object<PendingContext>([owned = OwnedOptions(read)]() -> std::shared_ptr<const Context> {
         const auto context = make_object<Context>(owned.get());

@@ -7,6 +7,7 @@
 #include <mutex>
 
 #include "entity.hpp"
+#include "idl/security.hpp"
 #include "network.hpp"
 
 namespace camdir::sdk {
@@ -53,6 +54,14 @@ Entity join(const cdir_context_options& options, const std::string& configuratio
     return domain;
 }
 
+Entity create_participant(const cdir_context_options& options) {
+    const std::string identity = options.security != nullptr ? options.security : "";
+    const std::string with =
+        identity.empty() ? "" : " with the identity in " + identity + " (Cyclone DDS has logged why not)";
+    return {"cannot create a participant in DDS domain " + std::to_string(options.domain) + with,
+            dds_create_participant(options.domain, wire::participant_qos(identity).get(), nullptr)};
+}
+
 }  // namespace
 
 DomainShare::DomainShare(const cdir_context_options& options) : domain_(options.domain) {
@@ -83,6 +92,7 @@ OwnedOptions::OwnedOptions(const cdir_context_options& options) : options_(optio
     if (options.network_interface != nullptr) network_interface_ = options.network_interface;
     if (options.directors != nullptr) directors_ = options.directors;
     if (options.cyclone_xml != nullptr) cyclone_xml_ = options.cyclone_xml;
+    if (options.security != nullptr) security_ = options.security;
 }
 
 cdir_context_options OwnedOptions::get() const {
@@ -90,13 +100,11 @@ cdir_context_options OwnedOptions::get() const {
     options.network_interface = network_interface_.c_str();
     options.directors = directors_.c_str();
     if (options_.cyclone_xml != nullptr) options.cyclone_xml = cyclone_xml_.c_str();
+    if (options_.security != nullptr) options.security = security_.c_str();
     return options;
 }
 
 Context::Context(const cdir_context_options& options)
-    : domain_(options),
-      participant_("cannot create a participant in DDS domain " + std::to_string(options.domain),
-                   dds_create_participant(options.domain, nullptr, nullptr)),
-      topics_(participant_.get()) {}
+    : domain_(options), participant_(create_participant(options)), topics_(participant_.get()) {}
 
 }  // namespace camdir::sdk

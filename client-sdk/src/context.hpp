@@ -33,7 +33,7 @@ class OwnedOptions {
 
   private:
     cdir_context_options options_;
-    std::string network_interface_, directors_, cyclone_xml_;
+    std::string network_interface_, directors_, cyclone_xml_, security_;
 };
 
 // Immutable: thread-safe.

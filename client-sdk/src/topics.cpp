@@ -22,27 +22,29 @@ wire::Qos partition_of(const std::string& match_id) {
 
 }  // namespace
 
-Topics::Topics(dds_entity_t participant) {
-    for (std::size_t i = 0; i < topics_.size(); ++i) {
-        const auto topic = static_cast<Topic>(i);
-        topics_[i] = Entity(failed_to_create("topic", topic),
-                            dds_create_topic(participant, &wire::topic_type(topic), wire::topic_name(topic),
-                                             nullptr, nullptr));
+dds_entity_t Topics::handle(Topic topic) const {
+    const std::lock_guard lock(mutex_);
+    Entity& entity = topics_[static_cast<std::size_t>(topic)];
+    if (entity.get() == 0) {
+        entity = Entity(failed_to_create("topic", topic),
+                        dds_create_topic(participant_, &wire::topic_type(topic), wire::topic_name(topic),
+                                         nullptr, nullptr));
     }
+    return entity.get();
 }
 
 Entity Topics::make_writer(dds_entity_t group, Topic topic) const {
-    const dds_entity_t handle = topics_[static_cast<std::size_t>(topic)].get();
     const wire::Qos qos = wire::topic_qos(topic, max_blocking_time);
     // A match whose writer is only silent has not ended: its end is disposed by hand.
     if (topic == Topic::match_info) dds_qset_writer_data_lifecycle(qos.get(), false);
-    return Entity(failed_to_create("writer of", topic), dds_create_writer(group, handle, qos.get(), nullptr));
+    return Entity(failed_to_create("writer of", topic),
+                  dds_create_writer(group, handle(topic), qos.get(), nullptr));
 }
 
 Entity Topics::make_reader(dds_entity_t group, Topic topic) const {
-    const dds_entity_t handle = topics_[static_cast<std::size_t>(topic)].get();
-    return Entity(failed_to_create("reader of", topic),
-                  dds_create_reader(group, handle, wire::topic_qos(topic, max_blocking_time).get(), nullptr));
+    return Entity(
+        failed_to_create("reader of", topic),
+        dds_create_reader(group, handle(topic), wire::topic_qos(topic, max_blocking_time).get(), nullptr));
 }
 
 Entity make_publisher(dds_entity_t participant, const std::string& match_id) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <mutex>
 #include <string>
 
 #include "entity.hpp"
@@ -11,17 +12,21 @@ namespace camdir::sdk {
 
 using wire::Topic;
 
+// Each is created when it is first used: an identity may be allowed only those of its role. Thread-safe.
 class Topics {
   public:
-    Topics() = default;
-    explicit Topics(dds_entity_t participant);
+    explicit Topics(dds_entity_t participant) : participant_(participant) {}
 
     // `group` is a publisher or subscriber of the participant.
     [[nodiscard]] Entity make_writer(dds_entity_t group, Topic topic) const;
     [[nodiscard]] Entity make_reader(dds_entity_t group, Topic topic) const;
 
   private:
-    std::array<Entity, wire::topic_count> topics_;
+    [[nodiscard]] dds_entity_t handle(Topic topic) const;
+
+    dds_entity_t participant_;
+    mutable std::mutex mutex_;
+    mutable std::array<Entity, wire::topic_count> topics_;
 };
 
 // A publisher or subscriber in the match's partition.

@@ -6,6 +6,7 @@
 
 #include "app/commands.hpp"
 #include "base/file.hpp"
+#include "dds/protection.hpp"
 #include "service/logging.hpp"
 #include "service/service.hpp"
 
@@ -29,6 +30,7 @@ int check(const config::Config& config, const std::string& file) {
         const auto checked = http::Server::check(config.http);
         if (!checked) complain(checked.error().message);
     }
+    if (const auto checked = dds::check_protection(config.dds); !checked) complain(checked.error().message);
     for (std::size_t i = 0; i < config.maps.size(); ++i) {
         const auto checked = maps::check_map(config.maps[i]);
         if (!checked) complain("/maps/" + std::to_string(i) + ": " + checked.error().message);

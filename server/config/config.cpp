@@ -240,6 +240,7 @@ void check_references(const Config& config, ValidationErrors& errors) {
 }
 
 void resolve_paths(Config& config, const fs::path& folder) {
+    if (!config.dds.security.empty()) config.dds.security = (folder / config.dds.security).string();
     if (!config.http.token_file.empty()) config.http.token_file = (folder / config.http.token_file).string();
     for (Map& map : config.maps) {
         map.file = (folder / map.file).string();

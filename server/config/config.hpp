@@ -27,6 +27,8 @@ struct Dds {
     std::int64_t lease_ms = 200;      // after which a hung director is replaced by its standby
     std::vector<std::string> shards;  // names; empty: every director serves every match
     std::string shard;                // this director's
+    std::string security;             // folder of the identity for DDS Security; empty = plain
+    bool insecure = false;            // plain DDS may leave loopback
     std::string xml;                  // Cyclone configuration that replaces the keys of the network
 };
 

@@ -95,9 +95,17 @@ void add_dds(std::vector<Key>& table) {
                      false,
                      true});
     table.push_back(
+        {section, "security", slot(&Dds::security),
+         "DDS Security: the folder of this director's identity, which `deploy/security/authority.sh` makes. "
+         "Empty: plain DDS. Relative paths start at the configuration's folder.",
+         "", 0, 4095});
+    table.push_back({section, "insecure", slot(&Dds::insecure),
+                     "Allows plain DDS to leave loopback, on a network that strangers do not reach: whoever "
+                     "does can take matches and read every player's position."});
+    table.push_back(
         {section, "xml", slot(&Dds::xml),
          "Cyclone DDS configuration (XML) that replaces interface, multicast, participant_index, port and "
-         "peers; for security and tuning.",
+         "peers; for tuning. Counts as leaving loopback.",
          "", 0, 65536});
 }
 

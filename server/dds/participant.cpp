@@ -5,6 +5,9 @@
 
 #include <utility>
 
+#include "dds/protection.hpp"
+#include "idl/security.hpp"
+
 namespace camdir::dds {
 namespace {
 
@@ -99,6 +102,8 @@ Participant::~Participant() {
 }
 
 Result<Participant> Participant::open(const config::Dds& config) {
+    const auto is_protected = check_protection(config);
+    if (!is_protected) return fail("DDS: " + is_protected.error().message);
     dds_set_log_sink(log_message, nullptr);
     Participant participant;
     const auto id = static_cast<dds_domainid_t>(config.domain);
@@ -111,7 +116,12 @@ Result<Participant> Participant::open(const config::Dds& config) {
     if (!domain) return tl::unexpected(domain.error());
     participant.domain_ = std::move(*domain);
 
-    auto handle = created(dds_create_participant(id, nullptr, nullptr), where + ": creating the participant");
+    const std::string identity =
+        config.security.empty()
+            ? ""
+            : " with the identity in /dds/security, " + config.security + " (Cyclone DDS has logged why not)";
+    auto handle = created(dds_create_participant(id, wire::participant_qos(config.security).get(), nullptr),
+                          where + ": creating the participant" + identity);
     if (!handle) return tl::unexpected(handle.error());
     participant.participant_ = std::move(*handle);
 

@@ -18,7 +18,8 @@ namespace camdir::dds {
 // outlive main. Open it before anything that uses many file descriptors: Cyclone cannot use 1024 and above.
 class Participant {
   public:
-    // Joins the domain. CYCLONEDDS_URI is ignored.
+    // Joins the domain, with DDS Security if config.security is set. Fails when check_protection() does.
+    // CYCLONEDDS_URI is ignored.
     [[nodiscard]] static Result<Participant> open(const config::Dds& config);
     Participant(Participant&& other) noexcept;
     Participant& operator=(Participant&&) = delete;

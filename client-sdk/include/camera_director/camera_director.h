@@ -189,20 +189,25 @@ typedef struct cdir_context_options {
      * The default port is that of DDS participant index 0 on the host, which a director has by default. */
     CDIR_POINTER(const char*, directors);
     /* Null, or a complete Cyclone DDS configuration (XML) that replaces the two fields above, for instance
-     * for multicast or DDS Security. The environment variable CYCLONEDDS_URI is ignored. */
+     * for multicast. The environment variable CYCLONEDDS_URI is ignored. */
     CDIR_POINTER(const char*, cyclone_xml);
+    /* Null, or for DDS Security the folder of this program's identity, made by deploy/security/authority.sh.
+     * The directors need one of the same authority; a domain is either secure or plain. */
+    CDIR_POINTER(const char*, security);
 } cdir_context_options;
 
-/* Domain 0 on this host only: network_interface "lo", directors "127.0.0.1". */
+/* Domain 0 on this host only: network_interface "lo", directors "127.0.0.1". Plain DDS. */
 CDIR_DEFAULTS(cdir_context_options)
 
 /* Joins the domain. Waits for a name server where `directors` has names.
  * CDIR_CONFLICT: a context of this process has the domain open with other network settings, or the process
  *   holds too many file descriptors: Cyclone DDS needs some below 1000.
+ * CDIR_INVALID_ARGUMENT: a file is missing in the folder `security`, or its key is open to everyone.
  * CDIR_NETWORK: no address of `directors` can be resolved, or Cyclone DDS refuses the options, for instance
- * an unknown interface. When the application itself has joined the domain with Cyclone DDS before, its
- * network settings remain in force. DDS entities that it creates in the domain after this call are deleted
- * with the domain's last context. */
+ * an unknown interface or an expired identity. Later, where the identity is not allowed what it opens: an
+ * observer's in cdir_match_open(), a game server's in cdir_observer_open(), or that of other matches. When
+ * the application itself has joined the domain with Cyclone DDS before, its network settings remain in force.
+ * DDS entities that it creates in the domain after this call are deleted with the domain's last context. */
 CDIR_API cdir_status cdir_context_open(const cdir_context_options* options,
                                        cdir_context* context) CDIR_NOEXCEPT;
 

@@ -167,6 +167,7 @@ struct ContextOptions {
     std::string network_interface = cdir_context_options_default().network_interface;
     std::string directors = cdir_context_options_default().directors;
     std::optional<std::string> cyclone_xml = {};
+    std::optional<std::string> security = {};
 };
 
 // A connection to the directors of one DDS domain.
@@ -198,6 +199,7 @@ class Context {
         raw.network_interface = options.network_interface.c_str();
         raw.directors = options.directors.c_str();
         raw.cyclone_xml = options.cyclone_xml ? options.cyclone_xml->c_str() : nullptr;
+        raw.security = options.security ? options.security->c_str() : nullptr;
         cdir_context handle{};
         if (const cdir_status status = open(&raw, &handle); status < 0) return detail::last_error(status);
         return Context(handle);

@@ -28,6 +28,8 @@ TEST(Config, EmptyObjectGivesTheDefaults) {
     const Config config = good("{}");
     EXPECT_EQ(config.http.address, "127.0.0.1");
     EXPECT_EQ(config.dds.partitions, std::vector<std::string>{"match/*"});
+    EXPECT_EQ(config.dds.security, "");
+    EXPECT_FALSE(config.dds.insecure);
     EXPECT_TRUE(config.profiles.contains("default"));
     EXPECT_TRUE(config.maps.empty());
 }
@@ -52,7 +54,8 @@ TEST(Config, ReadsKeysOfEverySection) {
 TEST(Config, ResolvesRelativePathsFromTheFilesFolder) {
     const Config config = good(R"({"maps": [{"name": "a", "file": "x/a.vfs", "source": "pak.pk3:maps/a.bsp"},
                                             {"name": "b", "file": "/data/b.vfs"}],
-                                   "http": {"token_file": "token"}})");
+                                   "dds": {"security": "identity"}, "http": {"token_file": "token"}})");
+    EXPECT_EQ(config.dds.security, "/etc/director/identity");
     EXPECT_EQ(config.http.token_file, "/etc/director/token");
     EXPECT_EQ(config.maps[0].file, "/etc/director/x/a.vfs");
     EXPECT_EQ(config.maps[0].source, "/etc/director/pak.pk3:maps/a.bsp");

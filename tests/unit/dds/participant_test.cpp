@@ -65,11 +65,22 @@ TEST(Participant, IgnoresTheEnvironmentsConfiguration) {
     ::unsetenv("CYCLONEDDS_URI");
 }
 
+TEST(Participant, IsNotOpenedWithoutProtection) {
+    const test::TestDomain domain;
+    config::Dds config;
+    config.domain = domain.id();
+    config.interface = "";
+    const auto participant = Participant::open(config);
+    ASSERT_FALSE(participant);
+    EXPECT_THAT(participant.error().message, HasSubstr("DDS: /dds/interface: "));
+}
+
 TEST(Participant, NamesTheDomainThatItCouldNotJoin) {
     const test::TestDomain domain;
     config::Dds config;
     config.domain = domain.id();
     config.interface = "no-such-interface";
+    config.insecure = true;
     const auto participant = Participant::open(config);
     ASSERT_FALSE(participant);
     EXPECT_THAT(participant.error().message, HasSubstr("DDS domain " + std::to_string(domain.id())));

@@ -5,10 +5,11 @@
 _Static_assert(sizeof(cdir_context) == 8 && sizeof(cdir_match) == 8 && sizeof(cdir_observer) == 8, "");
 _Static_assert(sizeof(cdir_library_options) == 48 && offsetof(cdir_library_options, allocate) == 8, "");
 _Static_assert(offsetof(cdir_library_options, log_data) == 40, "");
-_Static_assert(sizeof(cdir_context_options) == 32, "");
+_Static_assert(sizeof(cdir_context_options) == 40, "");
 _Static_assert(offsetof(cdir_context_options, network_interface) == 8, "");
 _Static_assert(offsetof(cdir_context_options, directors) == 16, "");
 _Static_assert(offsetof(cdir_context_options, cyclone_xml) == 24, "");
+_Static_assert(offsetof(cdir_context_options, security) == 32, "");
 _Static_assert(sizeof(cdir_player) == 112, "");
 _Static_assert(offsetof(cdir_player, name) == 16 && offsetof(cdir_player, player_class) == 80, "");
 _Static_assert(sizeof(cdir_match_info) == 352, "");

@@ -1,0 +1,14 @@
+// Who may take part in the director's domain.
+#pragma once
+
+#include "base/error.hpp"
+#include "config/config.hpp"
+
+namespace camdir::dds {
+
+// Fails when config.security lacks a file of an identity or its key is open to everyone, and when DDS is
+// plain but not bound to loopback and config.insecure does not allow that. The error begins with the key's
+// JSON pointer.
+[[nodiscard]] Result<void> check_protection(const config::Dds& config);
+
+}  // namespace camdir::dds
