@@ -74,4 +74,11 @@ Qos participant_qos(const std::string& folder) {
     return qos;
 }
 
+std::string describe_failure(dds_return_t code) {
+    const std::string text = dds_strretcode(code);
+    return code == DDS_RETCODE_NOT_ALLOWED_BY_SECURITY
+               ? text + ": expected an identity whose role and matches include it"
+               : text;
+}
+
 }  // namespace camdir::wire

@@ -15,4 +15,7 @@ namespace camdir::wire {
 // For a participant with this identity; plain DDS when `folder` is empty. Throws std::bad_alloc.
 [[nodiscard]] Qos participant_qos(const std::string& folder);
 
+// What DDS says of a call that has failed with this code, and why where it is for the identity.
+[[nodiscard]] std::string describe_failure(dds_return_t code);
+
 }  // namespace camdir::wire

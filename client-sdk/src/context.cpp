@@ -15,7 +15,7 @@ namespace camdir::sdk {
 namespace {
 
 struct OpenDomain {
-    std::string configuration;
+    std::string configuration, identity;
     Entity entity;  // empty when the application has joined the domain itself
     int shares = 0;
 };
@@ -29,6 +29,11 @@ struct OpenDomains {
 OpenDomains& open_domains() {
     static auto* domains = new OpenDomains;
     return *domains;
+}
+
+// Empty: none.
+std::string identity_of(const cdir_context_options& options) {
+    return options.security != nullptr ? options.security : "";
 }
 
 // Cyclone DDS waits with select(), which aborts the process on a descriptor from 1024 on.
@@ -55,7 +60,7 @@ Entity join(const cdir_context_options& options, const std::string& configuratio
 }
 
 Entity create_participant(const cdir_context_options& options) {
-    const std::string identity = options.security != nullptr ? options.security : "";
+    const std::string identity = identity_of(options);
     const std::string with =
         identity.empty() ? "" : " with the identity in " + identity + " (Cyclone DDS has logged why not)";
     return {"cannot create a participant in DDS domain " + std::to_string(options.domain) + with,
@@ -71,11 +76,15 @@ DomainShare::DomainShare(const cdir_context_options& options) : domain_(options.
     const std::lock_guard lock(domains.mutex);
     auto found = domains.by_number.find(domain);
     if (found == domains.by_number.end()) {
-        OpenDomain joined{configuration, join(options, configuration), 0};
+        OpenDomain joined{configuration, identity_of(options), join(options, configuration), 0};
         found = domains.by_number.emplace(domain, std::move(joined)).first;
     } else if (found->second.configuration != configuration) {
         throw Failure{CDIR_CONFLICT, "domain " + std::to_string(domain) +
                                          " is already open in this process with other network settings"};
+    } else if (found->second.identity != identity_of(options)) {
+        // Cyclone DDS would give it the permissions of the first one.
+        throw Failure{CDIR_CONFLICT, "domain " + std::to_string(domain) +
+                                         " is already open in this process with another identity (security)"};
     }
     ++found->second.shares;
 }

@@ -13,9 +13,9 @@ namespace camdir::sdk {
 // A share of a domain: the first one joins and configures the domain, the last one leaves it. Thread-safe.
 class DomainShare {
   public:
-    // Throws a Failure: CDIR_CONFLICT when the domain is open with another configuration or the process holds
-    // too many file descriptors, CDIR_NETWORK when DDS refuses the configuration or no director's
-    // address can be resolved.
+    // Throws a Failure: CDIR_CONFLICT when the domain is open with another configuration or identity or the
+    // process holds too many file descriptors, CDIR_NETWORK when DDS refuses the configuration or no
+    // director's address can be resolved.
     explicit DomainShare(const cdir_context_options& options);
     ~DomainShare();
     DomainShare(const DomainShare&) = delete;

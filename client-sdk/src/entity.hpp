@@ -7,12 +7,13 @@
 #include <utility>
 
 #include "failure.hpp"
+#include "idl/security.hpp"
 
 namespace camdir::sdk {
 
 // `what` is what failed, such as "cannot create the reader of CameraFrame".
 [[noreturn]] inline void fail_dds(const std::string& what, dds_return_t code) {
-    throw Failure{CDIR_NETWORK, what + ": " + dds_strretcode(code)};
+    throw Failure{CDIR_NETWORK, what + ": " + wire::describe_failure(code)};
 }
 
 inline void check_dds(const std::string& what, dds_return_t code) {

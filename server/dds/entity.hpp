@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "idl/security.hpp"
 
 namespace camdir::dds {
 
@@ -33,7 +34,7 @@ class Entity {
 };
 
 [[nodiscard]] inline tl::unexpected<Error> dds_failure(const std::string& doing, dds_return_t code) {
-    return fail(doing + ": DDS says: " + dds_strretcode(code));
+    return fail(doing + ": DDS says: " + wire::describe_failure(code));
 }
 
 // For the result of a dds_create_... call: the entity, or an error that says what `doing` was.

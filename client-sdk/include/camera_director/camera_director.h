@@ -200,8 +200,8 @@ typedef struct cdir_context_options {
 CDIR_DEFAULTS(cdir_context_options)
 
 /* Joins the domain. Waits for a name server where `directors` has names.
- * CDIR_CONFLICT: a context of this process has the domain open with other network settings, or the process
- *   holds too many file descriptors: Cyclone DDS needs some below 1000.
+ * CDIR_CONFLICT: a context of this process has the domain open with other network settings or another
+ * identity, or the process holds too many file descriptors: Cyclone DDS needs some below 1000.
  * CDIR_INVALID_ARGUMENT: a file is missing in the folder `security`, or its key is open to everyone.
  * CDIR_NETWORK: no address of `directors` can be resolved, or Cyclone DDS refuses the options, for instance
  * an unknown interface or an expired identity. Later, where the identity is not allowed what it opens: an
