@@ -49,7 +49,8 @@ void Server::write_config(const Options& options) const {
         << R"({"dds": {"domain": )" << domain_ << R"(, "participant_index": )" << options.participant_index
         << R"(, "strength": )" << options.strength << R"(, "director_id": )" << options.director_id
         << R"(, "lease_ms": 2500, "shard": ")" << options.shard << R"(", "shards": )" << options.shards
-        << R"(, "peers": [")" << director_address(domain_, 1 - options.participant_index) << R"("]},
+        << R"(, "peers": [")" << director_address(domain_, 1 - options.participant_index)
+        << R"("], "security": ")" << options.security << R"("},
         "http": {"enabled": false},
         "matches": {"minimum_delay_s": )"
         << options.minimum_delay_s << R"(},

@@ -33,6 +33,7 @@ class Server {
         bool has_yard = true;
         std::string shard = {};
         std::string shards = "[]";  // JSON
+        std::string security = {};  // folder of its identity; empty: plain DDS
     };
     Server(std::uint32_t domain, const Options& options);
     explicit Server(std::uint32_t domain) : Server(domain, Options{}) {}
