@@ -58,6 +58,14 @@ void Network::add_options(CLI::App& app) {
     app.add_option("--interface", interface, "Network interface")->capture_default_str();
     app.add_option("--directors", directors, "Directors' addresses, separated by commas")
         ->capture_default_str();
+    app.add_option("--security", security, "Folder of the identity for DDS Security; without it plain DDS");
+}
+
+camera_director::ContextOptions Network::context_options() const {
+    return {.domain = domain,
+            .network_interface = interface,
+            .directors = directors,
+            .security = security.empty() ? std::nullopt : std::optional(security)};
 }
 
 void PoseArrays::clear() {
@@ -79,10 +87,7 @@ void PoseArrays::add(std::uint32_t id, const Vec3f& at, const Quatf& looking, co
 
 int run(const Load& load, std::uint32_t player_count, const std::stop_token& stop) {
     const camera_director::Context context =
-        camera_director::Context::open({.domain = load.network.domain,
-                                        .network_interface = load.network.interface,
-                                        .directors = load.network.directors})
-            .value();
+        camera_director::Context::open(load.network.context_options()).value();
     std::vector<camera_director::Match> matches = open_matches(context, load, player_count);
 
     const std::chrono::duration<double> interval(1.0 / load.rate_hz);

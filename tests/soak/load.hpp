@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <camera_director/camera_director.hpp>
 #include <cstdint>
 #include <functional>
 #include <stop_token>
@@ -17,8 +18,10 @@ struct Network {
     std::uint32_t domain = 0;
     std::string interface = "lo";
     std::string directors = "127.0.0.1";
+    std::string security;  // folder of the identity; empty: plain DDS
 
     void add_options(CLI::App& app);
+    [[nodiscard]] camera_director::ContextOptions context_options() const;
 };
 
 // The poses of one frame, in the layout of the SDK.

@@ -244,10 +244,7 @@ int probe(const Options& options, const std::stop_token& stop) {
         oracle = std::make_unique<oracle::Oracle>(*scene);
     }
     const camera_director::Context context =
-        camera_director::Context::open({.domain = options.network.domain,
-                                        .network_interface = options.network.interface,
-                                        .directors = options.network.directors})
-            .value();
+        camera_director::Context::open(options.network.context_options()).value();
     Probes probes;
     for (std::uint32_t match = 0; match < options.matches; ++match) {
         for (std::uint32_t number = 0; number < options.observers; ++number) {
