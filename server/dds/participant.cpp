@@ -3,8 +3,11 @@
 #include <arpa/inet.h>
 #include <spdlog/spdlog.h>
 
+#include <chrono>
+#include <cstdint>
 #include <utility>
 
+#include "base/log_limit.hpp"
 #include "dds/protection.hpp"
 #include "idl/security.hpp"
 
@@ -75,7 +78,14 @@ std::string internals() {
     return element("Internal", "<SocketReceiveBufferSize max=\"4MB\"/>" + element("MaxSampleSize", "1MB"));
 }
 
+// Strangers can provoke messages: each attempt to join a secure domain without a right to is one.
+constexpr std::uint64_t max_messages_per_second = 20;
+
 void log_message(void* /*unused*/, const dds_log_data_t* message) {
+    static LogBudget budget(max_messages_per_second);
+    const auto left_out = budget.take(std::chrono::steady_clock::now());
+    if (!left_out) return;
+    if (*left_out > 0) spdlog::warn("Cyclone DDS: {} messages left out", *left_out);
     const bool error = (message->priority & (DDS_LC_FATAL | DDS_LC_ERROR)) != 0;
     std::string text(message->message, message->size);
     while (!text.empty() && text.back() == '\n')
@@ -115,6 +125,10 @@ Result<Participant> Participant::open(const config::Dds& config) {
                               config.interface + "' (is the index taken, or the configuration bad?)");
     if (!domain) return tl::unexpected(domain.error());
     participant.domain_ = std::move(*domain);
+    if (config.security.empty() && !config.insecure) {
+        const auto confined = confine_to_loopback();
+        if (!confined) return fail(where + ": " + confined.error().message);
+    }
 
     const std::string identity =
         config.security.empty()

@@ -3,7 +3,11 @@
 #include <arpa/inet.h>
 #include <ifaddrs.h>
 #include <net/if.h>
+#include <sys/select.h>
+#include <sys/socket.h>
 
+#include <cerrno>
+#include <cstring>
 #include <memory>
 #include <string>
 
@@ -19,27 +23,55 @@ bool is_loopback_address(const std::string& text) {
     return ::inet_pton(AF_INET6, text.c_str(), &v6) == 1 && IN6_IS_ADDR_LOOPBACK(&v6);
 }
 
-bool is_loopback_interface(const std::string& name) {
+using Interfaces = std::unique_ptr<ifaddrs, decltype(&::freeifaddrs)>;
+
+Interfaces interfaces() {
     ifaddrs* found = nullptr;
-    if (::getifaddrs(&found) != 0) return false;
-    const std::unique_ptr<ifaddrs, decltype(&::freeifaddrs)> list(found, ::freeifaddrs);
+    return {::getifaddrs(&found) == 0 ? found : nullptr, ::freeifaddrs};
+}
+
+bool is_loopback_interface(const std::string& name) {
+    const Interfaces list = interfaces();
     for (const ifaddrs* each = list.get(); each != nullptr; each = each->ifa_next)
         if (name == each->ifa_name) return (each->ifa_flags & IFF_LOOPBACK) != 0;
     return false;
 }
 
-constexpr const char* expected_protection =
-    ": expected DDS Security (/dds/security names the folder of an identity), or \"insecure\": true in /dds "
-    "where strangers do not reach the network";
+// Empty: there is none.
+std::string loopback_device() {
+    const Interfaces list = interfaces();
+    for (const ifaddrs* each = list.get(); each != nullptr; each = each->ifa_next)
+        if ((each->ifa_flags & IFF_LOOPBACK) != 0) return each->ifa_name;
+    return {};
+}
+
+// A UDP socket that receives on all interfaces.
+bool receives_from_anywhere(int file) {
+    int type = 0;
+    socklen_t size = sizeof type;
+    if (::getsockopt(file, SOL_SOCKET, SO_TYPE, &type, &size) != 0 || type != SOCK_DGRAM) return false;
+    sockaddr_storage address{};
+    size = sizeof address;
+    if (::getsockname(file, reinterpret_cast<sockaddr*>(&address), &size) != 0) return false;
+    if (address.ss_family == AF_INET6)
+        return IN6_IS_ADDR_UNSPECIFIED(&reinterpret_cast<const sockaddr_in6&>(address).sin6_addr);
+    return address.ss_family == AF_INET &&
+           reinterpret_cast<const sockaddr_in&>(address).sin_addr.s_addr == INADDR_ANY;
+}
+
+constexpr const char* protection =
+    "DDS Security (/dds/security names the folder of an identity), or \"insecure\": true in /dds where "
+    "strangers "
+    "do not reach the network";
 
 Result<void> check_exposure(const config::Dds& config) {
     if (config.insecure) return {};
     if (!config.xml.empty())
-        return fail(std::string("/dds/xml: may lead plain DDS off loopback") + expected_protection);
+        return fail(std::string("/dds/xml: may lead plain DDS off loopback: expected ") + protection);
     if (is_loopback_address(config.interface) || is_loopback_interface(config.interface)) return {};
     const std::string chosen = config.interface.empty() ? "\"\": Cyclone DDS chooses the interface, which"
                                                         : "\"" + config.interface + "\"";
-    return fail("/dds/interface: " + chosen + " is not loopback, and DDS is plain" + expected_protection);
+    return fail("/dds/interface: " + chosen + " is not loopback, and DDS is plain: expected " + protection);
 }
 
 }  // namespace
@@ -48,6 +80,18 @@ Result<void> check_protection(const config::Dds& config) {
     if (config.security.empty()) return check_exposure(config);
     const std::string problem = wire::identity_problem(config.security);
     if (!problem.empty()) return fail("/dds/security: " + problem);
+    return {};
+}
+
+Result<void> confine_to_loopback() {
+    const std::string device = loopback_device();
+    for (int file = 0; file < FD_SETSIZE; ++file) {  // Cyclone DDS has none beyond
+        if (!receives_from_anywhere(file)) continue;
+        if (::setsockopt(file, SOL_SOCKET, SO_BINDTODEVICE, device.c_str(),
+                         static_cast<socklen_t>(device.size())) != 0)
+            return fail("cannot bind a socket of DDS to \"" + device + "\": " + std::strerror(errno) +
+                        ": expected Linux 5.7, CAP_NET_RAW, " + protection);
+    }
     return {};
 }
 

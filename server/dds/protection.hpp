@@ -11,4 +11,8 @@ namespace camdir::dds {
 // JSON pointer.
 [[nodiscard]] Result<void> check_protection(const config::Dds& config);
 
+// Lets other hosts reach none of this process's UDP sockets: whichever interface Cyclone DDS sends on, it
+// receives on all. Needs Linux 5.7, or CAP_NET_RAW. Call it when the domain is open, and no participant yet.
+[[nodiscard]] Result<void> confine_to_loopback();
+
 }  // namespace camdir::dds

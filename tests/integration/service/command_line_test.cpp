@@ -52,6 +52,35 @@ TEST(CommandLine, CheckIncludesTheMaps) {
     EXPECT_THAT(good.errors, HasSubstr("valid"));
 }
 
+TEST(CommandLine, PlainDdsDoesNotLeaveLoopbackUnlessTold) {
+    const Folder folder;
+    json config = quiet_config();
+    config["dds"]["interface"] = "";
+    folder.write("config.json", config.dump());
+    for (const auto& more : {std::vector<std::string>{}, std::vector<std::string>{"--check"}}) {
+        std::vector<std::string> arguments = {"serve", "--config", folder / "config.json"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const Ran ran = run_director(arguments);
+        EXPECT_EQ(ran.exit_code, 1);
+        EXPECT_THAT(ran.errors, AllOf(HasSubstr("/dds/interface"), HasSubstr("is not loopback"),
+                                      HasSubstr("/dds/security")));
+    }
+    config["dds"]["insecure"] = true;
+    folder.write("config.json", config.dump());
+    EXPECT_EQ(run_director({"serve", "--check", "--config", folder / "config.json"}).exit_code, 0);
+}
+
+TEST(CommandLine, CheckIncludesTheIdentity) {
+    const Folder folder;
+    json config = quiet_config();
+    config["dds"]["security"] = "identity";
+    folder.write("config.json", config.dump());
+    const Ran ran = run_director({"serve", "--check", "--config", folder / "config.json"});
+    EXPECT_EQ(ran.exit_code, 1);
+    EXPECT_THAT(ran.errors,
+                HasSubstr("/dds/security: " + (folder / "identity/identity_ca.pem") + ": cannot be read"));
+}
+
 TEST(CommandLine, PrintsItsSchemaAndReference) {
     const Ran schema = run_director({"serve", "--print-schema"});
     EXPECT_EQ(schema.exit_code, 0);

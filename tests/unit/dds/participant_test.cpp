@@ -2,13 +2,25 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <net/if.h>
+#include <netinet/in.h>
+#include <sys/select.h>
+#include <sys/socket.h>
+
+#include <array>
+#include <string>
+#include <vector>
 
 #include "support/test_domain.hpp"
 
 namespace camdir::dds {
 namespace {
 
+using testing::AllOf;
+using testing::Each;
 using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
 
 TEST(DomainXml, ContainsTheConfiguration) {
     config::Dds config;
@@ -73,6 +85,41 @@ TEST(Participant, IsNotOpenedWithoutProtection) {
     const auto participant = Participant::open(config);
     ASSERT_FALSE(participant);
     EXPECT_THAT(participant.error().message, HasSubstr("DDS: /dds/interface: "));
+}
+
+// The devices that the UDP sockets of this process are bound to which receive from any address.
+std::vector<std::string> devices_received_from() {
+    std::vector<std::string> devices;
+    for (int file = 0; file < FD_SETSIZE; ++file) {
+        sockaddr_in address{};
+        socklen_t size = sizeof address;
+        int type = 0;
+        socklen_t type_size = sizeof type;
+        if (::getsockname(file, reinterpret_cast<sockaddr*>(&address), &size) != 0 ||
+            address.sin_family != AF_INET || address.sin_addr.s_addr != INADDR_ANY)
+            continue;
+        if (::getsockopt(file, SOL_SOCKET, SO_TYPE, &type, &type_size) != 0 || type != SOCK_DGRAM) continue;
+        std::array<char, IFNAMSIZ> device{};
+        size = device.size();
+        EXPECT_EQ(::getsockopt(file, SOL_SOCKET, SO_BINDTODEVICE, device.data(), &size), 0);
+        devices.emplace_back(device.data());
+    }
+    return devices;
+}
+
+TEST(Participant, ReceivesFromOtherHostsOnlyWhenItMay) {
+    const test::TestDomain domain;
+    config::Dds config;
+    config.domain = domain.id();
+    {
+        const auto participant = Participant::open(config);
+        ASSERT_TRUE(participant) << participant.error().message;
+        EXPECT_THAT(devices_received_from(), AllOf(Not(IsEmpty()), Each("lo")));
+    }
+    config.insecure = true;
+    const auto participant = Participant::open(config);
+    ASSERT_TRUE(participant) << participant.error().message;
+    EXPECT_THAT(devices_received_from(), AllOf(Not(IsEmpty()), Each("")));
 }
 
 TEST(Participant, NamesTheDomainThatItCouldNotJoin) {
