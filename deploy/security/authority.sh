@@ -9,7 +9,7 @@
 #
 # MATCHES are match ids, or patterns of them with * and ?, in quotes: 'cup-*'. FOLDER/identities/NAME is what the program
 # with that identity needs, and nothing else may leave FOLDER: whoever has FOLDER/private can be anyone.
-# server/README.md, "DDS Security", is the manual. Exit codes: 0 done, 1 failed, 2 bad usage.
+# README.md beside it is the manual. Exit codes: 0 done, 1 failed, 2 bad usage.
 set -euo pipefail
 export LC_ALL=C
 umask 077
