@@ -77,8 +77,8 @@ TEST(CommandLine, CheckIncludesTheIdentity) {
     folder.write("config.json", config.dump());
     const Ran ran = run_director({"serve", "--check", "--config", folder / "config.json"});
     EXPECT_EQ(ran.exit_code, 1);
-    EXPECT_THAT(ran.errors,
-                HasSubstr("/dds/security: " + (folder / "identity/identity_ca.pem") + ": cannot be read"));
+    EXPECT_THAT(ran.errors, HasSubstr("/dds/security: " + std::string(folder / "identity/identity_ca.pem") +
+                                      ": cannot be read"));
 }
 
 TEST(CommandLine, PrintsItsSchemaAndReference) {
