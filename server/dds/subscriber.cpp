@@ -67,7 +67,8 @@ Result<void> Subscriber::open() {
     match_info_reader_ =
         dds_create_reader(match_info_subscriber_.handle(), participant_.topic(Topic::match_info),
                           reader_qos(Topic::match_info).get(), nullptr);
-    if (match_info_reader_ < 0) return dds_failure("creating the reader of MatchInfo", match_info_reader_);
+    if (match_info_reader_ < 0)
+        return dds_failure("creating the reader of MatchInfo in /dds/partitions", match_info_reader_);
     if (auto watched = watch_writers(match_info_reader_, &matched_tag); !watched) return watched;
     return watch(match_info_reader_, &match_info_tag);
 }

@@ -118,6 +118,7 @@ TEST(Structs, TheHeadersDefaultsAreTheLibrarys) {
     EXPECT_EQ(cdir_match_info_default().struct_size, sizeof(cdir_match_info));
     EXPECT_EQ(cdir_match_info_default().rate_hz, 60.0F);
     EXPECT_STREQ(cdir_context_options_default().network_interface, "lo");
+    EXPECT_EQ(cdir_context_options_default().security, nullptr);
     EXPECT_EQ(cdir_shot_request_default().target, CDIR_CHOOSE_TARGET);
     EXPECT_EQ(cdir_match_event_default().actor, CDIR_NO_PLAYER);
     EXPECT_EQ(cdir_observer_options_default().interpolation_delay, 50'000'000);
