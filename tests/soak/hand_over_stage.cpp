@@ -68,8 +68,8 @@ void DirectorProcess::start(const std::string& map_file, const std::string& sour
     std::ofstream(token_file_) << token << '\n';
     std::filesystem::permissions(token_file_, std::filesystem::perms(0600));
     std::ofstream(file_) << R"({"dds": {"domain": )" << setting_.domain << R"(, "interface": ")"
-                         << setting_.interface << R"(", "participant_index": )" << setting_.index
-                         << R"(, "peers": [")" << setting_.peer << R"("], "strength": )"
+                         << setting_.interface << R"(", "insecure": true, "participant_index": )"
+                         << setting_.index << R"(, "peers": [")" << setting_.peer << R"("], "strength": )"
                          << (setting_.index == 0 ? 200 : 100) << R"(, "director_id": )"
                          << 10 * (setting_.index + 1) << R"(}, "http": {"port": 0, "token_file": ")"
                          << token_file_.string() << R"("}, "maps": [{"name": "map", "file": ")" << map_file
