@@ -59,8 +59,9 @@ void add_dds(std::vector<Key>& table) {
     table.push_back({section, "port", slot(&Dds::port), "Base port of the domain's ports.", "", 1024, 60000});
     table.push_back({section, "peers", slot(&Dds::peers),
                      "Addresses (`host` or `host:port`) that are contacted by unicast, for example other "
-                     "directors: those that serve the same matches must know each other.",
-                     "", 0, 64});
+                     "directors: those that serve the same matches must know each other. A name that cannot "
+                     "be resolved at start is an error.",
+                     "", 0, 1024});
     table.push_back({section, "partitions", slot(&Dds::partitions),
                      "Patterns of the partitions in which matches are discovered.", "", 1, 64});
     table.push_back({section, "director_id", slot(&Dds::director_id),

@@ -1,6 +1,7 @@
 #include "dds/participant.hpp"
 
 #include <arpa/inet.h>
+#include <netdb.h>
 #include <spdlog/spdlog.h>
 
 #include <chrono>
@@ -78,6 +79,29 @@ std::string internals() {
     return element("Internal", "<SocketReceiveBufferSize max=\"4MB\"/>" + element("MaxSampleSize", "1MB"));
 }
 
+Result<void> check_name(const std::string& peer) {
+    addrinfo ipv4{};  // as Cyclone DDS
+    ipv4.ai_family = AF_INET;
+    addrinfo* found = nullptr;
+    const int error = ::getaddrinfo(peer.substr(0, peer.find(':')).c_str(), nullptr, &ipv4, &found);
+    if (error != 0) return fail("\"" + peer + "\": " + ::gai_strerror(error));
+    ::freeaddrinfo(found);
+    return {};
+}
+
+// Cyclone DDS resolves names once, and goes on without those that it cannot: two directors that do not know
+// each other would both lead.
+Result<void> check_peers(const config::Dds& config) {
+    if (!config.xml.empty()) return {};
+    for (std::size_t i = 0; i < config.peers.size(); ++i) {
+        const auto checked = check_name(config.peers[i]);
+        if (!checked)
+            return fail("/dds/peers/" + std::to_string(i) + ": " + checked.error().message +
+                        ": expected an IPv4 address, or a name that has one");
+    }
+    return {};
+}
+
 // Strangers can provoke messages: each attempt to join a secure domain without a right to is one.
 constexpr std::uint64_t max_messages_per_second = 20;
 
@@ -114,6 +138,8 @@ Participant::~Participant() {
 Result<Participant> Participant::open(const config::Dds& config) {
     const auto is_protected = check_protection(config);
     if (!is_protected) return fail("DDS: " + is_protected.error().message);
+    const auto peers_known = check_peers(config);
+    if (!peers_known) return fail("DDS: " + peers_known.error().message);
     dds_set_log_sink(log_message, nullptr);
     Participant participant;
     const auto id = static_cast<dds_domainid_t>(config.domain);

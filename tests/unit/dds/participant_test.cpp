@@ -122,6 +122,17 @@ TEST(Participant, ReceivesFromOtherHostsOnlyWhenItMay) {
     EXPECT_THAT(devices_received_from(), AllOf(Not(IsEmpty()), Each("")));
 }
 
+TEST(Participant, NamesThePeerThatCannotBeResolved) {
+    const test::TestDomain domain;
+    config::Dds config;
+    config.domain = domain.id();
+    config.peers = {"127.0.0.1", "localhost:7410", "director-b.invalid:7410"};
+    const auto participant = Participant::open(config);
+    ASSERT_FALSE(participant);
+    EXPECT_THAT(participant.error().message, AllOf(HasSubstr("/dds/peers/2: \"director-b.invalid:7410\": "),
+                                                   HasSubstr("expected an IPv4 address")));
+}
+
 TEST(Participant, NamesTheDomainThatItCouldNotJoin) {
     const test::TestDomain domain;
     config::Dds config;
