@@ -15,6 +15,7 @@ namespace {
 
 struct ServeOptions {
     std::string config;
+    std::string shard;
     bool check = false;
     bool print_schema = false;
     bool print_reference = false;
@@ -45,13 +46,13 @@ int serve(const ServeOptions& options) {
         const auto written = write_file("-", options.print_schema ? config::schema() : config::reference());
         return written ? exit_done : report(written.error());
     }
-    auto config = config::load(options.config);
+    auto config = config::load(options.config, options.shard);
     if (!config) return report(config.error());
     if (options.check) return check(*config, options.config);
 
     service::Signals signals;
     service::start_logging(config->log);
-    auto opened = service::Service::open(options.config, std::move(*config));
+    auto opened = service::Service::open(options.config, options.shard, std::move(*config));
     if (!opened) {
         spdlog::critical("{}", opened.error().message);
         return exit_failed;
@@ -68,6 +69,13 @@ void add_serve(CLI::App& root, Run& run) {
         *root.add_subcommand("serve", "Serve cameras until SIGTERM; SIGHUP reloads maps and profiles.");
     auto* config =
         command.add_option("--config", options->config, "Configuration (JSON).")->type_name("FILE");
+    command
+        .add_option(
+            "--shard", options->shard,
+            "This director's shard, in place of the configuration's: directors of all shards can then "
+            "have the same file.")
+        ->type_name("NAME")
+        ->needs(config);
     command
         .add_flag("--check", options->check,
                   "Validate the configuration and the maps that it names, then exit.")

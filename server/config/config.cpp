@@ -250,7 +250,8 @@ void resolve_paths(Config& config, const fs::path& folder) {
 
 }  // namespace
 
-Result<Config> parse(const std::string& text, const std::string& name, const fs::path& folder) {
+Result<Config> parse(const std::string& text, const std::string& name, const fs::path& folder,
+                     const std::string& shard) {
     const auto root = parse_json(text);
     if (!root) return fail(name + ": " + root.error().message);
     Config config;
@@ -258,6 +259,7 @@ Result<Config> parse(const std::string& text, const std::string& name, const fs:
         config.profiles.emplace(profile_name, profile);
     ValidationErrors errors;
     read_root(*root, config, errors);
+    if (!shard.empty()) config.dds.shard = shard;
     check_references(config, errors);
     check_files(config, folder, errors);
     if (!errors.none()) return fail(errors.joined(name + ": ", "\n"));
@@ -265,11 +267,11 @@ Result<Config> parse(const std::string& text, const std::string& name, const fs:
     return config;
 }
 
-Result<Config> load(const fs::path& file) {
+Result<Config> load(const fs::path& file, const std::string& shard) {
     const auto bytes = read_file(file);
     if (!bytes) return tl::unexpected(bytes.error());
     return parse({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, file.string(),
-                 file.parent_path());
+                 file.parent_path(), shard);
 }
 
 Result<camera::Profile> override_profile(const camera::Profile& base, const std::string& overrides,

@@ -113,13 +113,14 @@ struct Config {
     Log log;
 };
 
-// Reads and validates a file. Relative paths in it are taken from its folder. The error names every problem,
-// one per line: JSON pointer, value, expectation.
-[[nodiscard]] Result<Config> load(const std::filesystem::path& file);
+// Reads and validates a file. Relative paths in it are taken from its folder. A `shard` that is not empty
+// takes the place of the file's. The error names every problem, one per line: JSON pointer, value,
+// expectation.
+[[nodiscard]] Result<Config> load(const std::filesystem::path& file, const std::string& shard = {});
 
 // The same from text. `name` is the file's name in errors; relative paths are resolved from `folder`.
 [[nodiscard]] Result<Config> parse(const std::string& text, const std::string& name,
-                                   const std::filesystem::path& folder);
+                                   const std::filesystem::path& folder, const std::string& shard = {});
 
 // An observer's overrides: a JSON object with keys of a profile, or empty. The error is one line.
 [[nodiscard]] Result<camera::Profile> override_profile(const camera::Profile& base,

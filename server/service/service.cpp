@@ -27,10 +27,12 @@ void log_lines(spdlog::level::level_enum level, const std::string& text) {
 
 }  // namespace
 
-Result<std::unique_ptr<Service>> Service::open(std::filesystem::path file, config::Config config) {
+Result<std::unique_ptr<Service>> Service::open(std::filesystem::path file, std::string shard,
+                                               config::Config config) {
     auto gateway = dds::Gateway::open(config.dds, config.limits);
     if (!gateway) return tl::unexpected(gateway.error());
-    std::unique_ptr<Service> service(new Service(std::move(file), std::move(config), std::move(*gateway)));
+    std::unique_ptr<Service> service(
+        new Service(std::move(file), std::move(shard), std::move(config), std::move(*gateway)));
     const config::Http& http = service->config_.http;
     if (http.enabled) {
         auto server = http::Server::start(http, service->sources());
@@ -41,8 +43,10 @@ Result<std::unique_ptr<Service>> Service::open(std::filesystem::path file, confi
     return service;
 }
 
-Service::Service(std::filesystem::path file, config::Config config, std::unique_ptr<dds::Gateway> gateway)
+Service::Service(std::filesystem::path file, std::string shard, config::Config config,
+                 std::unique_ptr<dds::Gateway> gateway)
     : file_(std::move(file)),
+      shard_(std::move(shard)),
       config_(std::move(config)),
       gateway_(std::move(gateway)),
       director_(config_, maps_, *gateway_),
@@ -134,7 +138,7 @@ void Service::watch(bool& ready) {
 }
 
 Result<config::Config> Service::load_again() {
-    auto loaded = config::load(file_);
+    auto loaded = config::load(file_, shard_);
     if (loaded && http_) {
         const auto token = http_->reload();
         if (!token) return tl::unexpected(token.error());

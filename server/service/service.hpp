@@ -19,15 +19,16 @@ namespace camdir::service {
 class Service {
   public:
     // Joins the DDS domain before anything that opens many file descriptors (DDS uses select), then listens
-    // for HTTP. `file` is read again on SIGHUP.
-    [[nodiscard]] static Result<std::unique_ptr<Service>> open(std::filesystem::path file,
+    // for HTTP. `file` and `shard`, of which config::load() has made `config`, are loaded again on SIGHUP.
+    [[nodiscard]] static Result<std::unique_ptr<Service>> open(std::filesystem::path file, std::string shard,
                                                                config::Config config);
 
     // Loads the maps, receives and serves until SIGTERM or SIGINT; then drains.
     void run(Signals& signals);
 
   private:
-    Service(std::filesystem::path file, config::Config config, std::unique_ptr<dds::Gateway> gateway);
+    Service(std::filesystem::path file, std::string shard, config::Config config,
+            std::unique_ptr<dds::Gateway> gateway);
 
     [[nodiscard]] maps::LoaderSink map_sink();
     [[nodiscard]] http::Sources sources();
@@ -41,6 +42,7 @@ class Service {
     void drain();
 
     const std::filesystem::path file_;
+    const std::string shard_;
     config::Config config_;  // in effect
     std::atomic<bool> draining_{false};
     std::unique_ptr<dds::Gateway> gateway_;

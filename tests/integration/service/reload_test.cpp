@@ -97,5 +97,17 @@ TEST(Reload, LoadsTheMapThatAMatchWaitsFor) {
     EXPECT_EQ(served.exit_code(), 0) << served.log();
 }
 
+TEST(Reload, KeepsTheShardOfTheCommandLine) {
+    const Folder folder;
+    json config = quiet_config();
+    config["dds"]["shards"] = json::array({"a"});
+    const Served served(folder, config, {"--shard", "a"});
+    ASSERT_TRUE(served.logged("\"ready\"")) << served.log();
+    config["dds"]["shards"] = json::array({"a", "b"});
+    folder.write("config.json", config.dump());
+    served.signal(SIGHUP);
+    EXPECT_TRUE(served.logged("config.json: reloaded")) << served.log();
+}
+
 }  // namespace
 }  // namespace camdir::test

@@ -42,10 +42,11 @@ json quiet_config() {
             {"log", {{"format", "json"}, {"level", "debug"}}}};
 }
 
-Served::Served(const Folder& folder, const json& config) {
+Served::Served(const Folder& folder, const json& config, const std::vector<std::string>& options) {
     folder.write("config.json", config.dump());
-    process_ = std::make_unique<ChildProcess>(
-        std::vector<std::string>{CAMERA_DIRECTOR, "serve", "--config", folder / "config.json"});
+    std::vector<std::string> command = {CAMERA_DIRECTOR, "serve", "--config", folder / "config.json"};
+    command.insert(command.end(), options.begin(), options.end());
+    process_ = std::make_unique<ChildProcess>(command);
 }
 
 bool Served::logged(const std::string& text) const {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "support/child_process.hpp"
 #include "support/temporary_folder.hpp"
@@ -34,10 +35,10 @@ struct Ran {
 // A configuration without fixed ports, with a JSON log.
 [[nodiscard]] nlohmann::json quiet_config();
 
-// `camera-director serve` with the configuration written to `folder`/config.json.
+// `camera-director serve` with the configuration written to `folder`/config.json, and more options.
 class Served {
   public:
-    Served(const Folder& folder, const nlohmann::json& config);
+    Served(const Folder& folder, const nlohmann::json& config, const std::vector<std::string>& options = {});
 
     // Waits until the log contains the text; false after a generous timeout.
     [[nodiscard]] bool logged(const std::string& text) const;

@@ -114,6 +114,19 @@ TEST(Config, ADirectorOfShardsHasOneOfItsOwn) {
                 HasSubstr("/dds/shards: [\"a\",\"b\",\"a\"]: expected names that differ"));
 }
 
+TEST(Config, AShardFromElsewhereTakesThePlaceOfTheFiles) {
+    for (const char* text :
+         {R"({"dds": {"shards": ["a", "b"]}})", R"({"dds": {"shards": ["a", "b"], "shard": "a"}})"}) {
+        const auto config = parse(text, "test", "", "b");
+        ASSERT_TRUE(config) << config.error().message;
+        EXPECT_EQ(config->dds.shard, "b");
+    }
+    const auto without_shards = parse("{}", "test", "", "b");
+    ASSERT_FALSE(without_shards);
+    EXPECT_THAT(without_shards.error().message,
+                HasSubstr("/dds/shard: \"b\": expected an empty string where there are no shards"));
+}
+
 TEST(Config, RefusesMissingKeys) {
     EXPECT_THAT(problem(R"({"maps": [{"file": "1"}]})"),
                 HasSubstr("/maps/0/name: missing: expected a string"));
