@@ -27,6 +27,8 @@ film_packages=(ffmpeg)
 # What test.sh needs in addition. Of prometheus it is promtool, which checks the alerts; iproute2 makes networks that
 # can be cut, libfaketime clocks that can be stepped.
 test_packages=(clang-format-14 openarena-088-data prometheus iproute2 libfaketime)
+# kubectl builds the files for Kubernetes. Where it is another vendor's, Debian's package cannot be installed.
+command -v kubectl >/dev/null || test_packages+=(kubernetes-client)
 # What test.sh --all needs in addition.
 lint_packages=(clang-14 clang-tidy-14 libclang-rt-14-dev)
 # For building Debian packages, and for testing them in an empty Debian.
