@@ -1,0 +1,52 @@
+// A director as a process of its own, beside at most one other on this host.
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "support/child_process.hpp"
+
+namespace camdir::soak {
+
+// One thread at a time.
+class DirectorProcess {
+  public:
+    struct Setting {
+        std::string program;           // camera-director
+        std::filesystem::path folder;  // for its configuration
+        std::uint32_t domain = 0;
+        int index = 0;  // 0 leads where both begin together, 1 stands by
+    };
+
+    explicit DirectorProcess(Setting setting);
+
+    [[nodiscard]] static std::uint64_t id_of(int index) {
+        return 10 * (static_cast<std::uint64_t>(index) + 1);
+    }
+
+    // It serves one map, whose name is "map"; `source` may be empty.
+    void start(const std::string& map_file, const std::string& source);
+    // Throws when the director refuses.
+    void hand_over() const;
+    // Whether it says that it serves.
+    [[nodiscard]] bool is_ready() const;
+    void signal(int number) const { process_->send_signal(number); }
+    // Returns the exit code, or minus the signal's number.
+    int wait() { return process_->wait(); }
+    [[nodiscard]] pid_t pid() const { return process_->pid(); }
+    [[nodiscard]] std::string log() const { return process_ ? process_->errors() : ""; }
+
+  private:
+    // 0 as long as it does not listen.
+    [[nodiscard]] int http_port() const;
+
+    Setting setting_;
+    std::filesystem::path file_, token_file_;
+    std::unique_ptr<test::ChildProcess> process_;
+};
+
+}  // namespace camdir::soak

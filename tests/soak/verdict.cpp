@@ -1,0 +1,213 @@
+#include "verdict.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <iomanip>
+#include <iterator>
+#include <numeric>
+#include <span>
+#include <sstream>
+
+namespace camdir::soak {
+namespace {
+
+std::string text(double value, int decimals = 0) {
+    std::ostringstream text;
+    text << std::fixed << std::setprecision(decimals) << value;
+    return text.str();
+}
+
+bool overlaps(const Slice& slice, double begin, double end) {
+    return slice.end > begin && slice.begin < end;
+}
+
+// Whether the leader is expected to leave its matches.
+bool removes_leader(const Act& act) {
+    return is_done_to_director(act.kind) && act.kind != ActKind::reload && act.director == Role::leader;
+}
+
+class Judge {
+  public:
+    explicit Judge(const Timeline& timeline) : timeline_(timeline) {}
+
+    [[nodiscard]] std::vector<Check> checks() const {
+        std::vector<Check> checks{acts_succeed(), nothing_is_lost(), no_gap_is_long(), cameras_return()};
+        checks.push_back(none("cuts without a reason", &Seen::cuts));
+        checks.push_back(none("frames older than the one before", &Seen::stale));
+        checks.push_back(none("changes of a match's epoch", &Seen::epochs));
+        checks.push_back(all_are_answered());
+        for (int director = 0; director < timeline_.scenario.directors; ++director)
+            judge_lives(director, checks);
+        return checks;
+    }
+
+    // Whether the machine ran what is measured, in the slice and those beside it.
+    [[nodiscard]] bool is_fair(std::size_t slice) const {
+        const double limit = 0.5 / timeline_.scenario.rate_hz;
+        const std::size_t last = std::min(slice + 2, timeline_.slices.size());
+        for (std::size_t i = slice - std::min<std::size_t>(slice, 1); i < last; ++i)
+            if (timeline_.slices[i].stall_s > limit) return false;
+        return true;
+    }
+
+  private:
+    // What one process of a director used: its slices without acts.
+    using Life = std::vector<const Slice*>;
+
+    // Whether an act that `concerns` is, or has just been, under way.
+    [[nodiscard]] bool during(const Slice& slice, bool (*concerns)(const Act&), double afterwards) const {
+        return std::ranges::any_of(timeline_.acts, [&](const ActRecord& record) {
+            return concerns(record.act) && overlaps(slice, record.begin, record.end + afterwards);
+        });
+    }
+
+    [[nodiscard]] Check acts_succeed() const {
+        const auto failed =
+            std::ranges::find_if(timeline_.acts, [](const ActRecord& act) { return !act.failure.empty(); });
+        const bool passed = failed == timeline_.acts.end();
+        return {"acts that could not be carried out",
+                passed ? "none" : name_of(failed->act.kind) + ": " + failed->failure, "none", passed};
+    }
+
+    [[nodiscard]] Check nothing_is_lost() const {
+        const std::uint64_t lost = sum_without_leader_acts(&Seen::lost);
+        return {"frames lost where no leader was removed", std::to_string(lost), "0", lost == 0};
+    }
+    [[nodiscard]] Check all_are_answered() const {
+        const std::uint64_t count = sum_without_leader_acts(&Seen::unanswered);
+        return {"frames without the observer's camera where no leader was removed", std::to_string(count), "0",
+                count == 0};
+    }
+    [[nodiscard]] std::uint64_t sum_without_leader_acts(std::uint64_t Seen::*count) const {
+        std::uint64_t sum = 0;
+        for (std::size_t i = 0; i < timeline_.slices.size(); ++i) {
+            const Slice& slice = timeline_.slices[i];
+            if (is_fair(i) && !during(slice, removes_leader, longest_absence_s)) sum += slice.seen.*count;
+        }
+        return sum;
+    }
+
+    [[nodiscard]] Check no_gap_is_long() const {
+        double longest = 0.0;
+        for (const Slice& slice : timeline_.slices) {
+            const bool alone = timeline_.scenario.directors < 2;
+            if (alone && during(slice, removes_leader, longest_absence_s)) continue;
+            longest = std::max(longest, slice.seen.gap_s - slice.stall_s);
+        }
+        return {"longest gap beside the machine's own, ms", text(1e3 * longest), text(1e3 * longest_gap_s),
+                longest <= longest_gap_s};
+    }
+
+    [[nodiscard]] Check cameras_return() const {
+        double longest = 0.0;
+        for (const ActRecord& act : timeline_.acts)
+            longest = std::max(longest, findings_of(act, timeline_).back_s);
+        return {"cameras again after an act, s", text(longest, 1), text(longest_absence_s, 1),
+                longest <= longest_absence_s};
+    }
+
+    [[nodiscard]] Check none(const std::string& what, std::uint64_t Seen::*count) const {
+        std::uint64_t sum = 0;
+        for (const Slice& slice : timeline_.slices)
+            sum += slice.seen.*count;
+        return {what, std::to_string(sum), "0", sum == 0};
+    }
+
+    [[nodiscard]] std::vector<Life> lives_of(std::size_t director) const {
+        const double settle = timeline_.scenario.settle_s / 2.0;
+        std::vector<Life> lives;
+        pid_t process = 0;
+        double born = 0.0;
+        for (const Slice& slice : timeline_.slices) {
+            const auto& usage = slice.directors.at(director);
+            if (!usage) continue;
+            if (usage->process != process) {
+                lives.emplace_back();
+                born = process == 0 ? slice.begin - settle : slice.begin;
+                process = usage->process;
+            }
+            const bool quiet = !during(slice, [](const Act&) { return true; }, settle);
+            if (quiet && slice.begin >= born + settle) lives.back().push_back(&slice);
+        }
+        return lives;
+    }
+
+    void judge_lives(int director, std::vector<Check>& checks) const {
+        const auto place = static_cast<std::size_t>(director);
+        const auto count = static_cast<std::size_t>(
+            std::ceil(timeline_.scenario.settle_s / 2.0 /
+                      (timeline_.slices.front().end - timeline_.slices.front().begin)));
+        for (const Life& life : lives_of(place)) {
+            if (life.size() < 2 * count) continue;
+            judge_life(place, std::span(life).first(count), std::span(life).last(count), checks);
+        }
+    }
+
+    void judge_life(std::size_t director, std::span<const Slice* const> first,
+                    std::span<const Slice* const> last, std::vector<Check>& checks) const {
+        const std::string whose = "director " + std::to_string(director) + ", process " +
+                                  std::to_string(first.front()->directors.at(director)->process) + ": ";
+        const auto level = [&](std::span<const Slice* const> slices, auto value) {
+            std::vector<double> values;
+            for (const Slice* slice : slices)
+                values.push_back(static_cast<double>(std::invoke(value, *slice->directors.at(director))));
+            std::ranges::nth_element(values, values.begin() + std::ssize(values) / 2);
+            return values[values.size() / 2];
+        };
+        const auto compare = [&](const std::string& what, auto value, double more, int decimals) {
+            const double before = level(first, value);
+            const double after = level(last, value);
+            checks.push_back({whose + what, text(before, decimals) + " then " + text(after, decimals),
+                              "at most " + text(before + more, decimals), after <= before + more});
+        };
+        const double kept = kept_bytes_a_key * static_cast<double>(invented(*first.front(), *last.back()));
+        compare("memory, MiB", &Usage::resident_mib,
+                max_growth * level(first, &Usage::resident_mib) + slack_mib + kept / (1024.0 * 1024.0), 1);
+        compare("descriptors", &Usage::descriptors, 0.0, 0);
+        compare("threads", &Usage::threads, 0.0, 0);
+    }
+
+    // Observers that were answered in between.
+    [[nodiscard]] std::uint64_t invented(const Slice& first, const Slice& last) const {
+        std::uint64_t sum = 0;
+        for (const ActRecord& act : timeline_.acts)
+            if (act.end > first.begin && act.begin < last.end) sum += act.invented;
+        return sum;
+    }
+
+    const Timeline& timeline_;
+};
+
+}  // namespace
+
+ActFindings findings_of(const ActRecord& act, const Timeline& timeline) {
+    ActFindings found;
+    bool back = false;
+    for (const Slice& slice : timeline.slices) {
+        if (overlaps(slice, act.begin, act.end + longest_absence_s)) {
+            found.gap_s = std::max(found.gap_s, slice.seen.gap_s);
+            found.lost += slice.seen.lost;
+        }
+        if (slice.end <= act.end || back) continue;
+        const double since = slice.end - act.end;
+        back = slice.seen.silent_s <= since;
+        found.back_s = back ? since - slice.seen.silent_s : since;
+    }
+    return found;
+}
+
+double judged_share(const Timeline& timeline) {
+    const Judge judge(timeline);
+    std::size_t fair = 0;
+    for (std::size_t i = 0; i < timeline.slices.size(); ++i)
+        fair += judge.is_fair(i) ? 1 : 0;
+    return static_cast<double>(fair) / static_cast<double>(std::max<std::size_t>(1, timeline.slices.size()));
+}
+
+std::vector<Check> judge(const Timeline& timeline) {
+    return Judge(timeline).checks();
+}
+
+}  // namespace camdir::soak

@@ -1,0 +1,38 @@
+// Whether a run of chaos was as it should be.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "timeline.hpp"
+
+namespace camdir::soak {
+
+struct Check {
+    std::string what;
+    std::string seen, allowed;
+    bool passed = false;
+};
+
+// What observers and directors showed around one act.
+struct ActFindings {
+    double gap_s = 0.0;
+    std::uint64_t lost = 0;
+    double back_s = 0.0;  // from the act's end until every observer has had a camera again
+};
+
+inline constexpr double longest_gap_s = 0.45;  // the lease and as much again, for a busy machine
+inline constexpr double longest_absence_s = 1.0;
+inline constexpr double max_growth = 0.05;  // of resident memory
+inline constexpr double slack_mib = 4.0;    // which an allocator keeps
+// What Cyclone DDS 0.10.2 keeps of each key that a writer has ever written.
+inline constexpr double kept_bytes_a_key = 310.0;
+
+[[nodiscard]] ActFindings findings_of(const ActRecord& act, const Timeline& timeline);
+
+// Frames are judged where the machine did not stall for half a frame; the share of the time where it did not.
+[[nodiscard]] double judged_share(const Timeline& timeline);
+
+[[nodiscard]] std::vector<Check> judge(const Timeline& timeline);
+
+}  // namespace camdir::soak
