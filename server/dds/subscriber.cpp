@@ -35,6 +35,7 @@ Subscriber::Subscriber(const Participant& participant, Options options, MatchTab
       shards_(options_.shards),
       waiting_(options_.matches, options_.participant_matches),
       elsewhere_(none_elsewhere()),
+      removal_(options_.matches),
       match_info_samples_(topic_type(Topic::match_info), samples_per_take),
       pose_samples_(topic_type(Topic::pose_frame), samples_per_take),
       event_samples_(topic_type(Topic::match_event), samples_per_take),
@@ -69,24 +70,27 @@ Result<void> Subscriber::open() {
                           reader_qos(Topic::match_info).get(), nullptr);
     if (match_info_reader_ < 0)
         return dds_failure("creating the reader of MatchInfo in /dds/partitions", match_info_reader_);
-    if (auto watched = watch_writers(match_info_reader_, &matched_tag); !watched) return watched;
-    return watch(match_info_reader_, &match_info_tag);
+    if (auto watched = watch_writers(match_info_reader_, &matched_tag); !watched)
+        return tl::unexpected(watched.error());
+    if (auto watched = watch(match_info_reader_, &match_info_tag); !watched)
+        return tl::unexpected(watched.error());
+    return {};
 }
 
 // The condition is deleted and detached with its reader.
-Result<void> Subscriber::watch(dds_entity_t reader, const void* tag) {
+Result<dds_entity_t> Subscriber::watch(dds_entity_t reader, const void* tag) {
     const dds_entity_t condition = dds_create_readcondition(reader, DDS_ANY_STATE);
     if (condition < 0) return dds_failure("creating a read condition", condition);
     const dds_return_t attached = dds_waitset_attach(waitset_.handle(), condition, attachment(tag));
     if (attached < 0) return dds_failure("attaching a read condition", attached);
-    return {};
+    return condition;
 }
 
-Result<void> Subscriber::watch_writers(dds_entity_t reader, const void* tag) {
+Result<dds_entity_t> Subscriber::watch_writers(dds_entity_t reader, const void* tag) {
     dds_return_t code = dds_set_status_mask(reader, DDS_SUBSCRIPTION_MATCHED_STATUS);
     if (code >= 0) code = dds_waitset_attach(waitset_.handle(), reader, attachment(tag));
     if (code < 0) return dds_failure("attaching a reader", code);
-    return {};
+    return reader;
 }
 
 void Subscriber::start(director::Ingress& ingress) {

@@ -15,6 +15,7 @@
 #include "base/log_limit.hpp"
 #include "config/config.hpp"
 #include "dds/counters.hpp"
+#include "dds/endpoint_removal.hpp"
 #include "dds/match_table.hpp"
 #include "dds/ownership.hpp"
 #include "dds/participant.hpp"
@@ -81,11 +82,12 @@ class Subscriber {
         bool forgotten = false;  // by the director; reintroduced when a sample arrives
         SenderLookup pose_senders, event_senders;
         Source poses, events, requests, requesters, cameras, signs;
+        std::vector<dds_entity_t> watched;  // in the waitset
     };
 
-    // Triggers when the reader has samples, and when writers come or go.
-    [[nodiscard]] Result<void> watch(dds_entity_t reader, const void* tag);
-    [[nodiscard]] Result<void> watch_writers(dds_entity_t reader, const void* tag);
+    // Triggers when the reader has samples, and when writers come or go. Returns what is in the waitset.
+    [[nodiscard]] Result<dds_entity_t> watch(dds_entity_t reader, const void* tag);
+    [[nodiscard]] Result<dds_entity_t> watch_writers(dds_entity_t reader, const void* tag);
     void run() noexcept;
     void notice_absence();
     void take_triggered(std::size_t count);
@@ -130,6 +132,7 @@ class Subscriber {
     // Returns false after logging why its endpoints could not be created.
     [[nodiscard]] bool add_match(const std::string& match_id);
     [[nodiscard]] Result<void> open_match(const std::string& match_id);
+    [[nodiscard]] Result<void> watch(Match& match);
     void remove_match(const std::string& match_id);
     void remove_forgotten();
     void put_new_shards_into_effect();
@@ -163,6 +166,7 @@ class Subscriber {
     Shards shards_;
     WaitingMatches waiting_;    // for room
     WaitingMatches elsewhere_;  // of other shards
+    EndpointRemoval removal_;
     std::unordered_map<std::string, std::unique_ptr<Match>> matches_;
     std::vector<std::string> new_matches_;                        // whose signs were not looked at yet
     Clock::time_point listened_{};                                // to all who send

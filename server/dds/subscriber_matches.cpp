@@ -32,7 +32,7 @@ void Subscriber::described(Ownership::Claim claim) {
         return waiting_.keep(std::move(claim));
     }
     // It counts and logs what it refuses.
-    if (!known && !ingress_->admit(match_id)) return waiting_.keep(std::move(claim));
+    if (!known && !(removal_.has_room() && ingress_->admit(match_id))) return waiting_.keep(std::move(claim));
     // The endpoints first, because the director publishes at once.
     if (!known && !add_match(match_id)) return;
     Match& match = *matches_[match_id];
@@ -47,7 +47,7 @@ void Subscriber::described(Ownership::Claim claim) {
 
 void Subscriber::admit_waiting() {
     const auto may_open = [this](const Ownership::Claim& claim) { return may_open_match(claim.sender); };
-    while (!waiting_.empty() && ingress_->has_room()) {
+    while (!waiting_.empty() && removal_.has_room() && ingress_->has_room()) {
         std::optional<Ownership::Claim> claim = waiting_.take(may_open);
         if (!claim) return;
         described(std::move(*claim));
@@ -123,6 +123,7 @@ bool Subscriber::add_match(const std::string& match_id) {
 
 // On failure the caller removes the match.
 Result<void> Subscriber::open_match(const std::string& match_id) {
+    removal_.finish(match_id);
     auto endpoints =
         MatchEndpoints::open(participant_, match_id, options_.leadership, options_.director_id, counters_);
     if (!endpoints) return tl::unexpected(endpoints.error());
@@ -138,23 +139,37 @@ Result<void> Subscriber::open_match(const std::string& match_id) {
     table_.add(match->endpoints);
     next_decision_ = Clock::now();
     counters_.matches = static_cast<std::uint32_t>(matches_.size());
-    for (const auto& [reader, source] : {std::pair{match->endpoints->pose_reader(), &match->poses},
-                                         std::pair{match->endpoints->event_reader(), &match->events},
-                                         std::pair{match->endpoints->request_reader(), &match->requests},
-                                         std::pair{match->endpoints->camera_reader(), &match->cameras},
-                                         std::pair{match->endpoints->sign_reader(), &match->signs}}) {
-        if (auto watched = watch(reader, source); !watched) return watched;
-    }
-    if (auto watched = watch_writers(match->endpoints->request_reader(), &match->requesters); !watched)
-        return watched;
+    if (auto watched = watch(*match); !watched) return watched;
     triggered_.resize(3 + 6 * matches_.size());
     new_matches_.push_back(match_id);
     return {};
 }
 
+Result<void> Subscriber::watch(Match& match) {
+    const MatchEndpoints& endpoints = *match.endpoints;
+    for (const auto& [reader, source] : {std::pair{endpoints.pose_reader(), &match.poses},
+                                         std::pair{endpoints.event_reader(), &match.events},
+                                         std::pair{endpoints.request_reader(), &match.requests},
+                                         std::pair{endpoints.camera_reader(), &match.cameras},
+                                         std::pair{endpoints.sign_reader(), &match.signs}}) {
+        const auto watched = watch(reader, source);
+        if (!watched) return tl::unexpected(watched.error());
+        match.watched.push_back(*watched);
+    }
+    const auto watched = watch_writers(endpoints.request_reader(), &match.requesters);
+    if (!watched) return tl::unexpected(watched.error());
+    match.watched.push_back(*watched);
+    return {};
+}
+
 void Subscriber::remove_match(const std::string& match_id) {
     table_.remove(match_id);
-    matches_.erase(match_id);
+    const auto known = matches_.find(match_id);
+    if (known == matches_.end()) return;
+    for (const dds_entity_t entity : known->second->watched)
+        dds_waitset_detach(waitset_.handle(), entity);
+    removal_.add(std::move(known->second->endpoints));
+    matches_.erase(known);
     counters_.matches = static_cast<std::uint32_t>(matches_.size());
 }
 

@@ -1,0 +1,51 @@
+#include "dds/endpoint_removal.hpp"
+
+namespace camdir::dds {
+namespace {
+
+// The waits of one thread are also those of the others.
+constexpr int thread_count = 4;
+
+}  // namespace
+
+EndpointRemoval::EndpointRemoval(std::size_t capacity) : capacity_(capacity) {
+    for (int i = 0; i < thread_count; ++i)
+        threads_.emplace_back([this](const std::stop_token& stop) { run(stop); });
+}
+
+EndpointRemoval::~EndpointRemoval() = default;
+
+bool EndpointRemoval::has_room() const {
+    const std::lock_guard lock(mutex_);
+    return pending_.size() < capacity_;
+}
+
+void EndpointRemoval::add(MatchTable::Endpoints endpoints) {
+    {
+        const std::lock_guard lock(mutex_);
+        pending_.insert(endpoints->match_id());
+        waiting_.push_back(std::move(endpoints));
+    }
+    changed_.notify_all();
+}
+
+void EndpointRemoval::finish(const std::string& match_id) {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return !pending_.contains(match_id); });
+}
+
+void EndpointRemoval::run(const std::stop_token& stop) {
+    std::unique_lock lock(mutex_);
+    while (changed_.wait(lock, stop, [&] { return !waiting_.empty(); })) {
+        MatchTable::Endpoints endpoints = std::move(waiting_.front());
+        waiting_.pop_front();
+        lock.unlock();
+        const std::string match_id = endpoints->match_id();
+        endpoints.reset();
+        lock.lock();
+        pending_.erase(pending_.find(match_id));
+        changed_.notify_all();
+    }
+}
+
+}  // namespace camdir::dds

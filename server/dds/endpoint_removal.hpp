@@ -1,0 +1,43 @@
+// Deletes the endpoints of matches that have ended.
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <set>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "dds/match_table.hpp"
+
+namespace camdir::dds {
+
+// In threads of its own: for each endpoint DDS waits until all of its own threads have passed a certain
+// point, and whoever waits with it receives nothing meanwhile. Thread-safe.
+class EndpointRemoval {
+  public:
+    // As many matches may wait for the end of theirs.
+    explicit EndpointRemoval(std::size_t capacity);
+    // Deletes what is left.
+    ~EndpointRemoval();
+    EndpointRemoval(const EndpointRemoval&) = delete;
+    EndpointRemoval& operator=(const EndpointRemoval&) = delete;
+
+    [[nodiscard]] bool has_room() const;
+    void add(MatchTable::Endpoints endpoints);
+    // Waits until those of this match are deleted: new ones would be taken for them.
+    void finish(const std::string& match_id);
+
+  private:
+    void run(const std::stop_token& stop);
+
+    const std::size_t capacity_;
+    mutable std::mutex mutex_;
+    std::condition_variable_any changed_;
+    std::deque<MatchTable::Endpoints> waiting_;
+    std::multiset<std::string> pending_;  // match ids, waiting or being deleted
+    std::vector<std::jthread> threads_;
+};
+
+}  // namespace camdir::dds
