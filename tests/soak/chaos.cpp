@@ -130,7 +130,8 @@ int run(const Options& options, const std::stop_token& stop) {
     const Timeline timeline = play(stage, *scenario, stop);
     const std::string problem = stage.end();
     auto checks = judge(timeline);
-    checks.push_back({"directors end as they should", problem.empty() ? "yes" : problem, "yes", problem.empty()});
+    checks.push_back(
+        {"directors end as they should", problem.empty() ? "yes" : problem, "yes", problem.empty()});
     print(timeline);
     print(checks);
     const double judged = judged_share(timeline);

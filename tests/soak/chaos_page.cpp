@@ -47,11 +47,13 @@ double when_seen(const Slice& slice, double value) {
 }
 
 std::vector<Chart> charts_of(const Timeline& timeline) {
-    return {{"Latency", "ms",
+    return {{"Latency",
+             "ms",
              {{"p50", [](const Slice& s) { return when_seen(s, 1e3 * s.seen.p50_s); }},
               {"p99", [](const Slice& s) { return when_seen(s, 1e3 * s.seen.p99_s); }}}},
             {"Longest gap", "ms", {{"of an observer", [](const Slice& s) { return 1e3 * s.seen.gap_s; }}}},
-            {"Frames lost", "",
+            {"Frames lost",
+             "",
              {{"of all observers", [](const Slice& s) { return static_cast<double>(s.seen.lost); }}}},
             of_directors(timeline, "Memory", "MiB", &Usage::resident_mib),
             of_directors(timeline, "Descriptors", "", &Usage::descriptors),
@@ -68,8 +70,8 @@ std::string marks(const Timeline& timeline) {
     std::string svg;
     for (const ActRecord& act : timeline.acts) {
         const long x = std::lround(act.begin / duration_of(timeline) * columns);
-        svg += "<path class=\"cut\" d=\"M" + std::to_string(x) + " 0v" + std::to_string(rows) +
-               "\"><title>" + name_of(act.act.kind) + " at " + decimal(act.begin, 1) + " s</title></path>";
+        svg += "<path class=\"cut\" d=\"M" + std::to_string(x) + " 0v" + std::to_string(rows) + "\"><title>" +
+               name_of(act.act.kind) + " at " + decimal(act.begin, 1) + " s</title></path>";
     }
     return svg;
 }

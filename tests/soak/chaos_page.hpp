@@ -1,5 +1,5 @@
-// A page of HTML about a run of chaos: the verdict, the acts, and what was seen over time. One file that needs
-// no other, no network and no script.
+// A page of HTML about a run of chaos: the verdict, the acts, and what was seen over time. One file that
+// needs no other, no network and no script.
 #pragma once
 
 #include <string>

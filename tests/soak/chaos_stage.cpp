@@ -69,12 +69,28 @@ void ChaosStage::start(Place& place) {
 }
 
 void ChaosStage::start_game() {
-    game_ = std::make_unique<ChildProcess>(std::vector<std::string>{
-        options_.programs + "/synthetic-players", options_.map, "--domain", std::to_string(domain_.id()),
-        "--directors", directors(), "--map-name", "map", "--match-prefix", match_prefix, "--matches",
-        std::to_string(scenario_.matches), "--players", std::to_string(scenario_.players), "--rate",
-        std::to_string(scenario_.rate_hz), "--delay", std::to_string(scenario_.delay_s), "--seed",
-        std::to_string(scenario_.seed), "--teleports", "0"});
+    game_ = std::make_unique<ChildProcess>(std::vector<std::string>{options_.programs + "/synthetic-players",
+                                                                    options_.map,
+                                                                    "--domain",
+                                                                    std::to_string(domain_.id()),
+                                                                    "--directors",
+                                                                    directors(),
+                                                                    "--map-name",
+                                                                    "map",
+                                                                    "--match-prefix",
+                                                                    match_prefix,
+                                                                    "--matches",
+                                                                    std::to_string(scenario_.matches),
+                                                                    "--players",
+                                                                    std::to_string(scenario_.players),
+                                                                    "--rate",
+                                                                    std::to_string(scenario_.rate_hz),
+                                                                    "--delay",
+                                                                    std::to_string(scenario_.delay_s),
+                                                                    "--seed",
+                                                                    std::to_string(scenario_.seed),
+                                                                    "--teleports",
+                                                                    "0"});
 }
 
 void ChaosStage::start_witness() {

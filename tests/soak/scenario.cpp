@@ -86,24 +86,17 @@ bool assign(const Key& key, const json& value) {
 }
 
 std::vector<Key> keys_of(Scenario& to) {
-    return {{"seed", &to.seed, 0, 4294967295},
-            {"seconds", &to.seconds, 1, 1e7},
-            {"settle_s", &to.settle_s, 2, 1e4},
-            {"directors", &to.directors, 1, 2},
-            {"matches", &to.matches, 1, 64},
-            {"players", &to.players, 1, 64},
-            {"observers", &to.observers, 1, 64},
-            {"rate_hz", &to.rate_hz, 1, 240},
+    return {{"seed", &to.seed, 0, 4294967295},   {"seconds", &to.seconds, 1, 1e7},
+            {"settle_s", &to.settle_s, 2, 1e4},  {"directors", &to.directors, 1, 2},
+            {"matches", &to.matches, 1, 64},     {"players", &to.players, 1, 64},
+            {"observers", &to.observers, 1, 64}, {"rate_hz", &to.rate_hz, 1, 240},
             {"delay_s", &to.delay_s, 0, 120}};
 }
 
 std::vector<Key> keys_of(Act& to) {
-    return {{"act", &to.kind, 0, 0, true},
-            {"at_s", &to.at_s, 0, 1e7, true},
-            {"every_s", &to.every_s, 0, 1e7},
-            {"for_s", &to.for_s, 0.1, 1e7},
-            {"director", &to.director},
-            {"count", &to.count, 1, 1e9},
+    return {{"act", &to.kind, 0, 0, true},    {"at_s", &to.at_s, 0, 1e7, true},
+            {"every_s", &to.every_s, 0, 1e7}, {"for_s", &to.for_s, 0.1, 1e7},
+            {"director", &to.director},       {"count", &to.count, 1, 1e9},
             {"batch", &to.batch, 1, 256}};
 }
 

@@ -48,8 +48,8 @@ struct Scenario {
     double seconds = 30.0;  // measured
     double settle_s = 5.0;  // without acts, at the end
     std::int64_t directors = 2;
-    std::int64_t matches = 2;  // real ones
-    std::int64_t players = 8;  // a match
+    std::int64_t matches = 2;    // real ones
+    std::int64_t players = 8;    // a match
     std::int64_t observers = 2;  // a match
     double rate_hz = 30.0;
     double delay_s = 0.0;

@@ -1,12 +1,13 @@
-// stranger: does to the directors and matches of a domain what a game server or observer of the SDK would not.
+// stranger: does to the directors and matches of a domain what a game server or observer of the SDK would
+// not.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <functional>
 #include <iostream>
 #include <limits>
 #include <map>
+#include <memory>
 #include <random>
 #include <thread>
 
@@ -22,7 +23,7 @@ using test::RawPoseFrame;
 
 constexpr std::chrono::milliseconds frame_interval(33);
 constexpr std::uint32_t players = 4;
-constexpr double batches_a_peer = 20;  // then it leaves, and another comes
+constexpr std::uint64_t batches_a_peer = 20;  // then it leaves, and another comes
 constexpr std::chrono::milliseconds answer_limit(500);
 
 struct Options {
@@ -48,7 +49,8 @@ class Stranger {
 
     void flap() {
         for (std::uint32_t number = 0; !is_over(); ++number) {
-            const std::string match = "flapping-" + std::to_string(options_.seed) + '-' + std::to_string(number);
+            const std::string match =
+                "flapping-" + std::to_string(options_.seed) + '-' + std::to_string(number);
             RawPeer peer(options_.domain, match);
             const auto info = match_info(match, 1, "map");
             peer.write(info);
@@ -118,29 +120,38 @@ class Stranger {
     }
 
     void flood_with_observers() {
-        flood({"match/" + options_.match}, [&](RawPeer& peer, const std::vector<std::string>& ids) {
+        std::unique_ptr<RawPeer> peer;
+        flood([&](const std::vector<std::string>& ids, std::uint64_t batch) {
+            if (batch % batches_a_peer == 0)
+                peer = std::make_unique<RawPeer>(options_.domain, options_.match);
             for (const std::string& id : ids)
-                attempt([&] { peer.write(test::raw_request(options_.match, id, 0)); });
+                attempt([&] { peer->write(test::raw_request(options_.match, id, 0)); });
             const auto answered = [&] {
                 return std::ranges::count_if(ids,
-                                             [&](const auto& id) { return peer.statuses().contains(id); });
+                                             [&](const auto& id) { return peer->statuses().contains(id); });
             };
             (void)test::eventually([&] { return answered() == std::ssize(ids); }, answer_limit);
             answered_ += static_cast<std::uint64_t>(answered());
             for (const std::string& id : ids)
-                attempt([&] { peer.dispose(test::raw_request(options_.match, id, 0)); });
+                attempt([&] { peer->dispose(test::raw_request(options_.match, id, 0)); });
         });
     }
 
+    // Each of a partition of its own.
     void flood_with_matches() {
-        flood({"match/flood"}, [&](RawPeer& peer, const std::vector<std::string>& ids) {
-            for (const std::string& id : ids) {
-                attempt([&] { peer.write(match_info(id, 1, "map")); });
-                attempt([&] { peer.write(RawPoseFrame(id, 1, 0, players).sample()); });
-            }
-            std::this_thread::sleep_for(frame_interval);
+        flood([&](const std::vector<std::string>& ids, std::uint64_t /*batch*/) {
+            std::vector<std::string> partitions;
             for (const std::string& id : ids)
+                partitions.push_back("match/" + id);
+            RawPeer peer(options_.domain, ids.front(), partitions);
+            for (const std::string& id : ids)
+                attempt([&] { peer.write(match_info(id, 1, "map")); });
+            (void)test::eventually([&] { return peer.directors() >= ids.size(); }, answer_limit);
+            answered_ += std::min<std::uint64_t>(peer.directors(), ids.size());
+            for (const std::string& id : ids) {
+                attempt([&] { peer.write(RawPoseFrame(id, 1, 0, players).sample()); });
                 attempt([&] { peer.dispose(match_info(id, 1, "map")); });
+            }
         });
     }
 
@@ -201,21 +212,16 @@ class Stranger {
     }
 
     // options_.count ids in batches, evenly over options_.seconds.
-    void flood(const std::vector<std::string>& partitions,
-               const std::function<void(RawPeer&, const std::vector<std::string>&)>& come_and_go) {
-        const double batches =
-            std::ceil(static_cast<double>(options_.count) / static_cast<double>(options_.batch));
-        std::unique_ptr<RawPeer> peer;
-        for (double batch = 0; batch < batches && !is_over(); ++batch) {
-            if (std::fmod(batch, batches_a_peer) == 0.0)
-                peer = std::make_unique<RawPeer>(options_.domain, options_.match, partitions);
+    void flood(const std::function<void(const std::vector<std::string>& ids, std::uint64_t batch)>& pass) {
+        const std::uint64_t batches = (options_.count + options_.batch - 1) / options_.batch;
+        const std::chrono::duration<double> interval(options_.seconds / static_cast<double>(batches));
+        for (std::uint64_t batch = 0; batch < batches && !is_over(); ++batch) {
             std::vector<std::string> ids;
             for (; ids.size() < options_.batch && written_ < options_.count; ++written_)
                 ids.push_back("x-" + std::to_string(options_.seed) + '-' + std::to_string(written_));
-            come_and_go(*peer, ids);
+            pass(ids, batch);
             std::this_thread::sleep_until(
-                begun_ + std::chrono::duration_cast<Clock::duration>(
-                             std::chrono::duration<double>(options_.seconds * (batch + 1) / batches)));
+                begun_ + std::chrono::duration_cast<Clock::duration>(interval * (batch + 1)));
         }
     }
 
@@ -259,7 +265,8 @@ int main(int argc, char** argv) {
     app.add_option("--seconds", options.seconds, "Duration")->capture_default_str();
     app.add_option("--count", options.count, "Of a flood")->capture_default_str();
     app.add_option("--batch", options.batch, "At a time")->check(CLI::Range(1, 256))->capture_default_str();
-    app.add_option("--seed", options.seed, "Another one gives other names and garbage")->capture_default_str();
+    app.add_option("--seed", options.seed, "Another one gives other names and garbage")
+        ->capture_default_str();
     CLI11_PARSE(app, argc, argv);
     int status = 0;
     try {

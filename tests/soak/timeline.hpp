@@ -15,14 +15,14 @@ namespace camdir::soak {
 
 // What the observers of the real matches have seen together for the time of a slice.
 struct Seen {
-    std::uint64_t frames = 0;      // with the observer's camera
-    std::uint64_t lost = 0;        // pose frames without one
-    std::uint64_t stale = 0;       // frames not newer than the one before
-    std::uint64_t cuts = 0;        // players of real matches never jump: each has no reason
-    std::uint64_t unanswered = 0;  // frames during which the answer was not "accepted"
-    std::uint64_t epochs = 0;      // changes of the match's epoch, of which there are none
-    double gap_s = 0.0;            // longest time without the observer's camera
-    double silent_s = 0.0;         // longest time since an observer's last camera, at the slice's end
+    std::uint64_t frames = 0;         // with the observer's camera
+    std::uint64_t lost = 0;           // pose frames without one
+    std::uint64_t stale = 0;          // frames not newer than the one before
+    std::uint64_t cuts = 0;           // players of real matches never jump: each has no reason
+    std::uint64_t unanswered = 0;     // frames during which the answer was not "accepted"
+    std::uint64_t epochs = 0;         // changes of the match's epoch, of which there are none
+    double gap_s = 0.0;               // longest time without the observer's camera
+    double silent_s = 0.0;            // longest time since an observer's last camera, at the slice's end
     double p50_s = 0.0, p99_s = 0.0;  // from the poses, plus their delay, to the camera's arrival
 };
 

@@ -73,14 +73,14 @@ struct Witness::Place {
 
 Witness::Witness(const Options& options)
     : delay_s_(options.delay_s),
-      context_(
-          camera_director::Context::open({.domain = options.domain, .directors = options.directors}).value()) {
+      context_(camera_director::Context::open({.domain = options.domain, .directors = options.directors})
+                   .value()) {
     for (std::uint32_t match = 0; match < options.matches; ++match) {
         for (std::uint32_t i = 0; i < options.observers; ++i) {
-            auto observer = camera_director::Observer::open(
-                                context_, options.match_prefix + '-' + std::to_string(match),
-                                "viewer-" + std::to_string(i))
-                                .value();
+            auto observer =
+                camera_director::Observer::open(context_, options.match_prefix + '-' + std::to_string(match),
+                                                "viewer-" + std::to_string(i))
+                    .value();
             observer.request({.target = i % options.players}).value();
             places_.push_back(std::make_unique<Place>(std::move(observer)));
         }
