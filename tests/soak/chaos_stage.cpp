@@ -134,7 +134,9 @@ void ChaosStage::act_on_director(const Act& act, const std::stop_token& stop) {
     Place& place = place_of(act.director);
     switch (act.kind) {
         case ActKind::hand_over:
-            return place.director->hand_over();
+            // It keeps those of strangers for which no standby has cameras.
+            (void)place.director->hand_over();
+            return;
         case ActKind::reload:
             return place.director->signal(SIGHUP);
         case ActKind::pause:

@@ -30,8 +30,8 @@ class DirectorProcess {
 
     // It serves one map, whose name is "map"; `source` may be empty.
     void start(const std::string& map_file, const std::string& source);
-    // Throws when the director refuses.
-    void hand_over() const;
+    // False when it keeps matches for want of a standby. Throws when the director refuses.
+    [[nodiscard]] bool hand_over() const;
     // Whether it says that it serves.
     [[nodiscard]] bool is_ready() const;
     void signal(int number) const { process_->send_signal(number); }
