@@ -131,6 +131,21 @@ TEST_F(OwnerTest, AStrangerCannotTakeAMatchFromAGameServerThatSends) {
                  recorder_.has("event cup 3 "));
 }
 
+TEST_F(OwnerTest, AStrangersPosesDoNotReplaceThoseThatWaitToBeRead) {
+    RawPeer& owner = game("cup");
+    RawPeer& stranger = peer("cup");
+    ASSERT_TRUE(eventually([&] { return stranger.directors() == 1; }));
+    recorder_.hangs = true;
+    owner.write(test::raw_match_info("cup", 2));
+    const bool hangs = eventually([&] { return recorder_.has("info cup 2"); });
+    owner.write(RawPoseFrame("cup", 2, 10, 1).sample());
+    stranger.write(RawPoseFrame("cup", 2, 20, 1).sample());
+    recorder_.hangs = false;
+    ASSERT_TRUE(hangs);
+    EXPECT_TRUE(eventually([&] { return dropped(Topic::pose_frame, ValidationError::not_owner) == 1; }));
+    EXPECT_TRUE(recorder_.has("pose cup 10"));
+}
+
 TEST_F(OwnerTest, AStrangerWhoDescribesNothingIsNotHeard) {
     RawPeer& owner = game("cup");
     recorder_.silence = std::chrono::nanoseconds(0);
