@@ -84,11 +84,11 @@ void ReceivedMatch::take_early_status() {
 }
 
 // Directors that did not know of each other have written the same frames, and one that could not be reached
-// sends its last ones again. The time of a game that pauses stands still, and the numbers go on.
+// sends its last ones again. The time of a game that pauses stands still, and the numbers of its poses go on.
 bool ReceivedMatch::is_repeated(const camera_director_CameraFrame& frame) const {
     if (!last_frame_ || is_of_past(frame)) return false;
     if (frame.frame_time != last_frame_->frame_time) return frame.frame_time < last_frame_->frame_time;
-    return static_cast<std::int32_t>(frame.frame_number - last_frame_->frame_number) <= 0;
+    return static_cast<std::int32_t>(frame.pose_number - last_frame_->pose_number) <= 0;
 }
 
 bool ReceivedMatch::is_of_past(const camera_director_CameraFrame& frame) const {
@@ -150,7 +150,7 @@ bool ReceivedMatch::accept(const camera_director_CameraFrame& frame, std::int64_
     ++counters_.frames;
     forget_future(frame);
     if (!follows_last(frame)) track_.interrupt();
-    last_frame_ = FrameId{frame.director_id, frame.frame_number, frame.frame_time};
+    last_frame_ = FrameId{frame.director_id, frame.frame_number, frame.pose_number, frame.frame_time};
     clock_.observe(frame.frame_time, now);
     if (const std::optional<cdir_camera> camera = camera_of_shot(frame)) {
         track_.add(frame.frame_time, *camera, (camera->flags & CDIR_CAMERA_CUT) == 0);

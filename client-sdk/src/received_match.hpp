@@ -69,7 +69,7 @@ class ReceivedMatch {
 
     struct FrameId {
         std::uint64_t director_id;
-        std::uint32_t frame_number;
+        std::uint32_t frame_number, pose_number;
         std::int64_t frame_time;
     };
 

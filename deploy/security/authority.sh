@@ -242,7 +242,7 @@ issue() {
     check_role "$3"
     check_matches "${@:4}"
     enter "$1"
-    [ ! -e "grants/$2" ] || fail "there is an identity '$2' already, and nothing is overwritten: take another name, or '$script renew'"
+    [ ! -e "identities/$2" ] || fail "there is an identity '$2' already, and nothing is overwritten: take another name, or '$script renew'"
     begin "identities/.$2"
     identity "${@:2}"
     printf '%s\n' "${@:3}" >"grants/$2"
@@ -258,8 +258,9 @@ renew() {
     mapfile -t grants <"grants/$2"
     begin "identities/.$2"
     identity "$2" "${grants[@]}"
-    rm -rf "identities/$2"
+    mv "identities/$2" "identities/.$2.old"
     complete "identities/$2"
+    rm -rf "identities/.$2.old"
     tell_made "$1" "$2"
     echo "$script: its previous certificate stays valid until it expires or is revoked" >&2
 }
@@ -274,7 +275,7 @@ revoke() {
     check_identity "$2"
     local certificates serial folder
     certificates=$(awk -F '\t' -v name="/CN=$2" '$1 == "V" && $6 == name { print $4 }' index.txt)
-    [ -n "$certificates" ] || fail "'$2' has no certificate that is not revoked"
+    # The lists are written in any case: an earlier call may have been interrupted before that.
     for serial in $certificates; do
         openssl ca -config authority.conf -revoke "issued/$serial.pem" 2>/dev/null ||
             fail "openssl cannot revoke issued/$serial.pem"
@@ -299,6 +300,7 @@ list() {
     for file in grants/*; do
         [ -f "$file" ] || continue
         name=$(basename "$file")
+        [ -f "identities/$name/certificate.pem" ] || { printf '%-24s missing: issue it again\n' "$name"; continue; }
         serial=$(openssl x509 -in "identities/$name/certificate.pem" -noout -serial)
         state=$(awk -F '\t' -v serial="${serial#serial=}" '$4 == serial { print $1 == "R" ? "revoked" : "valid" }' index.txt)
         openssl x509 -in "identities/$name/certificate.pem" -noout -checkend 0 >/dev/null || state=expired

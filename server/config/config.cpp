@@ -234,7 +234,7 @@ void check_shards(const Dds& dds, ValidationErrors& errors) {
 }
 
 void check_references(const Config& config, ValidationErrors& errors) {
-    check_shards(config.dds, errors);
+    if (errors.none()) check_shards(config.dds, errors);
     if (!config.profiles.contains(config.matches.default_profile))
         errors.add("/matches/default_profile", config.matches.default_profile, "the name of a profile");
 }

@@ -192,8 +192,8 @@ std::optional<ValidationError> decode(const camera_director_DirectorSign& sample
         sample.lease_ms > max_lease.count()) {
         return ValidationError::out_of_range;
     }
-    sign = {sample.director_id, sample.term,       sample.rank, std::chrono::milliseconds(sample.lease_ms),
-            sample.leads,       sample.has_cameras};
+    sign = {sample.director_id, sample.term,        sample.rank, std::chrono::milliseconds(sample.lease_ms),
+            sample.leads,       sample.has_cameras, sample.shard};
     return std::nullopt;
 }
 

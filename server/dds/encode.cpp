@@ -117,6 +117,7 @@ camera_director_DirectorSign encode(const std::string& match_id, const Sign& sig
     sample.lease_ms = static_cast<std::uint32_t>(sign.lease.count());
     sample.leads = sign.leads;
     sample.has_cameras = sign.has_cameras;
+    sample.shard = sign.shard;
     return sample;
 }
 

@@ -331,6 +331,10 @@ bool MatchEndpoints::is_following() {
     return succession_.follows(Clock::now());
 }
 
+void MatchEndpoints::set_shards(std::uint64_t own, std::uint64_t home) {
+    change([&](Succession& succession, Clock::time_point) { succession.set_shards(own, home); });
+}
+
 void MatchEndpoints::assert_liveliness() {
     change([](Succession& succession, Clock::time_point now) { succession.live(now); });
     write_sign();

@@ -68,8 +68,10 @@ class MatchEndpoints {
     // there is none.
     [[nodiscard]] bool hand_over();
     [[nodiscard]] bool is_leading();
-    // Another director leads.
+    // A director of the match's shard leads it, another one.
     [[nodiscard]] bool is_following();
+    // See Succession.
+    void set_shards(std::uint64_t own, std::uint64_t home);
     // Releases the ownership of the match: observers receive the next director, if there is one.
     void release_ownership();
 

@@ -74,9 +74,10 @@ std::string discovery(const config::Dds& config) {
 }
 
 // A large receive buffer, because hundreds of clients can announce themselves at once; a limit on samples, of
-// which none comes near 1 MB.
+// which none comes near 1 MB. The end of a writer does not wait for readers that acknowledge nothing.
 std::string internals() {
-    return element("Internal", "<SocketReceiveBufferSize max=\"4MB\"/>" + element("MaxSampleSize", "1MB"));
+    return element("Internal", "<SocketReceiveBufferSize max=\"4MB\"/>" + element("MaxSampleSize", "1MB") +
+                                   element("WriterLingerDuration", "0s"));
 }
 
 Result<void> check_name(const std::string& peer) {
@@ -108,8 +109,9 @@ constexpr std::uint64_t max_messages_per_second = 20;
 void log_message(void* /*unused*/, const dds_log_data_t* message) {
     static LogBudget budget(max_messages_per_second);
     const auto left_out = budget.take(std::chrono::steady_clock::now());
-    if (!left_out) return;
-    if (*left_out > 0) spdlog::warn("Cyclone DDS: {} messages left out", *left_out);
+    const bool is_last = (message->priority & DDS_LC_FATAL) != 0;
+    if (!left_out && !is_last) return;
+    if (left_out.value_or(0) > 0) spdlog::warn("Cyclone DDS: {} messages left out", *left_out);
     const bool error = (message->priority & (DDS_LC_FATAL | DDS_LC_ERROR)) != 0;
     std::string text(message->message, message->size);
     while (!text.empty() && text.back() == '\n')

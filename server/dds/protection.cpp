@@ -85,6 +85,7 @@ Result<void> check_protection(const config::Dds& config) {
 
 Result<void> confine_to_loopback() {
     const std::string device = loopback_device();
+    if (device.empty()) return fail(std::string("there is no loopback interface: expected ") + protection);
     for (int file = 0; file < FD_SETSIZE; ++file) {  // Cyclone DDS has none beyond
         if (!receives_from_anywhere(file)) continue;
         if (::setsockopt(file, SOL_SOCKET, SO_BINDTODEVICE, device.c_str(),

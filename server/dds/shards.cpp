@@ -5,21 +5,21 @@
 #include <tuple>
 
 namespace camdir::dds {
-namespace {
 
-// Greater names decide between equal hashes.
-auto weight(const std::string& shard, std::string_view match_id) {
-    const XXH64_hash_t seed = XXH3_64bits(shard.data(), shard.size());
-    return std::tuple(XXH3_64bits_withSeed(match_id.data(), match_id.size(), seed), std::string_view(shard));
+std::uint64_t Shards::number_of(const std::string& shard) {
+    return std::max<std::uint64_t>(XXH3_64bits(shard.data(), shard.size()), 1);
 }
 
-}  // namespace
-
-bool Shards::serves(std::string_view match_id) const {
-    if (all_.empty()) return true;
-    const auto first =
-        std::ranges::max_element(all_, {}, [&](const std::string& shard) { return weight(shard, match_id); });
-    return *first == own_;
+std::uint64_t Shards::home_of(std::string_view match_id) const {
+    std::uint64_t home = 0;
+    std::uint64_t most = 0;
+    for (const std::string& shard : all_) {
+        const std::uint64_t number = number_of(shard);
+        const std::uint64_t weight = XXH3_64bits_withSeed(match_id.data(), match_id.size(), number);
+        if (std::tuple(weight, number) > std::tuple(most, home))
+            std::tie(most, home) = std::tuple(weight, number);
+    }
+    return home;
 }
 
 }  // namespace camdir::dds

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -19,10 +20,15 @@ class Shards {
     // `own` serves nothing where it is not among `all`.
     Shards(std::string own, std::vector<std::string> all) : own_(std::move(own)), all_(std::move(all)) {}
 
-    [[nodiscard]] bool serves(std::string_view match_id) const;
+    [[nodiscard]] bool serves(std::string_view match_id) const { return home_of(match_id) == own(); }
+    // Numbers of shards, the same in all processes; 0 where there are none.
+    [[nodiscard]] std::uint64_t own() const { return all_.empty() ? 0 : number_of(own_); }
+    [[nodiscard]] std::uint64_t home_of(std::string_view match_id) const;
     [[nodiscard]] std::size_t count() const { return std::max<std::size_t>(all_.size(), 1); }
 
   private:
+    [[nodiscard]] static std::uint64_t number_of(const std::string& shard);
+
     std::string own_;
     std::vector<std::string> all_;
 };

@@ -33,7 +33,7 @@ Subscriber::Subscriber(const Participant& participant, Options options, MatchTab
       table_(table),
       counters_(counters),
       shards_(options_.shards),
-      waiting_(options_.matches, options_.participant_matches),
+      waiting_(options_.matches, std::max<std::size_t>(options_.matches / 4, 1)),
       elsewhere_(none_elsewhere()),
       removal_(options_.matches),
       match_info_samples_(topic_type(Topic::match_info), samples_per_take),
@@ -139,7 +139,6 @@ void Subscriber::run() noexcept {
             dds_waitset_wait(waitset_.handle(), triggered_.data(), triggered_.size(), patience.count());
         notice_absence();
         if (count > 0) take_triggered(static_cast<std::size_t>(count));
-        take_signs_of_new_matches();
         remove_forgotten();
         put_new_shards_into_effect();
         if (Clock::now() >= next_assertion_.load()) {
@@ -148,6 +147,7 @@ void Subscriber::run() noexcept {
             admit_waiting();
             next_assertion_ = Clock::now() + assertion_interval();
         }
+        take_signs_of_new_matches();
         // Last, when all signs that had come by then are seen.
         if (Clock::now() >= next_decision_) decide();
     }

@@ -80,6 +80,7 @@ class Subscriber {
         Ownership ownership;
         RequestOwners request_owners;
         bool forgotten = false;  // by the director; reintroduced when a sample arrives
+        bool is_of_shard = true;
         SenderLookup pose_senders, event_senders;
         Source poses, events, requests, requesters, cameras, signs;
         std::vector<dds_entity_t> watched;  // in the waitset
@@ -122,12 +123,13 @@ class Subscriber {
 
     void match_info_found(const camera_director_MatchInfo& sample, const dds_sample_info_t& info);
     void match_info_lost(const camera_director_MatchInfo& key, const dds_sample_info_t& info);
-    // Of a match that may be new.
-    void described(Ownership::Claim claim);
+    // Of a match that may be new. Returns false where it waits or another shard serves it.
+    bool described(Ownership::Claim claim);
     void admit_waiting();
     void notice_unmatched();
     void put_into_effect(Ownership::Change change, const std::string& match_id);
     void begin_anew(Match& match);
+    [[nodiscard]] bool may_open(const Ownership::Claim& claim);
     [[nodiscard]] bool may_open_match(const SenderId& sender) const;
     // Returns false after logging why its endpoints could not be created.
     [[nodiscard]] bool add_match(const std::string& match_id);
@@ -136,7 +138,7 @@ class Subscriber {
     void remove_match(const std::string& match_id);
     void remove_forgotten();
     void put_new_shards_into_effect();
-    // Hands over matches of other shards, and leaves those that another director leads.
+    // Hands over matches of other shards, and leaves those that a director of theirs leads.
     void leave_matches();
     void leave(const std::string& match_id);
     [[nodiscard]] WaitingMatches none_elsewhere() const;

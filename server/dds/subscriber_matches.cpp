@@ -7,6 +7,11 @@
 #include "dds/subscriber.hpp"
 
 namespace camdir::dds {
+namespace {
+
+constexpr int admissions_a_beat = 8;  // 1 ms each
+
+}  // namespace
 
 void Subscriber::match_info_found(const camera_director_MatchInfo& sample, const dds_sample_info_t& info) {
     Ownership::Claim claim;
@@ -23,34 +28,53 @@ void Subscriber::match_info_found(const camera_director_MatchInfo& sample, const
     described(std::move(claim));
 }
 
-void Subscriber::described(Ownership::Claim claim) {
+bool Subscriber::described(Ownership::Claim claim) {
     const std::string match_id = claim.info.match_id;
-    const bool known = matches_.contains(match_id);
-    if (!known && !shards_.serves(match_id)) return elsewhere_.keep(std::move(claim));
-    if (!known && !may_open_match(claim.sender)) {
-        drop(Topic::match_info, ValidationError::participant_limit, match_id);
-        return waiting_.keep(std::move(claim));
+    waiting_.remove(match_id, claim.writer);  // an older description
+    elsewhere_.remove(match_id, claim.writer);
+    if (!matches_.contains(match_id)) {
+        if (!shards_.serves(match_id)) {
+            elsewhere_.keep(std::move(claim));
+            return false;
+        }
+        if (!may_open(claim)) {
+            waiting_.keep(std::move(claim));
+            return false;
+        }
+        // The endpoints first, because the director publishes at once.
+        if (!add_match(match_id)) return true;
     }
-    // It counts and logs what it refuses.
-    if (!known && !(removal_.has_room() && ingress_->admit(match_id))) return waiting_.keep(std::move(claim));
-    // The endpoints first, because the director publishes at once.
-    if (!known && !add_match(match_id)) return;
     Match& match = *matches_[match_id];
     const auto standing = match.ownership.describe(std::move(claim), Clock::now());
-    if (standing == Ownership::Standing::stranger)
-        return drop(Topic::match_info, ValidationError::not_owner, match_id);
+    if (standing == Ownership::Standing::stranger) {
+        drop(Topic::match_info, ValidationError::not_owner, match_id);
+        return true;
+    }
     ++counters_.of(Topic::match_info).accepted;
-    if (standing == Ownership::Standing::successor) return begin_anew(match);
-    match.forgotten = !ingress_->receive(match.ownership.info());
-    if (!match.forgotten) cancel_forget(match_id);
+    if (standing == Ownership::Standing::successor) {
+        begin_anew(match);
+    } else {
+        match.forgotten = !ingress_->receive(match.ownership.info());
+        if (!match.forgotten) cancel_forget(match_id);
+    }
+    return true;
 }
 
+bool Subscriber::may_open(const Ownership::Claim& claim) {
+    if (!may_open_match(claim.sender)) {
+        drop(Topic::match_info, ValidationError::participant_limit, claim.info.match_id);
+        return false;
+    }
+    // It counts and logs what it refuses.
+    return removal_.has_room() && ingress_->admit(claim.info.match_id);
+}
+
+// No more at once than leave the matches that run their beat.
 void Subscriber::admit_waiting() {
     const auto may_open = [this](const Ownership::Claim& claim) { return may_open_match(claim.sender); };
-    while (!waiting_.empty() && removal_.has_room() && ingress_->has_room()) {
+    for (int i = 0; i < admissions_a_beat && removal_.has_room() && ingress_->has_room(); ++i) {
         std::optional<Ownership::Claim> claim = waiting_.take(may_open);
-        if (!claim) return;
-        described(std::move(*claim));
+        if (!claim || !described(std::move(*claim))) return;
     }
 }
 
@@ -61,8 +85,10 @@ bool Subscriber::may_open_match(const SenderId& sender) const {
 }
 
 void Subscriber::match_info_lost(const camera_director_MatchInfo& key, const dds_sample_info_t& info) {
-    waiting_.remove(key.match_id, info.publication_handle);
-    elsewhere_.remove(key.match_id, info.publication_handle);
+    if (info.instance_state == DDS_NOT_ALIVE_DISPOSED_INSTANCE_STATE) {
+        waiting_.remove(key.match_id, info.publication_handle);
+        elsewhere_.remove(key.match_id, info.publication_handle);
+    }
     const auto known = matches_.find(key.match_id);
     if (known == matches_.end()) return;
     Ownership& ownership = known->second->ownership;
@@ -130,6 +156,7 @@ Result<void> Subscriber::open_match(const std::string& match_id) {
     auto& match = matches_[match_id];
     match = std::make_unique<Match>(options_.participant_observers);
     match->endpoints = std::move(*endpoints);
+    match->endpoints->set_shards(shards_.own(), shards_.home_of(match_id));
     match->poses = {match.get(), &Subscriber::take_poses};
     match->events = {match.get(), &Subscriber::take_events};
     match->requests = {match.get(), &Subscriber::take_requests};
@@ -203,16 +230,20 @@ void Subscriber::put_new_shards_into_effect() {
         if (!new_shards_) return;
         shards_ = *std::exchange(new_shards_, std::nullopt);
     }
-    WaitingMatches unserved = std::exchange(elsewhere_, none_elsewhere());
-    while (auto claim = unserved.take([](const Ownership::Claim&) { return true; }))
-        described(std::move(*claim));
+    for (const auto& [match_id, match] : matches_) {
+        match->is_of_shard = shards_.serves(match_id);
+        match->endpoints->set_shards(shards_.own(), shards_.home_of(match_id));
+    }
+    WaitingMatches all = std::exchange(elsewhere_, none_elsewhere());
+    while (auto claim = all.take([](const Ownership::Claim&) { return true; }))
+        (shards_.serves(claim->info.match_id) ? waiting_ : elsewhere_).keep(std::move(*claim));
 }
 
 void Subscriber::leave_matches() {
     std::vector<std::string> left;
     std::uint32_t leaving = 0;
     for (const auto& [match_id, match] : matches_) {
-        if (shards_.serves(match_id)) continue;
+        if (match->is_of_shard) continue;
         ++leaving;
         if (match->endpoints->is_leading())
             (void)match->endpoints->hand_over();  // again, until another has cameras
@@ -231,6 +262,7 @@ void Subscriber::leave(const std::string& match_id) {
     for (const std::string& observer_id : match.request_owners.observers())
         ingress_->request_ended(match_id, observer_id);
     ingress_->match_ended(match_id);
+    match.endpoints->resign();  // nobody waits for it
     remove_match(match_id);
 }
 

@@ -11,9 +11,8 @@ auto claim_of(const Sign& sign) {
     return std::tuple(sign.term, sign.rank, sign.director_id);
 }
 
-auto aptness_of(const Sign& sign) {
-    return std::tuple(sign.has_cameras, sign.rank, sign.director_id);
-}
+// Of a game server's frames, in which its silence is told from a pause between two.
+constexpr std::chrono::milliseconds longest_interval{700};
 
 }  // namespace
 
@@ -49,6 +48,7 @@ void Succession::see(const Sign& other, Time now) {
 bool Succession::hear(Time now) {
     const bool awaited = waits_for_game(now);
     come_back(now);
+    interval_ = std::clamp<Clock::duration>(now - heard_, interval_ * 9 / 10, longest_interval);
     heard_ = now;
     return awaited;
 }
@@ -74,7 +74,8 @@ void Succession::resign(Time now) {
 
 bool Succession::has_successor(Time now) const {
     return std::ranges::any_of(others_, [&](const auto& entry) {
-        return lives(entry.second, now) && entry.second.sign.has_cameras >= own_.has_cameras;
+        const Sign& other = entry.second.sign;
+        return lives(entry.second, now) && is_at_home(other) && other.has_cameras >= own_.has_cameras;
     });
 }
 
@@ -122,9 +123,16 @@ bool Succession::waits_for_game(Time now) const {
            heard_ <= last->seen + last->sign.lease;
 }
 
+// A game server that sends slowly is not silent between two frames.
+Succession::Clock::duration Succession::game_silence() const {
+    return std::max<Clock::duration>(own_.lease, 3 * interval_);
+}
+
+// Where it still computes cameras, of a delay, it shows them.
 void Succession::notice_cut(Time now) {
     const Other* last = last_heard();
-    if (cut_off_ || last == nullptr || lives(*last, now) || now <= heard_ + own_.lease) return;
+    if (cut_off_ || last == nullptr || lives(*last, now)) return;
+    if (now <= heard_ + game_silence() || now <= produced_ + own_.lease) return;
     if (last->seen > heard_ + together || heard_ > last->seen + together) return;
     cut_off_ = std::max(heard_, last->seen);
     own_.leads = false;
@@ -146,6 +154,13 @@ void Succession::forget_dead(Time then) {
     std::erase_if(others_, [&](const auto& entry) { return entry.second.seen + apart < then; });
 }
 
+// Their silence and the game server's next one have nothing to do with each other.
+void Succession::forget_who_did_not_return(Time now) {
+    if (!returned_ || cut_off_ || now < settled_) return;
+    std::erase_if(others_, [&](const auto& entry) { return entry.second.seen <= *returned_; });
+    returned_.reset();
+}
+
 // Who leads is known again.
 void Succession::notice_reunion(Time now) {
     if (!returned_ ||
@@ -165,6 +180,7 @@ void Succession::notice_cameras(Time now) {
 void Succession::decide(Time now) {
     notice_absence(now);
     notice_cut(now);
+    forget_who_did_not_return(now);
     notice_cameras(now);
     if (resigned_ || cut_off_) {
         own_.leads = false;
@@ -210,7 +226,7 @@ Succession::Time Succession::next_change(Time now) const {
         if (then > now) next = std::min(next, then);
     };
     consider(produced_ + patience + afterwards);
-    consider(heard_ + own_.lease + afterwards);
+    consider(heard_ + game_silence() + afterwards);
     consider(settled_);
     for (const auto& [id, other] : others_) {
         consider(other.seen + other.sign.lease + afterwards);

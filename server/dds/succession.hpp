@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <tuple>
 #include <unordered_map>
 
 namespace camdir::dds {
@@ -22,6 +23,7 @@ struct Sign {
     std::chrono::milliseconds lease{0};  // without a sign for longer it is dead
     bool leads = false;
     bool has_cameras = false;  // and could lead with them
+    std::uint64_t shard = 0;   // 0: none
 
     bool operator==(const Sign&) const = default;
 };
@@ -66,10 +68,18 @@ class Succession {
     void live(Time now);
     // Leads no more until live() is called, if there is another that lives.
     void resign(Time now);
-    // Whether another lives that has cameras, if this one has some.
+    // Directors of other shards than `home` lead the match only where none of it does; 0: all may.
+    void set_shards(std::uint64_t own, std::uint64_t home) {
+        own_.shard = own;
+        home_ = home;
+    }
+    // Whether another lives that has cameras, if this one has some, and is to lead as well as this one.
     [[nodiscard]] bool has_successor(Time now) const;
-    // Whether another lives that leads.
-    [[nodiscard]] bool follows(Time now) const { return !own_.leads && leader(now) != nullptr; }
+    // Whether another of the match's shard lives that leads.
+    [[nodiscard]] bool follows(Time now) const {
+        const Other* other = own_.leads ? nullptr : leader(now);
+        return other != nullptr && is_at_home(other->sign);
+    }
     // To be called before anything is written.
     void notice_absence(Time now);
     // What time alone changes: may take over. To be called when all signs that have come are seen, and not
@@ -89,13 +99,19 @@ class Succession {
     [[nodiscard]] static bool lives(const Other& other, Time now) {
         return now <= other.seen + other.sign.lease;
     }
+    [[nodiscard]] bool is_at_home(const Sign& sign) const { return home_ == 0 || sign.shard == home_; }
+    [[nodiscard]] auto aptness_of(const Sign& sign) const {
+        return std::tuple(sign.has_cameras, is_at_home(sign), sign.rank, sign.director_id);
+    }
     [[nodiscard]] Clock::duration longest_silence() const;
     [[nodiscard]] const Other* last_heard() const;
     [[nodiscard]] bool waits_for_game(Time now) const;
+    [[nodiscard]] Clock::duration game_silence() const;
     void notice_cut(Time now);
     void come_back(Time now);
     void forget_dead(Time then);
     void notice_reunion(Time now);
+    void forget_who_did_not_return(Time now);
     void miss(Clock::duration absence, Time now);
     void notice_cameras(Time now);
     [[nodiscard]] const Other* leader(Time now) const;
@@ -104,10 +120,12 @@ class Succession {
     [[nodiscard]] bool may_depose(const Other& leader, Time now) const;
 
     Sign own_;
+    std::uint64_t home_ = 0;
     bool resigned_ = false;
     std::optional<Time> cut_off_;   // when it heard somebody for the last time
     std::optional<Time> returned_;  // since when it hears somebody again, as long as it has not heard all
     Time heard_;                    // the game server
+    Clock::duration interval_{0};   // at which it is heard, and a little longer
     Time lived_;                    // last sign of its own life
     Time settled_;                  // until then it does not take over
     Time barred_;                   // the same after an absence: until then others need not wait for it

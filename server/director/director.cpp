@@ -52,7 +52,10 @@ struct Director::Impl {
     // Whether it passes the delay at once; `counts` where it is refused.
     bool passes(Match& match, DelayBuffer::Admission admission, bool counts);
     std::size_t count(bool has_server) const;
-    bool has_room() const { return count(true) < static_cast<std::size_t>(config->limits.matches); }
+    bool has_room() const {
+        return count(true) < static_cast<std::size_t>(config->limits.matches) &&
+               matches.size() < max_matches(config->limits);
+    }
 
     // With the mutex held exclusively.
     Entry* find_or_add(const std::string& match_id);
@@ -149,7 +152,7 @@ Director::Impl::Entry* Director::Impl::admit(const std::string& match_id) {
     if (!accepting) return nullptr;
     Match* known = find(match_id);
     const bool has_server = known != nullptr && matches[match_id].has_server;
-    const bool fits = has_server || has_room();
+    const bool fits = has_server || count(true) < static_cast<std::size_t>(config->limits.matches);
     if (Entry* entry = fits ? find_or_add(match_id) : nullptr) return entry;
     unmatched.add(Counter::refused_matches);
     const std::string reason = too_many_matches(config->limits);

@@ -101,5 +101,37 @@ TEST_F(ShardsTest, MatchesMoveWithoutALostFrameOrACutToAShardThatComesAndBackWhe
     EXPECT_TRUE(serves_on(observer, 10, 60)) << a.log() << b.log();
 }
 
+TEST_F(ShardsTest, MatchesOfAShardThatDoesNotRunGoOnWhereTheyAre) {
+    const auto of_a = [](int index, const std::string& shards) {
+        Server::Options options = options_of(index, shards);
+        options.shard = "a";
+        return options;
+    };
+    std::optional<Server> leader;
+    leader.emplace(domain_.id(), of_a(0, R"(["a"])"));
+    ASSERT_TRUE(leader->ready()) << leader->log();
+    const Context context = Context::open(connection(domain_.id())).value();
+    const Game game(context, match_of_b, "hall");
+    Observer observer = Observer::open(context, match_of_b, "anna").value();
+    observer.request({.target = 1}).value();
+    ASSERT_TRUE(sees_own_camera(observer)) << leader->log();
+    Server standby(domain_.id(), of_a(1, R"(["a"])"));
+    ASSERT_TRUE(standby.ready()) << standby.log();
+    ASSERT_TRUE(eventually([&] {
+        observer.poll().value();
+        return observer.counters().value().directors == 2;
+    })) << standby.log();
+
+    standby.reload(of_a(1, R"(["a", "b"])"));
+    ASSERT_TRUE(eventually([&] { return standby.log().find("reloaded") != std::string::npos; }));
+    EXPECT_TRUE(moves_to(observer, 10, 180)) << leader->log() << standby.log();
+    leader->reload(of_a(0, R"(["a", "b"])"));
+    ASSERT_TRUE(eventually([&] { return leader->log().find("reloaded") != std::string::npos; }));
+    EXPECT_TRUE(moves_to(observer, 10, 180)) << leader->log() << standby.log();
+    leader.reset();
+    EXPECT_TRUE(sees(observer, [](const auto& frame, auto /*cameras*/) { return frame.director_id == 20; }))
+        << standby.log();
+}
+
 }  // namespace
 }  // namespace camdir::test

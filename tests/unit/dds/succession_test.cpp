@@ -524,6 +524,77 @@ TEST_F(Directors, OneThatWasCutOffAloneLeadsAgainWhenNobodyElseComesBack) {
     EXPECT_TRUE(leads(leader));
 }
 
+TEST_F(Directors, ALeaderServesOnBesideADeadStandbyHoweverSlowlyTheGameSends) {
+    const auto leader = add(200);
+    const auto standby = add(100);
+    const auto play = [&](int frames) {
+        bool always = true;
+        for (int frame = 0; frame < frames; ++frame) {
+            plays_ = true;
+            pass(beat);
+            always = always && leads(leader);
+            plays_ = false;
+            pass(milliseconds(250));
+            always = always && leads(leader);
+        }
+        return always;
+    };
+    pass(milliseconds(1000));
+    EXPECT_TRUE(play(10));
+    members_[standby].runs = false;
+    EXPECT_TRUE(play(40));
+}
+
+TEST_F(Directors, ALeaderMayTakeItselfForCutOffOnceForEachOtherThatDies) {
+    const auto leader = add(200);
+    const auto standby = add(100);
+    plays_ = true;
+    pass(milliseconds(1000));
+    members_[standby].runs = false;
+    pass(milliseconds(1000));
+    plays_ = false;
+    pass(milliseconds(4000));
+    EXPECT_FALSE(leads(leader));
+    plays_ = true;
+    pass(milliseconds(4000));
+    EXPECT_TRUE(leads(leader));
+    for (int pause = 0; pause < 5; ++pause) {
+        plays_ = !plays_;
+        pass(milliseconds(1500));
+        EXPECT_TRUE(leads(leader));
+    }
+}
+
+TEST_F(Directors, ALeaderThatComputesCamerasOfADelayShowsThemBesideADeadStandby) {
+    const auto leader = add(200);
+    const auto standby = add(100);
+    members_[leader].has_cameras = plays_ = true;
+    pass(milliseconds(1000));
+    members_[standby].runs = plays_ = false;
+    pass(milliseconds(5000));
+    EXPECT_TRUE(leads(leader));
+}
+
+TEST_F(Directors, OneOfAnotherShardHandsOverToOneOfTheMatchs) {
+    const auto leader = add(300);
+    const auto spare = add(200);
+    const auto of_shard = add(100);
+    for (Member& member : members_)
+        member.has_cameras = true;
+    pass(milliseconds(1000));
+    ASSERT_TRUE(leads(leader));
+    of(leader).set_shards(1, 2);
+    of(spare).set_shards(1, 2);
+    of(of_shard).set_shards(2, 2);
+    pass(beat);
+    EXPECT_FALSE(of(spare).follows(now_)) << "who leads is of another shard too";
+    ASSERT_TRUE(of(leader).has_successor(now_));
+    of(leader).resign(now_);
+    pass(milliseconds(500));
+    EXPECT_TRUE(leads(of_shard));
+    EXPECT_TRUE(of(leader).follows(now_) && of(spare).follows(now_));
+}
+
 TEST_F(Directors, OneLeadsWhateverHappened) {
     EXPECT_TRUE(rc::check([this] {
         members_.clear();

@@ -265,6 +265,22 @@ TEST(Director, LimitsAreEnforced) {
     EXPECT_FALSE(stage.publisher.has_status("e"));
 }
 
+TEST(Director, HasNoRoomWhereObserversWaitInAllPlaces) {
+    config::Config config = Stage::default_config();
+    config.limits.matches = 1;
+    Stage stage(config);
+    for (const char* match_id : {"a", "b"}) {
+        EXPECT_TRUE(stage.director.has_room());
+        ASSERT_TRUE(stage.start(Stage::info(match_id)));
+        stage.ask(Stage::request("anna", 1, match_id));
+        EXPECT_FALSE(stage.director.has_room());
+        stage.director.match_ended(match_id);
+        stage.director.flush();
+    }
+    EXPECT_FALSE(stage.director.has_room());
+    EXPECT_FALSE(stage.start(Stage::info("c")));
+}
+
 TEST(Director, ObserversOfARefusedMatchAreRefused) {
     config::Config config = Stage::default_config();
     config.limits.matches = 1;

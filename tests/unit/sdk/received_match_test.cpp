@@ -277,8 +277,12 @@ TEST_F(ReceivedMatchTest, FramesThatHaveBeenShownAreDroppedAndCounted) {
     CameraFrameArrays paused = frame_of(1, 103);
     paused.director_id = 1;
     paused.frame_time = 102 * 16 * ms;
+    paused.pose_number = 1;
     EXPECT_TRUE(accept(paused)) << "the game's time stands still";
     EXPECT_FALSE(accept(paused));
+    paused.frame_number = 0;
+    paused.pose_number = 2;
+    EXPECT_TRUE(accept(paused)) << "of a director that was started again meanwhile";
     EXPECT_TRUE(accept(2, 1, 3.0F)) << "in another epoch";
 }
 
