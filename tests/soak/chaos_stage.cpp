@@ -48,8 +48,13 @@ void sleep_for(double seconds, const std::stop_token& stop) {
 ChaosStage::ChaosStage(const Options& options, const Scenario& scenario)
     : options_(options), scenario_(scenario), places_(static_cast<std::size_t>(scenario.directors)) {
     for (std::size_t i = 0; i < places_.size(); ++i) {
-        places_[i].director.emplace(DirectorProcess::Setting{
-            options_.programs + "/camera-director", folder_.path(), domain_.id(), static_cast<int>(i)});
+        const int index = static_cast<int>(i);
+        places_[i].director.emplace(
+            DirectorProcess::Setting{.command = {options_.programs + "/camera-director"},
+                                     .folder = folder_.path(),
+                                     .domain = domain_.id(),
+                                     .index = index,
+                                     .peer = test::director_address(domain_.id(), 1 - index)});
         start(places_[i]);
     }
     start_game();

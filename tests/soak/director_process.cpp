@@ -1,15 +1,29 @@
 #include "director_process.hpp"
 
+#include <sys/ptrace.h>
+#include <sys/wait.h>
+
 #include <fstream>
 #include <stdexcept>
+#include <thread>
 
 #include "support/http_client.hpp"
-#include "support/test_domain.hpp"
 
 namespace camdir::soak {
 namespace {
 
 constexpr const char* token = "hand-over";
+
+std::vector<pid_t> threads_of(pid_t process, const std::string& name) {
+    std::vector<pid_t> threads;
+    const std::filesystem::path tasks = "/proc/" + std::to_string(process) + "/task";
+    for (const auto& task : std::filesystem::directory_iterator(tasks)) {
+        std::string own_name;
+        std::ifstream(task.path() / "comm") >> own_name;
+        if (own_name.starts_with(name)) threads.push_back(std::stoi(task.path().filename()));
+    }
+    return threads;
+}
 
 }  // namespace
 
@@ -21,22 +35,24 @@ DirectorProcess::DirectorProcess(Setting setting)
 void DirectorProcess::start(const std::string& map_file, const std::string& source) {
     std::ofstream(token_file_) << token << '\n';
     std::filesystem::permissions(token_file_, std::filesystem::perms(0600));
-    std::ofstream(file_) << R"({"dds": {"domain": )" << setting_.domain << R"(, "participant_index": )"
-                         << setting_.index << R"(, "peers": [")"
-                         << test::director_address(setting_.domain, 1 - setting_.index)
-                         << R"("], "strength": )" << (setting_.index == 0 ? 200 : 100)
-                         << R"(, "director_id": )" << id_of(setting_.index)
-                         << R"(}, "http": {"port": 0, "token_file": ")" << token_file_.string()
-                         << R"("}, "maps": [{"name": "map", "file": ")" << map_file << R"(", "source": ")"
-                         << source << R"("}]})";
-    process_ = std::make_unique<test::ChildProcess>(
-        std::vector<std::string>{setting_.program, "serve", "--config", file_.string()});
+    std::ofstream(file_) << R"({"dds": {"domain": )" << setting_.domain << R"(, "interface": ")"
+                         << setting_.interface << R"(", "insecure": )"
+                         << (setting_.insecure ? "true" : "false") << R"(, "participant_index": )"
+                         << setting_.index << R"(, "peers": [")" << setting_.peer << R"("], "strength": )"
+                         << (setting_.index == 0 ? 200 : 100) << R"(, "director_id": )"
+                         << id_of(setting_.index) << R"(}, "http": {"port": 0, "token_file": ")"
+                         << token_file_.string() << R"("}, "maps": [{"name": "map", "file": ")" << map_file
+                         << R"(", "source": ")" << source << R"("}]})";
+    std::vector<std::string> command = setting_.command;
+    command.insert(command.end(), {"serve", "--config", file_.string()});
+    process_ = std::make_unique<test::ChildProcess>(command);
 }
 
 bool DirectorProcess::hand_over() const {
-    const auto answer =
-        test::HttpClient(http_port())
-            .ask("POST", "/hand-over", "Authorization: Bearer " + std::string(token) + "\r\n");
+    const int port = http_port();
+    if (port == 0) throw std::runtime_error("no HTTP port in the log: " + log());
+    const auto answer = test::HttpClient(port).ask("POST", "/hand-over",
+                                                   "Authorization: Bearer " + std::string(token) + "\r\n");
     if (answer.status != 200 && answer.status != 409)
         throw std::runtime_error("POST /hand-over: " + answer.body);
     return answer.status == 200;
@@ -45,6 +61,20 @@ bool DirectorProcess::hand_over() const {
 bool DirectorProcess::is_ready() const {
     const int port = http_port();
     return port != 0 && test::HttpClient(port).ask("GET", "/-/ready").status == 200;
+}
+
+// One thread must stop and release them.
+void DirectorProcess::hang_threads(const std::string& name, std::chrono::milliseconds duration) const {
+    const auto threads = threads_of(process_->pid(), name);
+    if (threads.empty()) throw std::runtime_error("the director has no thread " + name);
+    for (const pid_t thread : threads) {
+        ::ptrace(PTRACE_SEIZE, thread, nullptr, nullptr);
+        ::ptrace(PTRACE_INTERRUPT, thread, nullptr, nullptr);
+        ::waitpid(thread, nullptr, __WALL);
+    }
+    std::this_thread::sleep_for(duration);
+    for (const pid_t thread : threads)
+        ::ptrace(PTRACE_DETACH, thread, nullptr, nullptr);
 }
 
 int DirectorProcess::http_port() const {

@@ -1,12 +1,14 @@
-// A director as a process of its own, beside at most one other on this host.
+// A director as a process of its own, beside at most one other.
 #pragma once
 
 #include <sys/types.h>
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "support/child_process.hpp"
 
@@ -16,10 +18,13 @@ namespace camdir::soak {
 class DirectorProcess {
   public:
     struct Setting {
-        std::string program;           // camera-director
-        std::filesystem::path folder;  // for its configuration
+        std::vector<std::string> command;  // camera-director, without arguments
+        std::filesystem::path folder;      // for its configuration
         std::uint32_t domain = 0;
-        int index = 0;  // 0 leads where both begin together, 1 stands by
+        int index = 0;                 // 0 leads where both begin together, 1 stands by
+        std::string peer;              // HOST:PORT at which the other one is found
+        std::string interface = "lo";  // of DDS
+        bool insecure = false;         // DDS may leave loopback
     };
 
     explicit DirectorProcess(Setting setting);
@@ -34,6 +39,8 @@ class DirectorProcess {
     [[nodiscard]] bool hand_over() const;
     // Whether it says that it serves.
     [[nodiscard]] bool is_ready() const;
+    // Stops its threads whose name begins so for that long. Throws when there is none.
+    void hang_threads(const std::string& name, std::chrono::milliseconds duration) const;
     void signal(int number) const { process_->send_signal(number); }
     // Returns the exit code, or minus the signal's number.
     int wait() { return process_->wait(); }

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <csignal>
 #include <iterator>
+#include <stdexcept>
 #include <thread>
 
 namespace camdir::soak {
@@ -37,6 +38,11 @@ const std::vector<Stage::Way> leader_deaf{{Stage::standbys, Stage::leaders},
                                           {Stage::clients, Stage::leaders}};
 const std::vector<Stage::Way> leader_dumb{{Stage::leaders, Stage::standbys},
                                           {Stage::leaders, Stage::clients}};
+
+void hand_over(Stage& stage) {
+    if (!stage.leader->hand_over())
+        throw std::runtime_error("the leader keeps matches for want of a standby\n" + stage.leader->log());
+}
 
 // What the network does between hosts.
 std::vector<Row> network_rows() {
@@ -90,7 +96,7 @@ std::vector<Row> process_rows() {
         {.name = "nothing", .happens = [](Stage&) {}},
         {.name = "leader killed", .happens = [](Stage& s) { s.leader->signal(SIGKILL); }, .changes = 1},
         {.name = "leader SIGTERM", .happens = [](Stage& s) { s.leader->signal(SIGTERM); }, .changes = 1},
-        {.name = "leader hands over", .happens = [](Stage& s) { s.leader->hand_over(); }, .changes = 1},
+        {.name = "leader hands over", .happens = hand_over, .changes = 1},
         {.name = "leader stopped 6 s",
          .happens =
              [=](Stage& s) {

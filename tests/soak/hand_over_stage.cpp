@@ -1,15 +1,10 @@
 #include "hand_over_stage.hpp"
 
-#include <sys/ptrace.h>
-#include <sys/wait.h>
-
 #include <algorithm>
 #include <fstream>
 #include <iostream>
-#include <stdexcept>
 
 #include "support/eventually.hpp"
-#include "support/http_client.hpp"
 
 namespace camdir::soak {
 namespace {
@@ -17,21 +12,8 @@ namespace {
 using std::chrono::milliseconds;
 using test::ChildProcess;
 
-constexpr const char* token = "hand-over";
-
 double now() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-std::vector<pid_t> threads_of(pid_t process, const std::string& name) {
-    std::vector<pid_t> threads;
-    const std::filesystem::path tasks = "/proc/" + std::to_string(process) + "/task";
-    for (const auto& task : std::filesystem::directory_iterator(tasks)) {
-        std::string own_name;
-        std::ifstream(task.path() / "comm") >> own_name;
-        if (own_name.starts_with(name)) threads.push_back(std::stoi(task.path().filename()));
-    }
-    return threads;
 }
 
 }  // namespace
@@ -59,54 +41,6 @@ void StepClock::step(std::chrono::seconds by) const {
     std::filesystem::rename(next, file_);
 }
 
-DirectorProcess::DirectorProcess(Setting setting)
-    : setting_(std::move(setting)),
-      file_(setting_.folder / ("director-" + std::to_string(setting_.index) + ".json")),
-      token_file_(setting_.folder / "token") {}
-
-void DirectorProcess::start(const std::string& map_file, const std::string& source) {
-    std::ofstream(token_file_) << token << '\n';
-    std::filesystem::permissions(token_file_, std::filesystem::perms(0600));
-    std::ofstream(file_) << R"({"dds": {"domain": )" << setting_.domain << R"(, "interface": ")"
-                         << setting_.interface << R"(", "insecure": true, "participant_index": )"
-                         << setting_.index << R"(, "peers": [")" << setting_.peer << R"("], "strength": )"
-                         << (setting_.index == 0 ? 200 : 100) << R"(, "director_id": )"
-                         << 10 * (setting_.index + 1) << R"(}, "http": {"port": 0, "token_file": ")"
-                         << token_file_.string() << R"("}, "maps": [{"name": "map", "file": ")" << map_file
-                         << R"(", "source": ")" << source << R"("}]})";
-    const std::vector<std::string> command{setting_.program, "serve", "--config", file_.string()};
-    process_ = std::make_unique<ChildProcess>(setting_.clock ? setting_.clock->command(command) : command);
-}
-
-void DirectorProcess::hand_over() const {
-    const auto answer =
-        test::HttpClient(http_port())
-            .ask("POST", "/hand-over", "Authorization: Bearer " + std::string(token) + "\r\n");
-    if (answer.status != 200) throw std::runtime_error("POST /hand-over: " + answer.body);
-}
-
-// One thread must stop and release them.
-void DirectorProcess::hang_threads(const std::string& name, milliseconds duration) const {
-    const auto threads = threads_of(process_->pid(), name);
-    if (threads.empty()) throw std::runtime_error("the director has no thread " + name);
-    for (const pid_t thread : threads) {
-        ::ptrace(PTRACE_SEIZE, thread, nullptr, nullptr);
-        ::ptrace(PTRACE_INTERRUPT, thread, nullptr, nullptr);
-        ::waitpid(thread, nullptr, __WALL);
-    }
-    std::this_thread::sleep_for(duration);
-    for (const pid_t thread : threads)
-        ::ptrace(PTRACE_DETACH, thread, nullptr, nullptr);
-}
-
-int DirectorProcess::http_port() const {
-    const std::string before = "http: listening on 127.0.0.1 port ";
-    const std::string lines = log();
-    const std::size_t found = lines.find(before);
-    if (found == std::string::npos) throw std::runtime_error("no HTTP port in the log: " + lines);
-    return std::stoi(lines.substr(found + before.size()));
-}
-
 Stage::Stage(const Options& options, const evaluation::Trace& trace, Hosts* hosts, bool steps_clocks)
     : options_(options), hosts_(hosts), record_(trace, rate_hz, player) {
     if (steps_clocks) {
@@ -122,13 +56,14 @@ Stage::~Stage() {
 }
 
 DirectorProcess::Setting Stage::setting(int index) const {
-    return {.program = options_.programs + "/camera-director",
+    const std::vector<std::string> program{options_.programs + "/camera-director"};
+    return {.command = index == 0 && leader_clock ? leader_clock->command(program) : program,
             .folder = folder_.path(),
             .domain = domain_.id(),
             .index = index,
-            .interface = interface_of(index == 0 ? leaders : standbys),
             .peer = address_of(1 - index),
-            .clock = index == 0 && leader_clock ? &*leader_clock : nullptr};
+            .interface = interface_of(index == 0 ? leaders : standbys),
+            .insecure = true};
 }
 
 std::string Stage::interface_of(Host host) const {
@@ -177,7 +112,7 @@ void Stage::start_observer() {
 }
 
 void Stage::await_leader() {
-    const bool served = test::eventually([&] { return serving_director() == 10; });
+    const bool served = test::eventually([&] { return serving_director() == DirectorProcess::id_of(0); });
     if (!served) std::cerr << "the leader does not serve\n" << leader->log();
 }
 

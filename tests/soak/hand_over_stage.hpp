@@ -1,8 +1,6 @@
 // A leader and a standby that serve a replayed match to one observer, and what may be done to them.
 #pragma once
 
-#include <sys/types.h>
-
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
@@ -13,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "director_process.hpp"
 #include "evaluation/trace.hpp"
 #include "hand_over_record.hpp"
 #include "hosts.hpp"
@@ -37,36 +36,6 @@ class StepClock {
 
   private:
     std::filesystem::path file_;
-};
-
-// A director as a process of its own.
-class DirectorProcess {
-  public:
-    struct Setting {
-        std::string program;
-        std::filesystem::path folder;
-        std::uint32_t domain = 0;
-        int index = 0;  // the leader's is 0, the standby's 1
-        std::string interface, peer;
-        const StepClock* clock = nullptr;  // the machine's
-    };
-
-    explicit DirectorProcess(Setting setting);
-
-    void start(const std::string& map_file, const std::string& source);
-    void hand_over() const;
-    void signal(int number) const { process_->send_signal(number); }
-    void wait() { process_->wait(); }
-    // Stops its threads whose name begins so for that long.
-    void hang_threads(const std::string& name, std::chrono::milliseconds duration) const;
-    [[nodiscard]] std::string log() const { return process_ ? process_->errors() : ""; }
-
-  private:
-    [[nodiscard]] int http_port() const;
-
-    Setting setting_;
-    std::filesystem::path file_, token_file_;
-    std::unique_ptr<test::ChildProcess> process_;
 };
 
 class Stage {
