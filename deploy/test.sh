@@ -3,8 +3,8 @@
 # its unit and integration tests (matches on OpenArena's own server and client among them) and a short soak, the unit
 # tests under the address and undefined-behaviour sanitizers.
 #     test.sh [--all]
-# --all: also networks that are cut, a scenario of chaos, the thread sanitizer, clang-tidy, every fuzzer for a minute, the client library on i386, and the Debian
-# packages in an empty Debian
+# --all: also networks that are cut, a scenario of chaos, the thread sanitizer, clang-tidy, every fuzzer for a minute,
+# the client library on i386, and the Debian packages in an empty Debian
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
