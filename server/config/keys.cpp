@@ -481,7 +481,7 @@ const std::vector<Section>& sections() {
         {"/limits",
          "Whatever exceeds a limit is refused. Matches beyond `matches` and `participant_matches`, and "
          "observers beyond `observers`, wait for room in the order in which they came, as many of them as "
-         "may be served. Takes effect at a restart."},
+         "may be served, and of one participant's matches a quarter of that. Takes effect at a restart."},
         {"/log", "Written to standard error. `level` is reloaded by SIGHUP."}};
     return list;
 }
