@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds, and runs every test that a change must pass: formatting, the release build with
-# its unit and integration tests (matches on OpenArena's own server and client among them) and a short soak, the unit
+# its unit and integration tests (matches on OpenArena's own server and client among them) and a short soak, and unit
 # tests under the address and undefined-behaviour sanitizers.
 #     test.sh [--all]
-# --all: also networks that are cut, a scenario of chaos, the thread sanitizer, clang-tidy, every fuzzer for a minute,
-# the client library on i386, and the Debian packages in an empty Debian
+# --all: also networks that are cut, a scenario of chaos, all unit tests under these sanitizers, the thread sanitizer,
+# clang-tidy, every fuzzer for a minute, the client library on i386, and the Debian packages in an empty Debian
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -78,9 +78,16 @@ run_tests release "${some[@]}"
 
 step "Address and undefined-behaviour sanitizers: unit tests"
 cmake --preset asan
-cmake --build --preset asan --target unit-tests
-# Queries and cameras on real maps: minutes of the same code that the random worlds run.
-run_tests asan --label-regex '^unit$' --exclude-regex '^unit\.(camera|freespace)-maps\.'
+if $all; then
+    cmake --build --preset asan --target unit-tests
+    # Queries and cameras on real maps: minutes of the same code that the random worlds run.
+    run_tests asan --label-regex '^unit$' --exclude-regex '^unit\.(camera|freespace)-maps\.'
+else
+    # What reads the bytes of others, and what has threads or queries that must be fast.
+    rooms=(base camera config dds director evaluation freespace http scene sdk soak)
+    cmake --build --preset asan --target fuzz-tests "${rooms[@]/#/unit-}"
+    run_tests asan --tests-regex "^(fuzz|unit\.($(IFS='|'; echo "${rooms[*]}")))\."
+fi
 
 if $all; then
     step "Thread sanitizer: unit and integration tests"
