@@ -126,7 +126,7 @@ TEST(Participant, NamesThePeerThatCannotBeResolved) {
     const test::TestDomain domain;
     config::Dds config;
     config.domain = domain.id();
-    config.peers = {"127.0.0.1", "localhost:7410", "director-b.invalid:7410"};
+    config.peers = {"127.0.0.1", "127.0.0.1:7410", "director-b.invalid:7410"};
     const auto participant = Participant::open(config);
     ASSERT_FALSE(participant);
     EXPECT_THAT(participant.error().message, AllOf(HasSubstr("/dds/peers/2: \"director-b.invalid:7410\": "),
