@@ -178,12 +178,12 @@ DelayBuffer::Released DelayBuffer::release(std::int64_t now, Inbox& inbox) {
     for (; released_ < entries_.size() && entries_[released_].due <= now; ++released_) {
         Entry& entry = entries_[released_];
         if (const auto* frame = std::get_if<PoseFrame>(&entry.item)) {
-            inbox.put(*frame, entry.due);
+            released.any |= inbox.put(*frame, entry.due);
             last_left_ = frame->frame_time;
         } else {
             inbox.put(std::move(std::get<Message>(entry.item)));
+            released.any = true;
         }
-        released.any = true;
     }
     near_ = std::max(near_, first_ + released_);
     const std::uint64_t end = first_ + entries_.size();

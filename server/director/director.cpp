@@ -17,6 +17,7 @@ namespace {
 
 // Also the longest time for which the first message of a delay waits unseen.
 constexpr std::int64_t housekeeping_ns = 20'000'000;
+constexpr std::int64_t pace_interval_ns = 1'000'000'000;
 
 std::size_t worker_count(const config::Limits& limits) {
     if (limits.workers > 0) return static_cast<std::size_t>(limits.workers);
@@ -66,6 +67,8 @@ struct Director::Impl {
     // Returns false when there is no such match.
     bool post_to(const std::string& match_id, Message message);
     void run_housekeeping(const std::stop_token& stop);
+    void set_pace(std::int64_t now);
+    Statistics sum_up() const;
     std::int64_t release_due();
     std::vector<std::string> notify_silent();
     void retire(const std::vector<std::string>& match_ids);
@@ -73,6 +76,12 @@ struct Director::Impl {
 
     const MapLibrary& maps;
     Publisher& publisher;
+    Pace pace;
+    // At the beginning of the interval: used by the housekeeper only.
+    std::int64_t observed_ns = now_ns();
+    std::uint64_t taken = 0;
+    std::uint64_t superseded = 0;
+    std::chrono::nanoseconds busy{0};
     MatchCounters unmatched;  // of messages without a match
     LogLimit refusals;
 
@@ -115,8 +124,7 @@ void Director::Impl::deliver(Match& match, Message message) {
 void Director::Impl::deliver(Match& match, const PoseFrame& frame) {
     const std::int64_t now = now_ns();
     if (!passes(match, match.delay().put(frame, now), true)) return;
-    match.inbox().put(frame, now);
-    pool.schedule(match);
+    if (match.inbox().put(frame, now)) pool.schedule(match);
 }
 
 bool Director::Impl::passes(Match& match, DelayBuffer::Admission admission, bool counts) {
@@ -141,7 +149,7 @@ std::size_t Director::Impl::count(bool has_server) const {
 
 Director::Impl::Entry* Director::Impl::find_or_add(const std::string& match_id) {
     if (const auto found = matches.find(match_id); found != matches.end()) return &found->second;
-    auto match = std::make_unique<Match>(match_id, config, maps, publisher);
+    auto match = std::make_unique<Match>(match_id, config, maps, pace, publisher);
     if (!pool.attach(*match)) return nullptr;
     Entry& entry = matches[match_id];
     entry.match = std::move(match);
@@ -178,7 +186,41 @@ void Director::Impl::run_housekeeping(const std::stop_token& stop) {
         next_check = now_ns() + housekeeping_ns;
         const auto leaving = notify_silent();
         if (!leaving.empty()) retire(leaving);
+        if (const std::int64_t now = now_ns(); now - observed_ns >= pace_interval_ns) set_pace(now);
     }
+}
+
+void Director::Impl::set_pace(std::int64_t now) {
+    const Statistics sum = [this] {
+        const std::shared_lock lock(mutex);
+        return sum_up();
+    }();
+    const auto worked = pool.busy();
+    const double available = static_cast<double>(now - observed_ns) * static_cast<double>(pool.workers());
+    const std::uint32_t before = pace.frames_per_camera();
+    pace.observe({sum[Counter::pose_frames] - std::exchange(taken, sum[Counter::pose_frames]),
+                  sum[Counter::drop_superseded] - std::exchange(superseded, sum[Counter::drop_superseded]),
+                  static_cast<double>((worked - std::exchange(busy, worked)).count()) / available});
+    observed_ns = now;
+    const std::uint32_t frames = pace.frames_per_camera();
+    if (frames > before)
+        spdlog::warn("the machine is too slow: cameras move with every {}. pose frame of all matches",
+                     frames);
+    else if (frames < before)
+        spdlog::info("the machine has time to spare: cameras move with every {}pose frame",
+                     frames == 1 ? "" : std::to_string(frames) + ". ");
+}
+
+// With the mutex held.
+Statistics Director::Impl::sum_up() const {
+    Statistics sum = removed;
+    unmatched.add_to(sum);
+    for (const auto& [match_id, entry] : matches) {
+        entry.match->counters().add_to(sum);
+        entry.match->add_gauges(sum);
+    }
+    sum.frames_per_camera = pace.frames_per_camera();
+    return sum;
 }
 
 // Returns when there is more to do, with what waits now.
@@ -339,13 +381,7 @@ void Director::reconfigure(const config::Config& config) {
 
 Statistics Director::statistics() const {
     const std::shared_lock lock(impl_->mutex);
-    Statistics sum = impl_->removed;
-    impl_->unmatched.add_to(sum);
-    for (const auto& [match_id, entry] : impl_->matches) {
-        entry.match->counters().add_to(sum);
-        entry.match->add_gauges(sum);
-    }
-    return sum;
+    return impl_->sum_up();
 }
 
 View Director::view(std::chrono::milliseconds timeout) const {

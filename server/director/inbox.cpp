@@ -39,22 +39,27 @@ void Inbox::put(Message message) {
     waiting_.messages.push_back(std::move(message));
 }
 
-void Inbox::put(const PoseFrame& frame, std::int64_t received_ns) {
+bool Inbox::put(const PoseFrame& frame, std::int64_t received_ns) {
     const std::lock_guard lock(mutex_);
     if (!waiting_.has_frame) {
         waiting_.frame = frame;
     } else if (older(frame, waiting_.frame)) {
         counters_.add(frame.epoch < waiting_.frame.epoch ? Counter::drop_old_epoch : Counter::drop_old_frame);
-        return;
+        return false;
     } else {
-        counters_.add(Counter::drop_superseded);
-        std::swap(superseded_, waiting_.frame);
+        counters_.add(is_due_ ? Counter::drop_superseded : Counter::drop_paced);
+        std::swap(replaced_, waiting_.frame);
         waiting_.frame = frame;
-        if (superseded_.epoch == frame.epoch) carry_discontinuities(superseded_, waiting_.frame);
+        if (replaced_.epoch == frame.epoch) carry_discontinuities(replaced_, waiting_.frame);
+    }
+    if (++left_out_ >= pace_.frames_per_camera()) {
+        left_out_ = 0;
+        is_due_ = true;
     }
     waiting_.has_frame = true;
     waiting_.messages_before_frame = waiting_.messages.size();
     waiting_.received_ns = received_ns;
+    return is_due_;
 }
 
 void Inbox::put(const CameraFrame& shown) {
@@ -69,6 +74,13 @@ void Inbox::take(Content& content) {
     content.has_shown = false;
     const std::lock_guard lock(mutex_);
     std::swap(content, waiting_);
+    if (content.has_frame && !is_due_) {
+        std::swap(content.frame, waiting_.frame);
+        waiting_.has_frame = std::exchange(content.has_frame, false);
+        waiting_.received_ns = content.received_ns;
+        waiting_.messages_before_frame = 0;
+    }
+    is_due_ = false;
     events_ = 0;
     observer_messages_ = 0;
 }

@@ -12,6 +12,7 @@
 #include "config/config.hpp"
 #include "director/counters.hpp"
 #include "director/messages.hpp"
+#include "director/pace.hpp"
 
 namespace camdir::director {
 
@@ -37,21 +38,23 @@ using Message =
     std::variant<MatchInfo, ServerLost, PosesMissing, MatchEnded, MatchRefused, MatchEvent, ObserverRequest,
                  RequestEnded, MapsChanged, DelayChanged, Reconfigured, ViewRequest>;
 
-// Keeps messages in their order of arrival, and only the newest pose frame. Events and what observers ask for
+// Keeps messages in their order of arrival, and only the newest pose frame, which waits until the pace lets
+// one of its match be taken. Events and what observers ask for
 // are bounded, and drops are counted. Messages about the match itself are never dropped, and neither are the
 // ends of requests: observers who have left would keep their places. Each match has its own inbox.
 // Thread-safe. Does not allocate once its buffers have grown.
 class Inbox {
   public:
     // `max_observer_messages` bounds requests and view requests together. At most 256 events wait.
-    Inbox(std::size_t max_observer_messages, MatchCounters& counters)
-        : max_observer_messages_(max_observer_messages), counters_(counters) {}
+    Inbox(std::size_t max_observer_messages, const Pace& pace, MatchCounters& counters)
+        : max_observer_messages_(max_observer_messages), pace_(pace), counters_(counters) {}
 
     void put(Message message);
 
-    // Replaces a frame that no worker has taken. Its discontinuity flags are carried over to the new frame of
-    // the same epoch, so that no respawn is lost: not every game server counts them (see Continuity).
-    void put(const PoseFrame& frame, std::int64_t received_ns);
+    // Returns whether a frame is due, for which a worker is wanted. Replaces one that no worker has taken.
+    // Its discontinuity flags are carried over to the new frame of the same epoch, so that no respawn is
+    // lost: not every game server counts them (see Continuity).
+    bool put(const PoseFrame& frame, std::int64_t received_ns);
 
     // Replaces an earlier one that no worker has taken.
     void put(const CameraFrame& shown);
@@ -66,16 +69,19 @@ class Inbox {
         CameraFrame shown;  // by the director that leads the match
     };
 
-    // Moves everything that waits into `content`, whose memory is reused.
+    // Moves everything that waits into `content`, whose memory is reused; not a frame that is not due.
     void take(Content& content);
 
   private:
     std::mutex mutex_;
     Content waiting_;
-    PoseFrame superseded_;
+    bool is_due_ = false;         // the waiting frame
+    std::uint32_t left_out_ = 0;  // frames since one was due
+    PoseFrame replaced_;
     std::size_t events_ = 0;             // in waiting_.messages
     std::size_t observer_messages_ = 0;  // in waiting_.messages
     const std::size_t max_observer_messages_;
+    const Pace& pace_;
     MatchCounters& counters_;
 };
 

@@ -49,11 +49,12 @@ std::int64_t silence_limit_ns(const MatchInfo& info, const config::Matches& rule
 }
 
 Match::Match(std::string match_id, std::shared_ptr<const config::Config> config, const MapLibrary& maps,
-             Publisher& publisher)
+             const Pace& pace, Publisher& publisher)
     : match_id_(std::move(match_id)),
       maps_(maps),
+      pace_(pace),
       publisher_(publisher),
-      inbox_(2 * static_cast<std::size_t>(config->limits.observers) + max_view_requests, counters_),
+      inbox_(2 * static_cast<std::size_t>(config->limits.observers) + max_view_requests, pace, counters_),
       delay_(static_cast<std::size_t>(config->limits.delay_mib) << 20U),
       config_(std::move(config)),
       missing_map_(no_server),
@@ -91,8 +92,16 @@ void Match::handle(MatchInfo& info) {
     if (new_epoch) begin_epoch();
     if (liveness_ == Liveness::lost) liveness_ = Liveness::silent;
     roster_.set_listed(info_->players);
-    publisher_.publish(*info_);
+    publish_info();
     attach_map();
+}
+
+// With the rate of its cameras.
+void Match::publish_info() {
+    frames_per_camera_ = pace_.frames_per_camera();
+    MatchInfo shown = *info_;
+    shown.rate_hz /= static_cast<float>(frames_per_camera_);
+    publisher_.publish(shown);
 }
 
 void Match::begin_epoch() {
@@ -307,6 +316,7 @@ void Match::handle(const ViewRequest& wanted) {
         view.epoch = info_->epoch;
         view.map_name = info_->map_name;
         view.rate_hz = info_->rate_hz;
+        view.camera_rate_hz = info_->rate_hz / static_cast<float>(frames_per_camera_);
         view.players = info_->players.size();
     }
     view.last_pose_number = last_number_;

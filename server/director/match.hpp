@@ -31,7 +31,7 @@ namespace camdir::director {
 class Match final : public Strand {
   public:
     Match(std::string match_id, std::shared_ptr<const config::Config> config, const MapLibrary& maps,
-          Publisher& publisher);
+          const Pace& pace, Publisher& publisher);
 
     [[nodiscard]] Inbox& inbox() { return inbox_; }
     // Of what the game server sends; it leaves to the inbox.
@@ -71,6 +71,7 @@ class Match final : public Strand {
     void handle(const Reconfigured& changed);
     void handle(const ViewRequest& wanted);
 
+    void publish_info();
     void begin_epoch();
     void fall_silent(Liveness liveness);
     void attach_map();
@@ -119,6 +120,7 @@ class Match final : public Strand {
 
     const std::string match_id_;
     const MapLibrary& maps_;
+    const Pace& pace_;
     Publisher& publisher_;
     MatchCounters counters_;
     Inbox inbox_;
@@ -136,6 +138,7 @@ class Match final : public Strand {
     std::shared_ptr<const config::Config> config_;
     Inbox::Content content_;
     std::optional<MatchInfo> info_;
+    std::uint32_t frames_per_camera_ = 1;                        // that observers were told of
     std::string refusal_;                                        // RequestContext::refusal
     std::string missing_map_;                                    // RequestContext::missing_map
     std::pair<std::uint64_t, std::uint64_t> reported_mismatch_;  // hashes: the game server's, the baked map's

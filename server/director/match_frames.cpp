@@ -59,6 +59,7 @@ void Match::process(PoseFrame& frame, std::int64_t received_ns, Turn& turn) {
         requests_.restart_shots();
     }
     if (!freespace_) return counters_.add(Counter::drop_waiting);
+    if (frames_per_camera_ != pace_.frames_per_camera()) publish_info();
     if (!requests_.shots().empty()) {
         move_cameras(frame, dt, turn);
         publisher_.publish(match_id_, cameras_);
@@ -161,6 +162,7 @@ void Match::share_shots(Turn& turn, std::size_t count,
 
 void Match::prepare(Turn& turn) {
     if (!by_timeline_ || !freespace_) return;
+    if (pace_.frames_per_camera() > 1) return;  // it may not be due
     const auto next = delay_.upcoming();
     if (!next || next->epoch != info_->epoch || next->after != last_time_) return;
     if (content_.has_frame) return turn.again();  // frames of other matches that are due go first

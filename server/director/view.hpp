@@ -26,6 +26,7 @@ enum class Counter : std::size_t {
     drop_early_epoch,  // of an epoch whose MatchInfo has not arrived yet
     drop_old_frame,    // frame number not greater than the previous one
     drop_superseded,   // a newer pose frame arrived before a worker was free
+    drop_paced,        // pose frames that were left out evenly: see Pace
     drop_waiting,      // pose frames of a match without a map
     drop_players,      // poses beyond limits.players, duplicate players
     drop_events,       // the match's queue of events was full
@@ -55,7 +56,8 @@ struct Statistics {
     std::uint64_t silent_matches = 0;
     std::uint64_t observers = 0;
     std::uint64_t shots = 0;
-    std::uint64_t delayed_bytes = 0;  // memory of what waits until it is due
+    std::uint64_t delayed_bytes = 0;      // memory of what waits until it is due
+    std::uint32_t frames_per_camera = 1;  // see Pace
 
     [[nodiscard]] std::uint64_t operator[](Counter counter) const {
         return counters[static_cast<std::size_t>(counter)];
@@ -83,10 +85,11 @@ struct MatchView {
     bool answered = false;  // false: no answer within the time allowed, the rest is empty
     std::uint64_t epoch = 0;
     std::string map_name;
-    std::string state;  // "running", "waiting for map", "filling the delay", "silent", "game server lost",
-                        // "no game server"
-    float rate_hz = 0.0F;
-    double delay_s = 0.0;  // in force: the greater of the match's own and the operator's
+    std::string state;     // "running", "waiting for map", "filling the delay", "silent", "game server lost",
+                           // "no game server"
+    float rate_hz = 0.0F;  // of the game server
+    float camera_rate_hz = 0.0F;  // of the cameras: a share of it, see Pace
+    double delay_s = 0.0;         // in force: the greater of the match's own and the operator's
     std::uint64_t players = 0;
     std::uint32_t last_pose_number = 0;
     std::vector<ShotView> shots;

@@ -91,9 +91,18 @@ void WorkerPool::work(Worker& worker) {
             claimed_ns_.store(now_ns(), std::memory_order_relaxed);
             run(worker, *strand);
         }
+        worker.busy_ns.fetch_add(now_ns() - worker.began_ns.load(std::memory_order_relaxed),
+                                 std::memory_order_relaxed);
         worker.began_ns.store(0, std::memory_order_relaxed);
     }
     worker.began_ns.store(0, std::memory_order_relaxed);  // stopped
+}
+
+std::chrono::nanoseconds WorkerPool::busy() const {
+    std::chrono::nanoseconds sum(0);
+    for (const auto& worker : workers_)
+        sum += std::chrono::nanoseconds(worker->busy_ns.load(std::memory_order_relaxed));
+    return sum;
 }
 
 bool WorkerPool::claim_call() {

@@ -63,6 +63,11 @@ class WorkerPool {
     // turn that is due has waited so long for the next free worker. Thread-safe.
     [[nodiscard]] bool responsive(std::chrono::nanoseconds limit) const;
 
+    [[nodiscard]] std::size_t workers() const { return workers_.size(); }
+    // That the workers have spent on turns and on helping, all together, without those that go on.
+    // Thread-safe.
+    [[nodiscard]] std::chrono::nanoseconds busy() const;
+
     // Joins the workers. Strands scheduled afterwards get no turn.
     void stop();
 
@@ -73,6 +78,7 @@ class WorkerPool {
         std::thread thread;
         std::size_t lane = 0;                   // when it helps others: from 1
         std::atomic<std::int64_t> began_ns{0};  // a turn, or helping; steady clock; 0 = idle
+        std::atomic<std::int64_t> busy_ns{0};   // before that
         SharedWork shared;                      // of its turn
     };
 
@@ -105,7 +111,7 @@ class Turn {
     void share(std::size_t count, std::size_t share, const SharedWork::Item& item);
 
     [[nodiscard]] std::size_t lanes() const { return workers() + 1; }
-    [[nodiscard]] std::size_t workers() const { return pool_.workers_.size(); }
+    [[nodiscard]] std::size_t workers() const { return pool_.workers(); }
 
     // Gives the strand another turn, after those of the strands that are due now.
     void again() { pool_.schedule(strand_); }

@@ -54,6 +54,7 @@ MetricFamily drops(const Statistics& statistics) {
         {Counter::drop_early_epoch, "early_epoch"},
         {Counter::drop_old_frame, "old_frame"},
         {Counter::drop_superseded, "superseded"},
+        {Counter::drop_paced, "paced"},
         {Counter::drop_waiting, "no_map"},
         {Counter::drop_players, "players"},
         {Counter::drop_events, "events"},
@@ -103,6 +104,10 @@ std::vector<MetricFamily> director_metrics(const Statistics& s) {
             gauge("silent_matches", "Matches that are silent.", s.silent_matches),
             gauge("observers", "Observers.", s.observers),
             gauge("shots", "Shots, each with a camera.", s.shots),
+            gauge("frames_per_camera",
+                  "Of so many pose frames of a match one becomes cameras; more than 1: the machine is too "
+                  "slow.",
+                  s.frames_per_camera),
             gauge("delayed_bytes", "Memory of what waits for its delay.", s.delayed_bytes),
             histogram("step_seconds",
                       "Duration of one tracker step of one shot, also of steps made ahead in vain.", s.step),

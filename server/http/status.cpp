@@ -29,11 +29,17 @@ json page_of(const director::ObserverView& observer) {
 
 json page_of(const director::MatchView& match) {
     if (!match.answered) return {{"match_id", match.match_id}, {"state", "no answer"}};
-    json page = {{"match_id", match.match_id}, {"state", match.state},
-                 {"epoch", match.epoch},       {"map", match.map_name},
-                 {"rate_hz", match.rate_hz},   {"delay_s", match.delay_s},
-                 {"players", match.players},   {"last_pose_number", match.last_pose_number},
-                 {"shots", json::array()},     {"observers", json::array()}};
+    json page = {{"match_id", match.match_id},
+                 {"state", match.state},
+                 {"epoch", match.epoch},
+                 {"map", match.map_name},
+                 {"rate_hz", match.rate_hz},
+                 {"camera_rate_hz", match.camera_rate_hz},
+                 {"delay_s", match.delay_s},
+                 {"players", match.players},
+                 {"last_pose_number", match.last_pose_number},
+                 {"shots", json::array()},
+                 {"observers", json::array()}};
     for (const auto& shot : match.shots)
         page["shots"].push_back(page_of(shot));
     for (const auto& observer : match.observers)

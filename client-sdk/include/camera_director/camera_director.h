@@ -275,7 +275,9 @@ typedef struct cdir_match_info {
     /* > 0: length of one map unit in metres. For observers, who convert with cdir_position_to_engine();
      * directors go by what they know of the map. */
     float metres_per_unit;
-    float rate_hz; /* > 0: pose frames per second that the game server intends to publish */
+    /* > 0: pose frames per second that the game server intends to publish. For observers: camera frames per
+     * second, which are fewer while a director's machine is too small. */
+    float rate_hz;
     /* >= 0: observers receive cameras and this description at least so late; later when the director's
      * operator wants a longer delay. Directors refuse every shot of a match with more than 120: reason in
      * cdir_shot_status says so. A longer one than before stops the cameras until it is filled, a shorter one

@@ -24,7 +24,8 @@ class InboxTest : public testing::Test {
     }
 
     MatchCounters counters_;
-    Inbox inbox_{10, counters_};
+    Pace pace_;
+    Inbox inbox_{10, pace_, counters_};
     Inbox::Content content_;
 };
 
@@ -88,6 +89,28 @@ TEST_F(InboxTest, ARespawnIsNotLostWithItsFrame) {
     inbox_.put(frame(2, 1), 6);
     inbox_.take(content_);
     EXPECT_EQ(content_.frame.poses.at(0).flags, pose_alive) << "another epoch's";
+}
+
+TEST_F(InboxTest, AtASlowerPaceSomeFramesAreLeftOutEvenly) {
+    for (int interval = 0; interval < 2; ++interval)
+        pace_.observe({.taken = 200, .superseded = 200, .busy = 1.0});
+    ASSERT_EQ(pace_.frames_per_camera(), 3U);
+    std::vector<std::uint32_t> taken;
+    for (std::uint32_t number = 1; number <= 9; ++number) {
+        inbox_.put(RequestEnded{"a"});
+        const bool due = inbox_.put(frame(1, number, number == 4 ? pose_discontinuity : 0U), 10 * number);
+        inbox_.take(content_);
+        EXPECT_EQ(content_.has_frame, due);
+        EXPECT_EQ(content_.messages.size(), 1U) << "messages do not wait";
+        if (!due) continue;
+        taken.push_back(content_.frame.frame_number);
+        EXPECT_EQ(content_.received_ns, 10 * number);
+        EXPECT_EQ(content_.messages_before_frame, 1U);
+        EXPECT_EQ(content_.frame.poses.at(0).flags, number == 6 ? pose_discontinuity : 0U);
+    }
+    EXPECT_EQ(taken, (std::vector<std::uint32_t>{3, 6, 9}));
+    EXPECT_EQ(counted(Counter::drop_paced), 6U);
+    EXPECT_EQ(counted(Counter::drop_superseded), 0U);
 }
 
 TEST_F(InboxTest, BothQueuesAreBounded) {

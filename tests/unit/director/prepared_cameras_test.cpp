@@ -77,7 +77,8 @@ class DelayedTimes {
     // Long ago, even if this machine has just started: the answers to requests read the clock.
     const std::int64_t start_ = ms;
     MapLibrary maps_;
-    Match match_{"m", std::make_shared<config::Config>(Stage::default_config()), maps_, publisher};
+    Pace pace_;
+    Match match_{"m", std::make_shared<config::Config>(Stage::default_config()), maps_, pace_, publisher};
     WorkerPool pool_{2, 1};
 };
 

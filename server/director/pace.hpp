@@ -1,0 +1,44 @@
+// How often the cameras move: with every pose frame, or evenly less often where the machine is too small.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+
+namespace camdir::director {
+
+// One pace for all matches, from the load that is observed at regular intervals. It slows down when frames of
+// matches were replaced by newer ones in two intervals in a row: by as much as is missing. It speeds up by
+// one step when the workers would have time to spare even then, after a calm time that doubles when it was
+// too short.
+class Pace {
+  public:
+    static constexpr std::uint32_t slowest = 8;
+
+    // Of all matches in one interval.
+    struct Load {
+        std::uint64_t taken = 0;       // frames that were to become cameras, and did
+        std::uint64_t superseded = 0;  // that a newer one has replaced
+        double busy = 0.0;             // share of their time that the workers were at work
+    };
+
+    // Of so many pose frames of a match one becomes cameras: 1 .. slowest. Thread-safe.
+    [[nodiscard]] std::uint32_t frames_per_camera() const { return frames_.load(std::memory_order_relaxed); }
+
+    // After each interval. One thread at a time.
+    void observe(const Load& load);
+
+  private:
+    static constexpr std::uint32_t shortest_calm = 5;  // intervals
+    static constexpr std::uint32_t longest_calm = 60;
+
+    void slow_down(const Load& load);
+    void speed_up();
+
+    std::atomic<std::uint32_t> frames_{1};
+    std::uint32_t late_ = 0;  // intervals in a row in which frames were superseded
+    std::uint32_t calm_ = 0;  // and in which none was
+    std::uint32_t calm_needed_ = shortest_calm;
+    std::uint32_t since_speed_up_ = longest_calm;  // intervals
+};
+
+}  // namespace camdir::director

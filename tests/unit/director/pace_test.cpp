@@ -1,0 +1,136 @@
+#include "director/pace.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "stage.hpp"
+#include "support/eventually.hpp"
+
+namespace camdir::director {
+namespace {
+
+constexpr Pace::Load calm{.taken = 1000, .superseded = 0, .busy = 0.1};
+
+void observe(Pace& pace, const Pace::Load& load, int intervals) {
+    for (int i = 0; i < intervals; ++i)
+        pace.observe(load);
+}
+
+// Intervals until the pace is faster than it is; at most 1000.
+int intervals_to_speed_up(Pace& pace, const Pace::Load& load) {
+    const std::uint32_t before = pace.frames_per_camera();
+    int intervals = 0;
+    while (pace.frames_per_camera() >= before && intervals < 1000) {
+        pace.observe(load);
+        ++intervals;
+    }
+    return intervals;
+}
+
+TEST(PaceTest, OneIntervalIsAHiccup) {
+    Pace pace;
+    for (int i = 0; i < 10; ++i) {
+        observe(pace, {.taken = 50, .superseded = 50, .busy = 1.0}, 1);
+        observe(pace, calm, 1);
+    }
+    EXPECT_EQ(pace.frames_per_camera(), 1U);
+    observe(pace, {.taken = 990, .superseded = 10, .busy = 0.9}, 10);
+    EXPECT_EQ(pace.frames_per_camera(), 1U) << "one in a hundred";
+}
+
+TEST(PaceTest, ItSlowsDownByWhatIsMissing) {
+    Pace pace;
+    observe(pace, {.taken = 450, .superseded = 150, .busy = 1.0}, 2);  // 3 of 4
+    EXPECT_EQ(pace.frames_per_camera(), 2U);
+    Pace slower;
+    observe(slower, {.taken = 200, .superseded = 400, .busy = 1.0}, 2);  // 1 of 3
+    EXPECT_EQ(slower.frames_per_camera(), 4U);
+    observe(slower, {.taken = 1, .superseded = 1000, .busy = 1.0}, 2);
+    EXPECT_EQ(slower.frames_per_camera(), Pace::slowest);
+    Pace stuck;
+    observe(stuck, {.taken = 0, .superseded = 1000, .busy = 1.0}, 2);
+    EXPECT_EQ(stuck.frames_per_camera(), Pace::slowest);
+}
+
+TEST(PaceTest, ItSpeedsUpStepByStepWhereThereIsTime) {
+    Pace pace;
+    observe(pace, {.taken = 200, .superseded = 400, .busy = 1.0}, 2);
+    observe(pace, {.taken = 150, .superseded = 0, .busy = 0.6}, 100);  // 0.8 with every third
+    EXPECT_EQ(pace.frames_per_camera(), 4U);
+    EXPECT_EQ(intervals_to_speed_up(pace, {.taken = 150, .superseded = 0, .busy = 0.3}), 1);
+    EXPECT_EQ(pace.frames_per_camera(), 3U);
+    observe(pace, calm, 100);
+    EXPECT_EQ(pace.frames_per_camera(), 1U);
+    observe(pace, calm, 100);
+    EXPECT_EQ(pace.frames_per_camera(), 1U);
+}
+
+TEST(PaceTest, ItTriesLessOftenWhatHasFailed) {
+    Pace pace;
+    const Pace::Load late{.taken = 450, .superseded = 150, .busy = 1.0};
+    int longest = 0;
+    for (int i = 0; i < 10; ++i) {
+        observe(pace, late, 2);
+        ASSERT_EQ(pace.frames_per_camera(), 2U);
+        const int intervals = intervals_to_speed_up(pace, calm);
+        EXPECT_GE(intervals, longest);
+        longest = intervals;
+    }
+    EXPECT_EQ(longest, 60);
+    observe(pace, calm, 60);
+    observe(pace, late, 2);
+    EXPECT_EQ(intervals_to_speed_up(pace, calm), 5) << "after a minute without a late frame";
+}
+
+// Takes its time over cameras while it is slow.
+class SlowPublisher final : public Publisher {
+  public:
+    void publish(const MatchInfo& shown) override { memory_.publish(shown); }
+    void end(const std::string& match_id) override { memory_.end(match_id); }
+    void publish(const std::string& match_id, const CameraFrame& frame) override {
+        if (is_slow) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        memory_.publish(match_id, frame);
+    }
+    void publish(const ObserverStatus& status) override { memory_.publish(status); }
+    void withdraw(const std::string& match_id, const std::string& observer_id) override {
+        memory_.withdraw(match_id, observer_id);
+    }
+    void forget(const std::string& match_id) override { memory_.forget(match_id); }
+
+    [[nodiscard]] float rate_hz() const { return memory_.shown()->rate_hz; }
+
+    std::atomic<bool> is_slow{true};
+
+  private:
+    MemoryPublisher memory_;
+};
+
+TEST(PaceTest, AnOverloadedDirectorDeclaresALowerRateAndRecovers) {
+    SlowPublisher publisher;
+    MapLibrary maps;
+    maps.set_ready("square", Stage::square());
+    Director director(Stage::default_config(), maps, publisher);
+    director.receive(Stage::info());
+    director.receive(Stage::request("a"));
+    std::uint32_t number = 0;
+    const auto plays_until = [&](const auto& condition) {
+        return test::eventually([&] {
+            director.receive("m", Stage::poses(++number));
+            return condition();
+        });
+    };
+    const auto pace = [&] { return director.statistics().frames_per_camera; };
+    ASSERT_TRUE(plays_until([&] { return pace() > 1 && publisher.rate_hz() < Stage::info().rate_hz; }));
+    const auto before = director.statistics();
+    ASSERT_TRUE(plays_until([&] {
+        const auto now = director.statistics();
+        return now[Counter::drop_paced] > before[Counter::drop_paced] &&
+               now[Counter::camera_frames] > before[Counter::camera_frames];
+    }));
+    publisher.is_slow = false;
+    ASSERT_TRUE(plays_until([&] { return pace() == 1 && publisher.rate_hz() == Stage::info().rate_hz; }));
+}
+
+}  // namespace
+}  // namespace camdir::director
