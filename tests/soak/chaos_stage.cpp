@@ -208,6 +208,9 @@ std::string ChaosStage::end() {
         const int code = place.director->wait();
         if (code != 0) problems += "exit code " + std::to_string(code) + ": " + place.director->log();
     }
+    // Not killed: a sanitizer looks for leaks at the end. That it was too slow at times is no problem.
+    game_->send_signal(SIGTERM);
+    game_->wait();
     return problems;
 }
 
