@@ -3,8 +3,9 @@
 # its unit and integration tests (matches on OpenArena's own server and client among them) and a short soak, and unit
 # tests under the address and undefined-behaviour sanitizers.
 #     test.sh [--all]
-# --all: also networks that are cut, a scenario of chaos, all unit tests under these sanitizers, the thread sanitizer,
-# clang-tidy, every fuzzer for a minute, the client library on i386, and the Debian packages in an empty Debian
+# --all: also networks that are cut, a scenario of chaos, all unit tests and another scenario under these sanitizers and
+# the thread sanitizer, clang-tidy, every fuzzer for a minute, the client library on i386, and the Debian packages in an
+# empty Debian
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -76,12 +77,13 @@ some=()
 $all || some=(--exclude-regex 'SightOnMap[^ ]*[124578]( |$)' --label-exclude '^chaos$')
 run_tests release "${some[@]}"
 
-step "Address and undefined-behaviour sanitizers: unit tests"
+step "Address and undefined-behaviour sanitizers: unit tests, chaos"
 cmake --preset asan
 if $all; then
-    cmake --build --preset asan --target unit-tests
+    cmake --build --preset asan --target unit-tests chaos
     # Queries and cameras on real maps: minutes of the same code that the random worlds run.
     run_tests asan --label-regex '^unit$' --exclude-regex '^unit\.(camera|freespace)-maps\.'
+    run_tests asan --tests-regex '^soak\.chaos$'
 else
     # What reads the bytes of others, and what has threads or queries that must be fast.
     rooms=(base camera config dds director evaluation freespace http scene sdk soak)
@@ -90,11 +92,12 @@ else
 fi
 
 if $all; then
-    step "Thread sanitizer: unit and integration tests"
+    step "Thread sanitizer: unit and integration tests, chaos"
     cmake --preset tsan
     cmake --build --preset tsan
     # Sight on all maps runs on one thread, and would take the sanitizer hours.
     run_tests tsan --label-regex '^(unit|integration)$' --exclude-regex 'SightOnMap'
+    run_tests tsan --tests-regex '^soak\.chaos$'
 
     step "clang-tidy"
     deploy/lint.sh

@@ -1,5 +1,6 @@
 #include "service/service.hpp"
 
+#include <malloc.h>
 #include <spdlog/spdlog.h>
 
 #include <iterator>
@@ -15,6 +16,7 @@ namespace camdir::service {
 namespace {
 
 constexpr std::chrono::milliseconds watch_period{200};
+constexpr std::chrono::seconds trim_period(10);
 constexpr std::chrono::seconds start_extension{60};
 constexpr std::chrono::milliseconds max_turn{5000};  // whoever takes longer has hung
 constexpr std::chrono::milliseconds view_timeout{500};
@@ -115,8 +117,14 @@ void Service::run(Signals& signals) {
     spdlog::info("director {} in DDS domain {}", gateway_->director_id(), config_.dds.domain);
     gateway_->start(director_);
     loader_.load(config_.maps);
+    auto trimmed = std::chrono::steady_clock::now();
     for (bool ready = false;;) {
         watch(ready);
+        if (const auto now = std::chrono::steady_clock::now(); now - trimmed >= trim_period) {
+            // What matches and peers that are gone have left free between what stays.
+            malloc_trim(0);
+            trimmed = now;
+        }
         const Signal signal = signals.wait(watch_period);
         if (signal == Signal::stop) break;
         if (signal == Signal::reload) {

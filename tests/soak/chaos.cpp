@@ -26,7 +26,7 @@ struct Options {
     std::string scenario, map, report;
     std::string programs = CAMDIR_BIN_DIR;
     double seconds = 0.0, hours = 0.0;
-    bool logs = false;
+    bool logs = false, sanitized = false;
 };
 
 // Carries out the acts of a scenario, each in a thread of its own, from its construction on.
@@ -113,7 +113,7 @@ void print(const Timeline& timeline) {
 
 void print(const std::vector<Check>& checks) {
     for (const Check& check : checks)
-        std::cout << (check.passed ? "passed  " : "FAILED  ") << check.what << ": " << check.seen
+        std::cout << std::left << std::setw(12) << name_of(check.verdict) << check.what << ": " << check.seen
                   << ", allowed: " << check.allowed << '\n';
 }
 
@@ -129,9 +129,9 @@ int run(const Options& options, const std::stop_token& stop) {
     ChaosStage stage({options.programs, options.map}, *scenario);
     const Timeline timeline = play(stage, *scenario, stop);
     const std::string problem = stage.end();
-    auto checks = judge(timeline);
-    checks.push_back(
-        {"directors end as they should", problem.empty() ? "yes" : problem, "yes", problem.empty()});
+    auto checks = judge(timeline, options.sanitized);
+    checks.push_back({"directors end as they should", problem.empty() ? "yes" : problem, "yes",
+                      problem.empty() ? Verdict::passed : Verdict::failed});
     print(timeline);
     print(checks);
     const double judged = judged_share(timeline);
@@ -142,8 +142,8 @@ int run(const Options& options, const std::stop_token& stop) {
         const auto written = write_file(options.report, to_html(timeline, checks));
         if (!written) throw std::runtime_error(written.error().message);
     }
-    if (!std::ranges::all_of(checks, &Check::passed)) return 1;
-    return judged < least_judged_share ? exit_not_judged : 0;
+    if (std::ranges::any_of(checks, is_failed)) return 1;
+    return judged < least_judged_share && !options.sanitized ? exit_not_judged : 0;
 }
 
 }  // namespace
@@ -162,6 +162,8 @@ int main(int argc, char** argv) {
         ->check(CLI::Range(0.001, 1e4))
         ->excludes(seconds);
     app.add_option("--report", options.report, "Writes a page with plots over time, HTML");
+    app.add_flag("--sanitized", options.sanitized,
+                 "The programs have sanitizers: judges neither memory nor what observers see");
     app.add_flag("--logs", options.logs, "Shows the directors' logs");
     try {
         app.parse(argc, argv);

@@ -131,7 +131,7 @@ std::string table(const std::string& heading, const std::string& body) {
 std::string verdict_table(const std::vector<Check>& checks) {
     std::string body;
     for (const Check& check : checks)
-        body += row({check.what, check.seen, check.allowed, check.passed ? "passed" : "FAILED"});
+        body += row({check.what, check.seen, check.allowed, name_of(check.verdict)});
     return table("<tr><th></th><th>seen</th><th>allowed</th><th></th></tr>", body);
 }
 
@@ -156,7 +156,7 @@ std::string section(const std::string& title, const std::string& content) {
 }  // namespace
 
 std::string to_html(const Timeline& timeline, const std::vector<Check>& checks) {
-    const bool passed = std::ranges::all_of(checks, &Check::passed);
+    const bool passed = std::ranges::none_of(checks, is_failed);
     const std::string title = std::string("Chaos: ") + (passed ? "passed" : "FAILED");
     std::string plots;
     for (const Chart& chart : charts_of(timeline))

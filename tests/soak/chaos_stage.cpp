@@ -19,6 +19,8 @@ using test::ChildProcess;
 constexpr const char* match_prefix = "real";
 // After which a director that has come back knows all there is to know, beside the delay.
 constexpr double learning_s = 3.0;
+// Short: within a scenario what strangers leave behind is gone.
+constexpr double forget_s = 5.0;
 
 // Waits until it has ended, or ends it at a stop. Throws when it failed.
 void await_end(ChildProcess& process, const std::string& name, const std::stop_token& stop) {
@@ -54,7 +56,8 @@ ChaosStage::ChaosStage(const Options& options, const Scenario& scenario)
                                      .folder = folder_.path(),
                                      .domain = domain_.id(),
                                      .index = index,
-                                     .peer = test::director_address(domain_.id(), 1 - index)});
+                                     .peer = test::director_address(domain_.id(), 1 - index),
+                                     .forget_s = forget_s});
         start(places_[i]);
     }
     start_game();
@@ -208,6 +211,9 @@ std::string ChaosStage::end() {
         const int code = place.director->wait();
         if (code != 0) problems += "exit code " + std::to_string(code) + ": " + place.director->log();
     }
+    // Not killed: a sanitizer looks for leaks at the end. That it was too slow at times is no problem.
+    game_->send_signal(SIGTERM);
+    game_->wait();
     return problems;
 }
 

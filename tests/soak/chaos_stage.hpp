@@ -41,7 +41,7 @@ class ChaosStage {
 
     [[nodiscard]] Witness& witness() { return *witness_; }
     [[nodiscard]] std::array<std::optional<Usage>, 2> usages();
-    // After the last act. Ends the directors; returns what was wrong, empty if nothing.
+    // After the last act. Ends the directors and the game server; returns what was wrong, empty if nothing.
     [[nodiscard]] std::string end();
     [[nodiscard]] std::string logs();
 

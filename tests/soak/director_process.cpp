@@ -41,8 +41,9 @@ void DirectorProcess::start(const std::string& map_file, const std::string& sour
                          << setting_.index << R"(, "peers": [")" << setting_.peer << R"("], "strength": )"
                          << (setting_.index == 0 ? 200 : 100) << R"(, "director_id": )"
                          << id_of(setting_.index) << R"(}, "http": {"port": 0, "token_file": ")"
-                         << token_file_.string() << R"("}, "maps": [{"name": "map", "file": ")" << map_file
-                         << R"(", "source": ")" << source << R"("}]})";
+                         << token_file_.string() << R"("}, "matches": {"forget_s": )" << setting_.forget_s
+                         << R"(}, "maps": [{"name": "map", "file": ")" << map_file << R"(", "source": ")"
+                         << source << R"("}]})";
     std::vector<std::string> command = setting_.command;
     command.insert(command.end(), {"serve", "--config", file_.string()});
     process_ = std::make_unique<test::ChildProcess>(command);

@@ -25,6 +25,7 @@ class DirectorProcess {
         std::string peer;              // HOST:PORT at which the other one is found
         std::string interface = "lo";  // of DDS
         bool insecure = false;         // DDS may leave loopback
+        double forget_s = 300.0;       // until a match whose game server disappeared ends
     };
 
     explicit DirectorProcess(Setting setting);

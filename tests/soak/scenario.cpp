@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array<std::pair<const char*, ActKind>, 14> act_names{{
+constexpr std::array<std::pair<const char*, ActKind>, 15> act_names{{
     {"kill", ActKind::kill},
     {"terminate", ActKind::terminate},
     {"pause", ActKind::pause},
@@ -30,6 +30,7 @@ constexpr std::array<std::pair<const char*, ActKind>, 14> act_names{{
     {"usurper", ActKind::usurper},
     {"flood_observers", ActKind::flood_observers},
     {"flood_matches", ActKind::flood_matches},
+    {"passing_matches", ActKind::passing_matches},
 }};
 constexpr std::array<std::pair<const char*, Role>, 2> role_names{
     {{"leader", Role::leader}, {"standby", Role::standby}}};

@@ -26,6 +26,7 @@ enum class ActKind {
     usurper,         // claims a real match and its observers' requests
     flood_observers,
     flood_matches,
+    passing_matches,  // come, are watched and go
 };
 
 enum class Role { leader, standby };
@@ -36,7 +37,7 @@ struct Act {
     double every_s = 0.0;          // 0 = once
     double for_s = 1.0;            // its duration
     Role director = Role::leader;  // to whom; of the first match
-    std::int64_t count = 1000;     // of a flood, spread over its duration
+    std::int64_t count = 1000;     // of a flood or of passing matches, spread over its duration
     std::int64_t batch = 50;       // of these at a time
 };
 

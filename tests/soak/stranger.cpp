@@ -25,6 +25,7 @@ constexpr std::chrono::milliseconds frame_interval(33);
 constexpr std::uint32_t players = 4;
 constexpr std::uint64_t batches_a_peer = 20;  // then it leaves, and another comes
 constexpr std::chrono::milliseconds answer_limit(500);
+constexpr std::size_t passing_frames = 30;  // that each passing match is watched for
 
 struct Options {
     std::string act;
@@ -41,6 +42,29 @@ camera_director_MatchInfo match_info(const std::string& match, std::uint64_t epo
     info.map_name = const_cast<char*>(map);  // is only read
     return info;
 }
+
+// A game server and an observer of its match.
+struct PassingMatch {
+    PassingMatch(std::uint32_t domain, const std::string& match)
+        : id(match), peer(std::make_unique<RawPeer>(domain, match)) {
+        peer->write(match_info(id, 1, "map"));
+        peer->write(test::raw_request(id, "viewer", 0));
+    }
+
+    void go_on(std::uint32_t number) {
+        peer->write(RawPoseFrame(id, 1, number, players).sample());
+        seen += peer->take_cameras().size();
+    }
+
+    void end() {
+        peer->dispose(test::raw_request(id, "viewer", 0));
+        peer->dispose(match_info(id, 1, "map"));
+    }
+
+    std::string id;
+    std::unique_ptr<RawPeer> peer;
+    std::size_t seen = 0;  // camera frames
+};
 
 class Stranger {
   public:
@@ -134,6 +158,27 @@ class Stranger {
             answered_ += static_cast<std::uint64_t>(answered());
             for (const std::string& id : ids)
                 attempt([&] { peer->dispose(test::raw_request(options_.match, id, 0)); });
+        });
+    }
+
+    // Each with a participant of its own and one observer, who has to see it; then half of them end as they
+    // should, and the others are gone without a word.
+    void play_passing_matches() {
+        flood([&](const std::vector<std::string>& ids, std::uint64_t /*batch*/) {
+            std::vector<PassingMatch> matches;
+            for (const std::string& id : ids)
+                matches.emplace_back(options_.domain, id);
+            const auto is_watched = [](const PassingMatch& match) { return match.seen >= passing_frames; };
+            const auto limit = Clock::now() + test::patience;
+            for (std::uint32_t number = 0; !std::ranges::all_of(matches, is_watched); ++number) {
+                if (Clock::now() > limit) throw std::runtime_error("an observer does not see its match");
+                for (PassingMatch& match : matches)
+                    match.go_on(number);
+                std::this_thread::sleep_for(frame_interval);
+            }
+            for (std::size_t i = 0; i < matches.size(); i += 2)
+                matches[i].end();
+            answered_ += ids.size();
         });
     }
 
@@ -241,6 +286,7 @@ const std::map<std::string, void (Stranger::*)()> acts = {
     {"usurper", &Stranger::usurp},
     {"flood_observers", &Stranger::flood_with_observers},
     {"flood_matches", &Stranger::flood_with_matches},
+    {"passing_matches", &Stranger::play_passing_matches},
 };
 
 void run(const Options& options) {

@@ -23,6 +23,10 @@ bool overlaps(const Slice& slice, double begin, double end) {
     return slice.end > begin && slice.begin < end;
 }
 
+Verdict verdict_of(bool passed) {
+    return passed ? Verdict::passed : Verdict::failed;
+}
+
 // Whether the leader is expected to leave its matches.
 bool removes_leader(const Act& act) {
     return is_done_to_director(act.kind) && act.kind != ActKind::reload && act.director == Role::leader;
@@ -30,7 +34,7 @@ bool removes_leader(const Act& act) {
 
 class Judge {
   public:
-    explicit Judge(const Timeline& timeline) : timeline_(timeline) {}
+    Judge(const Timeline& timeline, bool sanitized) : timeline_(timeline), sanitized_(sanitized) {}
 
     [[nodiscard]] std::vector<Check> checks() const {
         std::vector<Check> checks{acts_succeed(), nothing_is_lost(), no_gap_is_long(), cameras_return()};
@@ -53,6 +57,11 @@ class Judge {
     }
 
   private:
+    // Of what a director does too late or with too much memory when sanitizers slow it down.
+    [[nodiscard]] Verdict cost_verdict_of(bool passed) const {
+        return sanitized_ ? Verdict::not_judged : verdict_of(passed);
+    }
+
     // What one process of a director used: its slices without acts.
     using Life = std::vector<const Slice*>;
 
@@ -68,7 +77,8 @@ class Judge {
             std::ranges::find_if(timeline_.acts, [](const ActRecord& act) { return !act.failure.empty(); });
         const bool passed = failed == timeline_.acts.end();
         return {"acts that could not be carried out",
-                passed ? "none" : name_of(failed->act.kind) + ": " + failed->failure, "none", passed};
+                passed ? "none" : name_of(failed->act.kind) + ": " + failed->failure, "none",
+                verdict_of(passed)};
     }
 
     // A busy machine loses frames without any act as well: so many, twice over, are not the acts' doing.
@@ -82,7 +92,7 @@ class Judge {
         return {"frames lost during acts that leave the leader alone",
                 std::to_string(during.frames) + " in " + text(during.seconds) + " s, without acts " +
                     std::to_string(without.frames) + " in " + text(without.seconds) + " s",
-                text(allowed), static_cast<double>(during.frames) <= allowed};
+                text(allowed), cost_verdict_of(static_cast<double>(during.frames) <= allowed)};
     }
     struct Losses {
         std::uint64_t frames = 0;
@@ -105,7 +115,7 @@ class Judge {
         for (const Slice& slice : timeline_.slices)
             if (keeps_leader(slice)) count += slice.seen.unanswered;
         return {"frames without the observer's camera where the leader was left alone", std::to_string(count),
-                "0", count == 0};
+                "0", cost_verdict_of(count == 0)};
     }
     [[nodiscard]] bool keeps_leader(const Slice& slice) const {
         return !during(slice, removes_leader, longest_absence_s);
@@ -123,7 +133,7 @@ class Judge {
             longest = std::max(longest, slice.seen.gap_s - slice.stall_s);
         }
         return {"longest gap beside the machine's own, ms", text(1e3 * longest), text(1e3 * longest_gap_s),
-                longest <= longest_gap_s};
+                cost_verdict_of(longest <= longest_gap_s)};
     }
 
     [[nodiscard]] Check cameras_return() const {
@@ -131,14 +141,16 @@ class Judge {
         for (const ActRecord& act : timeline_.acts)
             longest = std::max(longest, findings_of(act, timeline_).back_s);
         return {"cameras again after an act, s", text(longest, 1), text(longest_absence_s, 1),
-                longest <= longest_absence_s};
+                cost_verdict_of(longest <= longest_absence_s)};
     }
 
     [[nodiscard]] Check none(const std::string& what, std::uint64_t Seen::*count) const {
-        std::uint64_t sum = 0;
+        std::string seen;
         for (const Slice& slice : timeline_.slices)
-            sum += slice.seen.*count;
-        return {what, std::to_string(sum), "0", sum == 0};
+            if (slice.seen.*count > 0)
+                seen += (seen.empty() ? "" : ", ") + std::to_string(slice.seen.*count) + " at " +
+                        text(slice.begin, 1) + " s";
+        return {what, seen.empty() ? "0" : seen, "0", cost_verdict_of(seen.empty())};
     }
 
     [[nodiscard]] std::vector<Life> lives_of(std::size_t director) const {
@@ -181,15 +193,18 @@ class Judge {
             std::ranges::nth_element(values, values.begin() + std::ssize(values) / 2);
             return values[values.size() / 2];
         };
-        const auto compare = [&](const std::string& what, auto value, double more, int decimals) {
+        const auto compare = [&](const std::string& what, auto value, double more, int decimals) -> Check& {
             const double before = level(first, value);
             const double after = level(last, value);
-            checks.push_back({whose + what, text(before, decimals) + " then " + text(after, decimals),
-                              "at most " + text(before + more, decimals), after <= before + more});
+            return checks.emplace_back(
+                Check{whose + what, text(before, decimals) + " then " + text(after, decimals),
+                      "at most " + text(before + more, decimals), verdict_of(after <= before + more)});
         };
         const double kept = kept_bytes_a_key * static_cast<double>(invented(*first.front(), *last.back()));
-        compare("memory, MiB", &Usage::resident_mib,
-                max_growth * level(first, &Usage::resident_mib) + slack_mib + kept / (1024.0 * 1024.0), 1);
+        Check& memory = compare(
+            "memory, MiB", &Usage::resident_mib,
+            max_growth * level(first, &Usage::resident_mib) + slack_mib + kept / (1024.0 * 1024.0), 1);
+        if (sanitized_) memory.verdict = Verdict::not_judged;
         compare("descriptors", &Usage::descriptors, 0.0, 0);
         compare("threads", &Usage::threads, 0.0, 0);
     }
@@ -203,9 +218,26 @@ class Judge {
     }
 
     const Timeline& timeline_;
+    const bool sanitized_;
 };
 
 }  // namespace
+
+std::string name_of(Verdict verdict) {
+    switch (verdict) {
+        case Verdict::passed:
+            return "passed";
+        case Verdict::failed:
+            return "FAILED";
+        case Verdict::not_judged:
+            return "not judged";
+    }
+    return "";
+}
+
+bool is_failed(const Check& check) {
+    return check.verdict == Verdict::failed;
+}
 
 ActFindings findings_of(const ActRecord& act, const Timeline& timeline) {
     ActFindings found;
@@ -224,15 +256,15 @@ ActFindings findings_of(const ActRecord& act, const Timeline& timeline) {
 }
 
 double judged_share(const Timeline& timeline) {
-    const Judge judge(timeline);
+    const Judge judge(timeline, false);
     std::size_t fair = 0;
     for (std::size_t i = 0; i < timeline.slices.size(); ++i)
         fair += judge.is_fair(i) ? 1 : 0;
     return static_cast<double>(fair) / static_cast<double>(std::max<std::size_t>(1, timeline.slices.size()));
 }
 
-std::vector<Check> judge(const Timeline& timeline) {
-    return Judge(timeline).checks();
+std::vector<Check> judge(const Timeline& timeline, bool sanitized) {
+    return Judge(timeline, sanitized).checks();
 }
 
 }  // namespace camdir::soak

@@ -8,11 +8,16 @@
 
 namespace camdir::soak {
 
+enum class Verdict { passed, failed, not_judged };
+
 struct Check {
     std::string what;
     std::string seen, allowed;
-    bool passed = false;
+    Verdict verdict = Verdict::failed;
 };
+
+[[nodiscard]] std::string name_of(Verdict verdict);
+[[nodiscard]] bool is_failed(const Check& check);
 
 // What observers and directors showed around one act.
 struct ActFindings {
@@ -33,6 +38,8 @@ inline constexpr double kept_bytes_a_key = 310.0;
 // Frames are judged where the machine did not stall for half a frame; the share of the time where it did not.
 [[nodiscard]] double judged_share(const Timeline& timeline);
 
-[[nodiscard]] std::vector<Check> judge(const Timeline& timeline);
+// Of `sanitized` directors neither memory nor what observers see is judged: sanitizers cost memory and time,
+// and a game server that is late for longer than its lease loses its match.
+[[nodiscard]] std::vector<Check> judge(const Timeline& timeline, bool sanitized = false);
 
 }  // namespace camdir::soak

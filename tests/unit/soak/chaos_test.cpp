@@ -73,10 +73,10 @@ Timeline flooded() {
     return timeline;
 }
 
-std::vector<std::string> failures(const Timeline& timeline) {
+std::vector<std::string> failures(const Timeline& timeline, bool sanitized = false) {
     std::vector<std::string> names;
-    for (const Check& check : judge(timeline))
-        if (!check.passed) names.push_back(check.what);
+    for (const Check& check : judge(timeline, sanitized))
+        if (is_failed(check)) names.push_back(check.what);
     return names;
 }
 
@@ -147,6 +147,19 @@ TEST(Verdict, DescriptorsAndThreadsThatStayFail) {
     for (std::size_t i = 60; i < timeline.slices.size(); ++i)
         timeline.slices[i].directors[0]->descriptors = 21;
     expect_failure(timeline, "descriptors");
+}
+
+TEST(Verdict, OfSanitizedDirectorsNeitherMemoryNorWhatObserversSeeIsJudged) {
+    Timeline timeline = flooded();
+    timeline.slices[50].seen.gap_s = 5.0;
+    timeline.slices[50].seen.lost = 100;
+    timeline.slices[50].seen.cuts = 1;
+    for (std::size_t i = 60; i < timeline.slices.size(); ++i)
+        timeline.slices[i].directors[0]->resident_mib = 500.0;
+    EXPECT_THAT(failures(timeline, true), testing::IsEmpty());
+    for (std::size_t i = 60; i < timeline.slices.size(); ++i)
+        timeline.slices[i].directors[0]->threads = 15;
+    EXPECT_THAT(failures(timeline, true), testing::ElementsAre(HasSubstr("threads")));
 }
 
 TEST(ChaosPage, ShowsVerdictActsAndSeriesWithoutScripts) {
