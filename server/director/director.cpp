@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <condition_variable>
 #include <future>
+#include <map>
 #include <shared_mutex>
 #include <unordered_map>
+#include <utility>
 
 #include "base/log_limit.hpp"
 #include "director/clock.hpp"
@@ -38,7 +40,8 @@ struct Director::Impl {
     struct Entry {
         std::unique_ptr<Match> match;
         bool has_server = false;
-        MatchInfo info;  // the newest, while there is a game server
+        MatchInfo info;           // the newest, while there is a game server
+        std::uint64_t place = 0;  // among the matches that have begun
     };
 
     Impl(const config::Config& configuration, const MapLibrary& library, Publisher& results);
@@ -83,6 +86,7 @@ struct Director::Impl {
     Statistics removed;  // sum over removed matches
     bool accepting = true;
     WorkerPool pool;
+    std::uint64_t matches_begun = 0;
     std::unordered_map<std::string, Entry> matches;
 
     std::condition_variable_any wake;
@@ -251,7 +255,7 @@ bool Director::receive(const MatchInfo& info) {
     Impl::Entry* entry = impl_->admit(info.match_id);
     if (entry == nullptr) return false;
     if (!entry->has_server || info.epoch >= entry->info.epoch) entry->info = info;
-    entry->has_server = true;
+    if (!std::exchange(entry->has_server, true)) entry->place = impl_->matches_begun++;
     Match& match = *entry->match;
     const bool changed = match.delay().announce(info.epoch, info.spectator_delay_s, now_ns());
     impl_->deliver(match, info);
@@ -354,6 +358,24 @@ View Director::view(std::chrono::milliseconds timeout) const {
         const std::shared_lock lock(impl_->mutex);
         if (!impl_->accepting) return {};
         for (auto& [match_id, entry] : impl_->matches) {
+std::vector<MatchStatistics> Director::match_statistics(std::size_t max) const {
+    const std::shared_lock lock(impl_->mutex);
+    std::map<std::uint64_t, const decltype(impl_->matches)::value_type*> first;
+    for (const auto& match : impl_->matches) {
+        if (!match.second.has_server) continue;
+        first.emplace(match.second.place, &match);
+        if (first.size() > max) first.erase(std::prev(first.end()));
+    }
+    std::vector<MatchStatistics> result;
+    for (const auto& [place, match] : first) {
+        MatchStatistics& one = result.emplace_back();
+        one.match_id = match->first;
+        match->second.match->counters().add_to(one.statistics);
+        match->second.match->add_gauges(one.statistics);
+    }
+    return result;
+}
+
             const auto answer = std::make_shared<std::promise<MatchView>>();
             answers.emplace(match_id, answer->get_future());
             impl_->post(*entry.match, ViewRequest{answer});

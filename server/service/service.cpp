@@ -85,7 +85,9 @@ http::Sources Service::sources() {
     sources.missing = [this] { return missing(); };
     sources.metrics = [this] {
         auto families = http::director_metrics(director_.statistics());
-        for (auto& more : {http::map_metrics(maps_.entries()), wire_metrics(gateway_->counters())})
+        const auto most = static_cast<std::size_t>(config_.http.match_metrics);
+        for (auto& more : {http::match_metrics(director_.match_statistics(most)),
+                           http::map_metrics(maps_.entries()), wire_metrics(gateway_->counters())})
             families.insert(families.end(), more.begin(), more.end());
         return families;
     };
