@@ -34,7 +34,8 @@ class Gateway final : public director::Publisher {
     // To be called once. `ingress` is called from a thread of the gateway and must live until
     // stop_receiving() returns.
     void start(director::Ingress& ingress) { subscriber_.start(ingress); }
-    // False when reception is late by more than `limit`: it has hung. Thread-safe.
+    // False when reception is late by more than `limit`, or removes a match for longer: it has hung.
+    // Thread-safe.
     [[nodiscard]] bool responsive(std::chrono::nanoseconds limit) const {
         return subscriber_.responsive(limit);
     }

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/log_limit.hpp"
+#include "base/turn_timer.hpp"
 #include "director/clock.hpp"
 #include "director/match.hpp"
 
@@ -85,11 +86,12 @@ struct Director::Impl {
     std::shared_ptr<const config::Config> config;
     Statistics removed;  // sum over removed matches
     bool accepting = true;
-    WorkerPool pool;
     std::uint64_t matches_begun = 0;
+    WorkerPool pool;
     std::unordered_map<std::string, Entry> matches;
 
     std::condition_variable_any wake;
+    TurnTimer housekeeping;
     std::jthread housekeeper;
 };
 
@@ -176,13 +178,17 @@ void Director::Impl::run_housekeeping(const std::stop_token& stop) {
     std::unique_lock lock(own);
     std::int64_t next_check = now_ns() + housekeeping_ns;
     while (!stop.stop_requested()) {
+        housekeeping.begin();
         const std::chrono::nanoseconds until(std::min(release_due(), next_check));
+        housekeeping.end();
         wake.wait_until(lock, stop, std::chrono::steady_clock::time_point(until), [] { return false; });
         if (now_ns() < next_check) continue;
+        housekeeping.begin();
         next_check = now_ns() + housekeeping_ns;
         const auto leaving = notify_silent();
         if (!leaving.empty()) retire(leaving);
     }
+    housekeeping.end();
 }
 
 // Returns when there is more to do, with what waits now.
@@ -352,12 +358,6 @@ Statistics Director::statistics() const {
     return sum;
 }
 
-View Director::view(std::chrono::milliseconds timeout) const {
-    std::map<std::string, std::future<MatchView>> answers;
-    {
-        const std::shared_lock lock(impl_->mutex);
-        if (!impl_->accepting) return {};
-        for (auto& [match_id, entry] : impl_->matches) {
 std::vector<MatchStatistics> Director::match_statistics(std::size_t max) const {
     const std::shared_lock lock(impl_->mutex);
     std::map<std::uint64_t, const decltype(impl_->matches)::value_type*> first;
@@ -376,6 +376,12 @@ std::vector<MatchStatistics> Director::match_statistics(std::size_t max) const {
     return result;
 }
 
+View Director::view(std::chrono::milliseconds timeout) const {
+    std::map<std::string, std::future<MatchView>> answers;
+    {
+        const std::shared_lock lock(impl_->mutex);
+        if (!impl_->accepting) return {};
+        for (auto& [match_id, entry] : impl_->matches) {
             const auto answer = std::make_shared<std::promise<MatchView>>();
             answers.emplace(match_id, answer->get_future());
             impl_->post(*entry.match, ViewRequest{answer});
@@ -402,7 +408,7 @@ std::chrono::nanoseconds Director::silence_limit(const MatchInfo& info) const {
 }
 
 bool Director::responsive(std::chrono::milliseconds limit) const {
-    return impl_->pool.responsive(limit);
+    return impl_->pool.responsive(limit) && impl_->housekeeping.within(limit);
 }
 
 void Director::flush() {

@@ -130,7 +130,8 @@ void Service::run(Signals& signals) {
 }
 
 void Service::watch(bool& ready) {
-    if (healthy()) notify_alive();
+    const bool answers = !http_ || http_->responsive(max_turn);
+    if (answers && healthy()) notify_alive();
     if (ready) return;
     const auto waits_for = missing();
     if (!waits_for.empty()) return notify_starting(waits_for.front(), start_extension);
