@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "base/log_limit.hpp"
@@ -64,6 +65,8 @@ class Gateway final : public director::Publisher {
 
     // Distinguishes this director's cameras from those of others.
     [[nodiscard]] std::uint64_t director_id() const { return director_id_; }
+    // Of DDS Security; none: plain DDS.
+    [[nodiscard]] const std::optional<Identity>& identity() const { return participant_.identity(); }
     [[nodiscard]] const WireCounters& counters() const { return counters_; }
 
   private:
