@@ -11,7 +11,7 @@ build_packages=(
     libembree-dev                            # the exact oracle
     libcairo2-dev                            # lettering and PNG of pictures
     cyclonedds-dev cyclonedds-tools          # the wire
-    openssl                                  # identities for DDS Security
+    openssl libssl-dev                       # identities for DDS Security
     libspdlog-dev nlohmann-json3-dev libcli11-dev  # logging, JSON, command line
     libboost-dev prometheus-cpp-dev libsystemd-dev  # HTTP, metrics, service notification
     libgtest-dev libgmock-dev librapidcheck-dev  # tests

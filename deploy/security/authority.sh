@@ -57,7 +57,7 @@ check_matches() {
     local pattern
     for pattern in "$@"; do
         [[ $pattern =~ ^[A-Za-z0-9._:@+*?-]{1,63}$ ]] ||
-            fail "MATCHES '$pattern': expected 1 to 63 letters, digits and . _ - : @ + * ?"
+            fail "MATCHES '$pattern': expected 1 to 63 letters, digits and . _ - : @ + * ?, where ? stands for any other character, such as a space or #"
     done
 }
 
@@ -79,8 +79,11 @@ check_identity() {
 # certificate_authority NAME: private/NAME.key and NAME.pem.
 certificate_authority() {
     new_key "private/$1.key"
-    openssl req -x509 -config authority.conf -key "private/$1.key" -days $((2 * max_days)) -sha256 -subj "/CN=$1" \
-        -extensions authority -out "$1.pem"
+    openssl req -new -config authority.conf -key "private/$1.key" -subj "/CN=$1" -out request.pem
+    openssl ca -config authority.conf -batch -notext -selfsign -keyfile "private/$1.key" -in request.pem -out "$1.pem" \
+        -extensions authority -startdate "$(at "$from" %Y%m%d%H%M%SZ)" \
+        -enddate "$(at $((from + 86400 * 2 * max_days)) %Y%m%d%H%M%SZ)" 2>log || fail "openssl: $(cat log)"
+    rm request.pem log
 }
 new_key() { openssl genpkey -quiet -algorithm EC -pkeyopt ec_paramgen_curve:P-256 -out "$1"; }
 
@@ -169,7 +172,7 @@ $(criteria subscribe "$(subscribed_by "$4")" "${@:5}")
 XML
 }
 
-# A day of grace for clocks that are behind.
+# A day of grace for clocks that are behind the authority's.
 from=$(date -u -d '1 day ago' +%s)
 at() { date -u -d "@$1" "+$2"; }
 
@@ -229,6 +232,8 @@ authorityKeyIdentifier = keyid
 CONF
     certificate_authority identity_ca
     certificate_authority permissions_ca
+    rm issued/*
+    : >index.txt  # of identities alone
     governance >governance.xml
     sign governance.xml governance.p7s
     write_revoked
@@ -288,7 +293,7 @@ revoke() {
 # The new one is there, or the old one: never a part.
 replace() { cp "$1" "$2.new" && mv "$2.new" "$2"; }
 write_revoked() {
-    openssl ca -config authority.conf -gencrl -out revoked.new 2>/dev/null || fail "openssl cannot sign the list of the revoked"
+    openssl ca -config authority.conf -gencrl -crl_lastupdate "$(at "$from" %Y%m%d%H%M%SZ)" -out revoked.new 2>/dev/null || fail "openssl cannot sign the list of the revoked"
     mv revoked.new revoked.pem
 }
 

@@ -78,7 +78,7 @@ void add_serve(CLI::App& root, Run& run) {
         ->needs(config);
     command
         .add_flag("--check", options->check,
-                  "Validate the configuration and the maps that it names, then exit.")
+                  "Validate the configuration and the maps and identity that it names, then exit.")
         ->needs(config);
     auto* print = command.add_option_group("print", "Print documentation of the configuration, then exit");
     print->add_flag("--print-schema", options->print_schema, "JSON Schema of the configuration.");

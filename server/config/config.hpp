@@ -37,6 +37,7 @@ struct Http {
     std::string address = "127.0.0.1";
     std::int64_t port = 9464;  // 0 = any free one, which the log names
     std::string token_file;    // needed off loopback
+    std::int64_t match_metrics = 0;
 };
 
 // The ranges of these two keys of a map, besides 0 for their default, and of the options of `bake`.

@@ -124,6 +124,10 @@ void add_http(std::vector<Key>& table) {
          "File with the token that requests carry as `Authorization: Bearer TOKEN`; not open to everyone. "
          "Its content is read again on SIGHUP. Relative paths start at the configuration's folder.",
          "", 0, 4095});
+    table.push_back({section, "match_metrics", slot(&Http::match_metrics),
+                     "Matches that have metrics of their own, with the label `match`: as many of those that "
+                     "began first. 0: none.",
+                     "", 0, 4096});
 }
 
 void add_maps(std::vector<Key>& table) {

@@ -1,16 +1,10 @@
 #include "dds/endpoint_removal.hpp"
 
 namespace camdir::dds {
-namespace {
-
-// The waits of one thread are also those of the others.
-constexpr int thread_count = 4;
-
-}  // namespace
 
 EndpointRemoval::EndpointRemoval(std::size_t capacity) : capacity_(capacity) {
-    for (int i = 0; i < thread_count; ++i)
-        threads_.emplace_back([this](const std::stop_token& stop) { run(stop); });
+    for (TurnTimer& turn : turns_)
+        threads_.emplace_back([this, &turn](const std::stop_token& stop) { run(stop, turn); });
 }
 
 EndpointRemoval::~EndpointRemoval() = default;
@@ -34,14 +28,16 @@ void EndpointRemoval::finish(const std::string& match_id) {
     changed_.wait(lock, [&] { return !pending_.contains(match_id); });
 }
 
-void EndpointRemoval::run(const std::stop_token& stop) {
+void EndpointRemoval::run(const std::stop_token& stop, TurnTimer& turn) {
     std::unique_lock lock(mutex_);
     while (changed_.wait(lock, stop, [&] { return !waiting_.empty(); })) {
         MatchTable::Endpoints endpoints = std::move(waiting_.front());
         waiting_.pop_front();
         lock.unlock();
         const std::string match_id = endpoints->match_id();
+        turn.begin();
         endpoints.reset();
+        turn.end();
         lock.lock();
         pending_.erase(pending_.find(match_id));
         changed_.notify_all();

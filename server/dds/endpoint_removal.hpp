@@ -1,6 +1,9 @@
 // Deletes the endpoints of matches that have ended.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <mutex>
@@ -9,6 +12,7 @@
 #include <thread>
 #include <vector>
 
+#include "base/turn_timer.hpp"
 #include "dds/match_table.hpp"
 
 namespace camdir::dds {
@@ -25,18 +29,26 @@ class EndpointRemoval {
     EndpointRemoval& operator=(const EndpointRemoval&) = delete;
 
     [[nodiscard]] bool has_room() const;
+    // False when the endpoints of a match take longer than `limit`.
+    [[nodiscard]] bool responsive(std::chrono::nanoseconds limit) const {
+        return std::ranges::all_of(turns_, [&](const TurnTimer& turn) { return turn.within(limit); });
+    }
     void add(MatchTable::Endpoints endpoints);
     // Waits until those of this match are deleted: new ones would be taken for them.
     void finish(const std::string& match_id);
 
   private:
-    void run(const std::stop_token& stop);
+    void run(const std::stop_token& stop, TurnTimer& turn);
+
+    // The waits of one thread are also those of the others.
+    static constexpr std::size_t thread_count = 4;
 
     const std::size_t capacity_;
     mutable std::mutex mutex_;
     std::condition_variable_any changed_;
     std::deque<MatchTable::Endpoints> waiting_;
     std::multiset<std::string> pending_;  // match ids, waiting or being deleted
+    std::array<TurnTimer, thread_count> turns_;
     std::vector<std::jthread> threads_;
 };
 

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "base/log_limit.hpp"
@@ -34,7 +35,8 @@ class Gateway final : public director::Publisher {
     // To be called once. `ingress` is called from a thread of the gateway and must live until
     // stop_receiving() returns.
     void start(director::Ingress& ingress) { subscriber_.start(ingress); }
-    // False when reception is late by more than `limit`: it has hung. Thread-safe.
+    // False when reception is late by more than `limit`, or removes a match for longer: it has hung.
+    // Thread-safe.
     [[nodiscard]] bool responsive(std::chrono::nanoseconds limit) const {
         return subscriber_.responsive(limit);
     }
@@ -63,6 +65,8 @@ class Gateway final : public director::Publisher {
 
     // Distinguishes this director's cameras from those of others.
     [[nodiscard]] std::uint64_t director_id() const { return director_id_; }
+    // Of DDS Security; none: plain DDS.
+    [[nodiscard]] const std::optional<Identity>& identity() const { return participant_.identity(); }
     [[nodiscard]] const WireCounters& counters() const { return counters_; }
 
   private:

@@ -138,12 +138,13 @@ Participant::~Participant() {
 }
 
 Result<Participant> Participant::open(const config::Dds& config) {
-    const auto is_protected = check_protection(config);
-    if (!is_protected) return fail("DDS: " + is_protected.error().message);
+    const auto identity = check_protection(config);
+    if (!identity) return fail("DDS: " + identity.error().message);
     const auto peers_known = check_peers(config);
     if (!peers_known) return fail("DDS: " + peers_known.error().message);
     dds_set_log_sink(log_message, nullptr);
     Participant participant;
+    participant.identity_ = *identity;
     const auto id = static_cast<dds_domainid_t>(config.domain);
     const std::string where = "DDS domain " + std::to_string(id);
 
@@ -158,12 +159,12 @@ Result<Participant> Participant::open(const config::Dds& config) {
         if (!confined) return fail(where + ": " + confined.error().message);
     }
 
-    const std::string identity =
+    const std::string as =
         config.security.empty()
             ? ""
             : " with the identity in /dds/security, " + config.security + " (Cyclone DDS has logged why not)";
     auto handle = created(dds_create_participant(id, wire::participant_qos(config.security).get(), nullptr),
-                          where + ": creating the participant" + identity);
+                          where + ": creating the participant" + as);
     if (!handle) return tl::unexpected(handle.error());
     participant.participant_ = std::move(*handle);
 

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 
 #include "base/error.hpp"
 #include "config/config.hpp"
 #include "dds/entity.hpp"
+#include "dds/identity.hpp"
 #include "dds/qos.hpp"
 
 namespace camdir::dds {
@@ -25,6 +27,8 @@ class Participant {
     Participant& operator=(Participant&&) = delete;
     ~Participant();
 
+    // None: plain DDS.
+    [[nodiscard]] const std::optional<Identity>& identity() const { return identity_; }
     [[nodiscard]] dds_entity_t handle() const { return participant_.handle(); }
     [[nodiscard]] dds_entity_t topic(Topic topic) const {
         return topics_[static_cast<std::size_t>(topic)].handle();
@@ -34,6 +38,7 @@ class Participant {
     Participant() = default;
 
     bool open_ = true;
+    std::optional<Identity> identity_;
     Entity domain_;
     Entity participant_;
     std::array<Entity, topic_count> topics_;

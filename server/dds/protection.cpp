@@ -76,11 +76,17 @@ Result<void> check_exposure(const config::Dds& config) {
 
 }  // namespace
 
-Result<void> check_protection(const config::Dds& config) {
-    if (config.security.empty()) return check_exposure(config);
+Result<std::optional<Identity>> check_protection(const config::Dds& config) {
+    if (config.security.empty()) {
+        const auto checked = check_exposure(config);
+        if (!checked) return tl::unexpected(checked.error());
+        return std::nullopt;
+    }
     const std::string problem = wire::identity_problem(config.security);
     if (!problem.empty()) return fail("/dds/security: " + problem);
-    return {};
+    const auto identity = read_identity(config.security);
+    if (!identity) return fail("/dds/security: " + identity.error().message);
+    return *identity;
 }
 
 Result<void> confine_to_loopback() {

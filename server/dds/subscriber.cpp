@@ -125,7 +125,7 @@ void Subscriber::reshard(Shards shards) {
 }
 
 bool Subscriber::responsive(std::chrono::nanoseconds limit) const {
-    return Clock::now() - next_assertion_.load() <= limit;
+    return Clock::now() - next_assertion_.load() <= limit && removal_.responsive(limit);
 }
 
 void Subscriber::run() noexcept {

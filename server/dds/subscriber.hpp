@@ -60,8 +60,8 @@ class Subscriber {
     // Matches of other shards go on here until they do there.
     void reshard(Shards shards);
 
-    // False when the thread is late by more than `limit` with what it does several times per lease.
-    // Thread-safe.
+    // False when the thread is late by more than `limit` with what it does several times per lease, or the
+    // end of a match takes longer. Thread-safe.
     [[nodiscard]] bool responsive(std::chrono::nanoseconds limit) const;
 
   private:

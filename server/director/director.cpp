@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <condition_variable>
 #include <future>
+#include <map>
 #include <shared_mutex>
 #include <unordered_map>
+#include <utility>
 
 #include "base/log_limit.hpp"
+#include "base/turn_timer.hpp"
 #include "director/clock.hpp"
 #include "director/match.hpp"
 
@@ -39,7 +42,8 @@ struct Director::Impl {
     struct Entry {
         std::unique_ptr<Match> match;
         bool has_server = false;
-        MatchInfo info;  // the newest, while there is a game server
+        MatchInfo info;           // the newest, while there is a game server
+        std::uint64_t place = 0;  // among the matches that have begun
     };
 
     Impl(const config::Config& configuration, const MapLibrary& library, Publisher& results);
@@ -91,10 +95,12 @@ struct Director::Impl {
     std::shared_ptr<const config::Config> config;
     Statistics removed;  // sum over removed matches
     bool accepting = true;
+    std::uint64_t matches_begun = 0;
     WorkerPool pool;
     std::unordered_map<std::string, Entry> matches;
 
     std::condition_variable_any wake;
+    TurnTimer housekeeping;
     std::jthread housekeeper;
 };
 
@@ -180,14 +186,18 @@ void Director::Impl::run_housekeeping(const std::stop_token& stop) {
     std::unique_lock lock(own);
     std::int64_t next_check = now_ns() + housekeeping_ns;
     while (!stop.stop_requested()) {
+        housekeeping.begin();
         const std::chrono::nanoseconds until(std::min(release_due(), next_check));
+        housekeeping.end();
         wake.wait_until(lock, stop, std::chrono::steady_clock::time_point(until), [] { return false; });
         if (now_ns() < next_check) continue;
+        housekeeping.begin();
         next_check = now_ns() + housekeeping_ns;
         const auto leaving = notify_silent();
         if (!leaving.empty()) retire(leaving);
         if (const std::int64_t now = now_ns(); now - observed_ns >= pace_interval_ns) set_pace(now);
     }
+    housekeeping.end();
 }
 
 void Director::Impl::set_pace(std::int64_t now) {
@@ -293,7 +303,7 @@ bool Director::receive(const MatchInfo& info) {
     Impl::Entry* entry = impl_->admit(info.match_id);
     if (entry == nullptr) return false;
     if (!entry->has_server || info.epoch >= entry->info.epoch) entry->info = info;
-    entry->has_server = true;
+    if (!std::exchange(entry->has_server, true)) entry->place = impl_->matches_begun++;
     Match& match = *entry->match;
     const bool changed = match.delay().announce(info.epoch, info.spectator_delay_s, now_ns());
     impl_->deliver(match, info);
@@ -384,6 +394,24 @@ Statistics Director::statistics() const {
     return impl_->sum_up();
 }
 
+std::vector<MatchStatistics> Director::match_statistics(std::size_t max) const {
+    const std::shared_lock lock(impl_->mutex);
+    std::map<std::uint64_t, const decltype(impl_->matches)::value_type*> first;
+    for (const auto& match : impl_->matches) {
+        if (!match.second.has_server) continue;
+        first.emplace(match.second.place, &match);
+        if (first.size() > max) first.erase(std::prev(first.end()));
+    }
+    std::vector<MatchStatistics> result;
+    for (const auto& [place, match] : first) {
+        MatchStatistics& one = result.emplace_back();
+        one.match_id = match->first;
+        match->second.match->counters().add_to(one.statistics);
+        match->second.match->add_gauges(one.statistics);
+    }
+    return result;
+}
+
 View Director::view(std::chrono::milliseconds timeout) const {
     std::map<std::string, std::future<MatchView>> answers;
     {
@@ -416,7 +444,7 @@ std::chrono::nanoseconds Director::silence_limit(const MatchInfo& info) const {
 }
 
 bool Director::responsive(std::chrono::milliseconds limit) const {
-    return impl_->pool.responsive(limit);
+    return impl_->pool.responsive(limit) && impl_->housekeeping.within(limit);
 }
 
 void Director::flush() {

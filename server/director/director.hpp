@@ -43,6 +43,8 @@ class Director final : public Ingress {
 
     // Sums over all matches, including those that have been removed. Cheap.
     [[nodiscard]] Statistics statistics() const;
+    // Of single matches that have a game server: the `max` that began first, by their begin. Cheap.
+    [[nodiscard]] std::vector<MatchStatistics> match_statistics(std::size_t max) const;
     // All matches, each as of one instant. Waits for the workers, at most `timeout`; matches that have not
     // answered by then are marked.
     [[nodiscard]] View view(std::chrono::milliseconds timeout) const;

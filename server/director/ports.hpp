@@ -37,8 +37,8 @@ class Ingress {
     virtual void follow(const std::string& match_id, const CameraFrame& shown) = 0;
     // Without poses for this long the match is silent.
     [[nodiscard]] virtual std::chrono::nanoseconds silence_limit(const MatchInfo& info) const = 0;
-    // False when a worker has been busy with one turn for longer than `limit`, or none was free for one: such
-    // a director must give way to its standby.
+    // False when a worker or the housekeeping has been busy with one turn for longer than `limit`, or no
+    // worker was free for one: such a director must give way to its standby.
     [[nodiscard]] virtual bool responsive(std::chrono::milliseconds limit) const = 0;
 };
 

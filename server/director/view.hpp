@@ -64,6 +64,11 @@ struct Statistics {
     }
 };
 
+struct MatchStatistics {
+    std::string match_id;
+    Statistics statistics;  // without what belongs to no match
+};
+
 struct ShotView {
     std::uint32_t camera_id = 0;
     std::uint32_t target = no_player;  // the player followed now

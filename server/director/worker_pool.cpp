@@ -82,7 +82,7 @@ void WorkerPool::work(Worker& worker) {
     for (;;) {
         while (::sem_wait(&work_available_) != 0)
             assert(errno == EINTR);
-        worker.began_ns.store(now_ns(), std::memory_order_relaxed);
+        worker.turn.begin();
         if (claim_call()) {  // before strands: it shortens a turn that goes on
             help(worker);
         } else {
@@ -91,17 +91,15 @@ void WorkerPool::work(Worker& worker) {
             claimed_ns_.store(now_ns(), std::memory_order_relaxed);
             run(worker, *strand);
         }
-        worker.busy_ns.fetch_add(now_ns() - worker.began_ns.load(std::memory_order_relaxed),
-                                 std::memory_order_relaxed);
-        worker.began_ns.store(0, std::memory_order_relaxed);
+        worker.turn.end();
     }
-    worker.began_ns.store(0, std::memory_order_relaxed);  // stopped
+    worker.turn.end();  // stopped
 }
 
 std::chrono::nanoseconds WorkerPool::busy() const {
     std::chrono::nanoseconds sum(0);
     for (const auto& worker : workers_)
-        sum += std::chrono::nanoseconds(worker->busy_ns.load(std::memory_order_relaxed));
+        sum += worker->turn.busy();
     return sum;
 }
 
@@ -170,10 +168,8 @@ Strand* WorkerPool::claim_in(std::size_t word, std::uint64_t mask) {
 bool WorkerPool::responsive(std::chrono::nanoseconds limit) const {
     const std::int64_t latest = now_ns() - limit.count();
     const bool starves = claimed_ns_.load(std::memory_order_relaxed) < latest && waits_since(latest);
-    return !starves && std::ranges::all_of(workers_, [&](const auto& worker) {
-        const std::int64_t began = worker->began_ns.load(std::memory_order_relaxed);
-        return began == 0 || began >= latest;
-    });
+    return !starves &&
+           std::ranges::all_of(workers_, [&](const auto& worker) { return worker->turn.within(limit); });
 }
 
 bool WorkerPool::waits_since(std::int64_t ns) const {

@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "base/turn_timer.hpp"
 #include "director/shared_work.hpp"
 
 namespace camdir::director {
@@ -76,10 +77,9 @@ class WorkerPool {
 
     struct alignas(64) Worker {
         std::thread thread;
-        std::size_t lane = 0;                   // when it helps others: from 1
-        std::atomic<std::int64_t> began_ns{0};  // a turn, or helping; steady clock; 0 = idle
-        std::atomic<std::int64_t> busy_ns{0};   // before that
-        SharedWork shared;                      // of its turn
+        std::size_t lane = 0;  // when it helps others: from 1
+        TurnTimer turn;        // or helping
+        SharedWork shared;     // of its turn
     };
 
     void work(Worker& worker);

@@ -19,6 +19,12 @@ constexpr std::size_t chunk = 4 * 1024;
 constexpr std::size_t max_discarded = 256 * 1024;
 constexpr std::chrono::seconds discarding{2};
 
+std::optional<Bound> bound_of(Status status) {
+    if (status == Status::request_header_fields_too_large) return Bound::header_size;
+    if (status == Status::payload_too_large) return Bound::body_size;
+    return std::nullopt;
+}
+
 // What is answered when a request cannot be read; nullopt: nothing, because the connection is lost.
 std::optional<Status> status_of(const beast::error_code& unread) {
     using beast::http::error;
@@ -38,10 +44,11 @@ std::uint64_t Connections::move_to_end(std::uint64_t place, Connection& connecti
     return last_place_;
 }
 
-void Connections::close_oldest() {
-    if (by_place_.empty()) return;
+bool Connections::close_oldest() {
+    if (by_place_.empty()) return false;
     by_place_.begin()->second->close();
     by_place_.erase(by_place_.begin());
+    return true;
 }
 
 Connection::Connection(asio::ip::tcp::socket socket, Site& site)
@@ -58,7 +65,7 @@ void Connection::wait_for_request() {
     stream_.expires_after(site_.limits.idle);
     stream_.async_read_some(buffer_.prepare(chunk),
                             [self = shared_from_this()](ErrorCode error, std::size_t size) {
-                                if (error) return;
+                                if (error) return self->note_time(error, Bound::idle_time);
                                 self->buffer_.commit(size);
                                 self->read_request();
                             });
@@ -77,19 +84,27 @@ void Connection::read_request() {
 void Connection::handle(ErrorCode error) {
     place_ = site_.connections.move_to_end(place_, *this);
     if (!error) return serve(parser_->release());
+    note_time(error, Bound::request_time);
     const auto status = status_of(error);
     if (!status) return;
+    if (const auto bound = bound_of(*status)) site_.bounds_reached->add(*bound);
     Request unread;
     unread.keep_alive(false);
     send(refusal(unread, *status));
+}
+
+void Connection::note_time(ErrorCode error, Bound bound) {
+    if (error == beast::error::timeout) site_.bounds_reached->add(bound);
 }
 
 void Connection::serve(Request request) {
     const Page* page = find_page(request);
     if (auto refused = check(request, page, site_.access)) return send(std::move(*refused));
     if (page->prompt) return send(answer(request, page->make(site_.sources)));
-    if (site_.slow_pages >= site_.limits.slow_pages)
+    if (site_.slow_pages >= site_.limits.slow_pages) {
+        site_.bounds_reached->add(Bound::slow_pages);
         return send(refusal(request, Status::service_unavailable));
+    }
     make(*page, std::move(request));
 }
 
@@ -109,7 +124,8 @@ void Connection::send(Response response) {
     response_ = std::move(response);
     stream_.expires_after(site_.limits.answer);
     beast::http::async_write(stream_, response_, [self = shared_from_this()](ErrorCode error, std::size_t) {
-        if (!error) self->sent();
+        if (error) return self->note_time(error, Bound::answer_time);
+        self->sent();
     });
 }
 

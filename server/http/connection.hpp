@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 
+#include "http/bounds.hpp"
 #include "http/pages.hpp"
 
 namespace camdir::http {
@@ -23,7 +24,8 @@ class Connections {
     // Moves a connection from its place, 0 when it has none yet, to the last one, which is returned.
     [[nodiscard]] std::uint64_t move_to_end(std::uint64_t place, Connection& connection);
     void leave(std::uint64_t place) { by_place_.erase(place); }
-    void close_oldest();
+    // False when there is none.
+    bool close_oldest();
 
   private:
     std::map<std::uint64_t, Connection*> by_place_;
@@ -35,6 +37,7 @@ struct Site {
     const Sources sources;
     const Limits limits;
     Access access;
+    const std::shared_ptr<BoundCounters> bounds_reached;
     Connections connections{};
     std::size_t slow_pages = 0;  // that are made or sent
     boost::asio::io_context io{1};
@@ -57,6 +60,8 @@ class Connection final : public std::enable_shared_from_this<Connection> {
 
     void read_request();
     void handle(ErrorCode error);
+    // Counts what has ended for want of time.
+    void note_time(ErrorCode error, Bound bound);
     void serve(Request request);
     void make(const Page& page, Request request);
     void send(Response response);

@@ -1,7 +1,10 @@
 #include "http/metrics.hpp"
 
 #include <limits>
+#include <set>
 #include <utility>
+
+#include "base/utf8.hpp"
 
 namespace camdir::http {
 namespace {
@@ -33,10 +36,11 @@ MetricFamily gauge(const std::string& name, const std::string& help, std::uint64
     return result;
 }
 
-MetricFamily histogram(const std::string& name, const std::string& help,
-                       const director::Durations& durations) {
-    MetricFamily result = family(MetricType::Histogram, name, help);
-    auto& out = result.metric.emplace_back().histogram;
+void add_histogram(MetricFamily& family, const director::Durations& durations,
+                   std::vector<prometheus::ClientMetric::Label> labels = {}) {
+    auto& metric = family.metric.emplace_back();
+    metric.label = std::move(labels);
+    auto& out = metric.histogram;
     for (std::size_t i = 0; i < durations.buckets.size(); ++i) {
         out.sample_count += durations.buckets[i];
         const bool last = i == director::Durations::bounds_s.size();
@@ -44,6 +48,12 @@ MetricFamily histogram(const std::string& name, const std::string& help,
                                                      : director::Durations::bounds_s[i]});
     }
     out.sample_sum = durations.sum_s;
+}
+
+MetricFamily histogram(const std::string& name, const std::string& help,
+                       const director::Durations& durations) {
+    MetricFamily result = family(MetricType::Histogram, name, help);
+    add_histogram(result, durations);
     return result;
 }
 
@@ -118,6 +128,28 @@ std::vector<MetricFamily> director_metrics(const Statistics& s) {
                 s.latency)};
 }
 
+std::vector<MetricFamily> match_metrics(const std::vector<director::MatchStatistics>& matches) {
+    MetricFamily frames = counter_family("match_pose_frames_total", "Pose frames of the match.");
+    MetricFamily superseded = counter_family(
+        "match_superseded_total", "Pose frames of the match that a newer one replaced unprocessed.");
+    MetricFamily cameras = counter_family("match_cameras_total", "Cameras of the match.");
+    MetricFamily observers = gauge_family("match_observers", "Observers of the match.");
+    MetricFamily latency =
+        family(MetricType::Histogram, "match_latency_seconds", "As latency_seconds, of the match alone.");
+    std::set<std::string> ids;
+    for (const auto& [match_id, s] : matches) {
+        const auto [id, is_new] = ids.insert(to_utf8(match_id));
+        if (!is_new) continue;
+        const std::vector<prometheus::ClientMetric::Label> label = {{"match", *id}};
+        add_metric(frames, static_cast<double>(s[Counter::pose_frames]), label);
+        add_metric(superseded, static_cast<double>(s[Counter::drop_superseded]), label);
+        add_metric(cameras, static_cast<double>(s[Counter::cameras]), label);
+        add_metric(observers, static_cast<double>(s.observers), label);
+        add_histogram(latency, s.latency, label);
+    }
+    return {frames, superseded, cameras, observers, latency};
+}
+
 std::vector<MetricFamily> map_metrics(const std::map<std::string, director::MapEntry>& maps) {
     MetricFamily loaded = gauge_family("map_loaded", "1 when the map can be used.");
     MetricFamily bake =
@@ -127,6 +159,15 @@ std::vector<MetricFamily> map_metrics(const std::map<std::string, director::MapE
         add_metric(bake, entry.bake_seconds, {{"map", name}});
     }
     return {loaded, bake};
+}
+
+MetricFamily bound_metrics(const BoundCounters& bounds_reached) {
+    MetricFamily result = counter_family(
+        "http_bounds_total", "HTTP connections closed and requests refused at a bound, by its name.");
+    for (std::size_t i = 0; i < bound_names.size(); ++i)
+        add_metric(result, static_cast<double>(bounds_reached[static_cast<Bound>(i)]),
+                   {{"bound", bound_names[i]}});
+    return result;
 }
 
 }  // namespace camdir::http

@@ -9,6 +9,7 @@
 
 #include "director/map_library.hpp"
 #include "director/view.hpp"
+#include "http/bounds.hpp"
 
 namespace camdir::http {
 
@@ -21,7 +22,11 @@ void add_metric(prometheus::MetricFamily& family, double value,
                 std::vector<prometheus::ClientMetric::Label> labels = {});
 
 [[nodiscard]] std::vector<prometheus::MetricFamily> director_metrics(const director::Statistics& statistics);
+// With the label `match`; without those whose id looks like another's in UTF-8.
+[[nodiscard]] std::vector<prometheus::MetricFamily> match_metrics(
+    const std::vector<director::MatchStatistics>& matches);
 [[nodiscard]] std::vector<prometheus::MetricFamily> map_metrics(
     const std::map<std::string, director::MapEntry>& maps);
+[[nodiscard]] prometheus::MetricFamily bound_metrics(const BoundCounters& bounds_reached);
 
 }  // namespace camdir::http

@@ -17,7 +17,8 @@ Content plain(Status status, std::string text) {
 
 Content health(const Sources& sources) {
     if (sources.healthy()) return plain(Status::ok, "ok\n");
-    return plain(Status::service_unavailable, "a worker or the reception does not respond\n");
+    return plain(Status::service_unavailable,
+                 "a worker, the housekeeping or the reception does not respond\n");
 }
 
 Content readiness(const Sources& sources) {

@@ -3,6 +3,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <atomic>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
@@ -10,6 +11,7 @@
 #include <utility>
 
 #include "http/connection.hpp"
+#include "http/metrics.hpp"
 
 namespace camdir::http {
 namespace {
@@ -17,6 +19,9 @@ namespace {
 namespace asio = boost::asio;
 using asio::ip::tcp;
 
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::milliseconds beat_period{200};
 constexpr std::chrono::milliseconds retry_delay{50};  // of accepting, when the system refused
 // Files that the rest of the process may open: maps, sockets of DDS.
 constexpr rlim_t reserved_files = 256;
@@ -44,11 +49,16 @@ Result<tcp::endpoint> resolve(const config::Http& config) {
 struct Server::Listener {
     void accept();
     void accept_later();
+    void close_oldest(Bound bound);
+    // Shows again and again that the thread goes on.
+    void beat();
 
     const config::Http config;
     Site site;
     tcp::acceptor acceptor{site.io};
     asio::steady_timer retry{site.io};
+    asio::steady_timer beats{site.io};
+    std::atomic<Clock::time_point> next_beat{Clock::now()};
     tcp::endpoint endpoint{};
     std::thread thread{};
 };
@@ -56,7 +66,7 @@ struct Server::Listener {
 void Server::Listener::accept() {
     acceptor.async_accept([this](boost::system::error_code error, tcp::socket socket) {
         if (error) return accept_later();
-        if (site.connections.size() >= site.limits.connections) site.connections.close_oldest();
+        if (site.connections.size() >= site.limits.connections) close_oldest(Bound::connections);
         std::make_shared<Connection>(std::move(socket), site)->wait_for_request();
         accept();
     });
@@ -64,9 +74,19 @@ void Server::Listener::accept() {
 
 // The process has no file or memory left: a connection gives its own back.
 void Server::Listener::accept_later() {
-    site.connections.close_oldest();
+    close_oldest(Bound::files);
     retry.expires_after(retry_delay);
     retry.async_wait([this](boost::system::error_code) { accept(); });
+}
+
+void Server::Listener::close_oldest(Bound bound) {
+    if (site.connections.close_oldest()) site.bounds_reached->add(bound);
+}
+
+void Server::Listener::beat() {
+    next_beat = Clock::now() + beat_period;
+    beats.expires_after(beat_period);
+    beats.async_wait([this](boost::system::error_code) { beat(); });
 }
 
 Result<std::unique_ptr<Server>> Server::start(const config::Http& config, Sources sources,
@@ -75,8 +95,14 @@ Result<std::unique_ptr<Server>> Server::start(const config::Http& config, Source
     if (!endpoint) return tl::unexpected(endpoint.error());
     auto access = Access::load(config, endpoint->address().is_loopback());
     if (!access) return tl::unexpected(access.error());
-    std::unique_ptr<Listener> listener(
-        new Listener{config, {std::move(sources), within_open_files(limits), std::move(*access)}});
+    const auto bounds_reached = std::make_shared<BoundCounters>();
+    sources.metrics = [others = std::move(sources.metrics), bounds_reached] {
+        auto families = others();
+        families.push_back(bound_metrics(*bounds_reached));
+        return families;
+    };
+    std::unique_ptr<Listener> listener(new Listener{
+        config, {std::move(sources), within_open_files(limits), std::move(*access), bounds_reached}});
     try {
         tcp::acceptor& acceptor = listener->acceptor;
         acceptor.open(endpoint->protocol());
@@ -89,6 +115,7 @@ Result<std::unique_ptr<Server>> Server::start(const config::Http& config, Source
                     ": " + error.code().message());
     }
     listener->accept();
+    listener->beat();
     listener->thread = std::thread([&io = listener->site.io] { io.run(); });
     return std::unique_ptr<Server>(new Server(std::move(listener)));
 }
@@ -120,6 +147,10 @@ Result<void> Server::reload() {
 
 std::uint16_t Server::port() const {
     return listener_->endpoint.port();
+}
+
+bool Server::responsive(std::chrono::nanoseconds limit) const {
+    return Clock::now() - listener_->next_beat.load() <= limit;
 }
 
 }  // namespace camdir::http

@@ -26,8 +26,8 @@ struct Sources {
     std::function<bool()> healthy;                      // false: a restart would help
     std::function<std::vector<std::string>()> missing;  // what readiness still waits for; empty: ready
     // May take long: at most two at a time are called.
-    std::function<std::vector<prometheus::MetricFamily>()> metrics;
-    std::function<std::string()> status;  // JSON
+    std::function<std::vector<prometheus::MetricFamily>()> metrics;  // to which the server adds its own
+    std::function<std::string()> status;                             // JSON
     std::function<HandOver()> hand_over;
 };
 
@@ -58,6 +58,9 @@ class Server {
     [[nodiscard]] Result<void> reload();
 
     [[nodiscard]] std::uint16_t port() const;
+
+    // False when the thread of the connections is late by more than `limit`: it has hung. Thread-safe.
+    [[nodiscard]] bool responsive(std::chrono::nanoseconds limit) const;
 
   private:
     struct Listener;

@@ -87,7 +87,10 @@ http::Sources Service::sources() {
     sources.missing = [this] { return missing(); };
     sources.metrics = [this] {
         auto families = http::director_metrics(director_.statistics());
-        for (auto& more : {http::map_metrics(maps_.entries()), wire_metrics(gateway_->counters())})
+        const auto most = static_cast<std::size_t>(config_.http.match_metrics);
+        for (auto& more :
+             {http::match_metrics(director_.match_statistics(most)), http::map_metrics(maps_.entries()),
+              wire_metrics(gateway_->counters(), gateway_->identity())})
             families.insert(families.end(), more.begin(), more.end());
         return families;
     };
@@ -107,6 +110,10 @@ bool Service::healthy() const {
 std::vector<std::string> Service::missing() const {
     std::vector<std::string> missing;
     if (draining_) missing.emplace_back("draining");
+    const auto& identity = gateway_->identity();
+    if (identity && identity->expires <= std::chrono::system_clock::now())
+        missing.push_back("identity in " + config_.dds.security +
+                          ": its certificate has expired: renew it and restart");
     for (const auto& [name, map] : maps_.entries())
         if (map.state == director::LoadState::loading)
             missing.push_back("map " + name + ": " + (map.reason.empty() ? "loading" : map.reason));
@@ -136,7 +143,8 @@ void Service::run(Signals& signals) {
 }
 
 void Service::watch(bool& ready) {
-    if (healthy()) notify_alive();
+    const bool answers = !http_ || http_->responsive(max_turn);
+    if (answers && healthy()) notify_alive();
     if (ready) return;
     const auto waits_for = missing();
     if (!waits_for.empty()) return notify_starting(waits_for.front(), start_extension);

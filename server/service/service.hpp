@@ -32,7 +32,7 @@ class Service {
 
     [[nodiscard]] maps::LoaderSink map_sink();
     [[nodiscard]] http::Sources sources();
-    // False: a worker or the reception has hung, and a restart would help.
+    // False: a thread has hung, and a restart would help. Of HTTP's it is not known here: they ask.
     [[nodiscard]] bool healthy() const;
     [[nodiscard]] std::vector<std::string> missing() const;
     void watch(bool& ready);

@@ -1,5 +1,8 @@
 #include "service/wire_metrics.hpp"
 
+#include <chrono>
+#include <limits>
+
 #include "http/metrics.hpp"
 
 namespace camdir::service {
@@ -21,9 +24,16 @@ prometheus::MetricFamily gauge(const std::string& name, const std::string& help,
     return family;
 }
 
+// In seconds since 1970.
+double expiry(const std::optional<dds::Identity>& identity) {
+    if (!identity) return std::numeric_limits<double>::infinity();
+    return std::chrono::duration<double>(identity->expires.time_since_epoch()).count();
+}
+
 }  // namespace
 
-std::vector<prometheus::MetricFamily> wire_metrics(const dds::WireCounters& counters) {
+std::vector<prometheus::MetricFamily> wire_metrics(const dds::WireCounters& counters,
+                                                   const std::optional<dds::Identity>& identity) {
     auto accepted = http::counter_family("wire_received_total", "Samples passed to the director, by topic.");
     auto dropped = http::counter_family("wire_dropped_total",
                                         "Samples dropped on receipt, by topic and validation error.");
@@ -51,7 +61,10 @@ std::vector<prometheus::MetricFamily> wire_metrics(const dds::WireCounters& coun
         gauge("matches_led", "Matches that this director leads; for the others it stands by.",
               counters.matches_led),
         gauge("matches_leaving", "Matches of other shards that this director serves until these do.",
-              counters.matches_leaving)};
+              counters.matches_leaving),
+        gauge("identity_expiry_timestamp_seconds",
+              "When the identity for DDS Security expires, in Unix time; infinite for plain DDS.",
+              expiry(identity))};
 }
 
 }  // namespace camdir::service

@@ -1,14 +1,17 @@
-// The counters of the DDS wire as Prometheus metrics.
+// The counters of the DDS wire and the expiry of the identity as Prometheus metrics.
 #pragma once
 
 #include <prometheus/metric_family.h>
 
+#include <optional>
 #include <vector>
 
 #include "dds/counters.hpp"
+#include "dds/identity.hpp"
 
 namespace camdir::service {
 
-[[nodiscard]] std::vector<prometheus::MetricFamily> wire_metrics(const dds::WireCounters& counters);
+[[nodiscard]] std::vector<prometheus::MetricFamily> wire_metrics(
+    const dds::WireCounters& counters, const std::optional<dds::Identity>& identity);
 
 }  // namespace camdir::service

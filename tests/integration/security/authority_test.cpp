@@ -79,7 +79,9 @@ TEST_F(AuthorityTest, RejectsWhatItDoesNotUnderstandAndLeavesNothingBehind) {
     EXPECT_THAT(refusal("issue", {"x,O=y", "director", "*"}), HasSubstr("NAME 'x,O=y': expected"));
     EXPECT_THAT(refusal("issue", {"x", "referee", "*"}), HasSubstr("ROLE 'referee': expected game-server"));
     for (const char* matches : {"", "a/b", "<topic>", "a b", "[a-z]"})
-        EXPECT_THAT(refusal("issue", {"x", "director", matches}), HasSubstr("MATCHES '")) << matches;
+        EXPECT_THAT(refusal("issue", {"x", "director", matches}),
+                    AllOf(HasSubstr("MATCHES '"), HasSubstr("? stands for any other character")))
+            << matches;
     for (const char* days : {"0", "-1", "3651", "x", ""})
         EXPECT_THAT(refusal("issue", {"x", "director", "*", "--days", days}), HasSubstr("--days")) << days;
     EXPECT_THAT(refusal("issue", {"x", "director"}), HasSubstr("expected FOLDER NAME ROLE MATCHES"));
@@ -93,6 +95,21 @@ TEST_F(AuthorityTest, RejectsWhatItDoesNotUnderstandAndLeavesNothingBehind) {
     EXPECT_THAT(elsewhere.errors(), HasSubstr("/nowhere: is no authority"));
     ChildProcess unknown({CAMDIR_AUTHORITY, "destroy"});
     EXPECT_EQ(unknown.wait(), 2);
+}
+
+TEST_F(AuthorityTest, WhatItSignsIsValidForClocksThatAreBehind) {
+    authority_.issue("anna", "observer", "*");
+    authority_.run("revoke", {"anna"});
+    const fs::path anna = identities_ / "anna";
+    ChildProcess openssl(
+        {"/bin/bash", "-c",
+         "cd " + anna.string() +
+             " && cat identity_ca.pem revoked.pem >both && yesterday=$(date -d '23 hours ago' +%s) && "
+             "openssl verify -attime $yesterday -CAfile permissions_ca.pem permissions_ca.pem && "
+             "openssl verify -attime $yesterday -crl_check -CAfile both certificate.pem"});
+    EXPECT_NE(openssl.wait(), 0);
+    EXPECT_THAT(openssl.output(), HasSubstr("permissions_ca.pem: OK"));
+    EXPECT_THAT(openssl.errors(), AllOf(HasSubstr("certificate revoked"), Not(HasSubstr("not yet valid"))));
 }
 
 TEST_F(AuthorityTest, RenewsWithTheSameGrantsAndAnotherKey) {

@@ -3,12 +3,20 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
 #include "base/file.hpp"
+#include "support/authority.hpp"
+#include "support/child_process.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace camdir::dds {
 namespace {
 
+namespace fs = std::filesystem;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
@@ -43,21 +51,37 @@ TEST(Protection, TheOperatorsXmlCountsAsLeavingLoopback) {
     EXPECT_EQ(problem(config), "");
 }
 
+constexpr const char* identity_files[] = {"identity_ca.pem", "certificate.pem",    "key.pem",
+                                          "revoked.pem",     "permissions_ca.pem", "governance.p7s",
+                                          "permissions.p7s"};
+
 class IdentityTest : public testing::Test {
   protected:
     IdentityTest() {
-        for (const char* name : {"identity_ca.pem", "certificate.pem", "key.pem", "revoked.pem",
-                                 "permissions_ca.pem", "governance.p7s", "permissions.p7s"})
-            write(name, "content");
-        std::filesystem::permissions(folder_ / "key.pem", std::filesystem::perms(0640));
         config_.interface = "eth0";
-        config_.security = folder_.path().string();
+        config_.security = folder_.string();
     }
     void write(const char* name, const std::string& content) {
         ASSERT_TRUE(write_file(folder_ / name, content));
     }
+    void take(const std::vector<const char*>& names, const fs::path& from) {
+        for (const char* name : names)
+            fs::copy_file(from / name, folder_ / name, fs::copy_options::overwrite_existing);
+    }
+    // Signs another certificate for the same key, with these options of `openssl ca`.
+    void certify(const std::string& options) {
+        test::ChildProcess openssl(
+            {"/bin/bash", "-c",
+             "cd " + authority_.folder().string() + " && openssl req -new -config authority.conf -key " +
+                 (folder_ / "key.pem").string() +
+                 " -subj /CN=director -out request && openssl ca -config authority.conf -batch -notext "
+                 "-in request -out " +
+                 (folder_ / "certificate.pem").string() + " " + options});
+        ASSERT_EQ(openssl.wait(), 0) << openssl.errors();
+    }
 
-    test::TemporaryFolder folder_;
+    test::Authority authority_;
+    const fs::path folder_ = authority_.issue("director", "director", "*");
     config::Dds config_;
 };
 
@@ -67,14 +91,20 @@ TEST_F(IdentityTest, LetsDdsLeaveLoopback) {
     EXPECT_EQ(problem(config_), "");
 }
 
+TEST_F(IdentityTest, TellsWhenItExpires) {
+    const auto identity = check_protection(config_);
+    ASSERT_TRUE(identity && *identity);
+    const auto days = ((*identity)->expires - std::chrono::system_clock::now()) / std::chrono::hours(24);
+    EXPECT_NEAR(static_cast<double>(days), 365.0, 1.0);
+}
+
 TEST_F(IdentityTest, NamesTheFileThatIsMissing) {
-    for (const char* name : {"identity_ca.pem", "certificate.pem", "key.pem", "revoked.pem",
-                             "permissions_ca.pem", "governance.p7s", "permissions.p7s"}) {
-        std::filesystem::rename(folder_ / name, folder_ / "moved");
+    for (const char* name : identity_files) {
+        fs::rename(folder_ / name, folder_ / "moved");
         EXPECT_THAT(problem(config_),
                     AllOf(StartsWith("/dds/security: " + (folder_ / name).string() + ": "),
                           HasSubstr("cannot be read: No such file"), HasSubstr("authority.sh")));
-        std::filesystem::rename(folder_ / "moved", folder_ / name);
+        fs::rename(folder_ / "moved", folder_ / name);
     }
     write("revoked.pem", "");
     EXPECT_THAT(problem(config_), HasSubstr("revoked.pem: is empty"));
@@ -84,10 +114,55 @@ TEST_F(IdentityTest, NamesTheFileThatIsMissing) {
 
 TEST_F(IdentityTest, ItsKeyIsNotOpenToEveryone) {
     for (const unsigned mode : {0604U, 0602U, 0644U}) {
-        std::filesystem::permissions(folder_ / "key.pem", std::filesystem::perms(mode));
+        fs::permissions(folder_ / "key.pem", fs::perms(mode));
         EXPECT_THAT(problem(config_),
                     AllOf(HasSubstr("key.pem: is open to everyone"), HasSubstr("chmod o-rwx")));
     }
+}
+
+TEST_F(IdentityTest, NamesTheFileThatSaysNothing) {
+    for (const char* name : identity_files) {
+        fs::copy_file(folder_ / name, folder_ / "kept");
+        std::ofstream(folder_ / name) << "content";
+        EXPECT_THAT(problem(config_),
+                    AllOf(StartsWith("/dds/security: " + (folder_ / name).string() + ": is no "),
+                          HasSubstr("renew the identity")));
+        fs::rename(folder_ / "kept", folder_ / name);
+    }
+    EXPECT_EQ(problem(config_), "");
+}
+
+TEST_F(IdentityTest, NamesTheFileThatDoesNotFit) {
+    const fs::path sibling = authority_.issue("sibling", "director", "*");
+    const test::Authority others;
+    const fs::path stranger = others.issue("director", "director", "*");
+    const auto mixed = [&](const std::vector<const char*>& names, const fs::path& from) {
+        const test::TemporaryFolder kept;
+        for (const char* name : identity_files)
+            fs::copy_file(folder_ / name, kept / name);
+        take(names, from);
+        std::string result = problem(config_);
+        take({std::begin(identity_files), std::end(identity_files)}, kept.path());
+        return result;
+    };
+    EXPECT_THAT(mixed({"key.pem"}, sibling), HasSubstr("key.pem: does not belong to "));
+    EXPECT_THAT(mixed({"certificate.pem", "key.pem"}, stranger),
+                HasSubstr("certificate.pem: is not signed by " + (folder_ / "identity_ca.pem").string()));
+    EXPECT_THAT(mixed({"revoked.pem"}, stranger), HasSubstr("revoked.pem: "));
+    EXPECT_THAT(mixed({"governance.p7s"}, stranger), HasSubstr("governance.p7s: is not signed by "));
+    EXPECT_THAT(mixed({"permissions.p7s"}, stranger), HasSubstr("permissions.p7s: is not signed by "));
+}
+
+TEST_F(IdentityTest, NamesTheCertificateThatIsNotValidNow) {
+    certify("-startdate 20200101000000Z -enddate 20200201000000Z");
+    EXPECT_THAT(problem(config_), HasSubstr("certificate.pem: has expired"));
+    certify("-startdate $(date -u -d '2 days' +%Y%m%d%H%M%SZ)");
+    EXPECT_THAT(problem(config_), AllOf(HasSubstr("certificate.pem: is not valid yet"), HasSubstr("clock")));
+}
+
+TEST_F(IdentityTest, NamesTheCertificateThatIsRevoked) {
+    authority_.run("revoke", {"director"});
+    EXPECT_THAT(problem(config_), HasSubstr("certificate.pem: is revoked"));
 }
 
 }  // namespace

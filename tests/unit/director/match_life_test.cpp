@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
+
 #include "camera/camera.hpp"
 #include "stage.hpp"
 #include "support/eventually.hpp"
@@ -253,6 +255,56 @@ TEST(MatchLife, NothingIsPublishedAfterTheDrain) {
     EXPECT_EQ(stage.publisher.frames().size(), frames);
     EXPECT_FALSE(stage.publisher.has_status("b"));
     EXPECT_EQ(stage.director.statistics()[Counter::camera_frames], 1U);
+}
+
+TEST(MatchLife, TheMatchesThatBeganFirstHaveStatisticsOfTheirOwnUntilTheyEnd) {
+    Stage stage;
+    const auto shown = [&](std::size_t max) {
+        std::vector<std::string> ids;
+        for (const MatchStatistics& match : stage.director.match_statistics(max))
+            ids.push_back(match.match_id);
+        return ids;
+    };
+    stage.ask(Stage::request("o", 1, "nobody's"));
+    for (const char* match_id : {"c", "a", "b"})
+        ASSERT_TRUE(stage.start(Stage::info(match_id)));
+    EXPECT_THAT(shown(0), testing::IsEmpty());
+    EXPECT_THAT(shown(2), testing::ElementsAre("c", "a"));
+    EXPECT_THAT(shown(9), testing::ElementsAre("c", "a", "b"));
+    stage.ask(Stage::request("o", 1, "a"));
+    stage.send(Stage::poses(1), "a");
+    const Statistics statistics = stage.director.match_statistics(2).at(1).statistics;
+    EXPECT_EQ(statistics[Counter::pose_frames], 1U);
+    EXPECT_EQ(statistics[Counter::cameras], 1U);
+    EXPECT_EQ(statistics.observers, 1U);
+    stage.director.match_ended("c");
+    EXPECT_THAT(shown(2), testing::ElementsAre("a", "b"));
+    ASSERT_TRUE(stage.start(Stage::info("c", 2)));
+    EXPECT_THAT(shown(9), testing::ElementsAre("a", "b", "c"));
+}
+
+// Keeps whoever says that a match is forgotten, while it is told to.
+class HoldingPublisher final : public MemoryPublisher {
+  public:
+    void forget(const std::string& match_id) override {
+        held.wait(true);
+        MemoryPublisher::forget(match_id);
+    }
+    std::atomic<bool> held{true};
+};
+
+TEST(MatchLife, HousekeepingThatHangsIsNotResponsiveUntilItGoesOn) {
+    HoldingPublisher publisher;
+    MapLibrary maps;
+    Director director(Stage::default_config(), maps, publisher);
+    EXPECT_TRUE(director.responsive(test::patience));
+    ASSERT_TRUE(director.receive(Stage::info()));
+    director.match_ended("m");
+    EXPECT_TRUE(eventually([&] { return !director.responsive(std::chrono::milliseconds(50)); }));
+    publisher.held = false;
+    publisher.held.notify_all();
+    EXPECT_TRUE(eventually([&] { return publisher.forgotten("m"); }));
+    EXPECT_TRUE(eventually([&] { return director.responsive(std::chrono::milliseconds(50)); }));
 }
 
 }  // namespace

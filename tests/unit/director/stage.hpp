@@ -16,7 +16,7 @@ namespace camdir::director {
 inline constexpr std::int64_t ms = 1'000'000;  // in ns
 
 // Keeps everything that is published. Thread-safe.
-class MemoryPublisher final : public Publisher {
+class MemoryPublisher : public Publisher {
   public:
     void publish(const MatchInfo& shown) override;
     void end(const std::string& match_id) override;

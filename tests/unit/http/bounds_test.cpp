@@ -18,6 +18,14 @@ using test::http_request;
 using test::HttpClient;
 using Clients = std::vector<std::unique_ptr<HttpClient>>;
 
+// How often the server says that a bound was reached.
+int times_reached(const TestServer& server, const std::string& bound) {
+    const std::string series = "camera_director_http_bounds_total{bound=\"" + bound + "\"} ";
+    const std::string text = server.ask("GET", "/metrics").body;
+    const auto found = text.find(series);
+    return found == std::string::npos ? -1 : std::stoi(text.substr(found + series.size()));
+}
+
 TEST(Bounds, AnswersWhatIsTooLargeAndCloses) {
     const TestServer server;
     const std::string large(100'000, 'x');
@@ -31,6 +39,8 @@ TEST(Bounds, AnswersWhatIsTooLargeAndCloses) {
         EXPECT_THROW((void)chunks.receive(), std::runtime_error);
     }
     EXPECT_EQ(server.ask("POST", "/-/healthy", "", std::string(4096, 'x')).status, 405);
+    EXPECT_EQ(times_reached(server, "header_size"), 4);
+    EXPECT_EQ(times_reached(server, "body_size"), 4);
 }
 
 TEST(Bounds, CutsOffAnEndlessRequest) {
@@ -66,6 +76,7 @@ TEST(Bounds, ClosesIdleConnections) {
     const auto finished = client_in_time(server);
     ASSERT_TRUE(finished);
     EXPECT_TRUE(eventually([&] { return finished->closed(); }));
+    EXPECT_TRUE(eventually([&] { return times_reached(server, "idle_time") >= 2; }));
 }
 
 TEST(Bounds, ClosesConnectionsWhoseRequestTakesLong) {
@@ -75,6 +86,7 @@ TEST(Bounds, ClosesConnectionsWhoseRequestTakesLong) {
     const HttpClient slow(server.port());
     ASSERT_TRUE(slow.send("GET /-/healthy HTTP/1.1\r\nSlow: "));
     EXPECT_TRUE(eventually([&] { return !slow.send("x") || slow.closed(); }));
+    EXPECT_TRUE(eventually([&] { return times_reached(server, "request_time") == 1; }));
 }
 
 TEST(Bounds, PagesThatAreNotReadDoNotStay) {
@@ -92,7 +104,8 @@ TEST(Bounds, PagesThatAreNotReadDoNotStay) {
         EXPECT_EQ(refused.ask(method, "/metrics").status, 503);
     EXPECT_EQ(server.status_of("GET", "/-/healthy"), 200);
     server.let_status_go();
-    EXPECT_TRUE(eventually([&] { return server.status_of("GET", "/metrics") == 200; }));
+    EXPECT_TRUE(eventually([&] { return times_reached(server, "answer_time") == 1; }));
+    EXPECT_GE(times_reached(server, "slow_pages"), 3);
 }
 
 TEST(Bounds, OneConnectionMoreClosesTheOldest) {
@@ -108,6 +121,7 @@ TEST(Bounds, OneConnectionMoreClosesTheOldest) {
     EXPECT_TRUE(eventually([&] { return clients[1]->closed(); }));
     for (const int i : {0, 2, 3})
         EXPECT_EQ(clients[i]->ask("GET", "/-/healthy").status, 200) << i;
+    EXPECT_GE(times_reached(server, "connections"), 1);
 }
 
 // While it lives, the process may open this many files more.
@@ -141,6 +155,7 @@ TEST(Bounds, OldConnectionsMakeRoomWhenFilesRunOut) {
     }
     for (const auto& client : clients)
         EXPECT_EQ(client->receive().status, 200);
+    EXPECT_GE(times_reached(server, "files"), 1);
 }
 
 TEST(Bounds, WaitsForFilesWithoutSpinning) {

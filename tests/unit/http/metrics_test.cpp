@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <prometheus/text_serializer.h>
 
 #include <limits>
 #include <numeric>
@@ -53,6 +54,30 @@ TEST(Metrics, HistogramsAreCumulative) {
     EXPECT_EQ(histogram.bucket[histogram.bucket.size() - 2].cumulative_count, 3U);
     EXPECT_EQ(histogram.bucket.back().cumulative_count, 5U);
     EXPECT_EQ(histogram.bucket.back().upper_bound, std::numeric_limits<double>::infinity());
+}
+
+TEST(Metrics, ShowMatchesByTheirIdWhateverItHolds) {
+    const auto match = [](const std::string& id, std::uint64_t frames) {
+        director::MatchStatistics one{id, {}};
+        one.statistics.counters[static_cast<std::size_t>(Counter::pose_frames)] = frames;
+        one.statistics.observers = 2 * frames;
+        one.statistics.latency.buckets.front() = frames;
+        return one;
+    };
+    const auto families = match_metrics({match("a \"cup\"", 3), match("\xff", 4), match("\xfe", 5)});
+    const auto& frames = family(families, "match_pose_frames_total").metric;
+    ASSERT_EQ(frames.size(), 2U) << "of ids that look the same, the first";
+    EXPECT_EQ(frames[0].label.at(0).name, "match");
+    EXPECT_EQ(frames[0].label.at(0).value, "a \"cup\"");
+    EXPECT_EQ(frames[0].counter.value, 3.0);
+    EXPECT_EQ(frames[1].label.at(0).value, "?");
+    EXPECT_EQ(frames[1].counter.value, 4.0);
+    EXPECT_EQ(family(families, "match_observers").metric[0].gauge.value, 6.0);
+    EXPECT_EQ(family(families, "match_latency_seconds").metric[1].histogram.sample_count, 4U);
+    const std::string text = prometheus::TextSerializer().Serialize(families);
+    EXPECT_NE(text.find(R"re(camera_director_match_superseded_total{match="a \"cup\""} 0)re"),
+              std::string::npos)
+        << text;
 }
 
 TEST(Metrics, ShowEveryMap) {

@@ -3,6 +3,7 @@
 
 #include <thread>
 
+#include "support/eventually.hpp"
 #include "test_server.hpp"
 
 namespace camdir::http {
@@ -111,6 +112,17 @@ TEST(Server, PromptPagesDoNotWaitForOthers) {
     server.let_status_go();
     for (const auto& client : waiting)
         EXPECT_EQ(client->receive().status, 200);
+}
+
+TEST(Server, IsNotResponsiveWhileItsThreadHangs) {
+    TestServer server;
+    EXPECT_TRUE(server.responsive(test::patience));
+    server.hold_health();
+    const test::HttpClient client(server.port());
+    ASSERT_TRUE(client.send(test::http_request("GET", "/-/healthy")));
+    EXPECT_TRUE(test::eventually([&] { return !server.responsive(std::chrono::milliseconds(300)); }));
+    server.let_health_go();
+    EXPECT_TRUE(test::eventually([&] { return server.responsive(std::chrono::milliseconds(300)); }));
 }
 
 TEST(Server, ServesManyClientsAtOnce) {

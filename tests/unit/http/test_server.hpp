@@ -23,9 +23,13 @@ class TestServer {
 
     TestServer(const TestServer&) = delete;
     TestServer& operator=(const TestServer&) = delete;
-    ~TestServer() { let_status_go(); }
+    ~TestServer() {
+        let_status_go();
+        let_health_go();
+    }
 
     [[nodiscard]] int port() const { return server_->port(); }
+    [[nodiscard]] bool responsive(std::chrono::nanoseconds limit) const { return server_->responsive(limit); }
     [[nodiscard]] Result<void> reload() { return server_->reload(); }
     // Of a connection of its own.
     [[nodiscard]] test::HttpAnswer ask(const std::string& method, const std::string& path,
@@ -47,12 +51,21 @@ class TestServer {
         status_held_ = false;
         status_held_.notify_all();
     }
+    // The same of /-/healthy, which holds the thread of the connections.
+    void hold_health() { health_held_ = true; }
+    void let_health_go() {
+        health_held_ = false;
+        health_held_.notify_all();
+    }
     std::atomic<std::size_t> status_size{2};  // in bytes
 
   private:
     Sources sources() {
         Sources sources;
-        sources.healthy = [this] { return healthy.load(); };
+        sources.healthy = [this] {
+            health_held_.wait(true);
+            return healthy.load();
+        };
         sources.missing = [this] {
             return ready ? std::vector<std::string>{}
                          : std::vector<std::string>{"map a: loading", "map b: baking: sample 3 %"};
@@ -71,7 +84,7 @@ class TestServer {
         return sources;
     }
 
-    std::atomic<bool> status_held_{false};
+    std::atomic<bool> status_held_{false}, health_held_{false};
     std::unique_ptr<Server> server_;
 };
 
