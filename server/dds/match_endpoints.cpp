@@ -344,7 +344,7 @@ void MatchEndpoints::assert_liveliness() {
     next_slow_assertion_ = now + slow_assertion_interval;
     dds_assert_liveliness(status_writer_);
     dds_assert_liveliness(shown_writer_);
-    // Whoever writes may wait for a slow observer. It comes again.
+    // A take-over writes everything that is kept. It comes again.
     const std::unique_lock lock(writing_, std::try_to_lock);
     if (lock && shown_ && leads()) dds_write(shown_writer_, &shown_encoder_.encode(*shown_));
 }

@@ -6,8 +6,8 @@
 namespace camdir::dds {
 namespace {
 
-// A live peer empties a full queue within milliseconds; a dead one must not delay a worker for longer than
-// this.
+// Of writers that must not lose a sample. Those of a director keep the last ones and do not wait for readers:
+// what a slow one has not acknowledged is replaced.
 constexpr dds_duration_t max_blocking_time = DDS_MSECS(100);
 
 // Whoever takes over is stronger and need not wait for it; shorter, and every observer would ask again when a

@@ -129,8 +129,10 @@ class Subscriber {
     void notice_unmatched();
     void put_into_effect(Ownership::Change change, const std::string& match_id);
     void begin_anew(Match& match);
-    [[nodiscard]] bool may_open(const Ownership::Claim& claim);
-    [[nodiscard]] bool may_open_match(const SenderId& sender) const;
+    void keep_waiting(WaitingMatches& waiting, Ownership::Claim claim);
+    // Counts what it refuses.
+    [[nodiscard]] bool admit(const Ownership::Claim& claim);
+    [[nodiscard]] bool may_own_another(const SenderId& sender) const;
     // Returns false after logging why its endpoints could not be created.
     [[nodiscard]] bool add_match(const std::string& match_id);
     [[nodiscard]] Result<void> open_match(const std::string& match_id);

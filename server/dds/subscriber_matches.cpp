@@ -34,11 +34,11 @@ bool Subscriber::described(Ownership::Claim claim) {
     elsewhere_.remove(match_id, claim.writer);
     if (!matches_.contains(match_id)) {
         if (!shards_.serves(match_id)) {
-            elsewhere_.keep(std::move(claim));
+            keep_waiting(elsewhere_, std::move(claim));
             return false;
         }
-        if (!may_open(claim)) {
-            waiting_.keep(std::move(claim));
+        if (!admit(claim)) {
+            keep_waiting(waiting_, std::move(claim));
             return false;
         }
         // The endpoints first, because the director publishes at once.
@@ -60,8 +60,13 @@ bool Subscriber::described(Ownership::Claim claim) {
     return true;
 }
 
-bool Subscriber::may_open(const Ownership::Claim& claim) {
-    if (!may_open_match(claim.sender)) {
+void Subscriber::keep_waiting(WaitingMatches& waiting, Ownership::Claim claim) {
+    const std::string match_id = claim.info.match_id;
+    if (!waiting.keep(std::move(claim))) drop(Topic::match_info, ValidationError::waiting_limit, match_id);
+}
+
+bool Subscriber::admit(const Ownership::Claim& claim) {
+    if (!may_own_another(claim.sender)) {
         drop(Topic::match_info, ValidationError::participant_limit, claim.info.match_id);
         return false;
     }
@@ -71,14 +76,14 @@ bool Subscriber::may_open(const Ownership::Claim& claim) {
 
 // No more at once than leave the matches that run their beat.
 void Subscriber::admit_waiting() {
-    const auto may_open = [this](const Ownership::Claim& claim) { return may_open_match(claim.sender); };
+    const auto is_wanted = [this](const Ownership::Claim& claim) { return may_own_another(claim.sender); };
     for (int i = 0; i < admissions_a_beat && removal_.has_room() && ingress_->has_room(); ++i) {
-        std::optional<Ownership::Claim> claim = waiting_.take(may_open);
+        std::optional<Ownership::Claim> claim = waiting_.take(is_wanted);
         if (!claim || !described(std::move(*claim))) return;
     }
 }
 
-bool Subscriber::may_open_match(const SenderId& sender) const {
+bool Subscriber::may_own_another(const SenderId& sender) const {
     const auto owned = std::ranges::count_if(
         matches_, [&](const auto& entry) { return entry.second->ownership.owns(sender); });
     return static_cast<std::size_t>(owned) < options_.participant_matches;
@@ -236,7 +241,7 @@ void Subscriber::put_new_shards_into_effect() {
     }
     WaitingMatches all = std::exchange(elsewhere_, none_elsewhere());
     while (auto claim = all.take([](const Ownership::Claim&) { return true; }))
-        (shards_.serves(claim->info.match_id) ? waiting_ : elsewhere_).keep(std::move(*claim));
+        keep_waiting(shards_.serves(claim->info.match_id) ? waiting_ : elsewhere_, std::move(*claim));
 }
 
 void Subscriber::leave_matches() {
@@ -258,7 +263,7 @@ void Subscriber::leave_matches() {
 void Subscriber::leave(const std::string& match_id) {
     Match& match = *matches_[match_id];
     spdlog::info("match {}: left to another shard", match_id);
-    if (match.ownership.has_live_owner()) elsewhere_.keep(match.ownership.owner());
+    if (match.ownership.has_live_owner()) keep_waiting(elsewhere_, match.ownership.owner());
     for (const std::string& observer_id : match.request_owners.observers())
         ingress_->request_ended(match_id, observer_id);
     ingress_->match_ended(match_id);

@@ -16,11 +16,12 @@ namespace camdir::dds {
 // Keeps their newest descriptions, in the order of arrival. One thread at a time.
 class WaitingMatches {
   public:
-    // At most so many, and so many of one participant; what comes later is not kept.
+    // At most so many, and so many of one participant.
     WaitingMatches(std::size_t most, std::size_t most_of_sender)
         : most_(most), most_of_sender_(most_of_sender) {}
 
-    void keep(Ownership::Claim claim);
+    // False where there is no room for it.
+    [[nodiscard]] bool keep(Ownership::Claim claim);
     // This writer has withdrawn its description.
     void remove(const std::string& match_id, WriterHandle writer);
     // Those whose writers are not among these (ascending) are gone.

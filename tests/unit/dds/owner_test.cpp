@@ -267,6 +267,7 @@ TEST_F(RequestOwnerTest, WhoAsksForATakenObserverIsHeardWhenItsOwnerIsGone) {
 class LimitsTest : public GatewayTest {
   protected:
     LimitsTest() {
+        limits_.matches = 8;  // two of a participant may wait
         limits_.participant_matches = 2;
         limits_.participant_observers = 3;
     }
@@ -303,6 +304,14 @@ TEST_F(LimitsTest, AParticipantHasSoManyMatchesAndNoMore) {
     EXPECT_TRUE(eventually([&] { return recorder_.has("info c 1"); })) << "it has waited";
 }
 
+TEST_F(LimitsTest, CountsTheMatchesThatMayNotWait) {
+    RawPeer& greedy = peer("a", {"match/a", "match/b", "match/c", "match/d", "match/e"});
+    for (const char* match_id : {"a", "b", "c", "d", "e"})
+        greedy.write(test::raw_match_info(match_id, 1));
+    EXPECT_TRUE(eventually([&] { return dropped(Topic::match_info, ValidationError::waiting_limit) == 1; }));
+    EXPECT_EQ(dropped(Topic::match_info, ValidationError::participant_limit), 3U);
+}
+
 TEST(WaitingMatches, KeepsTheNewestDescriptionOfEachWithinItsBoundsUntilItIsGone) {
     WaitingMatches waiting(4, 2);
     const auto claim = [](unsigned char sender, const std::string& match_id, std::uint64_t epoch = 1) {
@@ -311,12 +320,13 @@ TEST(WaitingMatches, KeepsTheNewestDescriptionOfEachWithinItsBoundsUntilItIsGone
         claim.info.epoch = epoch;
         return claim;
     };
-    for (const char* match_id : {"a", "b", "c"})
-        waiting.keep(claim(1, match_id));
-    waiting.keep(claim(1, "a", 2));
-    waiting.keep(claim(2, "a"));
-    waiting.keep(claim(3, "d"));
-    waiting.keep(claim(4, "e"));
+    EXPECT_TRUE(waiting.keep(claim(1, "a")));
+    EXPECT_TRUE(waiting.keep(claim(1, "b")));
+    EXPECT_FALSE(waiting.keep(claim(1, "c"))) << "of one participant";
+    EXPECT_TRUE(waiting.keep(claim(1, "a", 2)));
+    EXPECT_TRUE(waiting.keep(claim(2, "a")));
+    EXPECT_TRUE(waiting.keep(claim(3, "d")));
+    EXPECT_FALSE(waiting.keep(claim(4, "e"))) << "of all";
     waiting.remove("a", 2);
     waiting.remove("b", 3);
     const std::array<WriterHandle, 1> matched{1};
