@@ -22,6 +22,10 @@ std::string quoted(const std::string& text) {
     return "'" + text + "'";
 }
 
+std::string too_many_observers(const config::Config& config) {
+    return std::to_string(config.limits.observers) + " observers watch this match already";
+}
+
 std::string known_profiles(const config::Config& config) {
     std::string list;
     for (const auto& [name, profile] : config.profiles)
@@ -93,12 +97,13 @@ void Requests::keep(const ObserverRequest& request, const config::Config& config
 
 void Requests::wait(const ObserverRequest& request, const config::Config& config, std::uint64_t epoch) {
     const auto most = static_cast<std::size_t>(config.limits.observers);
-    const auto known = std::ranges::find(waiting_, request.observer_id, &ObserverRequest::observer_id);
-    std::string reason = std::to_string(most) + " observers watch this match already";
+    const auto known = std::ranges::find_if(
+        waiting_, [&](const Waiting& waiting) { return waiting.request.observer_id == request.observer_id; });
+    std::string reason = too_many_observers(config);
     if (known != waiting_.end()) {
-        *known = request;
+        *known = {request, epoch};
     } else if (waiting_.size() < most) {
-        waiting_.push_back(request);
+        waiting_.push_back({request, epoch});
     } else {
         reason += ", and as many wait";
     }
@@ -108,11 +113,11 @@ void Requests::wait(const ObserverRequest& request, const config::Config& config
 
 void Requests::remove(const std::string& observer_id, const config::Config& config) {
     std::erase_if(waiting_,
-                  [&](const ObserverRequest& request) { return request.observer_id == observer_id; });
+                  [&](const Waiting& waiting) { return waiting.request.observer_id == observer_id; });
     const bool leaves_place = observers_.erase(observer_id) > 0;
     publisher_.withdraw(match_id_, observer_id);
     if (!leaves_place || waiting_.empty()) return;
-    keep(waiting_.front(), config);
+    keep(waiting_.front().request, config);
     waiting_.pop_front();
 }
 
@@ -169,6 +174,18 @@ void Requests::reconcile(const RequestContext& context) {
             assign(observer, context.config.limits.shots, *decision);
         publish(observer, std::move(*decision), context.epoch);
         ++decision;
+    }
+    refuse_waiting(context);
+}
+
+// Observers take no refusal of an epoch before.
+void Requests::refuse_waiting(const RequestContext& context) {
+    for (Waiting& waiting : waiting_) {
+        if (waiting.epoch == context.epoch) continue;
+        waiting.epoch = context.epoch;
+        counters_.add(Counter::refused_requests);
+        publisher_.publish({match_id_, waiting.request.observer_id, context.epoch, RequestState::refused, 0,
+                            too_many_observers(context.config)});
     }
 }
 

@@ -102,6 +102,10 @@ class Requests {
         ObserverStatus status;
         bool published = false;  // `status` is what the observer has been sent
     };
+    struct Waiting {
+        ObserverRequest request;
+        std::uint64_t epoch;  // of the newest refusal
+    };
     struct Decision {
         RequestState state = RequestState::accepted;
         std::uint32_t camera_id = 0;
@@ -110,6 +114,7 @@ class Requests {
 
     void keep(const ObserverRequest& request, const config::Config& config);
     void wait(const ObserverRequest& request, const config::Config& config, std::uint64_t epoch);
+    void refuse_waiting(const RequestContext& context);
     static void resolve(Observer& observer, const config::Config& config);
     [[nodiscard]] static Decision decide(const Observer& observer, const RequestContext& context);
     void assign(const Observer& observer, std::int64_t max_shots, Decision& decision);
@@ -122,7 +127,7 @@ class Requests {
     MatchCounters& counters_;
     LogLimit refusals_;
     std::map<std::string, Observer> observers_;
-    std::list<ObserverRequest> waiting_;  // for a place, in the order of arrival
+    std::list<Waiting> waiting_;  // for a place, in the order of arrival
     std::vector<Shot> shots_;
 };
 

@@ -265,6 +265,24 @@ TEST(Director, LimitsAreEnforced) {
     EXPECT_FALSE(stage.publisher.has_status("e"));
 }
 
+// Observers take no answer of another epoch than that of the match that they are shown.
+TEST(Director, ObserversThatWaitAreRefusedAgainInTheNextEpoch) {
+    config::Config config = Stage::default_config();
+    config.limits.observers = 1;
+    Stage stage(config);
+    stage.start();
+    stage.ask(Stage::request("a"));
+    stage.ask(Stage::request("b"));
+    ASSERT_EQ(stage.publisher.status("b").epoch, 1U);
+    stage.start(Stage::info("m", 2));
+    EXPECT_EQ(stage.publisher.status("b").epoch, 2U);
+    EXPECT_EQ(stage.publisher.status("b").state, RequestState::refused);
+    EXPECT_EQ(stage.publisher.status("b").reason, "1 observers watch this match already");
+    const std::size_t published = stage.publisher.statuses_published();
+    stage.ask(Stage::request("a"));
+    EXPECT_EQ(stage.publisher.statuses_published(), published + 1) << "once in each epoch";
+}
+
 TEST(Director, HasNoRoomWhereObserversWaitInAllPlaces) {
     config::Config config = Stage::default_config();
     config.limits.matches = 1;
