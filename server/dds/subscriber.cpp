@@ -257,6 +257,16 @@ void Subscriber::take_poses(Match& match) {
     });
 }
 
+// While many matches begin, which may take long: frames that wait come out of it together, and all but the
+// newest are lost.
+void Subscriber::take_waiting_poses() {
+    constexpr std::chrono::milliseconds interval(4);
+    if (Clock::now() - poses_taken_ < interval) return;
+    for (const auto& [id, match] : matches_)
+        take_poses(*match);
+    poses_taken_ = Clock::now();
+}
+
 void Subscriber::take_events(Match& match) {
     event_samples_.take(match.endpoints->event_reader(), [&](const auto& sample, const auto& info) {
         if (!info.valid_data || !is_valid(match, Topic::match_event, sample, match_event_)) return;

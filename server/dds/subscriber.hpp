@@ -109,6 +109,7 @@ class Subscriber {
     // A valid pose frame of the participant that owns the match, or may take it now.
     [[nodiscard]] bool is_of_owner(Match& match, const dds_sample_info_t& info);
     void take_poses(Match& match);
+    void take_waiting_poses();
     void take_events(Match& match);
     void take_requests(Match& match);
     void request_found(Match& match, WriterHandle writer);
@@ -173,6 +174,7 @@ class Subscriber {
     EndpointRemoval removal_;
     std::unordered_map<std::string, std::unique_ptr<Match>> matches_;
     std::vector<std::string> new_matches_;                        // whose signs were not looked at yet
+    Clock::time_point poses_taken_{};                             // of all matches, between others that begin
     Clock::time_point listened_{};                                // to all who send
     Clock::time_point next_decision_ = Clock::time_point::max();  // when matches may change hands
     std::vector<dds_attach_t> triggered_;

@@ -143,6 +143,7 @@ void Subscriber::cancel_forget(const std::string& match_id) {
 }
 
 bool Subscriber::add_match(const std::string& match_id) {
+    take_waiting_poses();
     const auto opened = open_match(match_id);
     if (opened) return true;
     ++counters_.endpoint_failures;

@@ -24,6 +24,14 @@ void carry_discontinuities(const PoseFrame& from, PoseFrame& to) {
     }
 }
 
+// Sent at an interval of which less than half was left when they arrived.
+bool came_together(const PoseFrame& first, std::int64_t first_received_ns, const PoseFrame& second,
+                   std::int64_t second_received_ns) {
+    const double sent_apart =
+        static_cast<double>(second.source_time) - static_cast<double>(first.source_time);
+    return 2.0 * static_cast<double>(second_received_ns - first_received_ns) < sent_apart;
+}
+
 }  // namespace
 
 void Inbox::put(Message message) {
@@ -47,7 +55,7 @@ bool Inbox::put(const PoseFrame& frame, std::int64_t received_ns) {
         counters_.add(frame.epoch < waiting_.frame.epoch ? Counter::drop_old_epoch : Counter::drop_old_frame);
         return false;
     } else {
-        counters_.add(is_due_ ? Counter::drop_superseded : Counter::drop_paced);
+        counters_.add(reason_to_replace(frame, received_ns));
         std::swap(replaced_, waiting_.frame);
         waiting_.frame = frame;
         if (replaced_.epoch == frame.epoch) carry_discontinuities(replaced_, waiting_.frame);
@@ -60,6 +68,13 @@ bool Inbox::put(const PoseFrame& frame, std::int64_t received_ns) {
     waiting_.messages_before_frame = waiting_.messages.size();
     waiting_.received_ns = received_ns;
     return is_due_;
+}
+
+Counter Inbox::reason_to_replace(const PoseFrame& frame, std::int64_t received_ns) const {
+    if (!is_due_) return Counter::drop_paced;
+    const bool together = frame.epoch == waiting_.frame.epoch &&
+                          came_together(waiting_.frame, waiting_.received_ns, frame, received_ns);
+    return together ? Counter::drop_burst : Counter::drop_superseded;
 }
 
 void Inbox::put(const CameraFrame& shown) {

@@ -73,6 +73,9 @@ class Inbox {
     void take(Content& content);
 
   private:
+    // Why the waiting frame is dropped for this one.
+    [[nodiscard]] Counter reason_to_replace(const PoseFrame& frame, std::int64_t received_ns) const;
+
     std::mutex mutex_;
     Content waiting_;
     bool is_due_ = false;         // the waiting frame

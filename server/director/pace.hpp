@@ -17,7 +17,7 @@ class Pace {
     // Of all matches in one interval.
     struct Load {
         std::uint64_t taken = 0;       // frames that were to become cameras, and did
-        std::uint64_t superseded = 0;  // that a newer one has replaced
+        std::uint64_t superseded = 0;  // that a newer one has replaced, and not at once
         double busy = 0.0;             // share of their time that the workers were at work
     };
 

@@ -64,6 +64,7 @@ MetricFamily drops(const Statistics& statistics) {
         {Counter::drop_early_epoch, "early_epoch"},
         {Counter::drop_old_frame, "old_frame"},
         {Counter::drop_superseded, "superseded"},
+        {Counter::drop_burst, "burst"},
         {Counter::drop_paced, "paced"},
         {Counter::drop_waiting, "no_map"},
         {Counter::drop_players, "players"},

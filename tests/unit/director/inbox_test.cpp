@@ -56,6 +56,25 @@ TEST_F(InboxTest, TheNewestFrameWins) {
     EXPECT_FALSE(content_.has_frame);
 }
 
+TEST_F(InboxTest, FramesThatCameTogetherAreNoSignOfBusyWorkers) {
+    constexpr std::int64_t ms = 1'000'000;
+    const auto sent_at = [](std::uint32_t number, std::int64_t time) {
+        PoseFrame sent = frame(1, number);
+        sent.source_time = time;
+        return sent;
+    };
+    inbox_.put(sent_at(1, 0), 100 * ms);
+    inbox_.put(sent_at(2, 33 * ms), 101 * ms);  // both were held up
+    EXPECT_EQ(counted(Counter::drop_burst), 1U);
+    inbox_.put(sent_at(3, 66 * ms), 134 * ms);  // nobody has taken the one before
+    EXPECT_EQ(counted(Counter::drop_superseded), 1U);
+    inbox_.put(sent_at(4, 66 * ms), 134 * ms);
+    EXPECT_EQ(counted(Counter::drop_superseded), 2U) << "a sender whose clock stands";
+    inbox_.take(content_);
+    EXPECT_EQ(content_.frame.frame_number, 4U);
+    EXPECT_EQ(counted(Counter::drop_burst), 1U);
+}
+
 TEST_F(InboxTest, AFrameKeepsItsPlaceAmongTheMessages) {
     inbox_.put(MatchInfo{});
     inbox_.put(frame(1, 1), 10);

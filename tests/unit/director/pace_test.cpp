@@ -111,7 +111,10 @@ TEST(PaceTest, AnOverloadedDirectorDeclaresALowerRateAndSpeedsUpAgain) {
     std::uint32_t number = 0;
     const auto plays_until = [&](const auto& condition) {
         return test::eventually([&] {
-            director.receive("m", Stage::poses(++number));
+            PoseFrame frame = Stage::poses(++number);
+            frame.source_time =
+                std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch()).count();
+            director.receive("m", frame);
             return condition();
         });
     };
