@@ -129,6 +129,7 @@ std::string domain_xml(const config::Dds& config) {
 
 Participant::Participant(Participant&& other) noexcept
     : open_(std::exchange(other.open_, false)),
+      identity_(other.identity_),
       domain_(std::move(other.domain_)),
       participant_(std::move(other.participant_)),
       topics_(std::move(other.topics_)) {}

@@ -10,12 +10,19 @@ namespace {
 
 constexpr double death_hold_s = 1.5;
 constexpr double min_score = 1e-3;
+constexpr double usual_damage = 50.0;  // hit points
+constexpr double most_damage = 100.0;  // that counts
 
 // What an event is worth for its actor and its subject, in kills.
 struct Worth {
     double actor;
     double subject;
 };
+
+// 1 where the hit points are not known.
+double share_of_usual_damage(double hit_points) {
+    return hit_points > 0.0 ? std::min(hit_points, most_damage) / usual_damage : 1.0;
+}
 
 Worth worth(const MatchEvent& event) {
     switch (event.kind) {
@@ -27,8 +34,10 @@ Worth worth(const MatchEvent& event) {
             return {2.0, 0.0};  // flag captured
         case 4:
             return {1.0, 0.0};  // objective
-        case 5:
-            return {0.2, 0.1};  // damage
+        case 5: {               // damage
+            const double share = share_of_usual_damage(event.value);
+            return {0.2 * share, 0.1 * share};
+        }
         case 6:
             return {0.5, 0.0};  // award
         case 7:

@@ -20,7 +20,7 @@ struct AutomaticTarget {
 };
 
 // Every player has a score: the worth of the player's recent events in kills, halved every
-// matches.automatic_half_life_s. One thread at a time.
+// matches.automatic_half_life_s. Damage counts by its hit points, of at most 100. One thread at a time.
 class Attention {
   public:
     void clear() { scores_.clear(); }

@@ -20,6 +20,8 @@ constexpr double default_rate_hz = 30.0;  // of game servers that state none
 constexpr std::size_t max_view_requests = 64;
 constexpr std::int64_t max_event_lead_ns = 10'000'000'000;  // of an event's time over the last frame's
 
+constexpr float scale_tolerance = 1e-3F;  // relative: games state rounded lengths
+
 constexpr const char* no_server = "no game server runs this match";
 
 std::string joined(const std::vector<std::string>& names) {
@@ -110,6 +112,7 @@ void Match::begin_epoch() {
     roster_.clear();
     continuity_.clear();
     attention_.clear();
+    last_event_.reset();
     timeline_.clear();
     foreseen_ = 0;
     requests_.restart_shots();
@@ -146,6 +149,7 @@ void Match::handle(const MatchEnded& /*ended*/) {
         publisher_.end(match_id_);
     }
     info_.reset();
+    last_event_.reset();
     refusal_.clear();
     liveness_ = Liveness::none;
     roster_.clear();
@@ -167,6 +171,7 @@ void Match::handle(const MatchEvent& event) {
     MatchEvent clamped = event;
     if (has_last_frame_) clamped.frame_time = std::min(clamped.frame_time, latest_event_time(last_time_));
     attention_.record(clamped, config_->matches.automatic_half_life_s);
+    last_event_ = event;
 }
 
 void Match::handle(const ObserverRequest& request) {
@@ -211,6 +216,7 @@ void Match::attach_map() {
         return wait_for_map(named + (entry->state == LoadState::failed ? " failed" : " is loading") +
                             (entry->reason.empty() ? "" : ": " + entry->reason));
     check_map_hash(*entry);
+    check_scale(*entry);
     missing_map_.clear();
     if (freespace_ && entry->generation == map_generation_) return;
     freespace_ = entry->freespace;
@@ -230,6 +236,20 @@ void Match::check_map_hash(const MapEntry& entry) {
     }
     if (entry.strict)
         refusal_ = "the game server's map '" + info_->map_name + "' is not the one that was baked";
+}
+
+// The cameras keep the map's scale; observers convert positions by the game server's.
+void Match::check_scale(const MapEntry& entry) {
+    const float sent = info_->metres_per_unit;
+    const float baked = entry.freespace->metadata().metres_per_unit;
+    if (sent == 0.0F || std::abs(sent - baked) <= scale_tolerance * baked) return;
+    const std::pair mismatch(sent, baked);
+    if (std::exchange(reported_scales_, mismatch) == mismatch) return;
+    counters_.add(Counter::scale_mismatches);
+    spdlog::warn(
+        "match {}: its game server says {} metres per unit, map {} was baked with {}: distances "
+        "differ between observers and cameras",
+        match_id_, sent, info_->map_name, baked);
 }
 
 void Match::wait_for_map(std::string reason) {
@@ -317,7 +337,8 @@ void Match::handle(const ViewRequest& wanted) {
         view.map_name = info_->map_name;
         view.rate_hz = info_->rate_hz;
         view.camera_rate_hz = info_->rate_hz / static_cast<float>(frames_per_camera_);
-        view.players = info_->players.size();
+        view.players = info_->players;
+        view.last_event = last_event_;
     }
     view.last_pose_number = last_number_;
     view.shots = requests_.shot_views();

@@ -76,6 +76,7 @@ class Match final : public Strand {
     void fall_silent(Liveness liveness);
     void attach_map();
     void check_map_hash(const MapEntry& entry);
+    void check_scale(const MapEntry& entry);
     void wait_for_map(std::string reason);
     void detach_map(std::string reason);
     void reconcile();
@@ -142,12 +143,14 @@ class Match final : public Strand {
     std::string refusal_;                                        // RequestContext::refusal
     std::string missing_map_;                                    // RequestContext::missing_map
     std::pair<std::uint64_t, std::uint64_t> reported_mismatch_;  // hashes: the game server's, the baked map's
+    std::pair<float, float> reported_scales_;  // metres per unit: the game server's, the baked map's
     std::uint64_t map_generation_ = 0;
     std::optional<freespace::Freespace> freespace_;
     std::vector<std::unique_ptr<camera::Scratch>> scratch_;  // by lane; null where no shot has moved yet
     Roster roster_;
     Continuity continuity_;
     Attention attention_;
+    std::optional<MatchEvent> last_event_;  // of this epoch
     Requests requests_;
     bool reconcile_needed_ = false;
     bool waits_for_delay_ = false;  // what observers are told

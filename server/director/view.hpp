@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,7 @@ enum class Counter : std::size_t {
     refused_matches,
     refused_requests,
     map_hash_mismatches,
+    scale_mismatches,  // of metres_per_unit
     count
 };
 inline constexpr std::size_t counter_count = static_cast<std::size_t>(Counter::count);
@@ -95,9 +97,10 @@ struct MatchView {
     std::string state;     // "running", "waiting for map", "filling the delay", "silent", "game server lost",
                            // "no game server"
     float rate_hz = 0.0F;  // of the game server
-    float camera_rate_hz = 0.0F;  // of the cameras: a share of it, see Pace
-    double delay_s = 0.0;         // in force: the greater of the match's own and the operator's
-    std::uint64_t players = 0;
+    float camera_rate_hz = 0.0F;           // of the cameras: a share of it, see Pace
+    double delay_s = 0.0;                  // in force: the greater of the match's own and the operator's
+    std::vector<Player> players;           // as the game server lists them
+    std::optional<MatchEvent> last_event;  // of this epoch
     std::uint32_t last_pose_number = 0;
     std::vector<ShotView> shots;
     std::vector<ObserverView> observers;

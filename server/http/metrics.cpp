@@ -110,6 +110,8 @@ std::vector<MetricFamily> director_metrics(const Statistics& s) {
             counter("refused_requests_total", "Requests refused.", s[Counter::refused_requests]),
             counter("map_hash_mismatches_total", "Matches whose map file differs from the baked one.",
                     s[Counter::map_hash_mismatches]),
+            counter("scale_mismatches_total", "Matches whose metres_per_unit differs from the baked map's.",
+                    s[Counter::scale_mismatches]),
             drops(s),
             gauge("matches", "Matches that have a game server.", s.matches),
             gauge("silent_matches", "Matches that are silent.", s.silent_matches),

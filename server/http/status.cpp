@@ -2,6 +2,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <array>
+
 #include "config/json_text.hpp"
 
 namespace camdir::http {
@@ -9,13 +12,36 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
-json page_of(const director::ShotView& shot) {
+json page_of(const director::Player& player) {
+    return {{"id", player.id}, {"name", player.name}, {"class", player.player_class}, {"team", player.team}};
+}
+
+// Null for nobody; of players whom the game server does not list, the id is all that is known.
+json page_of(std::uint32_t player, const std::vector<director::Player>& players) {
+    if (player == director::no_player) return nullptr;
+    const auto listed = std::ranges::find(players, player, &director::Player::id);
+    return listed == players.end() ? json{{"id", player}} : page_of(*listed);
+}
+
+json page_of(const director::MatchEvent& event, const std::vector<director::Player>& players) {
+    static constexpr std::array kinds = {"kill",   "flag taken", "flag captured", "objective",
+                                         "damage", "award",      "item",          "round"};
+    json page = {{"kind", event.kind},
+                 {"actor", page_of(event.actor, players)},
+                 {"subject", page_of(event.subject, players)},
+                 {"value", event.value},
+                 {"detail", event.detail}};
+    if (event.kind >= 1 && event.kind <= kinds.size()) page["kind"] = kinds[event.kind - 1];
+    return page;
+}
+
+json page_of(const director::ShotView& shot, const std::vector<director::Player>& players) {
     json page = {{"camera_id", shot.camera_id},
                  {"automatic", shot.automatic},
                  {"profile", shot.profile},
                  {"observers", shot.observers},
                  {"flags", shot.flags}};
-    page["target"] = shot.target == director::no_player ? json() : json(shot.target);
+    page["target"] = page_of(shot.target, players);
     return page;
 }
 
@@ -29,19 +55,17 @@ json page_of(const director::ObserverView& observer) {
 
 json page_of(const director::MatchView& match) {
     if (!match.answered) return {{"match_id", match.match_id}, {"state", "no answer"}};
-    json page = {{"match_id", match.match_id},
-                 {"state", match.state},
-                 {"epoch", match.epoch},
-                 {"map", match.map_name},
-                 {"rate_hz", match.rate_hz},
-                 {"camera_rate_hz", match.camera_rate_hz},
-                 {"delay_s", match.delay_s},
-                 {"players", match.players},
-                 {"last_pose_number", match.last_pose_number},
-                 {"shots", json::array()},
+    json page = {{"match_id", match.match_id}, {"state", match.state},
+                 {"epoch", match.epoch},       {"map", match.map_name},
+                 {"rate_hz", match.rate_hz},   {"camera_rate_hz", match.camera_rate_hz},
+                 {"delay_s", match.delay_s},   {"last_pose_number", match.last_pose_number},
+                 {"players", json::array()},   {"shots", json::array()},
                  {"observers", json::array()}};
+    for (const auto& player : match.players)
+        page["players"].push_back(page_of(player));
+    page["last_event"] = match.last_event ? page_of(*match.last_event, match.players) : json();
     for (const auto& shot : match.shots)
-        page["shots"].push_back(page_of(shot));
+        page["shots"].push_back(page_of(shot, match.players));
     for (const auto& observer : match.observers)
         page["observers"].push_back(page_of(observer));
     return page;

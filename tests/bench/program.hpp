@@ -1,37 +1,21 @@
 // What the benchmarks' programs have in common.
-//
-// Exit codes: 0 done, 1 something failed, 2 bad usage.
 #pragma once
 
-#include <CLI/CLI.hpp>
-#include <exception>
-#include <iostream>
 #include <stdexcept>
 #include <utility>
 
 #include "base/error.hpp"
+#include "support/program.hpp"
 
 namespace camdir::bench {
+
+using test::run_program;
 
 // Throws std::runtime_error with the error's message.
 template <class Value>
 Value value_of(Result<Value> result) {
     if (!result) throw std::runtime_error(result.error().message);
     return std::move(*result);
-}
-
-// Parses the arguments, then calls run(), which returns the exit code or throws. Prints help and errors.
-template <class Run>
-int run_program(CLI::App& app, int argc, char** argv, const Run& run) {
-    try {
-        app.parse(argc, argv);
-        return run();
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
-    } catch (const std::exception& error) {
-        std::cerr << app.get_name() << ": " << error.what() << '\n';
-        return 1;
-    }
 }
 
 }  // namespace camdir::bench

@@ -10,8 +10,8 @@
 #include "base/file.hpp"
 #include "chaos_page.hpp"
 #include "chaos_stage.hpp"
+#include "program.hpp"
 #include "scenario.hpp"
-#include "service/signals.hpp"
 #include "usage.hpp"
 #include "verdict.hpp"
 
@@ -165,16 +165,6 @@ int main(int argc, char** argv) {
     app.add_flag("--sanitized", options.sanitized,
                  "The programs have sanitizers: judges neither memory nor what observers see");
     app.add_flag("--logs", options.logs, "Shows the directors' logs");
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
-    }
-    try {
-        const service::Interruption interruption;
-        return soak::run(options, interruption.token());
-    } catch (const std::exception& error) {
-        std::cerr << "chaos: " << error.what() << '\n';
-        return 1;
-    }
+    return soak::run_until_interrupted(app, argc, argv,
+                                       [&](const std::stop_token& stop) { return soak::run(options, stop); });
 }

@@ -8,6 +8,7 @@
 #include "evaluation/resample.hpp"
 #include "hand_over_rows.hpp"
 #include "hand_over_stage.hpp"
+#include "support/program.hpp"
 
 namespace camdir::soak {
 namespace {
@@ -159,11 +160,5 @@ int main(int argc, char** argv) {
     app.add_option("--only", options.only, "Rows whose name contains this; may be repeated");
     app.add_option("--max-gap", options.longest_gap_ms, "A longer gap is a fault, ms")->capture_default_str();
     app.add_flag("--logs", options.logs, "Shows the directors' logs");
-    CLI11_PARSE(app, argc, argv);
-    try {
-        return soak::run(options);
-    } catch (const std::exception& error) {
-        std::cerr << "hand-over: " << error.what() << '\n';
-        return 1;
-    }
+    return test::run_program(app, argc, argv, [&] { return soak::run(options); });
 }

@@ -18,6 +18,7 @@
 #include "support/game/game_client.hpp"
 #include "support/game/game_server.hpp"
 #include "support/game/packages.hpp"
+#include "support/program.hpp"
 #include "support/test_domain.hpp"
 
 namespace camdir::soak {
@@ -220,16 +221,9 @@ int main(int argc, char** argv) {
     app.add_option("--spectators", options.spectators, "clients that watch")
         ->check(CLI::Range(1, 7))
         ->capture_default_str();
-    CLI11_PARSE(app, argc, argv);
-    if (const auto needs = camdir::test::needs_game_package()) {
-        std::cerr << "soak-map-changes: " << *needs << "\n";
-        return 1;
-    }
-    try {
+    return camdir::test::run_program(app, argc, argv, [&] {
+        if (const auto needs = camdir::test::needs_game_package()) throw std::runtime_error(*needs);
         camdir::soak::run(options);
-    } catch (const std::exception& error) {
-        std::cerr << "soak-map-changes: " << error.what() << "\n";
-        return 1;
-    }
-    return 0;
+        return 0;
+    });
 }

@@ -14,8 +14,8 @@
 #include "findings_table.hpp"
 #include "load.hpp"
 #include "oracle/oracle.hpp"
+#include "program.hpp"
 #include "scene/load.hpp"
-#include "service/signals.hpp"
 #include "shot_checker.hpp"
 
 namespace camdir::soak {
@@ -335,16 +335,6 @@ int main(int argc, char** argv) {
     CLI::App app("Observers that check the cameras that they receive; exit code 1 on a violation.",
                  "observer-probe");
     soak::add_options(app, options);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
-    }
-    try {
-        const service::Interruption interruption;
-        return soak::probe(options, interruption.token());
-    } catch (const std::exception& error) {
-        std::cerr << "observer-probe: " << error.what() << '\n';
-        return 1;
-    }
+    return soak::run_until_interrupted(
+        app, argc, argv, [&](const std::stop_token& stop) { return soak::probe(options, stop); });
 }

@@ -6,7 +6,7 @@
 #include "evaluation/resample.hpp"
 #include "evaluation/trace.hpp"
 #include "load.hpp"
-#include "service/signals.hpp"
+#include "program.hpp"
 
 namespace camdir::soak {
 namespace {
@@ -89,16 +89,6 @@ int main(int argc, char** argv) {
     app.add_option("--seconds", options.load.seconds, "Duration; 0: until interrupted")
         ->check(CLI::NonNegativeNumber);
     options.load.network.add_options(app);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
-    }
-    try {
-        const service::Interruption interruption;
-        return soak::play(std::move(options), interruption.token());
-    } catch (const std::exception& error) {
-        std::cerr << "pose-replay: " << error.what() << '\n';
-        return 1;
-    }
+    return soak::run_until_interrupted(
+        app, argc, argv, [&](const std::stop_token& stop) { return soak::play(std::move(options), stop); });
 }

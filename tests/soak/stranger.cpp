@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "support/eventually.hpp"
+#include "support/program.hpp"
 #include "support/raw_peer.hpp"
 
 namespace camdir::soak {
@@ -313,14 +314,10 @@ int main(int argc, char** argv) {
     app.add_option("--batch", options.batch, "At a time")->check(CLI::Range(1, 256))->capture_default_str();
     app.add_option("--seed", options.seed, "Another one gives other names and garbage")
         ->capture_default_str();
-    CLI11_PARSE(app, argc, argv);
-    int status = 0;
-    try {
+    const int status = test::run_program(app, argc, argv, [&] {
         soak::run(options);
-    } catch (const std::exception& error) {
-        std::cerr << "stranger: " << error.what() << '\n';
-        status = 1;
-    }
+        return 0;
+    });
     dds_delete(DDS_CYCLONEDDS_HANDLE);  // before the library's static objects go
     return status;
 }

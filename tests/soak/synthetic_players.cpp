@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "load.hpp"
-#include "service/signals.hpp"
+#include "program.hpp"
 #include "walker.hpp"
 
 namespace camdir::soak {
@@ -95,16 +95,6 @@ int main(int argc, char** argv) {
     app.add_option("--seconds", options.load.seconds, "Duration; 0: until interrupted")
         ->check(CLI::NonNegativeNumber);
     options.load.network.add_options(app);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
-    }
-    try {
-        const service::Interruption interruption;
-        return soak::play(std::move(options), interruption.token());
-    } catch (const std::exception& error) {
-        std::cerr << "synthetic-players: " << error.what() << '\n';
-        return 1;
-    }
+    return soak::run_until_interrupted(
+        app, argc, argv, [&](const std::stop_token& stop) { return soak::play(std::move(options), stop); });
 }

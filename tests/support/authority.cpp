@@ -23,4 +23,14 @@ std::filesystem::path Authority::issue(const std::string& name, const std::strin
     return folder() / "identities" / name;
 }
 
+void Authority::certify(const std::filesystem::path& identity, const std::string& options) const {
+    ChildProcess openssl({"/bin/bash", "-c",
+                          "cd " + folder().string() + " && openssl req -new -config authority.conf -key " +
+                              (identity / "key.pem").string() + " -subj /CN=" + identity.filename().string() +
+                              " -out request && openssl ca -config authority.conf -batch -notext -in request "
+                              "-out " +
+                              (identity / "certificate.pem").string() + " " + options});
+    if (openssl.wait() != 0) throw std::runtime_error(openssl.errors());
+}
+
 }  // namespace camdir::test

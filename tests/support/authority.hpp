@@ -19,6 +19,9 @@ class Authority {
     // The folder of a new identity.
     std::filesystem::path issue(const std::string& name, const std::string& role,
                                 const std::string& matches) const;
+    // Replaces the certificate of that identity by another for its key, with these options of `openssl ca`,
+    // such as -enddate; throws when it fails.
+    void certify(const std::filesystem::path& identity, const std::string& options) const;
     [[nodiscard]] std::filesystem::path folder() const { return folder_ / "authority"; }
 
   private:

@@ -257,7 +257,7 @@ CDIR_API cdir_status cdir_orientation_to_angles(const float* orientation, float*
 
 /* ----------------------------------------------------------------------------------- match info */
 
-/* What a director passes on to observers. It reads ids alone. */
+/* What a director passes on to observers, and shows to its operator. */
 typedef struct cdir_player {
     uint32_t struct_size;
     uint32_t id; /* any value but CDIR_NO_PLAYER; unique within the match */
@@ -273,7 +273,7 @@ CDIR_DEFAULTS(cdir_player)
 typedef struct cdir_match_info {
     uint32_t struct_size;
     /* > 0: length of one map unit in metres. For observers, who convert with cdir_position_to_engine();
-     * directors go by what they know of the map. */
+     * directors go by the map that they have baked, and warn in their log when its length differs. */
     float metres_per_unit;
     /* > 0: pose frames per second that the game server intends to publish. For observers: camera frames per
      * second, which are fewer while a director's machine is too small. */
@@ -358,10 +358,12 @@ CDIR_DEFAULTS(cdir_pose_frame)
  * its own. */
 CDIR_API cdir_status cdir_match_publish_poses(cdir_match match, const cdir_pose_frame* frame) CDIR_NOEXCEPT;
 
-/* What the fields of an event mean for each kind. The director chooses targets by kind, actor and subject. It
- * receives value and detail, too, and passes no event on to observers. Names are the game's own, such as
- * "MOD_ROCKET" or "item_quad". What does not apply or is not known is CDIR_NO_PLAYER, 0 or "". A player who
- * dies or is hurt through no other player is the subject alone, by their own doing also the actor. */
+/* What the fields of an event mean for each kind. The director chooses targets by kind, actor and subject,
+ * and weighs damage by its hit points: 50, or 0 = unknown, have the usual weight, 100 and more twice that. It
+ * shows the last event with value and detail to its operator, and passes none on to observers. Names are the
+ * game's own, such as "MOD_ROCKET" or "item_quad". What does not apply or is not known is CDIR_NO_PLAYER, 0
+ * or "". A player who dies or is hurt through no other player is the subject alone, by their own doing also
+ * the actor. */
 enum {
     CDIR_EVENT_KILL = 1,          /* actor killed subject; value: points for actor; detail: means */
     CDIR_EVENT_FLAG_TAKEN = 2,    /* by actor; value: team of the flag; detail: its name */

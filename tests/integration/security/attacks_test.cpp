@@ -97,19 +97,13 @@ TEST_F(AttackTest, WithPermissionsThatAreNotItsOwnOrWereChanged) {
 
 TEST_F(AttackTest, WithACertificateThatExpires) {
     const fs::path own = authority_.issue("carla", "director", "*");
-    const std::string certificate = (own / "certificate.pem").string();
     // Valid for long enough to begin with it.
-    ASSERT_EQ(run("cd " + authority_.folder().string() + "; openssl req -new -config authority.conf -key " +
-                  (own / "key.pem").string() +
-                  " -subj /CN=carla -out request; openssl ca -config authority.conf "
-                  "-batch -notext -in request -out " +
-                  certificate +
-                  " -enddate $(date -u -d '20 seconds' "
-                  "+%Y%m%d%H%M%SZ)"),
-              0);
+    authority_.certify(own, "-enddate $(date -u -d '20 seconds' +%Y%m%d%H%M%SZ)");
     SecurePeer expired(domain_.id(), false, own, permissive);
     expired.do_everything(cup);
-    ASSERT_TRUE(eventually([&] { return run("! openssl x509 -checkend 0 -noout -in " + certificate) == 0; }));
+    ASSERT_TRUE(eventually([&] {
+        return run("! openssl x509 -checkend 0 -noout -in " + (own / "certificate.pem").string()) == 0;
+    }));
     const auto director = make_director();
     EXPECT_TRUE(refused({"Certificate not valid", "certificate has expired"})) << log_.text();
     expect_left_out(expired, *director);

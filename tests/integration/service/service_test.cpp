@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "served.hpp"
+#include "support/authority.hpp"
 #include "support/eventually.hpp"
 
 namespace camdir::test {
@@ -48,6 +49,32 @@ TEST(Service, StopsOnSigintWhileItStarts) {
     Served served(folder, quiet_config());
     ASSERT_TRUE(served.logged("http: listening"));
     served.signal(SIGINT);
+    EXPECT_EQ(served.exit_code(), 0);
+}
+
+TEST(Service, IsNotReadyOnceItsIdentityHasExpired) {
+    const Authority authority;
+    const auto identity = authority.issue("director", "director", "*");
+    // Valid for long enough to begin with it.
+    authority.certify(identity, "-enddate $(date -u -d '20 seconds' +%Y%m%d%H%M%SZ)");
+    const Folder folder;
+    json config = quiet_config();
+    config["dds"]["security"] = identity.string();
+    Served served(folder, config);
+    ASSERT_TRUE(served.logged("\"ready\"")) << served.log();
+    std::string missing;
+    const auto refuses = [&] {
+        try {
+            missing = served.get("/-/ready", 503);
+            return true;
+        } catch (const std::exception&) {
+            return false;  // another status
+        }
+    };
+    EXPECT_TRUE(eventually(refuses)) << served.log();
+    EXPECT_THAT(missing, HasSubstr("identity in " + identity.string() + ": its certificate has expired"));
+    EXPECT_EQ(served.get("/-/healthy"), "ok\n") << "it serves on";
+    served.signal(SIGTERM);
     EXPECT_EQ(served.exit_code(), 0);
 }
 

@@ -10,7 +10,6 @@
 
 #include "base/file.hpp"
 #include "support/authority.hpp"
-#include "support/child_process.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace camdir::dds {
@@ -67,17 +66,6 @@ class IdentityTest : public testing::Test {
     void take(const std::vector<const char*>& names, const fs::path& from) {
         for (const char* name : names)
             fs::copy_file(from / name, folder_ / name, fs::copy_options::overwrite_existing);
-    }
-    // Signs another certificate for the same key, with these options of `openssl ca`.
-    void certify(const std::string& options) {
-        test::ChildProcess openssl(
-            {"/bin/bash", "-c",
-             "cd " + authority_.folder().string() + " && openssl req -new -config authority.conf -key " +
-                 (folder_ / "key.pem").string() +
-                 " -subj /CN=director -out request && openssl ca -config authority.conf -batch -notext "
-                 "-in request -out " +
-                 (folder_ / "certificate.pem").string() + " " + options});
-        ASSERT_EQ(openssl.wait(), 0) << openssl.errors();
     }
 
     test::Authority authority_;
@@ -154,9 +142,9 @@ TEST_F(IdentityTest, NamesTheFileThatDoesNotFit) {
 }
 
 TEST_F(IdentityTest, NamesTheCertificateThatIsNotValidNow) {
-    certify("-startdate 20200101000000Z -enddate 20200201000000Z");
+    authority_.certify(folder_, "-startdate 20200101000000Z -enddate 20200201000000Z");
     EXPECT_THAT(problem(config_), HasSubstr("certificate.pem: has expired"));
-    certify("-startdate $(date -u -d '2 days' +%Y%m%d%H%M%SZ)");
+    authority_.certify(folder_, "-startdate $(date -u -d '2 days' +%Y%m%d%H%M%SZ)");
     EXPECT_THAT(problem(config_), AllOf(HasSubstr("certificate.pem: is not valid yet"), HasSubstr("clock")));
 }
 

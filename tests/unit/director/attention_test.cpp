@@ -53,6 +53,29 @@ TEST_F(AttentionTest, AnItemCountsLessThanAKillAndARoundNothing) {
     EXPECT_EQ(choose(0), 2U);
 }
 
+TEST_F(AttentionTest, DamageCountsByItsHitPoints) {
+    const auto hurt = [&](std::uint32_t actor, float hit_points) {
+        attention_.record({.epoch = 1, .kind = 5, .actor = actor, .value = hit_points},
+                          rules_.automatic_half_life_s);
+    };
+    hurt(3, 0.0F);
+    EXPECT_EQ(choose(0), 3U) << "hit points that are not known count";
+    target_ = {};
+    hurt(2, 51.0F);
+    EXPECT_EQ(choose(0), 2U);
+    target_ = {};
+    hurt(3, 49.0F);
+    hurt(2, -1e30F);
+    EXPECT_EQ(choose(0), 2U) << "what makes no sense counts as not known";
+    target_ = {};
+    target_ = {};
+    hurt(1, 3e38F);
+    EXPECT_EQ(choose(0), 2U) << "a hundred hit points are the most that count";
+    kill(1, 0);
+    target_ = {};
+    EXPECT_EQ(choose(0), 1U);
+}
+
 TEST_F(AttentionTest, KeepsATargetForTheHold) {
     EXPECT_EQ(choose(0), 1U);
     kill(2, 0);

@@ -53,7 +53,7 @@ TEST(DelayedMatch, NothingIsPublishedOrViewedEarly) {
             EXPECT_EQ(own.epoch, 1U);
             EXPECT_EQ(view.matches.at(0).state, "filling the delay");
             EXPECT_EQ(view.matches.at(0).map_name, "");
-            EXPECT_EQ(view.matches.at(0).players, 0U);
+            EXPECT_EQ(view.matches.at(0).players.size(), 0U);
             EXPECT_EQ(view.matches.at(0).delay_s, 0.3);
         }
         return !frames.empty() && frames.back().pose_number == 3;
@@ -61,7 +61,7 @@ TEST(DelayedMatch, NothingIsPublishedOrViewedEarly) {
     EXPECT_TRUE(eventually(shown));
     EXPECT_EQ(stage.publisher.status("a").state, RequestState::accepted);
     EXPECT_EQ(stage.publisher.status("b").state, RequestState::waiting_for_player);
-    EXPECT_EQ(stage.director.view(std::chrono::seconds(30)).matches.at(0).players, 3U);
+    EXPECT_EQ(stage.director.view(std::chrono::seconds(30)).matches.at(0).players.size(), 3U);
     stage.ask(Stage::request("late"));
     EXPECT_EQ(stage.publisher.status("late").state, RequestState::accepted) << "at once";
 }

@@ -360,7 +360,7 @@ TEST(Director, AViewShowsTheRunningMatches) {
     EXPECT_EQ(match.match_id, "m");
     EXPECT_EQ(match.state, "running");
     EXPECT_EQ(match.map_name, "square");
-    EXPECT_EQ(match.players, 3U);
+    EXPECT_EQ(match.players.size(), 3U);
     EXPECT_EQ(match.last_pose_number, 5U);
     ASSERT_EQ(match.shots.size(), 1U);
     EXPECT_EQ(match.shots[0].target, 2U);

@@ -239,6 +239,41 @@ TEST(MatchLife, AnotherMapFileIsReportedOrRefused) {
     EXPECT_EQ(stage.publisher.status("a").state, RequestState::accepted);
 }
 
+TEST(MatchLife, AnotherLengthOfAUnitIsReportedOnce) {
+    Stage stage;
+    const auto mismatches = [&] { return stage.director.statistics()[Counter::scale_mismatches]; };
+    MatchInfo info = Stage::info();
+    stage.start(info);
+    info.metres_per_unit = 0.0F;
+    stage.start(info);
+    EXPECT_EQ(mismatches(), 0U) << "the same, and an unknown one";
+    info.metres_per_unit = 1.0F;
+    stage.start(info);
+    stage.start(info);
+    EXPECT_EQ(mismatches(), 1U);
+    stage.ask(Stage::request("a"));
+    EXPECT_EQ(stage.publisher.status("a").state, RequestState::accepted);
+}
+
+TEST(MatchLife, TheViewHasThePlayersAndTheLastEventOfTheEpoch) {
+    Stage stage;
+    const auto view = [&] { return stage.director.view(std::chrono::seconds(30)).matches.at(0); };
+    MatchInfo info = Stage::info();
+    info.players[0] = {1, "anarki", "scout", 2};
+    stage.start(info);
+    EXPECT_EQ(view().players, info.players);
+    EXPECT_FALSE(view().last_event);
+    stage.director.receive(
+        "m", MatchEvent{.epoch = 1, .kind = 5, .actor = 1, .subject = 2, .value = 80.0F, .detail = "rail"});
+    stage.director.flush();
+    ASSERT_TRUE(view().last_event);
+    EXPECT_EQ(view().last_event->actor, 1U);
+    EXPECT_EQ(view().last_event->value, 80.0F);
+    EXPECT_EQ(view().last_event->detail, "rail");
+    stage.start(Stage::info("m", 2));
+    EXPECT_FALSE(view().last_event);
+}
+
 TEST(MatchLife, NothingIsPublishedAfterTheDrain) {
     Stage stage;
     stage.start();

@@ -15,8 +15,12 @@ TEST(Status, ShowsMapsMatchesShotsAndObservers) {
     match.answered = true;
     match.state = "running";
     match.delay_s = 90.0;
+    match.players = {{2, "anarki", "scout", 1}, {4, "doom", "", 2}};
+    match.last_event =
+        director::MatchEvent{.kind = 1, .actor = 4, .subject = 2, .value = 1.0F, .detail = "rail"};
     match.shots.push_back({5, 2, false, "default", 3, 2});
     match.shots.push_back({6, director::no_player, true, "default", 1, 0});
+    match.shots.push_back({7, 9, false, "default", 1, 0});
     match.observers.push_back(
         {"anna", director::RequestState::waiting_for_player, 0, "player 9 is not in the match"});
     director::MatchView busy;
@@ -31,7 +35,16 @@ TEST(Status, ShowsMapsMatchesShotsAndObservers) {
     EXPECT_EQ(page["maps"][0]["reason"], "damaged");
     EXPECT_EQ(page["matches"][0]["match_id"], "cup \"7\"");
     EXPECT_EQ(page["matches"][0]["delay_s"], 90.0);
-    EXPECT_EQ(page["matches"][0]["shots"][0]["target"], 2);
+    const json anarki = {{"id", 2}, {"name", "anarki"}, {"class", "scout"}, {"team", 1}};
+    EXPECT_EQ(page["matches"][0]["players"][0], anarki);
+    EXPECT_EQ(page["matches"][0]["players"][1]["team"], 2);
+    EXPECT_EQ(page["matches"][0]["last_event"]["kind"], "kill");
+    EXPECT_EQ(page["matches"][0]["last_event"]["actor"]["name"], "doom");
+    EXPECT_EQ(page["matches"][0]["last_event"]["subject"], anarki);
+    EXPECT_EQ(page["matches"][0]["last_event"]["value"], 1.0);
+    EXPECT_EQ(page["matches"][0]["last_event"]["detail"], "rail");
+    EXPECT_EQ(page["matches"][0]["shots"][0]["target"], anarki);
+    EXPECT_EQ(page["matches"][0]["shots"][2]["target"], json({{"id", 9}})) << "not listed";
     EXPECT_TRUE(page["matches"][0]["shots"][1]["target"].is_null());
     EXPECT_EQ(page["matches"][0]["observers"][0]["state"], "waiting for player");
     EXPECT_EQ(page["matches"][1]["state"], "no answer");
