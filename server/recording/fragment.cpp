@@ -1,0 +1,321 @@
+#include "recording/fragment.hpp"
+
+#include <cmath>
+
+namespace camdir::recording {
+namespace {
+
+template <std::size_t N>
+using Floats = std::array<std::uint32_t, N>;
+
+template <std::size_t N>
+void put(ByteSink& sink, const Floats<N>& now, Floats<N>& before) {
+    for (std::size_t i = 0; i < N; ++i)
+        sink.difference(static_cast<std::int32_t>(now[i] - before[i]));
+    before = now;
+}
+
+template <std::size_t N>
+bool get(ByteSource& source, Floats<N>& values) {
+    bool finite = true;
+    for (std::uint32_t& value : values) {
+        value += static_cast<std::uint32_t>(source.difference());
+        finite = finite && std::isfinite(std::bit_cast<float>(value));
+    }
+    return finite;
+}
+
+std::uint32_t bits(float value) {
+    return std::bit_cast<std::uint32_t>(value);
+}
+float real(std::uint64_t value) {
+    return std::bit_cast<float>(static_cast<std::uint32_t>(value));
+}
+
+template <std::size_t N>
+Vec3f vector_at(const Floats<N>& values, std::size_t i) {
+    return {real(values[i]), real(values[i + 1]), real(values[i + 2])};
+}
+template <std::size_t N>
+Quatf quaternion_at(const Floats<N>& values, std::size_t i) {
+    return {real(values[i + 3]), real(values[i]), real(values[i + 1]), real(values[i + 2])};
+}
+bool is_unit(const Quatf& q) {
+    return std::abs(q.norm() - 1.0F) <= 1e-3F;
+}
+
+Floats<10> floats_of(const director::PlayerPose& pose) {
+    const Quatf& q = pose.orientation;
+    return {bits(pose.eye.x()),
+            bits(pose.eye.y()),
+            bits(pose.eye.z()),
+            bits(q.x()),
+            bits(q.y()),
+            bits(q.z()),
+            bits(q.w()),
+            bits(pose.velocity.x()),
+            bits(pose.velocity.y()),
+            bits(pose.velocity.z())};
+}
+Floats<9> floats_of(const director::ShotCamera& camera) {
+    const Quatf& q = camera.orientation;
+    return {bits(camera.position.x()),
+            bits(camera.position.y()),
+            bits(camera.position.z()),
+            bits(q.x()),
+            bits(q.y()),
+            bits(q.z()),
+            bits(q.w()),
+            bits(camera.vertical_fov),
+            bits(camera.clearance)};
+}
+
+void put_info(ByteSink& sink, const director::MatchInfo& info) {
+    sink.text(info.match_id);
+    sink.varint(info.epoch);
+    sink.text(info.map_name);
+    sink.fixed(info.map_hash, 8);
+    for (const float value : {info.metres_per_unit, info.rate_hz, info.spectator_delay_s})
+        sink.fixed(bits(value), 4);
+    sink.varint(info.players.size());
+    for (const director::Player& player : info.players) {
+        sink.varint(player.id);
+        sink.text(player.name);
+        sink.text(player.player_class);
+        sink.fixed(player.team, 1);
+    }
+}
+
+bool get_info(ByteSource& source, director::MatchInfo& info) {
+    info.match_id = source.text();
+    info.epoch = source.varint();
+    info.map_name = source.text();
+    info.map_hash = source.fixed(8);
+    for (float* value : {&info.metres_per_unit, &info.rate_hz, &info.spectator_delay_s})
+        *value = real(source.fixed(4));
+    info.players.resize(source.count(4));
+    for (director::Player& player : info.players) {
+        player.id = static_cast<std::uint32_t>(source.varint());
+        player.name = source.text();
+        player.player_class = source.text();
+        player.team = static_cast<std::uint8_t>(source.fixed(1));
+    }
+    return info.players.size() <= director::max_players && std::isfinite(info.metres_per_unit) &&
+           std::isfinite(info.rate_hz) && std::isfinite(info.spectator_delay_s);
+}
+
+enum class RecordKind : std::uint64_t { info = 1, poses, event, request, withdrawal, cameras };
+
+void put_event(ByteSink& sink, const director::MatchEvent& event) {
+    sink.varint(event.epoch);
+    sink.difference(event.frame_time);
+    for (const std::uint32_t value : {event.kind, event.actor, event.subject})
+        sink.varint(value);
+    sink.fixed(bits(event.value), 4);
+    sink.text(event.detail);
+}
+
+void put_request(ByteSink& sink, const director::ObserverRequest& request) {
+    sink.text(request.match_id);
+    sink.text(request.observer_id);
+    sink.varint(request.target);
+    sink.varint(request.group.size());
+    for (const std::uint32_t id : request.group)
+        sink.varint(id);
+    sink.text(request.profile);
+    sink.text(request.overrides);
+}
+
+// Decodes the records of one resource, which start from no poses and no cameras.
+class RecordDecoder {
+  public:
+    // Nothing: the kind is unknown. Leaves the source not ok where a field is cut off.
+    std::optional<Message> message(std::uint64_t kind, ByteSource& source, bool& valid) {
+        switch (static_cast<RecordKind>(kind)) {
+            case RecordKind::info: {
+                director::MatchInfo info;
+                valid = get_info(source, info);
+                return info;
+            }
+            case RecordKind::poses:
+                return poses(source, valid);
+            case RecordKind::event:
+                return event(source, valid);
+            case RecordKind::request:
+                return request(source);
+            case RecordKind::withdrawal:
+                return Withdrawal{source.text()};
+            case RecordKind::cameras:
+                return cameras(source, valid);
+        }
+        return std::nullopt;
+    }
+
+  private:
+    director::PoseFrame poses(ByteSource& source, bool& valid) {
+        director::PoseFrame frame;
+        frame.epoch = source.varint();
+        frame.frame_number = static_cast<std::uint32_t>(source.varint());
+        frame.frame_time = source.difference();
+        frame.source_time = source.difference();
+        frame.poses.resize(source.count(13));
+        valid = frame.poses.size() <= 2 * director::max_players;
+        for (director::PlayerPose& pose : frame.poses) {
+            pose.player_id = static_cast<std::uint32_t>(source.varint());
+            pose.flags = static_cast<std::uint32_t>(source.varint());
+            if (source.fixed(1) != 0) pose.discontinuities = static_cast<std::uint32_t>(source.varint());
+            Floats<10>& values = poses_[pose.player_id];
+            valid = get(source, values) && valid;
+            pose.eye = vector_at(values, 0);
+            pose.orientation = quaternion_at(values, 3);
+            pose.velocity = vector_at(values, 7);
+            valid = valid && is_unit(pose.orientation);
+        }
+        return frame;
+    }
+
+    director::CameraFrame cameras(ByteSource& source, bool& valid) {
+        director::CameraFrame frame;
+        frame.epoch = source.varint();
+        frame.frame_number = static_cast<std::uint32_t>(source.varint());
+        frame.pose_number = static_cast<std::uint32_t>(source.varint());
+        frame.frame_time = source.difference();
+        frame.source_time = source.difference();
+        frame.cameras.resize(source.count(12));
+        valid = frame.cameras.size() <= director::max_cameras;
+        for (director::ShotCamera& camera : frame.cameras) {
+            camera.camera_id = static_cast<std::uint32_t>(source.varint());
+            camera.target = static_cast<std::uint32_t>(source.varint());
+            camera.flags = static_cast<std::uint32_t>(source.varint());
+            Floats<9>& values = cameras_[camera.camera_id];
+            valid = get(source, values) && valid;
+            camera.position = vector_at(values, 0);
+            camera.orientation = quaternion_at(values, 3);
+            camera.vertical_fov = real(values[7]);
+            camera.clearance = real(values[8]);
+            valid = valid && is_unit(camera.orientation);
+        }
+        return frame;
+    }
+
+    static director::MatchEvent event(ByteSource& source, bool& valid) {
+        director::MatchEvent event;
+        event.epoch = source.varint();
+        event.frame_time = source.difference();
+        for (std::uint32_t* value : {&event.kind, &event.actor, &event.subject})
+            *value = static_cast<std::uint32_t>(source.varint());
+        event.value = real(source.fixed(4));
+        event.detail = source.text();
+        valid = std::isfinite(event.value);
+        return event;
+    }
+
+    static director::ObserverRequest request(ByteSource& source) {
+        director::ObserverRequest request;
+        request.match_id = source.text();
+        request.observer_id = source.text();
+        request.target = static_cast<std::uint32_t>(source.varint());
+        request.group.resize(source.count(1));
+        for (std::uint32_t& id : request.group)
+            id = static_cast<std::uint32_t>(source.varint());
+        request.profile = source.text();
+        request.overrides = source.text();
+        return request;
+    }
+
+    std::map<std::uint32_t, Floats<10>> poses_;
+    std::map<std::uint32_t, Floats<9>> cameras_;
+};
+
+}  // namespace
+
+Bytes encode_start(const Start& start) {
+    ByteSink sink;
+    sink.text(start.director_version);
+    sink.difference(start.fragment_duration);
+    put_info(sink, start.match);
+    return encode(Resource{ResourceKind::start, 0, 0, std::move(sink.bytes)});
+}
+
+Result<Start> decode_start(std::span<const std::byte> bytes, const std::string& name) {
+    auto resource = decode_resource(bytes, name);
+    if (!resource) return tl::unexpected(resource.error());
+    if (resource->kind != ResourceKind::start) return fail(name + ": byte 6: expected kind 1 (start)");
+    ByteSource source(resource->content);
+    Start start;
+    start.director_version = source.text();
+    start.fragment_duration = source.difference();
+    const bool valid = get_info(source, start.match);
+    if (!source.ok() || !valid || start.fragment_duration <= 0)
+        return fail(name + ": byte " + std::to_string(source.offset()) +
+                    " of the inflated content: expected version, duration and match");
+    return start;
+}
+
+void RecordEncoder::add(std::int64_t time, const Message& message) {
+    ByteSink body;
+    body.difference(time - time_);
+    time_ = time;
+    if (const auto* info = std::get_if<director::MatchInfo>(&message)) put_info(body, *info);
+    if (const auto* event = std::get_if<director::MatchEvent>(&message)) put_event(body, *event);
+    if (const auto* request = std::get_if<director::ObserverRequest>(&message)) put_request(body, *request);
+    if (const auto* gone = std::get_if<Withdrawal>(&message)) body.text(gone->observer_id);
+    if (const auto* frame = std::get_if<director::PoseFrame>(&message)) {
+        body.varint(frame->epoch);
+        body.varint(frame->frame_number);
+        body.difference(frame->frame_time);
+        body.difference(frame->source_time);
+        body.varint(frame->poses.size());
+        for (const director::PlayerPose& pose : frame->poses) {
+            body.varint(pose.player_id);
+            body.varint(pose.flags);
+            body.fixed(pose.discontinuities ? 1 : 0, 1);
+            if (pose.discontinuities) body.varint(*pose.discontinuities);
+            put(body, floats_of(pose), poses_[pose.player_id]);
+        }
+    }
+    if (const auto* frame = std::get_if<director::CameraFrame>(&message)) {
+        body.varint(frame->epoch);
+        body.varint(frame->frame_number);
+        body.varint(frame->pose_number);
+        body.difference(frame->frame_time);
+        body.difference(frame->source_time);
+        body.varint(frame->cameras.size());
+        for (const director::ShotCamera& camera : frame->cameras) {
+            body.varint(camera.camera_id);
+            body.varint(camera.target);
+            body.varint(camera.flags);
+            put(body, floats_of(camera), cameras_[camera.camera_id]);
+        }
+    }
+    sink_.varint(message.index() + 1);  // RecordKind has the variant's order
+    sink_.varint(body.bytes.size());
+    sink_.append(body.bytes);
+}
+
+Result<std::vector<Record>> decode_records(const Resource& resource, const std::string& name) {
+    ByteSource source(resource.content);
+    RecordDecoder decoder;
+    std::vector<Record> records;
+    std::int64_t time = resource.begin_time;
+    while (source.left() > 0) {
+        const std::string where =
+            name + ": byte " + std::to_string(source.offset()) + " of the inflated content: ";
+        const std::uint64_t kind = source.varint();
+        ByteSource body(source.take(source.varint()));
+        if (!source.ok()) return fail(where + "expected a record's kind, length and body");
+        const auto step = static_cast<std::uint64_t>(body.difference());
+        // Unsigned, since damaged bytes may hold any step.
+        const auto next = static_cast<std::int64_t>(static_cast<std::uint64_t>(time) + step);
+        bool valid = true;
+        auto message = decoder.message(kind, body, valid);
+        if (!body.ok() || !valid || next < time)
+            return fail(where + "expected a whole record of kind " + std::to_string(kind) +
+                        " with finite numbers, unit quaternions and a time not before the last one");
+        time = next;
+        if (message) records.push_back({time, std::move(*message)});
+    }
+    return records;
+}
+
+}  // namespace camdir::recording

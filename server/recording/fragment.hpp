@@ -1,0 +1,40 @@
+// The content of `start`, `full` and `delta`.
+#pragma once
+
+#include <array>
+
+#include "recording/bytes.hpp"
+#include "recording/records.hpp"
+#include "recording/resource.hpp"
+
+namespace camdir::recording {
+
+// What a reader needs once. The players are those of the beginning; MatchInfo records follow their changes.
+struct Start {
+    director::MatchInfo match;
+    std::string director_version;
+    std::int64_t fragment_duration = 3'000'000'000;  // ns: a fragment ends with the first record after it
+};
+
+[[nodiscard]] Bytes encode_start(const Start& start);
+[[nodiscard]] Result<Start> decode_start(std::span<const std::byte> bytes, const std::string& name);
+
+// Encodes records one after another. Floats keep every bit: the differences are those of the bit patterns.
+class RecordEncoder {
+  public:
+    explicit RecordEncoder(std::int64_t begin_time) : time_(begin_time) {}
+    void add(std::int64_t time, const Message& message);
+    [[nodiscard]] const Bytes& content() const { return sink_.bytes; }
+
+  private:
+    std::int64_t time_;
+    std::map<std::uint32_t, std::array<std::uint32_t, 10>> poses_;
+    std::map<std::uint32_t, std::array<std::uint32_t, 9>> cameras_;
+    ByteSink sink_;
+};
+
+// Unknown kinds of records are skipped, and so is what a newer minor version appends to a record. Floats
+// are finite and quaternions of length 1 within 1e-3, or it is an error.
+[[nodiscard]] Result<std::vector<Record>> decode_records(const Resource& resource, const std::string& name);
+
+}  // namespace camdir::recording

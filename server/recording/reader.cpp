@@ -1,0 +1,81 @@
+#include "recording/reader.hpp"
+
+namespace camdir::recording {
+
+Result<Reader> Reader::open(const std::filesystem::path& folder) {
+    const auto start_bytes = read_file(folder / "start");
+    if (!start_bytes) return tl::unexpected(start_bytes.error());
+    auto start = decode_start(*start_bytes, (folder / "start").string());
+    if (!start) return tl::unexpected(start.error());
+    const auto sync_bytes = read_file(folder / "sync");
+    if (!sync_bytes) return tl::unexpected(sync_bytes.error());
+    const auto sync = decode_sync(*sync_bytes, (folder / "sync").string());
+    if (!sync) return tl::unexpected(sync.error());
+    return Reader(folder, std::move(*start), *sync);
+}
+
+Result<State> Reader::full(std::uint32_t fragment) const {
+    const auto all = records(fragment, ResourceKind::full);
+    if (!all) return tl::unexpected(all.error());
+    State state;
+    for (const Record& record : *all)
+        state.apply(record.message);
+    return state;
+}
+
+Result<std::vector<Record>> Reader::delta(std::uint32_t fragment) const {
+    return records(fragment, ResourceKind::delta);
+}
+
+Result<std::uint32_t> Reader::fragment_at(std::int64_t time) const {
+    std::uint32_t found = sync_.first;
+    for (std::uint32_t after = sync_.last; found < after;) {
+        const std::uint32_t middle = after - (after - found) / 2;
+        const auto at = resource(middle, ResourceKind::full);
+        if (!at) return tl::unexpected(at.error());
+        if (at->begin_time <= time)
+            found = middle;
+        else
+            after = middle - 1;
+    }
+    return found;
+}
+
+Result<void> Reader::replay(std::int64_t time, const std::function<void(const Record&)>& visit) const {
+    const auto first = fragment_at(time);
+    if (!first) return tl::unexpected(first.error());
+    const auto before = records(*first, ResourceKind::full);
+    if (!before) return tl::unexpected(before.error());
+    for (const Record& record : *before)
+        visit(record);
+    for (std::uint64_t fragment = *first; fragment <= sync_.last; ++fragment) {
+        const auto all = delta(static_cast<std::uint32_t>(fragment));
+        if (!all) return tl::unexpected(all.error());
+        for (const Record& record : *all)
+            visit(record);
+    }
+    return {};
+}
+
+std::filesystem::path Reader::path_of(std::uint32_t fragment, ResourceKind kind) const {
+    return folder_ / std::to_string(fragment) / (kind == ResourceKind::full ? "full" : "delta");
+}
+
+Result<Resource> Reader::resource(std::uint32_t fragment, ResourceKind kind) const {
+    const std::filesystem::path path = path_of(fragment, kind);
+    const auto bytes = read_file(path);
+    if (!bytes) return tl::unexpected(bytes.error());
+    auto resource = decode_resource(*bytes, path.string());
+    if (resource && (resource->kind != kind || resource->fragment != fragment))
+        return fail(path.string() +
+                    ": byte 6: another resource's kind or fragment, expected those of its name");
+    return resource;
+}
+
+Result<std::vector<Record>> Reader::records(std::uint32_t fragment, ResourceKind kind) const {
+    auto file = resource(fragment, kind);
+    if (!file) return tl::unexpected(file.error());
+    return decode_records(*file, path_of(fragment, kind).string());
+}
+
+}  // namespace camdir::recording

@@ -1,0 +1,45 @@
+// Reads a recording from its folder.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+
+#include "recording/fragment.hpp"
+#include "recording/sync.hpp"
+
+namespace camdir::recording {
+
+// Errors name the file, the byte and what was expected. Thread-safe.
+class Reader {
+  public:
+    // Reads `start` and `sync`. A growing recording is read to what `sync` said here.
+    [[nodiscard]] static Result<Reader> open(const std::filesystem::path& folder);
+
+    [[nodiscard]] const Start& start() const { return start_; }
+    [[nodiscard]] std::uint32_t first_fragment() const { return sync_.first; }
+    [[nodiscard]] std::uint32_t last_fragment() const { return sync_.last; }
+
+    // The state at the fragment's beginning, and the records in it. The fragment: first to last.
+    [[nodiscard]] Result<State> full(std::uint32_t fragment) const;
+    [[nodiscard]] Result<std::vector<Record>> delta(std::uint32_t fragment) const;
+
+    // The last fragment that begins at or before the time, in ns; the first one where none does.
+    [[nodiscard]] Result<std::uint32_t> fragment_at(std::int64_t time) const;
+
+    // Visits the messages of `full` of the fragment at the time, then all records to the end.
+    [[nodiscard]] Result<void> replay(std::int64_t time,
+                                      const std::function<void(const Record&)>& visit) const;
+
+  private:
+    Reader(std::filesystem::path folder, Start start, Sync sync)
+        : folder_(std::move(folder)), start_(std::move(start)), sync_(sync) {}
+    [[nodiscard]] Result<Resource> resource(std::uint32_t fragment, ResourceKind kind) const;
+    [[nodiscard]] std::filesystem::path path_of(std::uint32_t fragment, ResourceKind kind) const;
+    [[nodiscard]] Result<std::vector<Record>> records(std::uint32_t fragment, ResourceKind kind) const;
+
+    std::filesystem::path folder_;
+    Start start_;
+    Sync sync_;
+};
+
+}  // namespace camdir::recording

@@ -1,0 +1,65 @@
+#include "recording/records.hpp"
+
+#include <algorithm>
+#include <set>
+
+namespace camdir::recording {
+namespace {
+
+template <class... Functions>
+struct Overloaded : Functions... {
+    using Functions::operator()...;
+};
+template <class... Functions>
+Overloaded(Functions...) -> Overloaded<Functions...>;
+
+void apply_info(State& state, const director::MatchInfo& info) {
+    if (state.info && state.info->epoch != info.epoch) {
+        state.poses.reset();
+        state.cameras.reset();
+    }
+    state.info = info;
+}
+
+void apply_poses(State& state, const director::PoseFrame& frame) {
+    std::map<std::uint32_t, director::PlayerPose> last;
+    if (state.poses && state.info) {
+        std::set<std::uint32_t> listed;
+        for (const director::Player& player : state.info->players)
+            listed.insert(player.id);
+        for (const director::PlayerPose& pose : state.poses->poses)
+            if (listed.contains(pose.player_id)) last[pose.player_id] = pose;
+    }
+    for (const director::PlayerPose& pose : frame.poses)
+        last[pose.player_id] = pose;
+    state.poses = frame;
+    state.poses->poses.clear();
+    for (const auto& [id, pose] : last)
+        state.poses->poses.push_back(pose);
+}
+
+}  // namespace
+
+void State::apply(const Message& message) {
+    std::visit(Overloaded{
+                   [&](const director::MatchInfo& info_of_match) { apply_info(*this, info_of_match); },
+                   [&](const director::PoseFrame& frame) { apply_poses(*this, frame); },
+                   [](const director::MatchEvent&) {},
+                   [&](const director::ObserverRequest& request) { requests[request.observer_id] = request; },
+                   [&](const Withdrawal& withdrawal) { requests.erase(withdrawal.observer_id); },
+                   [&](const director::CameraFrame& frame) { cameras = frame; },
+               },
+               message);
+}
+
+std::vector<Message> State::messages() const {
+    std::vector<Message> all;
+    if (info) all.emplace_back(*info);
+    if (poses) all.emplace_back(*poses);
+    for (const auto& [observer, request] : requests)
+        all.emplace_back(request);
+    if (cameras) all.emplace_back(*cameras);
+    return all;
+}
+
+}  // namespace camdir::recording

@@ -1,0 +1,116 @@
+#include "recording/writer.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+
+#include "recording/sync.hpp"
+
+namespace camdir::recording {
+namespace {
+
+constexpr std::size_t max_delta = max_content / 2;  // a record fits into the other half
+
+// The names must be on the disk before `sync` tells them.
+Result<void> sync_folder(const std::filesystem::path& folder) {
+    const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    const bool synced = descriptor >= 0 && ::fsync(descriptor) == 0;
+    const int error = errno;
+    if (descriptor >= 0) ::close(descriptor);
+    if (!synced) return fail(folder.string() + ": cannot sync: " + std::generic_category().message(error));
+    return {};
+}
+
+Result<void> make_folder(const std::filesystem::path& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) return fail(folder.string() + ": cannot create: " + error.message());
+    return {};
+}
+
+}  // namespace
+
+Result<Writer> Writer::create(const std::filesystem::path& folder, const Start& start,
+                              std::uint64_t max_bytes) {
+    std::error_code ignored;
+    if (std::filesystem::exists(folder / "start", ignored))
+        return fail(folder.string() + ": has a recording already, expected a new folder");
+    Result<void> done = make_folder(folder);
+    if (done) done = write_file(folder / "start", encode_start(start));
+    if (!done) return tl::unexpected(done.error());
+    return Writer(folder, start.fragment_duration, max_bytes);
+}
+
+Result<void> Writer::append(const Record& record) {
+    if (error_) return tl::unexpected(*error_);
+    if (pending_ && record.time < time_)
+        return fail(folder_.string() + ": a record at " + std::to_string(record.time) +
+                    " ns, expected not before " + std::to_string(time_));
+    if (pending_ &&
+        (record.time - pending_->begin_time >= duration_ || pending_->records.content().size() > max_delta))
+        if (auto done = complete_fragment(); !done) return done;
+    if (!pending_) pending_.emplace(Pending{record.time, state_, RecordEncoder(record.time)});
+    time_ = record.time;
+    pending_->records.add(record.time, record.message);
+    state_.apply(record.message);
+    return {};
+}
+
+Result<void> Writer::finish() {
+    if (error_) return tl::unexpected(*error_);
+    return pending_ ? complete_fragment() : Result<void>{};
+}
+
+Result<void> Writer::complete_fragment() {
+    auto done = write_fragment();
+    if (!done) error_ = done.error();
+    pending_.reset();
+    return done;
+}
+
+Result<void> Writer::write_fragment() {
+    RecordEncoder full(pending_->begin_time);
+    for (const Message& message : pending_->state.messages())
+        full.add(pending_->begin_time, message);
+    if (full.content().size() > max_content || pending_->records.content().size() > max_content)
+        return fail(folder_.string() + ": a fragment above " + std::to_string(max_content) + " bytes");
+    const Bytes full_bytes =
+        encode(Resource{ResourceKind::full, next_, pending_->begin_time, full.content()});
+    const Bytes delta_bytes =
+        encode(Resource{ResourceKind::delta, next_, pending_->begin_time, pending_->records.content()});
+
+    const std::filesystem::path folder = folder_ / std::to_string(next_);
+    Result<void> done = make_folder(folder);
+    if (done) done = write_file(folder / "full", full_bytes);
+    if (done) done = write_file(folder / "delta", delta_bytes);
+    if (done) done = sync_folder(folder);
+    if (done) done = sync_folder(folder_);
+    if (!done) return done;
+
+    written_.push_back({next_, full_bytes.size() + delta_bytes.size()});
+    std::uint64_t total = 0;
+    std::uint32_t first = next_;
+    for (auto it = written_.rbegin(); it != written_.rend(); ++it) {
+        total += it->bytes;
+        if (total > max_bytes_ && it != written_.rbegin()) break;
+        first = it->fragment;
+    }
+    done = write_file(folder_ / "sync", encode(Sync{first, next_}));
+    if (!done) return done;
+    remove_before(first);
+    ++next_;
+    return {};
+}
+
+void Writer::remove_before(std::uint32_t first) {
+    std::erase_if(written_, [&](const Written& old) {
+        if (old.fragment >= first) return false;
+        std::error_code error;
+        std::filesystem::remove_all(folder_ / std::to_string(old.fragment), error);
+        return !error;  // else it is tried again with the next fragment
+    });
+}
+
+}  // namespace camdir::recording

@@ -1,0 +1,216 @@
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <random>
+
+#include "recording/reader.hpp"
+#include "recording/writer.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace camdir::recording {
+namespace {
+
+using ::testing::HasSubstr;
+constexpr std::uint64_t unlimited = 1ULL << 40;
+
+Start start_of_match() {
+    Start start;
+    start.match.match_id = "m";
+    start.match.map_name = "square";
+    start.match.map_hash = 7;
+    start.match.players = {{0, "a", "soldier", 1}, {1, "b", "", 2}};
+    start.director_version = "0.1.0";
+    return start;
+}
+
+// The encoding of one record alone shows every bit of it.
+Bytes bytes_of(const std::vector<Message>& messages) {
+    RecordEncoder encoder(0);
+    for (const Message& message : messages)
+        encoder.add(0, message);
+    return encoder.content();
+}
+
+Message random_message(std::mt19937& random) {
+    const auto number = [&] { return std::uniform_real_distribution<float>(-4096.0F, 4096.0F)(random); };
+    const auto vector = [&] { return Vec3f(number(), number(), number()); };
+    const auto direction = [&] { return Quatf(number(), number(), number(), number()).normalized(); };
+    switch (random() % 6) {
+        case 0: {
+            director::MatchInfo info = start_of_match().match;
+            info.epoch = random() % 2;
+            info.players.resize(random() % 3);
+            return info;
+        }
+        case 1: {
+            director::PoseFrame frame{random() % 2, static_cast<std::uint32_t>(random()), -5, 9, {}};
+            for (std::uint32_t id = 0; id < 3; ++id)
+                if (random() % 3 != 0) frame.poses.push_back({id, vector(), direction(), vector(), 5, {}});
+            if (!frame.poses.empty()) frame.poses[0].discontinuities = static_cast<std::uint32_t>(random());
+            return frame;
+        }
+        case 2:
+            return director::MatchEvent{1, 2, 3, 0, director::no_player, number(), "rocket"};
+        case 3:
+            return director::ObserverRequest{"m", std::to_string(random() % 3), 1, {1, 2}, "default", "{}"};
+        case 4:
+            return Withdrawal{std::to_string(random() % 3)};
+        default: {
+            director::CameraFrame frame{1, static_cast<std::uint32_t>(random()), 3, 4, 5, {}};
+            frame.cameras.push_back({8, 1, vector(), direction(), 1.5F, number(), 3});
+            return frame;
+        }
+    }
+}
+
+// About 20 records in each fragment of 3 s.
+std::vector<Record> write_random(const std::filesystem::path& folder, std::size_t count,
+                                 std::uint64_t max_bytes) {
+    std::mt19937 random(17);
+    auto writer = Writer::create(folder, start_of_match(), max_bytes);
+    std::vector<Record> records;
+    std::int64_t time = 1'000'000'000'000'000'000;
+    for (std::size_t i = 0; i < count; ++i) {
+        records.push_back({time += 150'000'000, random_message(random)});
+        EXPECT_TRUE(writer->append(records.back()));
+    }
+    EXPECT_TRUE(writer->finish());
+    return records;
+}
+
+TEST(Recording, RandomRecordsComeBackBitExactly) {
+    const test::TemporaryFolder folder;
+    const auto written = write_random(folder / "r", 400, unlimited);
+    const auto reader = Reader::open(folder / "r");
+    ASSERT_TRUE(reader) << reader.error().message;
+    EXPECT_EQ(reader->start().match, start_of_match().match);
+    std::size_t i = 0;
+    ASSERT_TRUE(reader->replay(0, [&](const Record& record) {
+        ASSERT_LT(i, written.size());
+        EXPECT_EQ(record.time, written[i].time);
+        EXPECT_EQ(bytes_of({record.message}), bytes_of({written[i].message})) << i;
+        ++i;
+    }));
+    EXPECT_EQ(i, written.size());
+}
+
+TEST(Recording, FullFollowsFromTheFullAndDeltaBefore) {
+    const test::TemporaryFolder folder;
+    write_random(folder / "r", 400, unlimited);
+    const auto reader = Reader::open(folder / "r");
+    ASSERT_TRUE(reader);
+    ASSERT_GE(reader->last_fragment(), 10U);
+    for (std::uint32_t n = 0; n < reader->last_fragment(); ++n) {
+        State state = *reader->full(n);
+        const auto delta = reader->delta(n);
+        for (const Record& record : *delta)
+            state.apply(record.message);
+        EXPECT_EQ(bytes_of(state.messages()), bytes_of(reader->full(n + 1)->messages())) << n;
+    }
+}
+
+TEST(Recording, ATimeIsFoundInItsFragment) {
+    const test::TemporaryFolder folder;
+    write_random(folder / "r", 400, unlimited);
+    const auto reader = Reader::open(folder / "r");
+    for (std::uint32_t n = 0; n <= reader->last_fragment(); ++n)
+        EXPECT_EQ(*reader->fragment_at(reader->delta(n)->back().time), n);
+    EXPECT_EQ(*reader->fragment_at(0), 0U);
+}
+
+TEST(Recording, RotationRemovesTheOldestFragments) {
+    const test::TemporaryFolder folder;
+    write_random(folder / "r", 400, 8000);
+    const auto reader = Reader::open(folder / "r");
+    ASSERT_TRUE(reader);
+    EXPECT_GT(reader->first_fragment(), 0U);
+    EXPECT_FALSE(std::filesystem::exists(folder / "r" / "0"));
+    std::uint64_t bytes = 0;
+    for (std::uint32_t n = reader->first_fragment(); n <= reader->last_fragment(); ++n)
+        for (const char* name : {"full", "delta"})
+            bytes += std::filesystem::file_size(folder / "r" / std::to_string(n) / name);
+    EXPECT_LE(bytes, 8000U);
+    EXPECT_TRUE(reader->replay(0, [](const Record&) {}));
+}
+
+TEST(Recording, WhatAKilledWriterLeftIsIgnored) {
+    const test::TemporaryFolder folder;
+    write_random(folder / "r", 100, unlimited);
+    const auto before = Reader::open(folder / "r");
+    const auto next = folder / "r" / std::to_string(before->last_fragment() + 1);
+    std::filesystem::create_directory(next);
+    std::ofstream(next / "full.aB3dE6") << "half";
+    std::ofstream(next / "delta") << "half";
+    const auto reader = Reader::open(folder / "r");
+    ASSERT_TRUE(reader);
+    EXPECT_EQ(reader->last_fragment(), before->last_fragment());
+    EXPECT_TRUE(reader->replay(0, [](const Record&) {}));
+}
+
+TEST(Recording, TruncatedAndFlippedBytesAreErrors) {
+    const Bytes whole = encode_start(start_of_match());
+    ASSERT_TRUE(decode_start(whole, "start"));
+    for (std::size_t size = 0; size < whole.size(); ++size) {
+        const auto start = decode_start(std::span(whole).first(size), "start");
+        ASSERT_FALSE(start) << size;
+        EXPECT_THAT(start.error().message, HasSubstr("start: byte "));
+    }
+    for (std::size_t bit = 0; bit < whole.size() * 8; ++bit) {
+        Bytes damaged = whole;
+        damaged[bit / 8] ^= static_cast<std::byte>(1U << (bit % 8));
+        EXPECT_FALSE(decode_start(damaged, "start")) << bit;
+    }
+}
+
+TEST(Recording, FragmentsAreReadWholeOrNotAtAll) {
+    const test::TemporaryFolder folder;
+    write_random(folder / "r", 40, unlimited);
+    for (const char* name : {"full", "delta"}) {
+        const Bytes whole = *read_file(folder / "r" / "1" / name);
+        ASSERT_TRUE(decode_resource(whole, name));
+        for (std::size_t i = 0; i < whole.size(); ++i) {
+            const auto cut = decode_resource(std::span(whole).first(i), name);
+            ASSERT_FALSE(cut) << i;
+            EXPECT_THAT(cut.error().message, HasSubstr(": byte "));
+        }
+    }
+}
+
+TEST(Recording, AMajorVersionIsRefusedWithAdvice) {
+    Bytes bytes = encode_start(start_of_match());
+    bytes[4] = std::byte{2};
+    EXPECT_THAT(decode_start(bytes, "start").error().message,
+                HasSubstr("byte 4: format version 2, expected 1: read it with the release that wrote it"));
+}
+
+TEST(Recording, UnknownRecordsAndAppendedFieldsAreSkipped) {
+    ByteSink sink;
+    for (const std::uint64_t kind : {99, 5}) {
+        ByteSink body;
+        body.difference(1);
+        body.text("observer");
+        body.text("a later version's field");
+        sink.varint(kind);
+        sink.varint(body.bytes.size());
+        sink.append(body.bytes);
+    }
+    const auto records = decode_records({ResourceKind::delta, 0, 0, sink.bytes}, "delta");
+    ASSERT_TRUE(records) << records.error().message;
+    ASSERT_EQ(records->size(), 1U);
+    EXPECT_EQ(records->front().time, 2);
+    EXPECT_EQ(std::get<Withdrawal>(records->front().message).observer_id, "observer");
+}
+
+TEST(Recording, AnErrorOfTheDiskEndsTheRecording) {
+    const test::TemporaryFolder folder;
+    auto writer = Writer::create(folder / "r", start_of_match(), unlimited);
+    std::ofstream(folder / "r" / "0") << "in the way";
+    ASSERT_TRUE(writer->append({0, Withdrawal{"x"}}));
+    const auto failed = writer->append({4'000'000'000, Withdrawal{"x"}});
+    ASSERT_FALSE(failed);
+    EXPECT_THAT(failed.error().message, HasSubstr("/r/0"));
+    EXPECT_EQ(writer->append({5'000'000'000, Withdrawal{"x"}}).error().message, failed.error().message);
+}
+
+}  // namespace
+}  // namespace camdir::recording
