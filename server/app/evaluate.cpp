@@ -167,7 +167,7 @@ Result<void> evaluate(const EvaluateOptions& options) {
     const auto match = read_match(options);
     if (!match) return tl::unexpected(match.error());
     line.show("reading " + options.map, 0, 0);
-    const auto map = open_map(options);
+    const auto map = open_map(options.freespace, options.map);
     if (!map) return tl::unexpected(map.error());
     line.clear();
     warn_of_another_source(options, *map);

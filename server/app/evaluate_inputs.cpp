@@ -24,21 +24,21 @@ Result<Match> read_match(const EvaluateOptions& options) {
 }
 
 // The baked file holds the options for reading a mesh or a point cloud.
-Result<SourceMap> open_map(const EvaluateOptions& options) {
-    if (options.freespace.empty()) {
-        auto scene = scene::load(options.map);
+Result<SourceMap> open_map(const std::string& freespace, const std::string& map) {
+    if (freespace.empty()) {
+        auto scene = scene::load(map);
         if (!scene) return tl::unexpected(scene.error());
         if (scene->points.empty()) return SourceMap{std::move(*scene), {}};
-        return fail(options.map +
+        return fail(map +
                     ": is a point cloud; name the FILE.vfs too, which says how far its "
                     "surfaces may be from its points");
     }
-    auto freespace = freespace::Freespace::open(options.freespace);
-    if (!freespace) return tl::unexpected(freespace.error());
-    auto scene = maps::load_source(*freespace, options.map);
+    auto opened = freespace::Freespace::open(freespace);
+    if (!opened) return tl::unexpected(opened.error());
+    auto scene = maps::load_source(*opened, map);
     if (!scene) return tl::unexpected(scene.error());
-    const double d0 = freespace->metadata().d0;
-    return SourceMap{std::move(*scene), std::move(*freespace), d0};
+    const double d0 = opened->metadata().d0;
+    return SourceMap{std::move(*scene), std::move(*opened), d0};
 }
 
 }  // namespace camdir::app

@@ -1,4 +1,4 @@
-// What `evaluate` reads: its options, the match and the map.
+// What `evaluate` and `direct` read: its options, the match and the map.
 #pragma once
 
 #include <optional>
@@ -49,6 +49,7 @@ struct SourceMap {
     std::optional<freespace::Freespace> freespace;  // where the options name one
     double point_radius = 0.0;                      // of the obstacles in a cloud
 };
-[[nodiscard]] Result<SourceMap> open_map(const EvaluateOptions& options);
+// `freespace` may be empty; a point cloud needs one.
+[[nodiscard]] Result<SourceMap> open_map(const std::string& freespace, const std::string& map);
 
 }  // namespace camdir::app

@@ -18,6 +18,7 @@ int run_command(int argc, char** argv) {
     add_export(root, run);
     add_verify(root, run);
     add_evaluate(root, run);
+    add_direct(root, run);
     add_render(root, run);
     add_serve(root, run);
     try {

@@ -8,6 +8,7 @@
 
 #include "base/file.hpp"
 #include "evaluation/csv.hpp"
+#include "evaluation/events.hpp"
 #include "evaluation/picture.hpp"
 #include "scene/scene.hpp"
 
@@ -16,38 +17,22 @@ namespace {
 
 constexpr std::int64_t kill_span = 250'000'000;  // ns before a kill in which its victim is to be seen
 
-enum EventField { event_time, event_kind, event_killer, event_victim };
+enum KillField { kill_time, kill_kind, kill_killer, kill_victim };
 
-constexpr TextColumn event_columns[] = {
+constexpr TextColumn kill_columns[] = {
     {"t_ms", "t_ms"}, {"event", "kind"}, {"player", "actor"}, {"other", "subject"}};
-
-// Games of Quake 3's family number the world, which kills by falls and lava, as 1022.
-bool is_nobody(std::string_view field, const Trace& trace) {
-    return field.empty() || (field == "1022" && !std::ranges::binary_search(trace.players, 1022U));
-}
-
-Result<std::uint32_t> player_of(std::string_view field, const char* column, const Trace& trace) {
-    const auto number = to_number(field, {column, 0.0, 4294967294.0, true});
-    if (!number) return tl::unexpected(number.error());
-    const auto player = static_cast<std::uint32_t>(*number);
-    if (std::ranges::binary_search(trace.players, player)) return player;
-    return fail("column \"" + std::string(column) + "\" is " + std::to_string(player) +
-                ", expected a player of the trace");
-}
 
 // Nothing when the row is no kill of one player by another.
 Result<std::optional<Kill>> kill_of(std::span<const std::string_view> row, const Trace& trace) {
-    const auto milliseconds = to_number(row[event_time], {"t_ms", 0.0, 1e12});
-    if (!milliseconds) return tl::unexpected(milliseconds.error());
-    if (row[event_kind] != "kill" || is_nobody(row[event_killer], trace) ||
-        is_nobody(row[event_victim], trace))
-        return {};
-    const auto killer = player_of(row[event_killer], event_columns[event_killer].name, trace);
+    const auto time = time_in(row[kill_time]);
+    if (!time) return tl::unexpected(time.error());
+    if (row[kill_kind] != "kill") return {};
+    const auto killer = player_in(row[kill_killer], kill_columns[kill_killer].name, trace);
     if (!killer) return tl::unexpected(killer.error());
-    const auto victim = player_of(row[event_victim], event_columns[event_victim].name, trace);
+    const auto victim = player_in(row[kill_victim], kill_columns[kill_victim].name, trace);
     if (!victim) return tl::unexpected(victim.error());
-    if (*killer == *victim) return {};
-    return Kill{std::llround(*milliseconds * 1e6), *killer, *victim};
+    if (!*killer || !*victim || *killer == *victim) return {};
+    return Kill{*time, **killer, **victim};
 }
 
 // The frames from 0.25 s before the kill to the kill; none when the trace does not hold all of that time.
@@ -98,7 +83,7 @@ class KillJudge {
 Result<std::vector<Kill>> parse_kills(std::span<const std::byte> bytes, const std::string& name,
                                       const Trace& trace) {
     std::vector<Kill> kills;
-    const auto read = read_text_csv(bytes, name, event_columns, [&](auto row) -> Result<void> {
+    const auto read = read_text_csv(bytes, name, kill_columns, [&](auto row) -> Result<void> {
         const auto kill = kill_of(row, trace);
         if (!kill) return tl::unexpected(kill.error());
         if (*kill) kills.push_back(**kill);

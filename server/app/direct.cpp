@@ -1,0 +1,237 @@
+// camera-director direct: makes the programme of a recorded match and judges it beside other directors.
+#include <chrono>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "app/commands.hpp"
+#include "app/direct_match.hpp"
+#include "app/evaluate_inputs.hpp"
+#include "app/progress.hpp"
+#include "base/file.hpp"
+#include "config/config.hpp"
+#include "direction/baselines.hpp"
+#include "direction/figures.hpp"
+#include "direction/programme.hpp"
+#include "evaluation/recording.hpp"
+#include "freespace/visibility.hpp"
+#include "oracle/oracle.hpp"
+#include "service/signals.hpp"
+
+namespace camdir::app {
+namespace {
+
+struct DirectOptions {
+    std::string freespace;
+    std::string map;
+    std::string trace;
+    std::string events;
+    std::string cameras;
+    std::string json;
+    double delay = 10.0;
+};
+
+struct Inputs {
+    evaluation::Trace trace;
+    std::vector<evaluation::TraceEvent> events;
+    SourceMap map;
+};
+
+Result<Inputs> read_inputs(const DirectOptions& options, ProgressLine& line) {
+    line.show("reading " + options.trace, 0, 0);
+    auto trace = evaluation::read_trace(options.trace);
+    if (!trace) return tl::unexpected(trace.error());
+    auto events = evaluation::read_events(options.events, *trace);
+    if (!events) return tl::unexpected(events.error());
+    line.show("reading " + options.map, 0, 0);
+    auto map = open_map(options.freespace, options.map);
+    if (!map) return tl::unexpected(map.error());
+    return Inputs{std::move(*trace), std::move(*events), std::move(*map)};
+}
+
+// The rushes of a match, as the editor sees them through the freespace, and as the judge sees them.
+struct Rushes {
+    evaluation::CameraPath cameras;
+    direction::Footage edited;
+    direction::Footage judged;
+};
+
+Result<Rushes> shoot(const DirectOptions& options, const Inputs& inputs, double unit, ProgressLine& line,
+                     const std::stop_token& stop) {
+    const auto show = [&](std::uint64_t done, std::uint64_t total) { line.show("tracking", done, total); };
+    auto recording = evaluation::record(*inputs.map.freespace, camera::Profile{}, inputs.trace, inputs.trace,
+                                        options.delay, show, stop);
+    if (!recording) return tl::unexpected(recording.error());
+    line.show("looking", 0, 0);
+    const oracle::Oracle oracle(inputs.map.scene, inputs.map.point_radius);
+    const ClearLine proved = [&](const Vec3d& from, const Vec3d& to) {
+        return freespace::sight(*inputs.map.freespace, from.cast<float>(), to.cast<float>()).clear;
+    };
+    const ClearLine exact = [&](const Vec3d& from, const Vec3d& to) {
+        return oracle.segment_clear(from, to);
+    };
+    auto edited = footage_of(inputs.trace, recording->cameras, unit, proved);
+    auto judged = footage_of(inputs.trace, recording->cameras, unit, exact);
+    return Rushes{std::move(recording->cameras), std::move(edited), std::move(judged)};
+}
+
+struct Judged {
+    std::string name;
+    direction::Figures figures;
+};
+
+// The direction's own figures first, then the others', then the bound's.
+std::vector<Judged> judge(const Rushes& rushes, std::span<const direction::Event> events,
+                          std::span<const direction::Shot> shots, const direction::Rules& rules, double unit,
+                          double delay) {
+    constexpr std::uint64_t seeds = 64;
+    const auto figures = [&](std::span<const direction::Shot> programme) {
+        return direction::judge(rushes.judged, events, programme, rules.grammar, unit);
+    };
+    std::vector<direction::Figures> switches;
+    for (std::uint64_t seed = 0; seed < seeds; ++seed)
+        switches.push_back(figures(direction::random_switch(rushes.judged, seed)));
+    return {{"direction", figures(shots)},
+            {"random", direction::mean_of(switches)},
+            {"hltv", figures(direction::hltv(rushes.judged, events, unit, delay))},
+            {"quakeworld", figures(direction::quakeworld(rushes.judged, events))},
+            {"bound", figures(direction::direct_for_kills(rushes.judged, events, rules, unit))}};
+}
+
+nlohmann::ordered_json object_of(const direction::Figures& figures) {
+    nlohmann::ordered_json object;
+    for (const auto& [name, member] : direction::figure_names())
+        object[name] = figures.*member;
+    return object;
+}
+
+std::string to_json(const std::vector<Judged>& judged) {
+    nlohmann::ordered_json json = object_of(judged.front().figures);
+    json["kills_bound"] = judged.back().figures.kills_seen;
+    for (std::size_t i = 1; i < judged.size(); ++i)
+        json[judged[i].name] = object_of(judged[i].figures);
+    return json.dump(2) + "\n";
+}
+
+void print_table(const std::vector<Judged>& judged) {
+    std::fprintf(stderr, "%-18s", "");
+    for (const Judged& one : judged)
+        std::fprintf(stderr, "%12s", one.name.c_str());
+    for (const auto& [name, member] : direction::figure_names()) {
+        std::fprintf(stderr, "\n%-18s", name);
+        for (const Judged& one : judged)
+            std::fprintf(stderr, "%12.2f", one.figures.*member);
+    }
+    std::fprintf(stderr, "\n");
+}
+
+std::string reason_text(const direction::Reason& reason, const direction::Rules& rules,
+                        const evaluation::Trace& trace) {
+    const auto name = [&](direction::Index player) { return std::to_string(trace.players[player]); };
+    switch (reason.why) {
+        case direction::Reason::Why::opening:
+            return "opening";
+        case direction::Reason::Why::death:
+            return "death of " + name(reason.actor);
+        case direction::Reason::Why::hidden:
+            return "lost sight of " + name(reason.actor);
+        case direction::Reason::Why::length:
+            return "length";
+        case direction::Reason::Why::moment:
+            break;
+    }
+    std::string text = rules.moments[reason.rule].name;
+    if (reason.actor != direction::nobody) text += " " + name(reason.actor);
+    if (reason.subject != direction::nobody)
+        text += (reason.actor != direction::nobody ? "-" : " ") + name(reason.subject);
+    return text;
+}
+
+// A row for each frame: the camera on the air, whether it begins a shot or jumps, whom it follows and why.
+std::string format_programme(const Inputs& inputs, const evaluation::CameraPath& cameras,
+                             std::span<const direction::Shot> shots, const direction::Rules& rules) {
+    std::string text = "t_ms,player,x,y,z,qw,qx,qy,qz,cut,reason\n";
+    const evaluation::Trace& trace = inputs.trace;
+    std::size_t shot = 0;
+    std::optional<std::size_t> shown;
+    for (const evaluation::TraceFrame& frame : trace.frames) {
+        const direction::Beat beat =
+            direction::beat_of(static_cast<double>(frame.time - trace.frames.front().time) * 1e-9);
+        while (shot + 1 < shots.size() && beat >= shots[shot].end)
+            ++shot;
+        const std::uint32_t player = trace.players[shots[shot].rush];
+        const std::uint32_t pose = evaluation::pose_of(trace, frame, player);
+        if (pose == evaluation::absent) continue;
+        const evaluation::CameraSample& camera = cameras[pose];
+        std::array<char, 256> row{};
+        std::snprintf(row.data(), row.size(), ",%u,%.5f,%.5f,%.5f,%.9f,%.9f,%.9f,%.9f,%d,", player,
+                      camera.position.x(), camera.position.y(), camera.position.z(), camera.orientation.w(),
+                      camera.orientation.x(), camera.orientation.y(), camera.orientation.z(),
+                      camera.cut || shown != shot ? 1 : 0);
+        shown = shot;
+        text += evaluation::format_milliseconds(frame.time) + row.data() +
+                reason_text(shots[shot].reason, rules, trace) + '\n';
+    }
+    return text;
+}
+
+Result<void> direct(const DirectOptions& options) {
+    const service::Interruption interruption;
+    const std::stop_token stop = interruption.token();
+    std::optional<ExitWhenInterrupted> reading(interruption);
+    if (auto writable = check_outputs({options.cameras, options.json},
+                                      {options.freespace, options.map, options.trace, options.events});
+        !writable)
+        return writable;
+    ProgressLine line;
+    const auto inputs = read_inputs(options, line);
+    if (!inputs) return tl::unexpected(inputs.error());
+    reading.reset();
+    const double unit = scene::metres_of_nominal_unit / inputs->map.scene.metres_per_unit;
+    const auto rushes = shoot(options, *inputs, unit, line, stop);
+    if (!rushes) return tl::unexpected(rushes.error());
+    line.show("editing", 0, 0);
+    const direction::Rules rules = direction::default_rules();
+    const auto events = events_of(inputs->trace, inputs->events);
+    const auto begin = std::chrono::steady_clock::now();
+    const auto shots = direction::direct(rushes->edited, events, rules, unit, options.delay, stop);
+    if (!shots) return tl::unexpected(shots.error());
+    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
+    const auto judged = judge(*rushes, events, *shots, rules, unit, options.delay);
+    line.clear();
+    print_table(judged);
+    std::fprintf(stderr, "%.3f ms a decision\n", took.count() / static_cast<double>(rushes->edited.beats()));
+    if (!options.cameras.empty()) {
+        auto written = write_file(options.cameras, format_programme(*inputs, rushes->cameras, *shots, rules));
+        if (!written) return written;
+    }
+    return options.json.empty() ? Result<void>{} : write_file(options.json, to_json(judged));
+}
+
+}  // namespace
+
+void add_direct(CLI::App& root, Run& run) {
+    auto options = std::make_shared<DirectOptions>();
+    CLI::App* command = root.add_subcommand(
+        "direct", "Make the programme of a recorded match, one camera of all players', and judge it.");
+    command->add_option("FILE.vfs", options->freespace, "The map's baked freespace")->required();
+    command->add_option("--map", options->map, "The source map: a file, or archive.pk3:maps/name.bsp")
+        ->required();
+    command->add_option("--trace", options->trace, "The recorded match, CSV or CSV.gz")->required();
+    command->add_option("--events", options->events, "The match's events, CSV or CSV.gz")->required();
+    command->add_option("--delay", options->delay, "Seconds that the audience is behind the match; 0: live")
+        ->capture_default_str()
+        ->check(CLI::Range(0.0, 120.0));
+    command->add_option(
+        "--cameras", options->cameras,
+        "Write the camera of every frame with its player and reason, CSV; - = standard output");
+    command->add_option("--json", options->json, "Write the figures, JSON; - = standard output");
+    command->callback([options, &run] {
+        check_one_standard_output({{"--cameras", options->cameras}, {"--json", options->json}});
+        run = [options] { return exit_code_of(direct(*options)); };
+    });
+}
+
+}  // namespace camdir::app

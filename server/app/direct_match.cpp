@@ -1,0 +1,174 @@
+#include "app/direct_match.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cstdlib>
+#include <map>
+#include <optional>
+#include <string_view>
+
+#include "base/parallel.hpp"
+#include "evaluation/picture.hpp"
+
+namespace camdir::app {
+namespace {
+
+using direction::Beat;
+using direction::EventKind;
+using direction::Index;
+using direction::PlayerState;
+using direction::Take;
+using evaluation::CameraPath;
+using evaluation::Trace;
+using evaluation::TraceFrame;
+using evaluation::TracePose;
+
+Index index_of(const Trace& trace, std::uint32_t player) {
+    return static_cast<Index>(std::ranges::lower_bound(trace.players, player) - trace.players.begin());
+}
+
+double seconds_from_start(const Trace& trace, std::int64_t time) {
+    return static_cast<double>(time - trace.frames.front().time) * 1e-9;
+}
+
+// One beat, from its frames.
+class BeatReader {
+  public:
+    BeatReader(const Trace& trace, const CameraPath& cameras, double unit, const ClearLine& clear)
+        : trace_(trace), cameras_(cameras), unit_(unit), clear_(clear) {}
+
+    void read(std::span<const TraceFrame> frames, std::vector<PlayerState>& players,
+              std::vector<Take>& takes) const {
+        players.assign(trace_.players.size(), {});
+        takes.assign(trace_.players.size(), {});
+        for (const TraceFrame& frame : frames)
+            read_frame(frame, &frame == &frames.front(), players, takes);
+    }
+
+  private:
+    void read_frame(const TraceFrame& frame, bool first, std::vector<PlayerState>& players,
+                    std::vector<Take>& takes) const {
+        const auto poses = trace_.poses_of(frame);
+        if (first) read_players(poses, players);
+        std::vector<bool> present(takes.size());
+        for (std::uint32_t i = 0; i < frame.pose_count; ++i) {
+            const evaluation::CameraSample& camera = cameras_[frame.first_pose + i];
+            const Index rush = index_of(trace_, poses[i].player);
+            Take& take = takes[rush];
+            const auto shown = shown_by(camera, poses);
+            present[rush] = true;
+            take.shown = first ? shown : take.shown & shown;
+            take.cut = take.cut || camera.cut;
+            if (first) take.position = camera.position.cast<float>();
+        }
+        for (std::size_t rush = 0; rush < takes.size(); ++rush)
+            if (!present[rush]) takes[rush].shown.reset();
+    }
+
+    void read_players(std::span<const TracePose> poses, std::vector<PlayerState>& players) const {
+        for (const TracePose& pose : poses) {
+            PlayerState& state = players[index_of(trace_, pose.player)];
+            state.eye = pose.eye.cast<float>();
+            state.facing = (pose.orientation * Vec3d::UnitX()).cast<float>();
+            state.speed = static_cast<float>(pose.velocity.norm());
+            state.team = pose.team;
+            state.present = true;
+            state.alive = pose.alive;
+        }
+        for (std::size_t i = 0; i < poses.size(); ++i)
+            for (std::size_t j = i + 1; j < poses.size(); ++j) {
+                if (!clear_(poses[i].eye, poses[j].eye)) continue;
+                const Index a = index_of(trace_, poses[i].player);
+                const Index b = index_of(trace_, poses[j].player);
+                players[a].sees.set(b);
+                players[b].sees.set(a);
+            }
+    }
+
+    [[nodiscard]] direction::PlayerSet shown_by(const evaluation::CameraSample& camera,
+                                                std::span<const TracePose> poses) const {
+        direction::PlayerSet shown;
+        for (const TracePose& pose : poses)
+            if (shows(camera, pose.eye) || shows(camera, evaluation::player_box(pose, unit_).center()))
+                shown.set(index_of(trace_, pose.player));
+        return shown;
+    }
+
+    [[nodiscard]] bool shows(const evaluation::CameraSample& camera, const Vec3d& point) const {
+        return evaluation::in_picture(camera, point, 1.0) && clear_(camera.position, point);
+    }
+
+    const Trace& trace_;
+    const CameraPath& cameras_;
+    double unit_;
+    const ClearLine& clear_;
+};
+
+std::optional<EventKind> kind_of(std::string_view name) {
+    static const std::map<std::string_view, EventKind> kinds = {
+        {"kill", EventKind::kill},
+        {"flag_taken", EventKind::flag_taken},
+        {"flag_captured", EventKind::flag_captured},
+        {"objective", EventKind::objective},
+        {"damage", EventKind::damage},
+        {"award", EventKind::award},
+        {"item", EventKind::item},
+    };
+    const auto found = kinds.find(name);
+    if (found == kinds.end()) return {};
+    return found->second;
+}
+
+// What a QuakeWorld server's automatic tracking thinks of an item, in kills.
+double item_value(std::string_view item) {
+    if (item == "quad" || item == "pent" || item == "ring") return 30.0;
+    if (item == "rl" || item == "lg") return 8.0;
+    return 0.0;
+}
+
+}  // namespace
+
+direction::Footage footage_of(const Trace& trace, const CameraPath& cameras, double unit,
+                              const ClearLine& clear) {
+    assert(cameras.size() == trace.poses.size() && trace.players.size() <= direction::max_players);
+    std::vector<std::vector<TraceFrame>> beats;
+    for (const TraceFrame& frame : trace.frames) {
+        const auto beat = static_cast<std::size_t>(direction::beat_of(seconds_from_start(trace, frame.time)));
+        beats.resize(std::max(beats.size(), beat + 1));
+        beats[beat].push_back(frame);
+    }
+    std::vector<std::vector<PlayerState>> players(beats.size());
+    std::vector<std::vector<Take>> takes(beats.size());
+    const BeatReader reader(trace, cameras, unit, clear);
+    parallel_for(std::size_t{0}, beats.size(),
+                 [&](std::size_t beat) { reader.read(beats[beat], players[beat], takes[beat]); });
+    std::vector<Index> subjects(trace.players.size());
+    for (std::size_t player = 0; player < subjects.size(); ++player)
+        subjects[player] = static_cast<Index>(player);
+    direction::Footage footage(trace.players.size(), std::move(subjects));
+    std::size_t filled = 0;
+    for (std::size_t beat = 0; beat < beats.size(); ++beat) {
+        if (!beats[beat].empty()) filled = beat;
+        footage.append(players[filled], takes[filled]);
+    }
+    return footage;
+}
+
+std::vector<direction::Event> events_of(const Trace& trace,
+                                        const std::vector<evaluation::TraceEvent>& events) {
+    std::vector<direction::Event> known;
+    for (const evaluation::TraceEvent& event : events) {
+        const auto kind = kind_of(event.kind);
+        if (!kind || event.time < trace.frames.front().time) continue;
+        const auto index = [&](const std::optional<std::uint32_t>& player) {
+            return player ? index_of(trace, *player) : direction::nobody;
+        };
+        const double value =
+            *kind == EventKind::item ? item_value(event.detail) : std::atof(event.detail.c_str());
+        known.push_back(
+            {seconds_from_start(trace, event.time), *kind, index(event.actor), index(event.subject), value});
+    }
+    return known;
+}
+
+}  // namespace camdir::app

@@ -1,0 +1,29 @@
+// A recorded match as the direction sees it.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "direction/footage.hpp"
+#include "direction/rules.hpp"
+#include "evaluation/camera_path.hpp"
+#include "evaluation/events.hpp"
+
+namespace camdir::app {
+
+// The segment between two points meets no obstacle. Called from several threads.
+using ClearLine = std::function<bool(const Vec3d&, const Vec3d&)>;
+
+// Players and rushes in the order of `trace.players`: rush r is the camera of player r. A player is shown in
+// a beat when in all of its frames the eye or the centre of their box is in the picture with a clear line
+// from the camera. A beat without a frame repeats the one before. Preconditions: one camera a pose; at most
+// direction::max_players players.
+[[nodiscard]] direction::Footage footage_of(const evaluation::Trace& trace,
+                                            const evaluation::CameraPath& cameras, double unit,
+                                            const ClearLine& clear);
+
+// The events that the direction knows, times from the trace's first frame; events before it are left out.
+[[nodiscard]] std::vector<direction::Event> events_of(const evaluation::Trace& trace,
+                                                      const std::vector<evaluation::TraceEvent>& events);
+
+}  // namespace camdir::app

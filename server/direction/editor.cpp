@@ -1,0 +1,215 @@
+#include "direction/editor.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+
+#include "direction/grammar.hpp"
+#include "direction/value.hpp"
+
+namespace camdir::direction {
+namespace {
+
+// More than any plan can be worth: what breaks the grammar is chosen only where everything does.
+constexpr double never = 1e4;
+constexpr double worst = -std::numeric_limits<double>::infinity();
+
+// The best that can follow a decision.
+struct Choice {
+    double worth = worst;
+    Beat end = 0;          // of a shot
+    std::size_t rush = 0;  // of a cut
+};
+
+class Plan {
+  public:
+    Plan(const Footage& footage, std::span<const Moment> moments, const Rules& rules, double unit,
+         const OnAir& on_air, Beat now)
+        : footage_(footage),
+          moments_(moments),
+          rules_(rules),
+          on_air_(on_air),
+          now_(now),
+          horizon_(std::max(footage.beats(), now) + beat_of(rules.grammar.foresight_s)),
+          rushes_(footage.rushes()),
+          value_(footage, moments, rules, unit, on_air.last_shown, now, horizon_),
+          shots_(static_cast<std::size_t>(horizon_ - now + 1) * rushes_),
+          cuts_(shots_.size()) {
+        const Beat longest = horizon_ - now + beat_of(rules.grammar.maximum_shot_s);
+        for (Beat length = 0; length <= longest; ++length)
+            length_costs_.push_back(length_cost(rules.grammar, length));
+    }
+
+    std::vector<Shot> make() {
+        for (Beat beat = horizon_; beat >= now_; --beat) {
+            choose_ends(beat);
+            choose_cuts(beat);
+        }
+        return read_out();
+    }
+
+  private:
+    [[nodiscard]] std::size_t at(Beat beat, std::size_t rush) const {
+        return static_cast<std::size_t>(beat - now_) * rushes_ + rush;
+    }
+
+    // Of shots that begin at `begin`.
+    void choose_ends(Beat begin) {
+        for (std::size_t rush = 0; rush < rushes_; ++rush)
+            shots_[at(begin, rush)] =
+                begin == horizon_ ? Choice{0.0, horizon_, rush} : best_end(begin, begin, rush);
+    }
+
+    // When a shot ends that began at `begin` and is on the air at `from`.
+    [[nodiscard]] Choice best_end(Beat begin, Beat from, std::size_t rush) const {
+        const Grammar& grammar = rules_.grammar;
+        const Beat first = std::max(from, begin + beat_of(grammar.minimum_shot_s));
+        const Beat last = std::max(first, begin + beat_of(grammar.maximum_shot_s));
+        Choice best{stay(begin, from, rush), horizon_, rush};
+        if (horizon_ - begin > beat_of(grammar.maximum_shot_s)) best.worth -= never;
+        for (Beat end = first; end <= last && end < horizon_; ++end) {
+            const Choice& next = cuts_[at(end, rush)];
+            const double worth = value_.until(end, rush) - value_.until(from, rush) -
+                                 cost_of_length(end - begin) + credit(begin, from, end, rush) + next.worth;
+            if (worth > best.worth) best = {worth, end, rush};
+        }
+        return best;
+    }
+
+    // To the end of the plan: a shot that is not over yet cannot be too short.
+    [[nodiscard]] double stay(Beat begin, Beat from, std::size_t rush) const {
+        const Beat preferred = beat_of(rules_.grammar.preferred_shot_s);
+        return value_.until(horizon_, rush) - value_.until(from, rush) + credit(begin, from, horizon_, rush) -
+               cost_of_length(std::max(preferred, horizon_ - begin));
+    }
+
+    [[nodiscard]] double cost_of_length(Beat length) const {
+        const auto index = static_cast<std::size_t>(length);
+        return index < length_costs_.size() ? length_costs_[index] : length_cost(rules_.grammar, length);
+    }
+
+    // The moments that a shot shows as a whole, and that are not over at `from`.
+    [[nodiscard]] double credit(Beat begin, Beat from, Beat end, std::size_t rush) const {
+        double sum = 0.0;
+        for (const Credit& credit : value_.credits())
+            if (credit.begin >= begin && credit.end > from && credit.end <= end &&
+                credit.until[rush] == credit.end)
+                sum += credit.worth + static_cast<double>(credit.worth_both[rush]);
+        return sum;
+    }
+
+    // Of the shot on `rush` that ends at `beat`, which rush is next.
+    void choose_cuts(Beat beat) {
+        for (std::size_t from = 0; from < rushes_; ++from) {
+            Choice& best = cuts_[at(beat, from)];
+            best = {worst, beat, from};
+            for (std::size_t to = 0; to < rushes_; ++to) {
+                if (to == from) continue;
+                const double worth = shots_[at(beat, to)].worth - cut_cost(beat, from, to);
+                if (worth > best.worth) best = {worth, beat, to};
+            }
+        }
+    }
+
+    [[nodiscard]] double cut_cost(Beat beat, std::size_t from, std::size_t to) const {
+        double cost = rules_.grammar.cut;
+        if (beat < footage_.beats() &&
+            (jump_cut(footage_, rules_.grammar, beat, from, to) || crosses_line(footage_, beat, from, to)))
+            cost += never;
+        for (const Credit& credit : value_.credits()) {
+            if (beat <= credit.begin || beat >= credit.end) continue;
+            const bool seen = credit.until[from] >= beat && credit.from[to] <= beat;
+            if (seen)
+                cost -= credit.worth;
+            else if (credit.kill && beat <= credit.peak)
+                cost += never;
+        }
+        return cost;
+    }
+
+    [[nodiscard]] std::vector<Shot> read_out() const {
+        std::vector<Shot> shots;
+        Choice shot = first_shot();
+        Beat begin = shot.rush == current_rush() ? on_air_.shot->begin : now_;
+        Beat from = now_;
+        std::size_t before = current_rush();
+        for (;;) {
+            const Reason reason = from == now_ && shot.rush == current_rush()
+                                      ? on_air_.shot->reason
+                                      : reason_for(before, shot.rush, from, shot.end);
+            shots.push_back({shot.rush, begin, shot.end, reason});
+            if (shot.end >= horizon_) return shots;
+            before = shot.rush;
+            const std::size_t next = cuts_[at(shot.end, shot.rush)].rush;
+            from = begin = shot.end;
+            shot = shots_[at(from, next)];
+        }
+    }
+
+    [[nodiscard]] std::size_t current_rush() const { return on_air_.shot ? on_air_.shot->rush : rushes_; }
+
+    // Going on with the shot on the air, or cutting at once.
+    [[nodiscard]] Choice first_shot() const {
+        if (on_air_.shot) {
+            const Choice going_on = best_end(on_air_.shot->begin, now_, on_air_.shot->rush);
+            if (going_on.end > now_) return going_on;
+            return shots_[at(now_, cuts_[at(now_, on_air_.shot->rush)].rush)];
+        }
+        std::size_t best = 0;
+        for (std::size_t rush = 1; rush < rushes_; ++rush)
+            if (shots_[at(now_, rush)].worth > shots_[at(now_, best)].worth) best = rush;
+        return shots_[at(now_, best)];
+    }
+
+    [[nodiscard]] Reason reason_for(std::size_t before, std::size_t rush, Beat from, Beat end) const {
+        double most = 0.0;
+        Reason reason{before < rushes_ ? Reason::Why::length : Reason::Why::opening};
+        for (const Moment& moment : moments_) {
+            const double worth = worth_in(moment, rush, from, end);
+            if (worth <= most) continue;
+            most = worth;
+            reason = {Reason::Why::moment, moment.rule, moment.actor, moment.subject};
+        }
+        const Beat last = std::min(from, footage_.beats()) - 1;
+        if (before >= rushes_ || last < 0 || most >= 1.0) return reason;
+        const Index subject = footage_.subject(before);
+        if (!footage_.player(last, subject).alive) return {Reason::Why::death, 0, subject, nobody};
+        if (!footage_.take(last, before).shown[subject]) return {Reason::Why::hidden, 0, subject, nobody};
+        return reason;
+    }
+
+    [[nodiscard]] double worth_in(const Moment& moment, std::size_t rush, Beat from, Beat end) const {
+        const Rule& rule = rules_.moments[moment.rule];
+        const Beat first = std::max(from - 1, moment.begin);
+        const Beat last = std::min({end, moment.end, footage_.beats()});
+        if (rule.whole && (moment.begin < from || moment.end > end)) return 0.0;
+        double worth = 0.0;
+        for (Beat beat = first; beat < last; ++beat)
+            worth += shows(footage_.take(beat, rush), moment) ? rule.worth * beat_s : 0.0;
+        return rule.whole && last > first
+                   ? rule.worth * worth / (rule.worth * beat_s * static_cast<double>(last - first))
+                   : worth;
+    }
+
+    const Footage& footage_;
+    std::span<const Moment> moments_;
+    const Rules& rules_;
+    const OnAir& on_air_;
+    Beat now_;
+    Beat horizon_;
+    std::size_t rushes_;
+    Value value_;
+    std::vector<Choice> shots_;         // of a shot that begins at a beat: when it ends
+    std::vector<Choice> cuts_;          // of a shot that ends at a beat: what comes next
+    std::vector<double> length_costs_;  // by length
+};
+
+}  // namespace
+
+std::vector<Shot> plan_shots(const Footage& footage, std::span<const Moment> moments, const Rules& rules,
+                             double unit, const OnAir& on_air, Beat now) {
+    assert(footage.rushes() > 0 && on_air.last_shown.size() == footage.rushes());
+    return Plan(footage, moments, rules, unit, on_air, now).make();
+}
+
+}  // namespace camdir::direction

@@ -1,0 +1,53 @@
+// The editor: which rush is on the air when, over what is known of a match.
+//
+// A semi-Markov dynamic programme: of all sequences of shots from now to the end of the plan, the one whose
+// moments are worth most, less the costs of the grammar. A pure function: the same arguments give the same
+// plan. Sources: design of continuity editing by dynamic programming over shots of any length.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "direction/moments.hpp"
+#include "direction/rules.hpp"
+
+namespace camdir::direction {
+
+// Why a shot begins.
+struct Reason {
+    enum class Why : std::uint8_t {
+        opening,  // the first shot of the match
+        moment,   // something worth seeing: rule, actor, subject
+        death,    // the player shown before died
+        hidden,   // the camera before had lost its player
+        length,   // the shot before was long enough
+    };
+    Why why = Why::opening;
+    Index rule = 0;
+    Index actor = nobody;
+    Index subject = nobody;
+};
+
+struct Shot {
+    std::size_t rush = 0;
+    Beat begin = 0;
+    Beat end = 0;  // not of it any more
+    Reason reason;
+};
+
+// What was shown so far.
+struct OnAir {
+    std::optional<Shot> shot;      // whose end is not known
+    std::vector<Beat> last_shown;  // of each rush; far in the past where it never was
+};
+
+// The shots from `now` on, the first of which goes on with the shot on the air or replaces it at once. They
+// cover the beats to the end of the plan, which is the grammar's foresight behind what is known. `moments`:
+// find_moments() of the footage. `unit`: 0.0254 m in map units. Preconditions: a rush; what was shown ended
+// no later than `now`. Thread-safe.
+[[nodiscard]] std::vector<Shot> plan_shots(const Footage& footage, std::span<const Moment> moments,
+                                           const Rules& rules, double unit, const OnAir& on_air, Beat now);
+
+}  // namespace camdir::direction

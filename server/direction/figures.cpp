@@ -1,0 +1,187 @@
+#include "direction/figures.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "direction/grammar.hpp"
+
+namespace camdir::direction {
+namespace {
+
+constexpr double before_kill_s = 1.0;
+constexpr double after_kill_s = 0.5;
+constexpr double mourning_s = 1.0;
+constexpr double fight_range = 1200.0;
+constexpr double idle_speed = 32.0;
+constexpr double too_short_s = 1.5;
+
+struct Seen {
+    bool counted = false;
+    bool one = true;
+    bool both = true;
+};
+
+class Judge {
+  public:
+    Judge(const Footage& footage, std::span<const Shot> shots, const Grammar& grammar, double unit)
+        : footage_(footage), shots_(shots), grammar_(grammar), unit_(unit) {
+        for (const Shot& shot : shots)
+            on_air_.insert(on_air_.end(), static_cast<std::size_t>(shot.end - shot.begin), shot.rush);
+    }
+
+    void judge_kills(std::span<const Event> events, Figures& figures) const {
+        const auto kills = kills_of(events);
+        std::vector<Seen> seen;
+        for (const Kill& kill : kills) {
+            seen.push_back(see(kill));
+            if (!seen.back().counted) continue;
+            figures.kills += 1.0;
+            figures.kills_seen += seen.back().one ? 1.0 : 0.0;
+            figures.kills_seen_both += seen.back().both ? 1.0 : 0.0;
+            figures.missed_by_cut += !seen.back().one && cut_before(kill) ? 1.0 : 0.0;
+        }
+        judge_chains(kills, seen, figures);
+    }
+
+    void judge_cuts(Figures& figures) const {
+        std::vector<double> lengths;
+        double cuts = 0.0;
+        for (std::size_t i = 0; i + 1 < shots_.size(); ++i) {
+            const Beat cut = shots_[i].end;
+            const std::size_t from = shots_[i].rush;
+            const std::size_t to = shots_[i + 1].rush;
+            lengths.push_back(static_cast<double>(cut - shots_[i].begin) * beat_s);
+            cuts += 1.0;
+            figures.jump_cuts += jump_cut(footage_, grammar_, cut, from, to) ? 1.0 : 0.0;
+            figures.line_crossings += crosses_line(footage_, cut, from, to) ? 1.0 : 0.0;
+            figures.shots_under_1_5 += lengths.back() < too_short_s - 1e-9 ? 1.0 : 0.0;
+        }
+        for (Beat beat = 0; beat < footage_.beats(); ++beat)
+            cuts += footage_.take(beat, rush_at(beat)).cut ? 1.0 : 0.0;
+        figures.cuts_per_minute = cuts * 60.0 / (static_cast<double>(footage_.beats()) * beat_s);
+        std::ranges::sort(lengths);
+        figures.shot_s_p10 = percentile(lengths, 0.1);
+        figures.shot_s_p50 = percentile(lengths, 0.5);
+        figures.shot_s_p90 = percentile(lengths, 0.9);
+    }
+
+    void judge_idleness(Figures& figures) const {
+        double idle = 0.0;
+        for (Beat beat = 0; beat < footage_.beats(); ++beat)
+            idle += out_of_action(beat, footage_.subject(rush_at(beat))) && somebody_fights(beat) ? 1.0 : 0.0;
+        figures.idle_share = idle / static_cast<double>(footage_.beats());
+    }
+
+  private:
+    [[nodiscard]] std::size_t rush_at(Beat beat) const { return on_air_[static_cast<std::size_t>(beat)]; }
+
+    [[nodiscard]] Seen see(const Kill& kill) const {
+        const Beat begin = beat_of(kill.time - before_kill_s);
+        const Beat end = beat_of(kill.time + after_kill_s) + 1;
+        Seen seen{begin >= 0 && end <= footage_.beats()};
+        for (Beat beat = begin; seen.counted && beat < end; ++beat) {
+            const PlayerSet& shown = footage_.take(beat, rush_at(beat)).shown;
+            seen.one = seen.one && (shown[kill.killer] || shown[kill.victim]);
+            seen.both = seen.both && shown[kill.killer] && shown[kill.victim];
+        }
+        return seen;
+    }
+
+    [[nodiscard]] bool cut_before(const Kill& kill) const {
+        return std::ranges::any_of(shots_.subspan(1), [&](const Shot& shot) {
+            return shot.begin > beat_of(kill.time - before_kill_s) && shot.begin <= beat_of(kill.time);
+        });
+    }
+
+    static void judge_chains(std::span<const Kill> kills, std::span<const Seen> seen, Figures& figures) {
+        for (std::size_t first = 0; first < kills.size(); ++first) {
+            bool counted = seen[first].counted;
+            bool all = seen[first].one;
+            std::size_t links = 1;
+            for (std::size_t i = first + 1; i < kills.size(); ++i) {
+                if (kills[i].first != first) continue;
+                ++links;
+                counted = counted && seen[i].counted;
+                all = all && seen[i].one;
+            }
+            if (links < 2 || !counted) continue;
+            figures.multi_kills += 1.0;
+            figures.multi_kills_seen += all ? 1.0 : 0.0;
+        }
+    }
+
+    [[nodiscard]] bool out_of_action(Beat beat, Index player) const {
+        const Beat earlier = beat - beat_of(mourning_s);
+        const bool dead =
+            earlier >= 0 && !footage_.player(beat, player).alive && !footage_.player(earlier, player).alive;
+        return dead || stands_idle(footage_, beat, player, idle_speed * unit_);
+    }
+
+    [[nodiscard]] bool somebody_fights(Beat beat) const {
+        for (std::size_t a = 0; a < footage_.players(); ++a)
+            for (std::size_t b = a + 1; b < footage_.players(); ++b) {
+                const PlayerState& one = footage_.player(beat, a);
+                const PlayerState& other = footage_.player(beat, b);
+                if (one.sees[b] && one.alive && other.alive && enemies(one, other) &&
+                    (one.eye - other.eye).norm() < static_cast<float>(fight_range * unit_))
+                    return true;
+            }
+        return false;
+    }
+
+    static double percentile(std::span<const double> sorted, double share) {
+        if (sorted.empty()) return 0.0;
+        return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1) + 0.5)];
+    }
+
+    const Footage& footage_;
+    std::span<const Shot> shots_;
+    const Grammar& grammar_;
+    double unit_;
+    std::vector<std::size_t> on_air_;  // the rush of each beat
+};
+
+constexpr std::array<FigureName, 14> names{{
+    {"kills", &Figures::kills},
+    {"kills_seen", &Figures::kills_seen},
+    {"kills_seen_both", &Figures::kills_seen_both},
+    {"multi_kills", &Figures::multi_kills},
+    {"multi_kills_seen", &Figures::multi_kills_seen},
+    {"cuts_per_minute", &Figures::cuts_per_minute},
+    {"shot_s_p10", &Figures::shot_s_p10},
+    {"shot_s_p50", &Figures::shot_s_p50},
+    {"shot_s_p90", &Figures::shot_s_p90},
+    {"shots_under_1_5", &Figures::shots_under_1_5},
+    {"jump_cuts", &Figures::jump_cuts},
+    {"line_crossings", &Figures::line_crossings},
+    {"idle_share", &Figures::idle_share},
+    {"missed_by_cut", &Figures::missed_by_cut},
+}};
+
+}  // namespace
+
+Figures judge(const Footage& footage, std::span<const Event> events, std::span<const Shot> shots,
+              const Grammar& grammar, double unit) {
+    Figures figures;
+    const Judge judge(footage, shots, grammar, unit);
+    judge.judge_kills(events, figures);
+    judge.judge_cuts(figures);
+    judge.judge_idleness(figures);
+    return figures;
+}
+
+Figures mean_of(std::span<const Figures> figures) {
+    Figures mean;
+    for (const auto& [name, member] : names) {
+        for (const Figures& one : figures)
+            mean.*member += one.*member;
+        mean.*member /= static_cast<double>(figures.size());
+    }
+    return mean;
+}
+
+std::span<const FigureName> figure_names() {
+    return names;
+}
+
+}  // namespace camdir::direction

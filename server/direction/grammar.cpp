@@ -1,0 +1,70 @@
+#include "direction/grammar.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace camdir::direction {
+namespace {
+
+constexpr double idle_after_s = 2.0;
+
+float side_of(const Vec3f& from, const Vec3f& to, const Vec3f& point) {
+    const Vec3f line = to - from;
+    const Vec3f offset = point - from;
+    return line.x() * offset.y() - line.y() * offset.x();
+}
+
+bool sees_an_enemy(const Footage& footage, Beat beat, std::size_t player) {
+    const PlayerState& state = footage.player(beat, player);
+    for (std::size_t other = 0; other < footage.players(); ++other)
+        if (state.sees[other] && footage.player(beat, other).alive &&
+            enemies(state, footage.player(beat, other)))
+            return true;
+    return false;
+}
+
+}  // namespace
+
+double length_cost(const Grammar& grammar, Beat length) {
+    const double ratio = static_cast<double>(length) * beat_s / grammar.preferred_shot_s;
+    const double deviation = std::log(std::max(ratio, 1e-3));
+    return grammar.length * deviation * deviation;
+}
+
+bool enemies(const PlayerState& a, const PlayerState& b) {
+    return a.team != b.team || a.team == 0;
+}
+
+bool jump_cut(const Footage& footage, const Grammar& grammar, Beat beat, std::size_t from, std::size_t to) {
+    const Take& before = footage.take(beat, from);
+    const Take& after = footage.take(beat, to);
+    const auto near = static_cast<float>(std::cos(grammar.angle_of_jump));
+    for (const Index player : {footage.subject(from), footage.subject(to)}) {
+        if (!before.shown[player] || !after.shown[player]) continue;
+        const Vec3f& eye = footage.player(beat, player).eye;
+        if ((eye - before.position).normalized().dot((eye - after.position).normalized()) > near) return true;
+    }
+    return false;
+}
+
+bool crosses_line(const Footage& footage, Beat beat, std::size_t from, std::size_t to) {
+    const Index a = footage.subject(from);
+    const Index b = footage.subject(to);
+    const PlayerState& one = footage.player(beat, a);
+    const PlayerState& other = footage.player(beat, b);
+    if (a == b || !one.sees[b] || !one.alive || !other.alive || !enemies(one, other)) return false;
+    return side_of(one.eye, other.eye, footage.take(beat, from).position) *
+               side_of(one.eye, other.eye, footage.take(beat, to).position) <
+           0.0F;
+}
+
+bool stands_idle(const Footage& footage, Beat beat, std::size_t player, double slow) {
+    if (!footage.player(beat, player).alive) return false;
+    const Beat first = std::max<Beat>(0, beat - beat_of(idle_after_s) + 1);
+    if (beat - first + 1 < beat_of(idle_after_s)) return false;
+    for (Beat b = first; b <= beat; ++b)
+        if (footage.player(b, player).speed > static_cast<float>(slow)) return false;
+    return !sees_an_enemy(footage, beat, player);
+}
+
+}  // namespace camdir::direction

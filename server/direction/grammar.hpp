@@ -1,0 +1,27 @@
+// How shots may follow each other: the conventions of continuity editing, as costs.
+#pragma once
+
+#include "direction/footage.hpp"
+#include "direction/rules.hpp"
+
+namespace camdir::direction {
+
+// A shot of so many beats that ends by a cut, in kills; 0 at the preferred length.
+[[nodiscard]] double length_cost(const Grammar& grammar, Beat length);
+
+[[nodiscard]] bool enemies(const PlayerState& a, const PlayerState& b);
+
+// A cut at `beat` between the two rushes is a jump cut: both show the subject of one of them, from directions
+// less than the grammar's angle apart. Precondition: beat < footage.beats().
+[[nodiscard]] bool jump_cut(const Footage& footage, const Grammar& grammar, Beat beat, std::size_t from,
+                            std::size_t to);
+
+// A cut at `beat` crosses the line of action: the subjects are enemies in mutual sight, and the cameras are
+// on different sides of the line through them, seen from above. Likewise.
+[[nodiscard]] bool crosses_line(const Footage& footage, Beat beat, std::size_t from, std::size_t to);
+
+// The subject is alive and stands about: slower than `slow` in every beat of the two seconds before `beat`
+// and in sight of no enemy.
+[[nodiscard]] bool stands_idle(const Footage& footage, Beat beat, std::size_t player, double slow);
+
+}  // namespace camdir::direction

@@ -1,0 +1,177 @@
+#include "direction/moments.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "direction/grammar.hpp"
+
+namespace camdir::direction {
+namespace {
+
+constexpr double chain_s = 3.0;  // between two kills of a multi-kill
+
+std::optional<Trigger> trigger_of(EventKind kind) {
+    switch (kind) {
+        case EventKind::kill:
+            return Trigger::kill;
+        case EventKind::flag_taken:
+            return Trigger::flag_taken;
+        case EventKind::flag_captured:
+            return Trigger::flag_captured;
+        case EventKind::objective:
+            return Trigger::objective;
+        case EventKind::award:
+            return Trigger::award;
+        case EventKind::item:
+            return Trigger::item;
+        case EventKind::damage:
+            break;
+    }
+    return {};
+}
+
+bool faces(const PlayerState& a, const PlayerState& b, float cosine) {
+    return a.facing.dot((b.eye - a.eye).normalized()) >= cosine;
+}
+
+class Finder {
+  public:
+    Finder(const Footage& footage, std::span<const Event> events, const Rules& rules, double unit, Beat from)
+        : footage_(footage), events_(events), rules_(rules), unit_(unit), from_(from) {}
+
+    std::vector<Moment> find() {
+        for (Index rule = 0; rule < rules_.moments.size(); ++rule)
+            find(rule);
+        std::ranges::stable_sort(moments_, {}, &Moment::begin);
+        return std::move(moments_);
+    }
+
+  private:
+    void find(Index rule) {
+        switch (rules_.moments[rule].trigger) {
+            case Trigger::sight:
+                return find_sights(rule);
+            case Trigger::exchange:
+                return find_exchanges(rule);
+            case Trigger::multi_kill:
+                return find_multi_kills(rule);
+            default:
+                return find_events(rule);
+        }
+    }
+
+    void add(Index rule, double first, double last, Index actor, Index subject) {
+        const Rule& sentence = rules_.moments[rule];
+        const Beat begin = std::max<Beat>(0, beat_of(first - sentence.before_s));
+        const Beat end = std::min(footage_.beats(), beat_of(last + sentence.after_s) + 1);
+        if (begin < end && end > from_) moments_.push_back({rule, begin, end, beat_of(last), actor, subject});
+    }
+
+    void find_events(Index rule) {
+        for (const Event& event : events_)
+            if (trigger_of(event.kind) == rules_.moments[rule].trigger)
+                add(rule, event.time, event.time, event.actor, event.subject);
+    }
+
+    void find_multi_kills(Index rule) {
+        const auto kills = kills_of(events_);
+        for (std::size_t i = 0; i < kills.size(); ++i)
+            if (kills[i].first != i)
+                add(rule, kills[kills[i].first].time, kills[i].time, kills[i].killer, kills[i].victim);
+    }
+
+    // Wounds of two players, each within the sentence's time of the one before.
+    void find_exchanges(Index rule) {
+        const double after = rules_.moments[rule].after_s;
+        struct Exchange {
+            double first;
+            double last;
+            Index a;
+            Index b;
+        };
+        std::vector<Exchange> open;
+        const auto close = [&](const Exchange& exchange) {
+            add(rule, exchange.first, exchange.last, exchange.a, exchange.b);
+        };
+        for (const Event& event : events_) {
+            if (event.kind != EventKind::damage || event.actor == nobody || event.subject == nobody) continue;
+            const auto [a, b] = std::minmax(event.actor, event.subject);
+            if (a == b) continue;
+            const auto found = std::ranges::find_if(open, [&, a = a, b = b](const Exchange& exchange) {
+                return exchange.a == a && exchange.b == b;
+            });
+            if (found == open.end()) {
+                open.push_back({event.time, event.time, a, b});
+            } else if (event.time - found->last <= after) {
+                found->last = event.time;
+            } else {
+                close(*found);
+                *found = {event.time, event.time, a, b};
+            }
+        }
+        std::ranges::for_each(open, close);
+    }
+
+    void find_sights(Index rule) {
+        for (Index a = 0; a < footage_.players(); ++a)
+            for (Index b = a + 1; b < footage_.players(); ++b)
+                find_sights(rule, a, b);
+    }
+
+    void find_sights(Index rule, Index a, Index b) {
+        Beat begin = -1;
+        for (Beat beat = from_; beat <= footage_.beats(); ++beat) {
+            const bool holds = beat < footage_.beats() && in_sight(rules_.moments[rule], beat, a, b);
+            if (holds && begin < 0) begin = beat;
+            if (holds || begin < 0) continue;
+            moments_.push_back({rule, begin, beat, begin, a, b});
+            begin = -1;
+        }
+    }
+
+    [[nodiscard]] bool in_sight(const Rule& sentence, Beat beat, Index a, Index b) const {
+        const PlayerState& one = footage_.player(beat, a);
+        if (!one.sees[b]) return false;
+        const PlayerState& other = footage_.player(beat, b);
+        if (!one.alive || !other.alive || !enemies(one, other)) return false;
+        if ((one.eye - other.eye).norm() > static_cast<float>(sentence.range * unit_)) return false;
+        const auto cosine = static_cast<float>(std::cos(sentence.facing));
+        return faces(one, other, cosine) || faces(other, one, cosine);
+    }
+
+    const Footage& footage_;
+    std::span<const Event> events_;
+    const Rules& rules_;
+    double unit_;
+    Beat from_;
+    std::vector<Moment> moments_;
+};
+
+}  // namespace
+
+std::vector<Moment> find_moments(const Footage& footage, std::span<const Event> events, const Rules& rules,
+                                 double unit, Beat from) {
+    return Finder(footage, events, rules, unit, from).find();
+}
+
+std::vector<Kill> kills_of(std::span<const Event> events) {
+    std::vector<Kill> kills;
+    std::array<std::size_t, max_players> last{};
+    std::array<bool, max_players> any{};
+    for (const Event& event : events) {
+        if (event.kind != EventKind::kill || event.actor == nobody || event.subject == nobody ||
+            event.actor == event.subject)
+            continue;
+        Kill kill{event.time, event.actor, event.subject, kills.size()};
+        if (any[event.actor] && event.time - kills[last[event.actor]].time <= chain_s)
+            kill.first = kills[last[event.actor]].first;
+        any[event.actor] = true;
+        last[event.actor] = kills.size();
+        kills.push_back(kill);
+    }
+    return kills;
+}
+
+}  // namespace camdir::direction

@@ -1,0 +1,25 @@
+// The programme of a whole match: what the editor would have shown, decision by decision.
+#pragma once
+
+#include <span>
+#include <stop_token>
+#include <vector>
+
+#include "base/error.hpp"
+#include "direction/editor.hpp"
+
+namespace camdir::direction {
+
+// Shots that follow each other without gaps from the first beat to the last, no two in a row of one rush. At
+// every beat the editor knows what happened until `delay_s` (>= 0) later, and nothing more; 0: what happened
+// before the beat. `events` ascend by time. Fails with ErrorCode::interrupted soon after `stop` is requested.
+[[nodiscard]] Result<std::vector<Shot>> direct(const Footage& footage, std::span<const Event> events,
+                                               const Rules& rules, double unit, double delay_s,
+                                               const std::stop_token& stop);
+
+// The programme that shows the most kills by the same grammar, for an editor who wants nothing else and knows
+// the whole match. Precondition: a beat.
+[[nodiscard]] std::vector<Shot> direct_for_kills(const Footage& footage, std::span<const Event> events,
+                                                 const Rules& rules, double unit);
+
+}  // namespace camdir::direction

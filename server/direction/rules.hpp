@@ -1,0 +1,86 @@
+// What is worth seeing, and how shots may follow each other.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "direction/footage.hpp"
+
+namespace camdir::direction {
+
+enum class EventKind : std::uint8_t {
+    kill,           // actor: the killer; subject: the victim
+    flag_taken,     // by the actor
+    flag_captured,  // by the actor
+    objective,      // reached by the actor
+    damage,         // by the actor to the subject
+    award,          // to the actor
+    item,           // taken by the actor
+};
+
+struct Event {
+    double time = 0.0;  // s from the first frame
+    EventKind kind = EventKind::kill;
+    Index actor = nobody;
+    Index subject = nobody;
+    double value = 0.0;  // hit points of damage
+};
+
+// What begins a moment.
+enum class Trigger : std::uint8_t {
+    sight,       // two living enemies in mutual sight, while the sentence's range and angle hold
+    exchange,    // one hurt the other; while the next wound of the two comes within the time after
+    kill,        // one killed another
+    multi_kill,  // a kill within 3 s of the same killer's last: from the first one on
+    flag_taken,
+    flag_captured,
+    objective,
+    award,
+    item,
+};
+
+// A sentence: `name`: while (or when) `trigger`, from `before_s` before to `after_s` after, for whoever is in
+// it, `worth` and `worth_both`. Worth counts in kills.
+struct Rule {
+    std::string name;
+    Trigger trigger = Trigger::kill;
+    double before_s = 0.0;
+    double after_s = 0.0;
+    // Of a whole moment, once, when it is shown from its begin to its end; else of every second of it that is
+    // shown. Shown is whoever of its players is.
+    double worth = 0.0;
+    double worth_both = 0.0;  // more, while both are shown
+    bool whole = false;
+    double range = 1e9;           // sight: no farther apart, units of 0.0254 m
+    double facing = 3.141592654;  // sight: one of them looks this near to the other, radians
+};
+
+// How shots follow each other. Seconds, and costs in kills.
+struct Grammar {
+    double minimum_shot_s = 2.0;  // never shorter
+    double preferred_shot_s = 5.5;
+    double maximum_shot_s = 14.0;
+    double length = 0.5;     // of a shot e times as long, or as short, as preferred
+    double cut = 0.15;       // of every cut
+    double hidden = 1.2;     // a second in which the rush does not show its own player
+    double dead = 3.0;       // a second on a dead player after `beat_after_death_s`
+    double idle = 1.2;       // a second on a player who stands about
+    double inner_cut = 2.0;  // of a rush's own cut within a shot
+    double beat_after_death_s = 0.7;
+    double fresh = 0.02;           // a second, for each minute since its player was last shown; at most two
+    double angle_of_jump = 0.524;  // radians: two cameras see a player from nearer directions: a jump cut
+    // What is not known yet is worth what is there now, halved every so many seconds.
+    double half_life_s = 1.2;
+    double foresight_s = 4.0;  // no plan goes further than this beyond what is known
+};
+
+struct Rules {
+    std::vector<Rule> moments;
+    Grammar grammar;
+};
+
+// For duels, free for all, team matches and capture the flag.
+[[nodiscard]] Rules default_rules();
+
+}  // namespace camdir::direction

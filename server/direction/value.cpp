@@ -1,0 +1,124 @@
+#include "direction/value.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "direction/grammar.hpp"
+
+namespace camdir::direction {
+namespace {
+
+constexpr double idle_speed = 32.0;  // units of 0.0254 m a second
+constexpr double beats_a_minute = 60.0 / beat_s;
+
+}  // namespace
+
+bool shows(const Take& take, const Moment& moment) {
+    return (moment.actor != nobody && take.shown[moment.actor]) ||
+           (moment.subject != nobody && take.shown[moment.subject]);
+}
+
+bool shows_both(const Take& take, const Moment& moment) {
+    return moment.actor != nobody && moment.subject != nobody && take.shown[moment.actor] &&
+           take.shown[moment.subject];
+}
+
+Value::Value(const Footage& footage, std::span<const Moment> moments, const Rules& rules, double unit,
+             std::span<const Beat> last_shown, Beat now, Beat horizon)
+    : footage_(footage),
+      rules_(rules),
+      unit_(unit),
+      last_shown_(last_shown),
+      now_(now),
+      horizon_(horizon),
+      known_(std::min(footage.beats(), horizon)),
+      rushes_(footage.rushes()),
+      sums_(static_cast<std::size_t>(horizon - now + 1) * rushes_, 0.0) {
+    rate_beats();
+    for (std::size_t i = 0; i < moments.size(); ++i) {
+        const Rule& rule = rules_.moments[moments[i].rule];
+        if (rule.whole)
+            add_credit(i, moments[i], rule);
+        else
+            add_span(moments[i], rule);
+    }
+    fade();
+    sum_up();
+}
+
+// The last known beat is rated too where it lies before `now`: it is what fades. Its place is beat `now`.
+void Value::rate_beats() {
+    const Beat last = known_ - 1;
+    for (Beat beat = std::min(now_, last); beat < known_; ++beat)
+        for (std::size_t rush = 0; rush < rushes_ && beat >= 0; ++rush)
+            rate(std::max(beat, now_), rush) = base_rate(beat, rush);
+}
+
+double Value::base_rate(Beat beat, std::size_t rush) const {
+    const Grammar& grammar = rules_.grammar;
+    const Index subject = footage_.subject(rush);
+    const Take& take = footage_.take(beat, rush);
+    const PlayerState& state = footage_.player(beat, subject);
+    const double away = static_cast<double>(now_ - last_shown_[rush]) / beats_a_minute;
+    double worth = grammar.fresh * std::min(2.0, away);
+    if (!take.shown[subject]) worth -= grammar.hidden;
+    const Beat mourning = beat - beat_of(grammar.beat_after_death_s);
+    if (!state.alive && (mourning < 0 || !footage_.player(mourning, subject).alive)) worth -= grammar.dead;
+    if (stands_idle(footage_, beat, subject, idle_speed * unit_)) worth -= grammar.idle;
+    return worth * beat_s - (take.cut ? grammar.inner_cut : 0.0);
+}
+
+void Value::add_span(const Moment& moment, const Rule& rule) {
+    const Beat last = known_ - 1;
+    for (Beat beat = std::max(moment.begin, std::min(now_, last)); beat < std::min(moment.end, known_);
+         ++beat)
+        for (std::size_t rush = 0; rush < rushes_; ++rush) {
+            const Take& take = footage_.take(beat, rush);
+            if (shows(take, moment)) rate(std::max(beat, now_), rush) += rule.worth * beat_s;
+            if (shows_both(take, moment)) rate(std::max(beat, now_), rush) += rule.worth_both * beat_s;
+        }
+}
+
+void Value::add_credit(std::size_t index, const Moment& moment, const Rule& rule) {
+    if (moment.end <= now_) return;
+    Credit credit{index,       moment.begin, std::min(moment.end, known_),
+                  moment.peak, rule.worth,   rule.trigger == Trigger::kill,
+                  {},          {},           {}};
+    if (credit.end <= credit.begin) return;
+    for (std::size_t rush = 0; rush < rushes_; ++rush) {
+        Beat until = credit.begin;
+        while (until < credit.end && shows(footage_.take(until, rush), moment))
+            ++until;
+        Beat from = credit.end;
+        while (from > credit.begin && shows(footage_.take(from - 1, rush), moment))
+            --from;
+        bool both = rule.worth_both > 0.0 && until == credit.end;
+        for (Beat beat = credit.begin; both && beat < credit.end; ++beat)
+            both = shows_both(footage_.take(beat, rush), moment);
+        credit.until.push_back(until);
+        credit.from.push_back(from);
+        credit.worth_both.push_back(both ? static_cast<float>(rule.worth_both) : 0.0F);
+    }
+    credits_.push_back(std::move(credit));
+}
+
+void Value::fade() {
+    const Beat first = std::max(known_, now_);  // that is not known
+    const Beat source = known_ > now_ ? known_ - 1 : now_;
+    std::vector<double> last(rushes_);
+    for (std::size_t rush = 0; rush < rushes_ && source < horizon_; ++rush)
+        last[rush] = rate(source, rush);
+    for (Beat beat = first; beat < horizon_; ++beat) {
+        const double share =
+            std::exp2(-static_cast<double>(beat - first + 1) * beat_s / rules_.grammar.half_life_s);
+        for (std::size_t rush = 0; rush < rushes_; ++rush)
+            rate(beat, rush) = last[rush] * share;
+    }
+}
+
+void Value::sum_up() {
+    for (std::size_t i = rushes_; i < sums_.size(); ++i)
+        sums_[i] += sums_[i - rushes_];
+}
+
+}  // namespace camdir::direction

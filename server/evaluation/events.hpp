@@ -1,0 +1,44 @@
+// What happened in a recorded match: the rows of its table of events.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "evaluation/trace.hpp"
+
+namespace camdir::evaluation {
+
+struct TraceEvent {
+    std::int64_t time = 0;  // ns, the trace's clock
+    std::string kind;       // as the table names it: kill, damage, item, ...
+    std::optional<std::uint32_t> actor;
+    std::optional<std::uint32_t> subject;
+    std::string detail;  // a weapon, an item, hit points
+};
+
+// Reads the events of a match, CSV or CSV.gz, with the columns t_ms, event, player, other, detail, or their
+// other names t_ms, kind, actor, subject, value; rows of one time in the table's order. An empty player is
+// nobody, as is 1022, the world, where no player has this number. Errors name the file, the line, the column
+// and what was expected; a player whom the trace does not know and a time before the last row's are errors.
+// Memory: at most five times the text's size. Thread-safe.
+[[nodiscard]] Result<std::vector<TraceEvent>> read_events(const std::filesystem::path& path,
+                                                          const Trace& trace);
+
+// The same from bytes in memory; `name` stands for the path in errors.
+[[nodiscard]] Result<std::vector<TraceEvent>> parse_events(std::span<const std::byte> bytes,
+                                                           const std::string& name, const Trace& trace);
+
+// The player of the trace that a field of `column` names; nothing when it names nobody.
+[[nodiscard]] Result<std::optional<std::uint32_t>> player_in(std::string_view field, const char* column,
+                                                             const Trace& trace);
+
+// The time in a field of the column t_ms, ns.
+[[nodiscard]] Result<std::int64_t> time_in(std::string_view field);
+
+}  // namespace camdir::evaluation
