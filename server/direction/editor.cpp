@@ -113,8 +113,10 @@ class Plan {
 
     [[nodiscard]] double cut_cost(Beat beat, std::size_t from, std::size_t to) const {
         double cost = rules_.grammar.cut;
-        if (beat < footage_.beats() &&
-            (jump_cut(footage_, rules_.grammar, beat, from, to) || crosses_line(footage_, beat, from, to)))
+        // The first beat that is not known looks like the last that is: a live cut is made there.
+        const Beat seen = std::min(beat, footage_.beats() - 1);
+        if (seen >= 0 && beat - seen <= 1 &&
+            (jump_cut(footage_, rules_.grammar, seen, from, to) || crosses_line(footage_, seen, from, to)))
             cost += never;
         for (const Credit& credit : value_.credits()) {
             if (beat <= credit.begin || beat >= credit.end) continue;

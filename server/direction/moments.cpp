@@ -11,6 +11,11 @@ namespace camdir::direction {
 namespace {
 
 constexpr double chain_s = 3.0;  // between two kills of a multi-kill
+constexpr std::size_t streak_kills = 3;
+
+bool between_players(const Event& event) {
+    return event.actor != nobody && event.subject != nobody && event.actor != event.subject;
+}
 
 std::optional<Trigger> trigger_of(EventKind kind) {
     switch (kind) {
@@ -57,6 +62,10 @@ class Finder {
                 return find_exchanges(rule);
             case Trigger::multi_kill:
                 return find_multi_kills(rule);
+            case Trigger::streak:
+                return find_streaks(rule);
+            case Trigger::lead:
+                return find_lead(rule);
             default:
                 return find_events(rule);
         }
@@ -71,7 +80,8 @@ class Finder {
 
     void find_events(Index rule) {
         for (const Event& event : events_)
-            if (trigger_of(event.kind) == rules_.moments[rule].trigger)
+            if (trigger_of(event.kind) == rules_.moments[rule].trigger &&
+                (event.kind != EventKind::kill || between_players(event)))
                 add(rule, event.time, event.time, event.actor, event.subject);
     }
 
@@ -81,6 +91,42 @@ class Finder {
             if (kills[i].first != i)
                 add(rule, kills[kills[i].first].time, kills[i].time, kills[i].killer, kills[i].victim);
     }
+
+    void find_streaks(Index rule) {
+        struct Life {
+            std::size_t kills = 0;
+            double since = 0.0;  // of the kill that makes it a streak
+        };
+        std::vector<Life> lives(footage_.players());
+        for (const Event& event : events_) {
+            if (event.kind != EventKind::kill) continue;
+            if (between_players(event) && ++lives[event.actor].kills == streak_kills)
+                lives[event.actor].since = event.time;
+            if (event.subject == nobody) continue;
+            if (lives[event.subject].kills >= streak_kills)
+                add(rule, lives[event.subject].since, event.time, event.subject, nobody);
+            lives[event.subject] = {};
+        }
+        for (Index player = 0; player < lives.size(); ++player)
+            if (lives[player].kills >= streak_kills) add(rule, lives[player].since, end_s(), player, nobody);
+    }
+
+    // Whose lead began before what is known ends: earlier leads are over.
+    void find_lead(Index rule) {
+        std::vector<std::size_t> kills(footage_.players());
+        Index leader = nobody;
+        double since = 0.0;
+        for (const Event& event : events_) {
+            if (event.kind != EventKind::kill || !between_players(event)) continue;
+            ++kills[event.actor];
+            if (leader != nobody && kills[event.actor] <= kills[leader]) continue;
+            if (leader != event.actor) since = event.time;
+            leader = event.actor;
+        }
+        if (leader != nobody) add(rule, since, end_s(), leader, nobody);
+    }
+
+    [[nodiscard]] double end_s() const { return static_cast<double>(footage_.beats()) * beat_s; }
 
     // Wounds of two players, each within the sentence's time of the one before.
     void find_exchanges(Index rule) {
@@ -161,9 +207,7 @@ std::vector<Kill> kills_of(std::span<const Event> events) {
     std::array<std::size_t, max_players> last{};
     std::array<bool, max_players> any{};
     for (const Event& event : events) {
-        if (event.kind != EventKind::kill || event.actor == nobody || event.subject == nobody ||
-            event.actor == event.subject)
-            continue;
+        if (event.kind != EventKind::kill || !between_players(event)) continue;
         Kill kill{event.time, event.actor, event.subject, kills.size()};
         if (any[event.actor] && event.time - kills[last[event.actor]].time <= chain_s)
             kill.first = kills[last[event.actor]].first;

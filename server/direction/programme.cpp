@@ -6,8 +6,6 @@ namespace camdir::direction {
 namespace {
 
 constexpr Beat history = 20;  // beats whose moments may reach into a plan
-constexpr double event_span =
-    30.0;  // s before it: the longest multi-kill and exchange that an editor sees whole
 constexpr Beat never_shown = -1'000'000;
 
 // Takes what becomes known, and cuts.
@@ -22,7 +20,7 @@ class Director {
         while (known_.beats() < end_of_known)
             known_.append(all_.players_at(known_.beats()), all_.takes_at(known_.beats()));
         const auto moments =
-            find_moments(known_, known_events(now), rules_, unit_, std::max<Beat>(0, now - history));
+            find_moments(known_, known_events(), rules_, unit_, std::max<Beat>(0, now - history));
         const Shot next = plan_shots(known_, moments, rules_, unit_, on_air_, now).front();
         if (!on_air_.shot || on_air_.shot->rush != next.rush) cut_to(next, now);
         on_air_.last_shown[next.rush] = now;
@@ -40,12 +38,9 @@ class Director {
         on_air_.shot = shots_.back();
     }
 
-    [[nodiscard]] std::span<const Event> known_events(Beat now) const {
-        const double first = static_cast<double>(now) * beat_s - event_span;
+    [[nodiscard]] std::span<const Event> known_events() const {
         const double end = static_cast<double>(known_.beats()) * beat_s;
-        const auto from = std::ranges::lower_bound(events_, first, {}, &Event::time);
-        const auto to = std::ranges::lower_bound(events_, end, {}, &Event::time);
-        return {from, to};
+        return {events_.begin(), std::ranges::lower_bound(events_, end, {}, &Event::time)};
     }
 
     const Footage& all_;

@@ -8,7 +8,7 @@ Rules default_rules() {
         {.name = "sight", .trigger = Trigger::sight, .worth = 0.12, .worth_both = 0.02, .range = 1200.0},
         {.name = "aim",
          .trigger = Trigger::sight,
-         .worth = 0.2,
+         .worth = 0.4,
          .worth_both = 0.05,
          .range = 900.0,
          .facing = 0.25},
@@ -30,7 +30,7 @@ Rules default_rules() {
          .trigger = Trigger::multi_kill,
          .before_s = 1.0,
          .after_s = 0.5,
-         .worth = 4.0,
+         .worth = 10.0,
          .whole = true},
         {.name = "flag taken",
          .trigger = Trigger::flag_taken,
@@ -62,6 +62,8 @@ Rules default_rules() {
          .after_s = 0.5,
          .worth = 0.2,
          .whole = true},
+        {.name = "streak", .trigger = Trigger::streak, .worth = 0.5},
+        {.name = "lead", .trigger = Trigger::lead, .worth = 0.5},
     };
     return rules;
 }

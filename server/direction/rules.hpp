@@ -38,6 +38,8 @@ enum class Trigger : std::uint8_t {
     objective,
     award,
     item,
+    streak,  // somebody killed three since they last died: until they die
+    lead,    // somebody killed more than anybody else: until another does
 };
 
 // A sentence: `name`: while (or when) `trigger`, from `before_s` before to `after_s` after, for whoever is in
@@ -59,10 +61,10 @@ struct Rule {
 // How shots follow each other. Seconds, and costs in kills.
 struct Grammar {
     double minimum_shot_s = 2.0;  // never shorter
-    double preferred_shot_s = 5.5;
+    double preferred_shot_s = 7.0;
     double maximum_shot_s = 14.0;
-    double length = 0.5;     // of a shot e times as long, or as short, as preferred
-    double cut = 0.15;       // of every cut
+    double length = 4.5;     // of a shot e times as long, or as short, as preferred
+    double cut = 1.5;        // of every cut
     double hidden = 1.2;     // a second in which the rush does not show its own player
     double dead = 3.0;       // a second on a dead player after `beat_after_death_s`
     double idle = 1.2;       // a second on a player who stands about
@@ -71,7 +73,7 @@ struct Grammar {
     double fresh = 0.02;           // a second, for each minute since its player was last shown; at most two
     double angle_of_jump = 0.524;  // radians: two cameras see a player from nearer directions: a jump cut
     // What is not known yet is worth what is there now, halved every so many seconds.
-    double half_life_s = 1.2;
+    double half_life_s = 4.0;
     double foresight_s = 4.0;  // no plan goes further than this beyond what is known
 };
 
