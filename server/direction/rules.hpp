@@ -65,7 +65,7 @@ struct Grammar {
     double maximum_shot_s = 14.0;
     double length = 4.5;     // of a shot e times as long, or as short, as preferred
     double cut = 1.5;        // of every cut
-    double hidden = 1.2;     // a second in which the rush does not show its own player
+    double hidden = 3.0;     // a second in which the rush does not show its own player
     double dead = 3.0;       // a second on a dead player after `beat_after_death_s`
     double idle = 1.2;       // a second on a player who stands about
     double inner_cut = 2.0;  // of a rush's own cut within a shot

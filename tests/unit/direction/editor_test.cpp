@@ -1,0 +1,219 @@
+#include "direction/editor.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "direction/grammar.hpp"
+#include "small_match.hpp"
+
+namespace camdir::direction {
+namespace {
+
+using test::kill;
+using test::random_kills;
+using test::random_script;
+using test::Script;
+
+// Shots of 4 to 7 beats, 5 preferred, no plan beyond what is known. Kills span four beats: a cut may divide
+// one, two cuts may not.
+Rules small_rules() {
+    Rules rules;
+    rules.grammar.minimum_shot_s = 0.4;
+    rules.grammar.preferred_shot_s = 0.5;
+    rules.grammar.maximum_shot_s = 0.7;
+    rules.grammar.length = 0.4;
+    rules.grammar.cut = 0.1;
+    rules.grammar.fresh = 0.0;
+    rules.grammar.foresight_s = 0.0;
+    rules.moments = {
+        {.name = "sight", .trigger = Trigger::sight, .worth = 2.0, .worth_both = 0.7},
+        {.name = "kill",
+         .trigger = Trigger::kill,
+         .before_s = 0.2,
+         .after_s = 0.1,
+         .worth = 3.0,
+         .whole = true},
+    };
+    return rules;
+}
+
+OnAir nothing_yet(const Footage& footage) {
+    return {{}, std::vector<Beat>(footage.rushes(), 0)};
+}
+
+// What a programme is worth, from the definitions.
+class Worth {
+  public:
+    Worth(const Footage& footage, std::span<const Moment> moments, const Rules& rules)
+        : footage_(footage), moments_(moments), rules_(rules) {}
+
+    [[nodiscard]] double of(const std::vector<Shot>& shots) const {
+        double worth = 0.0;
+        for (std::size_t i = 0; i < shots.size(); ++i) {
+            for (Beat beat = shots[i].begin; beat < shots[i].end; ++beat)
+                worth += of_beat(beat, shots[i].rush);
+            const Beat length = shots[i].end - shots[i].begin;
+            const bool last = i + 1 == shots.size();
+            worth -= length_cost(rules_.grammar, last ? std::max<Beat>(5, length) : length);
+            if (!last) worth -= of_cut(shots[i], shots[i + 1]);
+        }
+        for (const Moment& moment : moments_)
+            if (rules_.moments[moment.rule].whole && seen(moment, shots))
+                worth += rules_.moments[moment.rule].worth;
+        return worth;
+    }
+
+  private:
+    [[nodiscard]] bool shown(const Moment& moment, Beat beat, std::size_t rush) const {
+        const PlayerSet& shown = footage_.take(beat, rush).shown;
+        return shown[moment.actor] || shown[moment.subject];
+    }
+
+    [[nodiscard]] double of_beat(Beat beat, std::size_t rush) const {
+        const Grammar& grammar = rules_.grammar;
+        const Index subject = footage_.subject(rush);
+        const Take& take = footage_.take(beat, rush);
+        double worth = take.cut ? -grammar.inner_cut : 0.0;
+        if (!take.shown[subject]) worth -= grammar.hidden * beat_s;
+        const Beat earlier = beat - beat_of(grammar.beat_after_death_s);
+        const bool long_dead = earlier < 0 || !footage_.player(earlier, subject).alive;
+        if (!footage_.player(beat, subject).alive && long_dead) worth -= grammar.dead * beat_s;
+        for (const Moment& moment : moments_) {
+            const Rule& rule = rules_.moments[moment.rule];
+            if (rule.whole || beat < moment.begin || beat >= moment.end) continue;
+            const bool actor = take.shown[moment.actor];
+            const bool other = take.shown[moment.subject];
+            worth += (actor || other ? rule.worth : 0.0) * beat_s +
+                     (actor && other ? rule.worth_both : 0.0) * beat_s;
+        }
+        return worth;
+    }
+
+    [[nodiscard]] double of_cut(const Shot& before, const Shot& after) const {
+        double cost = rules_.grammar.cut;
+        const Beat cut = before.end;
+        if (jump_cut(footage_, rules_.grammar, cut, before.rush, after.rush) ||
+            crosses_line(footage_, cut, before.rush, after.rush))
+            cost += 1e4;
+        for (const Moment& moment : moments_) {
+            if (!rules_.moments[moment.rule].whole || cut <= moment.begin || cut > moment.peak) continue;
+            if (!seen(moment, {before, after})) cost += 1e4;
+        }
+        return cost;
+    }
+
+    [[nodiscard]] bool seen(const Moment& moment, const std::vector<Shot>& shots) const {
+        for (Beat beat = moment.begin; beat < moment.end; ++beat) {
+            const auto shot = std::ranges::find_if(shots, [&](const Shot& candidate) {
+                return beat >= candidate.begin && beat < candidate.end;
+            });
+            if (shot == shots.end() || !shown(moment, beat, shot->rush)) return false;
+        }
+        return true;
+    }
+
+    const Footage& footage_;
+    std::span<const Moment> moments_;
+    const Rules& rules_;
+};
+
+// The greatest worth of all programmes from `shots` on, which end at `begin`.
+double best_of_all(const Footage& footage, const Worth& worth, std::vector<Shot>& shots, Beat begin) {
+    if (begin == footage.beats()) return worth.of(shots);
+    double best = -std::numeric_limits<double>::infinity();
+    for (std::size_t rush = 0; rush < footage.rushes(); ++rush) {
+        if (!shots.empty() && shots.back().rush == rush) continue;
+        for (Beat end = begin + 1; end <= std::min(begin + 7, footage.beats()); ++end) {
+            if (end - begin < 4 && end < footage.beats()) continue;
+            shots.push_back({rush, begin, end, {}});
+            best = std::max(best, best_of_all(footage, worth, shots, end));
+            shots.pop_back();
+        }
+    }
+    return best;
+}
+
+TEST(Editor, NoProgrammeIsWorthMore) {
+    std::mt19937 random(5);
+    for (int round = 0; round < 60; ++round) {
+        const Footage footage = random_script(3, 14, random).footage();
+        const auto events = random_kills(3, 1.4, 4, random);
+        const Rules rules = small_rules();
+        const auto moments = find_moments(footage, events, rules, test::unit, 0);
+        const Worth worth(footage, moments, rules);
+        const auto plan = plan_shots(footage, moments, rules, test::unit, nothing_yet(footage), 0);
+        std::vector<Shot> shots;
+        EXPECT_NEAR(worth.of(plan), best_of_all(footage, worth, shots, 0), 1e-6) << round;
+    }
+}
+
+TEST(Editor, APlanIsOneSequenceOfShotsWithinTheGrammar) {
+    std::mt19937 random(6);
+    for (int round = 0; round < 200; ++round) {
+        const Footage footage = random_script(5, 60, random).footage();
+        const Rules rules = small_rules();
+        const auto moments = find_moments(footage, random_kills(5, 6.0, 8, random), rules, test::unit, 0);
+        const auto plan = plan_shots(footage, moments, rules, test::unit, nothing_yet(footage), 0);
+        ASSERT_FALSE(plan.empty());
+        EXPECT_EQ(plan.front().begin, 0);
+        EXPECT_EQ(plan.back().end, 60);
+        for (std::size_t i = 0; i + 1 < plan.size(); ++i) {
+            EXPECT_EQ(plan[i].end, plan[i + 1].begin);
+            EXPECT_NE(plan[i].rush, plan[i + 1].rush);
+            EXPECT_GE(plan[i].end - plan[i].begin, 4);
+            EXPECT_LE(plan[i].end - plan[i].begin, 7);
+        }
+    }
+}
+
+TEST(Editor, CutsToAFightBeforeItBeginsWhenItIsKnown) {
+    Script script(3, 100);
+    for (std::size_t beat = 60; beat < 80; ++beat)
+        script.meet(beat, 1, 2);
+    const std::vector<Event> events = {kill(8.0, 2, 1)};
+    const Footage footage = script.footage();
+    const Rules rules = default_rules();
+    OnAir on_air = nothing_yet(footage);
+    on_air.shot = Shot{0, 0, 0, {}};
+    const auto plan = plan_shots(footage, find_moments(footage, events, rules, test::unit, 0), rules,
+                                 test::unit, on_air, 0);
+    const auto shot =
+        std::ranges::find_if(plan, [](const Shot& one) { return one.begin <= 80 && one.end > 80; });
+    ASSERT_NE(shot, plan.end());
+    EXPECT_NE(shot->rush, 0U);
+    EXPECT_LE(shot->begin, 70);
+    EXPECT_GE(shot->end, 86);
+    EXPECT_EQ(shot->reason.why, Reason::Why::moment);
+}
+
+TEST(Editor, AShotOnTheAirIsNotCutBeforeItsTime) {
+    Script script(2, 30);
+    for (std::size_t beat = 0; beat < 30; ++beat)
+        script.take(beat, 0).shown.reset();
+    const Footage footage = script.footage();
+    OnAir on_air = nothing_yet(footage);
+    on_air.shot = Shot{0, 5, 0, {}};
+    const Rules rules = default_rules();  // 2 s
+    const auto plan = plan_shots(footage, {}, rules, test::unit, on_air, 10);
+    ASSERT_GE(plan.size(), 2U);
+    EXPECT_EQ(plan[0].rush, 0U);
+    EXPECT_EQ(plan[0].begin, 5);
+    EXPECT_GE(plan[0].end, 25);
+    EXPECT_EQ(plan[1].reason.why, Reason::Why::hidden);
+}
+
+TEST(Editor, OneRushIsAProgrammeToo) {
+    const Footage footage = Script(1, 30).footage();
+    const auto plan = plan_shots(footage, {}, default_rules(), test::unit, nothing_yet(footage), 0);
+    ASSERT_EQ(plan.size(), 1U);
+    EXPECT_EQ(plan[0].reason.why, Reason::Why::opening);
+}
+
+TEST(Editor, NothingKnownIsNoError) {
+    const Footage footage(3, {0, 1, 2});
+    EXPECT_EQ(plan_shots(footage, {}, default_rules(), test::unit, nothing_yet(footage), 0).front().begin, 0);
+}
+
+}  // namespace
+}  // namespace camdir::direction

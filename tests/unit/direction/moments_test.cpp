@@ -1,0 +1,136 @@
+#include "direction/moments.hpp"
+
+#include <gtest/gtest.h>
+
+#include "small_match.hpp"
+
+namespace camdir::direction {
+namespace {
+
+using test::kill;
+using test::Script;
+
+Rules only(Rule rule) {
+    Rules rules;
+    rules.moments = {std::move(rule)};
+    return rules;
+}
+
+TEST(Moments, ASightLastsAsLongAsItHolds) {
+    Script script(2, 20);
+    for (std::size_t beat = 5; beat < 9; ++beat)
+        script.meet(beat, 0, 1);
+    script.player(7, 1).alive = false;
+    const auto found = find_moments(script.footage(), {}, only({.name = "tested", .trigger = Trigger::sight}),
+                                    test::unit, 0);
+    ASSERT_EQ(found.size(), 2U);
+    EXPECT_EQ(found[0].begin, 5);
+    EXPECT_EQ(found[0].end, 7);
+    EXPECT_EQ(found[1].begin, 8);
+    EXPECT_EQ(found[1].end, 9);
+    EXPECT_EQ(found[0].actor, 0);
+    EXPECT_EQ(found[0].subject, 1);
+}
+
+TEST(Moments, ASightEndsAtItsRangeAndWantsSomebodyToFaceTheOther) {
+    Script script(2, 3);
+    for (std::size_t beat = 0; beat < 3; ++beat)
+        script.meet(beat, 0, 1);  // 100 units apart; 0 looks along x, at 1; 1 looks away
+    script.player(1, 1).eye.x() = 101.5F;
+    script.player(2, 0).facing = -Vec3f::UnitX();
+    const auto found = find_moments(
+        script.footage(), {},
+        only({.name = "tested", .trigger = Trigger::sight, .range = 101.0, .facing = 0.2}), test::unit, 0);
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0].begin, 0);
+    EXPECT_EQ(found[0].end, 1);
+}
+
+TEST(Moments, TeammatesDoNotMeet) {
+    Script script(2, 3);
+    script.meet(1, 0, 1);
+    script.player(1, 0).team = script.player(1, 1).team = 1;
+    EXPECT_TRUE(
+        find_moments(script.footage(), {}, only({.name = "tested", .trigger = Trigger::sight}), test::unit, 0)
+            .empty());
+}
+
+TEST(Moments, AKillReachesFromBeforeToAfterAndNoFurtherThanIsKnown) {
+    const Rules rules =
+        only({.name = "tested", .trigger = Trigger::kill, .before_s = 1.0, .after_s = 0.5, .whole = true});
+    const std::vector<Event> events = {kill(0.45, 0, 1), kill(2.03, 1, 0), kill(2.9, 0, 1)};
+    const auto found = find_moments(Script(2, 30).footage(), events, rules, test::unit, 0);
+    ASSERT_EQ(found.size(), 3U);
+    EXPECT_EQ(found[0].begin, 0);
+    EXPECT_EQ(found[0].end, 10);
+    EXPECT_EQ(found[1].begin, 10);
+    EXPECT_EQ(found[1].peak, 20);
+    EXPECT_EQ(found[1].end, 26);
+    EXPECT_EQ(found[2].end, 30);
+}
+
+TEST(Moments, DeathsByOneselfOrTheWorldAreNoKills) {
+    const Rules rules = only({.name = "tested", .trigger = Trigger::kill});
+    const std::vector<Event> events = {kill(1.0, 0, 0), kill(1.0, nobody, 1), kill(1.0, 1, nobody)};
+    EXPECT_TRUE(find_moments(Script(2, 30).footage(), events, rules, test::unit, 0).empty());
+}
+
+TEST(Moments, KillsInQuickSuccessionAreAMultiKill) {
+    const std::vector<Event> events = {kill(1.0, 0, 1), kill(2.0, 1, 2), kill(3.5, 0, 2), kill(6.4, 0, 1),
+                                       kill(9.5, 0, 1)};
+    const auto kills = kills_of(events);
+    ASSERT_EQ(kills.size(), 5U);
+    EXPECT_EQ(kills[0].first, 0U);
+    EXPECT_EQ(kills[1].first, 1U);
+    EXPECT_EQ(kills[2].first, 0U);
+    EXPECT_EQ(kills[3].first, 0U);
+    EXPECT_EQ(kills[4].first, 4U);  // 3.1 s later
+    const auto found = find_moments(Script(3, 120).footage(), events,
+                                    only({.name = "tested", .trigger = Trigger::multi_kill}), test::unit, 0);
+    ASSERT_EQ(found.size(), 2U);
+    EXPECT_EQ(found[0].begin, 10);
+    EXPECT_EQ(found[0].end, 36);
+    EXPECT_EQ(found[1].begin, 10);
+    EXPECT_EQ(found[1].end, 65);
+}
+
+TEST(Moments, AnExchangeEndsWithItsLastWound) {
+    const auto wound = [](double time, Index a, Index b) {
+        return Event{time, EventKind::damage, a, b, 10.0};
+    };
+    const std::vector<Event> events = {wound(1.0, 0, 1), wound(2.0, 1, 0), wound(2.5, 0, 2),
+                                       wound(5.0, 0, 1)};
+    const auto found =
+        find_moments(Script(3, 120).footage(), events,
+                     only({.name = "tested", .trigger = Trigger::exchange, .after_s = 1.5}), test::unit, 0);
+    ASSERT_EQ(found.size(), 3U);
+    EXPECT_EQ(found[0].begin, 10);
+    EXPECT_EQ(found[0].end, 36);  // 2.0 s and 1.5 s more
+    EXPECT_EQ(found[1].begin, 25);
+    EXPECT_EQ(found[1].subject, 2);
+    EXPECT_EQ(found[2].begin, 50);
+}
+
+TEST(Moments, AStreakIsThreeKillsInOneLife) {
+    const std::vector<Event> events = {kill(1.0, 0, 1), kill(2.0, 0, 1), kill(3.0, 1, 0),     kill(4.0, 0, 1),
+                                       kill(5.0, 0, 1), kill(6.0, 0, 1), kill(9.0, nobody, 0)};
+    const auto found = find_moments(Script(2, 120).footage(), events,
+                                    only({.name = "tested", .trigger = Trigger::streak}), test::unit, 0);
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0].actor, 0);
+    EXPECT_EQ(found[0].begin, 60);
+    EXPECT_EQ(found[0].end, 91);
+}
+
+TEST(Moments, TheLeadIsWhoseKillsAreMore) {
+    const std::vector<Event> events = {kill(1.0, 0, 1), kill(2.0, 1, 0), kill(3.0, 1, 0)};
+    const auto found = find_moments(Script(2, 50).footage(), events,
+                                    only({.name = "tested", .trigger = Trigger::lead}), test::unit, 0);
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0].actor, 1);
+    EXPECT_EQ(found[0].begin, 30);
+    EXPECT_EQ(found[0].end, 50);
+}
+
+}  // namespace
+}  // namespace camdir::direction

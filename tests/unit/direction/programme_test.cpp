@@ -1,0 +1,98 @@
+#include "direction/programme.hpp"
+
+#include <gtest/gtest.h>
+
+#include "direction/figures.hpp"
+#include "small_match.hpp"
+
+namespace camdir::direction {
+namespace {
+
+using test::random_kills;
+using test::random_script;
+
+constexpr std::size_t players = 4;
+constexpr std::size_t beats = 150;
+
+std::vector<Shot> directed(const Footage& footage, std::span<const Event> events, double delay_s) {
+    return direct(footage, events, default_rules(), test::unit, delay_s, {}).value();
+}
+
+class Programme : public testing::TestWithParam<double> {};
+
+TEST_P(Programme, CoversTheMatchWithShotsThatAreLongEnough) {
+    std::mt19937 random(1);
+    for (int round = 0; round < 5; ++round) {
+        const Footage footage = random_script(players, beats, random).footage();
+        const auto shots = directed(footage, random_kills(players, 15.0, 10, random), GetParam());
+        EXPECT_EQ(shots.front().begin, 0);
+        EXPECT_EQ(shots.back().end, static_cast<Beat>(beats));
+        for (std::size_t i = 0; i + 1 < shots.size(); ++i) {
+            EXPECT_EQ(shots[i].end, shots[i + 1].begin);
+            EXPECT_NE(shots[i].rush, shots[i + 1].rush);
+            EXPECT_GE(shots[i].end - shots[i].begin, 20);
+        }
+    }
+}
+
+// Whatever happens after a moment that the audience has not seen does not change what it was shown.
+TEST_P(Programme, KnowsNoMoreThanTheDelay) {
+    std::mt19937 random(2);
+    for (int round = 0; round < 5; ++round) {
+        auto script = random_script(players, beats, random);
+        auto events = random_kills(players, 15.0, 10, random);
+        const auto shots = directed(script.footage(), events, GetParam());
+        const std::size_t changed = 90;
+        const auto other = random_script(players, beats, random);
+        const Footage foreign = other.footage();
+        for (std::size_t beat = changed; beat < beats; ++beat)
+            for (std::size_t i = 0; i < players; ++i) {
+                script.player(beat, i) = foreign.player(static_cast<Beat>(beat), i);
+                script.take(beat, i) = foreign.take(static_cast<Beat>(beat), i);
+            }
+        std::erase_if(events, [](const Event& event) { return event.time >= 9.0; });
+        const auto again = directed(script.footage(), events, GetParam());
+        const Beat last = static_cast<Beat>(changed) - beat_of(GetParam());  // that knew nothing of it
+        for (std::size_t i = 0; i < shots.size() && shots[i].begin <= last; ++i) {
+            ASSERT_LT(i, again.size());
+            EXPECT_EQ(shots[i].rush, again[i].rush);
+            EXPECT_EQ(shots[i].begin, again[i].begin);
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Delays, Programme, testing::Values(0.0, 1.0, 5.0));
+
+TEST(Programme, ForKillsSeesAtLeastWhatTheEditorSees) {
+    std::mt19937 random(3);
+    const Rules rules = default_rules();
+    for (int round = 0; round < 10; ++round) {
+        const Footage footage = random_script(players, beats, random).footage();
+        const auto events = random_kills(players, 15.0, 6, random);
+        const auto seen = [&](const std::vector<Shot>& shots) {
+            const Figures figures = judge(footage, events, shots, rules.grammar, test::unit);
+            return figures.missed_by_cut + figures.jump_cuts + figures.line_crossings > 0.0
+                       ? 0.0
+                       : figures.kills_seen;
+        };
+        EXPECT_GE(seen(direct_for_kills(footage, events, rules, test::unit)),
+                  seen(directed(footage, events, 15.0)));
+    }
+}
+
+TEST(Programme, StopsWhenAsked) {
+    std::stop_source source;
+    source.request_stop();
+    const Footage footage = test::Script(2, 10).footage();
+    const auto stopped = direct(footage, {}, default_rules(), test::unit, 1.0, source.get_token());
+    ASSERT_FALSE(stopped);
+    EXPECT_EQ(stopped.error().code, ErrorCode::interrupted);
+}
+
+TEST(Programme, NeedsPlayersAndTime) {
+    EXPECT_FALSE(direct(Footage(0, {}), {}, default_rules(), test::unit, 1.0, {}));
+    EXPECT_FALSE(direct(Footage(1, {0}), {}, default_rules(), test::unit, 1.0, {}));
+}
+
+}  // namespace
+}  // namespace camdir::direction
