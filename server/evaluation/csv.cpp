@@ -50,7 +50,7 @@ class Table {
             std::size_t place = 0;
             while (place < names.size() && names[place] != column.name && names[place] != column.alias)
                 ++place;
-            if (place == names.size())
+            if (place == names.size() && !column.optional)
                 return fail("the header lacks the column \"" + std::string(column.name) + "\"; found " +
                             quoted(line));
             places_.push_back(place);
@@ -65,14 +65,14 @@ class Table {
             return fail(std::to_string(fields.size()) + " fields, expected " + std::to_string(field_count_) +
                         " as in the header");
         for (std::size_t i = 0; i < columns_.size(); ++i)
-            values_[i] = fields[places_[i]];
+            values_[i] = places_[i] < fields.size() ? fields[places_[i]] : std::string_view();
         return sink_(values_);
     }
 
   private:
     std::span<const TextColumn> columns_;
     const TextRowSink& sink_;
-    std::vector<std::size_t> places_;  // of each of columns_ among the fields
+    std::vector<std::size_t> places_;  // of each of columns_ among the fields; behind them: missing
     std::vector<std::string_view> values_;
     std::size_t field_count_ = 0;
 };

@@ -11,8 +11,11 @@ namespace {
 
 enum EventField { event_time, event_kind, event_actor, event_subject, event_detail };
 
-constexpr TextColumn event_columns[] = {
-    {"t_ms", "t_ms"}, {"event", "kind"}, {"player", "actor"}, {"other", "subject"}, {"detail", "value"}};
+constexpr TextColumn event_columns[] = {{"t_ms", "t_ms"},
+                                        {"event", "kind"},
+                                        {"player", "actor"},
+                                        {"other", "subject"},
+                                        {"detail", "value", true}};
 
 // Games of Quake 3's family number the world, which kills by falls and lava, as 1022.
 bool is_nobody(std::string_view field, const Trace& trace) {

@@ -1,0 +1,76 @@
+// `direct` over a match of four seconds.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "hall_match.hpp"
+#include "support/child_process.hpp"
+
+namespace camdir {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+class DirectCommand : public HallMatch {
+  protected:
+    // The exit code; what it says is in `errors_`.
+    int direct(const std::vector<std::string>& options) {
+        std::vector<std::string> command = {CAMERA_DIRECTOR, "direct", vfs_,       "--map", map_,
+                                            "--trace",       trace_,   "--events", events_};
+        command.insert(command.end(), options.begin(), options.end());
+        test::ChildProcess process(command);
+        const int code = process.wait();
+        errors_ = process.errors();
+        return code;
+    }
+
+    static std::string written(const std::string& file) {
+        const Bytes bytes = read_file(file).value();
+        return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+    }
+
+    std::string errors_;
+};
+
+TEST_F(DirectCommand, WritesEveryFigureBesideOtherDirectors) {
+    const std::string file = folder_ / "figures.json";
+    ASSERT_EQ(direct({"--delay", "2", "--json", file}), 0) << errors_;
+    const json figures = json::parse(written(file));
+    const char* names[] = {
+        "kills",           "kills_seen",     "kills_seen_both", "multi_kills",  "multi_kills_seen",
+        "cuts_per_minute", "shot_s_p10",     "shot_s_p50",      "shot_s_p90",   "shots_under_1_5",
+        "jump_cuts",       "line_crossings", "idle_share",      "missed_by_cut"};
+    for (const char* name : names) {
+        EXPECT_TRUE(figures.at(name).is_number()) << name;
+        for (const char* other : {"random", "hltv", "quakeworld", "bound"})
+            EXPECT_TRUE(figures.at(other).at(name).is_number()) << other << ' ' << name;
+    }
+    EXPECT_EQ(figures.at("kills"), 1);
+    EXPECT_EQ(figures.at("kills_seen"), 1);
+    EXPECT_EQ(figures.at("kills_bound"), 1);
+}
+
+TEST_F(DirectCommand, WritesTheCameraOfEveryFrameAndRepeatsItself) {
+    const std::string file = folder_ / "programme.csv";
+    ASSERT_EQ(direct({"--delay", "0", "--cameras", file}), 0) << errors_;
+    const std::string first = written(file);
+    EXPECT_TRUE(first.starts_with("t_ms,player,x,y,z,qw,qx,qy,qz,cut,reason\n0,")) << first.substr(0, 200);
+    EXPECT_EQ(std::ranges::count(first, '\n'), 1 + 4000 / 16 + 1);
+    EXPECT_THAT(first, HasSubstr(",1,opening\n"));
+    ASSERT_EQ(direct({"--delay", "0", "--cameras", file}), 0) << errors_;
+    EXPECT_EQ(written(file), first);
+}
+
+TEST_F(DirectCommand, RefusesEventsOfAnotherMatchAndLeavesWhatWasThere) {
+    const std::string file = folder_ / "programme.csv";
+    ASSERT_TRUE(write_file(file, "old"));
+    ASSERT_TRUE(write_file(events_, "t_ms,event,player,other\n3000,kill,17,0\n"));
+    EXPECT_EQ(direct({"--cameras", file}), 1);
+    EXPECT_THAT(errors_, HasSubstr("events.csv:2: column \"player\" is 17, expected a player of the trace"));
+    EXPECT_EQ(written(file), "old");
+}
+
+}  // namespace
+}  // namespace camdir
