@@ -9,6 +9,7 @@ namespace camdir::direction {
 namespace {
 
 constexpr double idle_speed = 32.0;  // units of 0.0254 m a second
+constexpr Beat recent = 8;           // beats whose mean is what may go on
 constexpr double beats_a_minute = 60.0 / beat_s;
 
 }  // namespace
@@ -32,8 +33,9 @@ Value::Value(const Footage& footage, std::span<const Moment> moments, const Rule
       now_(now),
       horizon_(horizon),
       known_(std::min(footage.beats(), horizon)),
+      first_(std::max<Beat>(0, std::min(now, known_ - recent))),
       rushes_(footage.rushes()),
-      sums_(static_cast<std::size_t>(horizon - now + 1) * rushes_, 0.0) {
+      sums_(static_cast<std::size_t>(horizon - first_ + 1) * rushes_, 0.0) {
     rate_beats();
     for (std::size_t i = 0; i < moments.size(); ++i) {
         const Rule& rule = rules_.moments[moments[i].rule];
@@ -43,15 +45,14 @@ Value::Value(const Footage& footage, std::span<const Moment> moments, const Rule
             add_span(moments[i], rule);
     }
     fade();
+    charge_inner_cuts();
     sum_up();
 }
 
-// The last known beat is rated too where it lies before `now`: it is what fades. Its place is beat `now`.
 void Value::rate_beats() {
-    const Beat last = known_ - 1;
-    for (Beat beat = std::min(now_, last); beat < known_; ++beat)
-        for (std::size_t rush = 0; rush < rushes_ && beat >= 0; ++rush)
-            rate(std::max(beat, now_), rush) = base_rate(beat, rush);
+    for (Beat beat = first_; beat < known_; ++beat)
+        for (std::size_t rush = 0; rush < rushes_; ++rush)
+            rate(beat, rush) = base_rate(beat, rush);
 }
 
 double Value::base_rate(Beat beat, std::size_t rush) const {
@@ -65,17 +66,15 @@ double Value::base_rate(Beat beat, std::size_t rush) const {
     const Beat mourning = beat - beat_of(grammar.beat_after_death_s);
     if (!state.alive && (mourning < 0 || !footage_.player(mourning, subject).alive)) worth -= grammar.dead;
     if (stands_idle(footage_, beat, subject, idle_speed * unit_)) worth -= grammar.idle;
-    return worth * beat_s - (take.cut ? grammar.inner_cut : 0.0);
+    return worth * beat_s;
 }
 
 void Value::add_span(const Moment& moment, const Rule& rule) {
-    const Beat last = known_ - 1;
-    for (Beat beat = std::max(moment.begin, std::min(now_, last)); beat < std::min(moment.end, known_);
-         ++beat)
+    for (Beat beat = std::max(moment.begin, first_); beat < std::min(moment.end, known_); ++beat)
         for (std::size_t rush = 0; rush < rushes_; ++rush) {
             const Take& take = footage_.take(beat, rush);
-            if (shows(take, moment)) rate(std::max(beat, now_), rush) += rule.worth * beat_s;
-            if (shows_both(take, moment)) rate(std::max(beat, now_), rush) += rule.worth_both * beat_s;
+            if (shows(take, moment)) rate(beat, rush) += rule.worth * beat_s;
+            if (shows_both(take, moment)) rate(beat, rush) += rule.worth_both * beat_s;
         }
 }
 
@@ -103,17 +102,21 @@ void Value::add_credit(std::size_t index, const Moment& moment, const Rule& rule
 }
 
 void Value::fade() {
-    const Beat first = std::max(known_, now_);  // that is not known
-    const Beat source = known_ > now_ ? known_ - 1 : now_;
-    std::vector<double> last(rushes_);
-    for (std::size_t rush = 0; rush < rushes_ && source < horizon_; ++rush)
-        last[rush] = rate(source, rush);
-    for (Beat beat = first; beat < horizon_; ++beat) {
-        const double share =
-            std::exp2(-static_cast<double>(beat - first + 1) * beat_s / rules_.grammar.half_life_s);
-        for (std::size_t rush = 0; rush < rushes_; ++rush)
-            rate(beat, rush) = last[rush] * share;
+    const Beat source = std::max(first_, known_ - recent);
+    for (std::size_t rush = 0; rush < rushes_; ++rush) {
+        double mean = 0.0;
+        for (Beat beat = source; beat < known_; ++beat)
+            mean += rate(beat, rush) / static_cast<double>(known_ - source);
+        for (Beat beat = std::max(known_, first_); beat < horizon_; ++beat)
+            rate(beat, rush) = mean * std::exp2(-static_cast<double>(beat - known_ + 1) * beat_s /
+                                                rules_.grammar.half_life_s);
     }
+}
+
+void Value::charge_inner_cuts() {
+    for (Beat beat = first_; beat < known_; ++beat)
+        for (std::size_t rush = 0; rush < rushes_; ++rush)
+            if (footage_.take(beat, rush).cut) rate(beat, rush) -= rules_.grammar.inner_cut;
 }
 
 void Value::sum_up() {

@@ -26,14 +26,15 @@ struct Credit {
 // Worth in kills, of the beats now .. horizon.
 class Value {
   public:
-    // `last_shown[rush]`: the beat at which it was on the air last. What lies behind footage.beats() is what
-    // the last known beat was, fading. `unit`: 0.0254 m in map units.
+    // `last_shown[rush]`: the beat at which it was on the air last. What lies behind footage.beats() is the
+    // mean of the last known beats, fading. `unit`: 0.0254 m in map units.
     Value(const Footage& footage, std::span<const Moment> moments, const Rules& rules, double unit,
           std::span<const Beat> last_shown, Beat now, Beat horizon);
 
-    // Of the rush from `now` to before `beat`, now <= beat <= horizon, without the credits.
+    // Of the rush to before `beat`, now <= beat <= horizon, without the credits; from where does not matter
+    // to differences.
     [[nodiscard]] double until(Beat beat, std::size_t rush) const {
-        return sums_[static_cast<std::size_t>(beat - now_) * rushes_ + rush];
+        return sums_[static_cast<std::size_t>(beat - first_) * rushes_ + rush];
     }
     [[nodiscard]] std::span<const Credit> credits() const { return credits_; }
 
@@ -43,9 +44,10 @@ class Value {
     void add_span(const Moment& moment, const Rule& rule);
     void add_credit(std::size_t index, const Moment& moment, const Rule& rule);
     void fade();
+    void charge_inner_cuts();
     void sum_up();
     double& rate(Beat beat, std::size_t rush) {
-        return sums_[static_cast<std::size_t>(beat - now_ + 1) * rushes_ + rush];
+        return sums_[static_cast<std::size_t>(beat - first_ + 1) * rushes_ + rush];
     }
 
     const Footage& footage_;
@@ -55,6 +57,7 @@ class Value {
     Beat now_;
     Beat horizon_;
     Beat known_;  // the first beat that is not known
+    Beat first_;  // that is rated
     std::size_t rushes_;
     std::vector<double> sums_;
     std::vector<Credit> credits_;
