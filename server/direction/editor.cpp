@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <limits>
+#include <numeric>
 
 #include "direction/grammar.hpp"
 #include "direction/value.hpp"
@@ -21,6 +22,38 @@ struct Choice {
     std::size_t rush = 0;  // of a cut
 };
 
+// A moment that a rush shows from its begin to its end.
+struct WholeMoment {
+    Beat begin = 0;
+    Beat end = 0;
+    double worth = 0.0;
+};
+
+// What a shot has shown as a whole when it ends; ends ascend from call to call.
+class CreditSum {
+  public:
+    // Of a shot that began at `begin`; what was over at `from` counts no more. `moments` by their ends.
+    CreditSum(std::span<const WholeMoment> moments, Beat begin, Beat from)
+        : moments_(moments), begin_(begin), from_(from) {}
+
+    [[nodiscard]] double at(Beat end) {
+        for (; next_ < moments_.size() && moments_[next_].end <= end; ++next_)
+            if (moments_[next_].begin >= begin_ && moments_[next_].end > from_) sum_ += moments_[next_].worth;
+        return sum_;
+    }
+    // Until there the sum stays what it is.
+    [[nodiscard]] Beat next_end() const {
+        return next_ < moments_.size() ? moments_[next_].end : std::numeric_limits<Beat>::max();
+    }
+
+  private:
+    std::span<const WholeMoment> moments_;
+    Beat begin_;
+    Beat from_;
+    std::size_t next_ = 0;
+    double sum_ = 0.0;
+};
+
 class Plan {
   public:
     Plan(const Footage& footage, std::span<const Moment> moments, const Rules& rules, double unit,
@@ -34,7 +67,12 @@ class Plan {
           rushes_(footage.rushes()),
           value_(footage, moments, rules, unit, on_air.last_shown, now, horizon_),
           shots_(static_cast<std::size_t>(horizon_ - now + 1) * rushes_),
-          cuts_(shots_.size()) {
+          cuts_(shots_.size()),
+          after_end_(shots_.size()),
+          whole_(rushes_),
+          order_(rushes_) {
+        std::iota(order_.begin(), order_.end(), std::size_t{0});
+        collect_whole_moments();
         const Beat longest = horizon_ - now + beat_of(rules.grammar.maximum_shot_s);
         for (Beat length = 0; length <= longest; ++length)
             length_costs_.push_back(length_cost(rules.grammar, length));
@@ -49,8 +87,20 @@ class Plan {
     }
 
   private:
+    // Of each rush, by their ends.
+    void collect_whole_moments() {
+        for (const Credit& credit : value_.credits())
+            for (std::size_t rush = 0; rush < rushes_; ++rush)
+                if (credit.until[rush] == credit.end)
+                    whole_[rush].push_back({credit.begin, credit.end,
+                                            credit.worth + static_cast<double>(credit.worth_both[rush])});
+        for (auto& moments : whole_)
+            std::ranges::stable_sort(moments, {}, &WholeMoment::end);
+    }
+
+    // The beats of a rush lie side by side.
     [[nodiscard]] std::size_t at(Beat beat, std::size_t rush) const {
-        return static_cast<std::size_t>(beat - now_) * rushes_ + rush;
+        return rush * static_cast<std::size_t>(horizon_ - now_ + 1) + static_cast<std::size_t>(beat - now_);
     }
 
     // Of shots that begin at `begin`.
@@ -65,22 +115,23 @@ class Plan {
         const Grammar& grammar = rules_.grammar;
         const Beat first = std::max(from, begin + beat_of(grammar.minimum_shot_s));
         const Beat last = std::max(first, begin + beat_of(grammar.maximum_shot_s));
-        Choice best{stay(begin, from, rush), horizon_, rush};
-        if (horizon_ - begin > beat_of(grammar.maximum_shot_s)) best.worth -= never;
-        for (Beat end = first; end <= last && end < horizon_; ++end) {
-            const Choice& next = cuts_[at(end, rush)];
-            const double worth = value_.until(end, rush) - value_.until(from, rush) -
-                                 cost_of_length(end - begin) + credit(begin, from, end, rush) + next.worth;
-            if (worth > best.worth) best = {worth, end, rush};
+        const double past = value_.until(from, rush);
+        CreditSum credit(whole_[rush], begin, from);
+        Choice best;
+        for (Beat end = first; end <= last && end < horizon_;) {
+            const double earned = credit.at(end) - past;
+            const Beat stretch = std::min({last + 1, horizon_, credit.next_end()});
+            for (const double* after = &after_end_[at(end, rush)]; end < stretch; ++end, ++after) {
+                const double worth = *after - cost_of_length(end - begin) + earned;
+                if (worth > best.worth) best = {worth, end, rush};
+            }
         }
+        // To the end of the plan: a shot that is not over yet cannot be too short.
+        const Beat open_length = std::max(beat_of(grammar.preferred_shot_s), horizon_ - begin);
+        double stay = value_.until(horizon_, rush) - past - cost_of_length(open_length) + credit.at(horizon_);
+        if (horizon_ - begin > beat_of(grammar.maximum_shot_s)) stay -= never;
+        if (stay >= best.worth) best = {stay, horizon_, rush};
         return best;
-    }
-
-    // To the end of the plan: a shot that is not over yet cannot be too short.
-    [[nodiscard]] double stay(Beat begin, Beat from, std::size_t rush) const {
-        const Beat preferred = beat_of(rules_.grammar.preferred_shot_s);
-        return value_.until(horizon_, rush) - value_.until(from, rush) + credit(begin, from, horizon_, rush) -
-               cost_of_length(std::max(preferred, horizon_ - begin));
     }
 
     [[nodiscard]] double cost_of_length(Beat length) const {
@@ -88,44 +139,60 @@ class Plan {
         return index < length_costs_.size() ? length_costs_[index] : length_cost(rules_.grammar, length);
     }
 
-    // The moments that a shot shows as a whole, and that are not over at `from`.
-    [[nodiscard]] double credit(Beat begin, Beat from, Beat end, std::size_t rush) const {
-        double sum = 0.0;
-        for (const Credit& credit : value_.credits())
-            if (credit.begin >= begin && credit.end > from && credit.end <= end &&
-                credit.until[rush] == credit.end)
-                sum += credit.worth + static_cast<double>(credit.worth_both[rush]);
-        return sum;
-    }
-
-    // Of the shot on `rush` that ends at `beat`, which rush is next.
+    // Of the shot on each rush that ends at `beat`, which rush is next. The most promising are asked first:
+    // the costs of a cut are looked up for few.
     void choose_cuts(Beat beat) {
+        const Spanning spanning = spanning_at(beat);
+        std::ranges::sort(order_, [&](std::size_t a, std::size_t b) {
+            const double one = shots_[at(beat, a)].worth;
+            const double other = shots_[at(beat, b)].worth;
+            return one != other ? one > other : a < b;
+        });
         for (std::size_t from = 0; from < rushes_; ++from) {
             Choice& best = cuts_[at(beat, from)];
             best = {worst, beat, from};
-            for (std::size_t to = 0; to < rushes_; ++to) {
+            for (const std::size_t to : order_) {
+                const double before = shots_[at(beat, to)].worth - rules_.grammar.cut;
+                if (before + spanning.worth <= best.worth) break;
                 if (to == from) continue;
-                const double worth = shots_[at(beat, to)].worth - cut_cost(beat, from, to);
+                const double worth = before - faults(spanning, beat, from, to);
                 if (worth > best.worth) best = {worth, beat, to};
             }
+            after_end_[at(beat, from)] = value_.until(beat, from) + best.worth;
         }
     }
 
-    [[nodiscard]] double cut_cost(Beat beat, std::size_t from, std::size_t to) const {
-        double cost = rules_.grammar.cut;
+    // The moments that a cut at a beat divides, and what they are worth together.
+    struct Spanning {
+        std::vector<const Credit*> credits;
+        double worth = 0.0;
+    };
+
+    [[nodiscard]] Spanning spanning_at(Beat beat) const {
+        Spanning spanning;
+        for (const Credit& credit : value_.credits()) {
+            if (beat <= credit.begin || beat >= credit.end) continue;
+            spanning.credits.push_back(&credit);
+            spanning.worth += credit.worth;
+        }
+        return spanning;
+    }
+
+    // What is wrong with a cut, less the divided moments that both shots together show.
+    [[nodiscard]] double faults(const Spanning& spanning, Beat beat, std::size_t from, std::size_t to) const {
+        double cost = 0.0;
+        for (const Credit* credit : spanning.credits) {
+            const bool seen = credit->until[from] >= beat && credit->from[to] <= beat;
+            if (seen)
+                cost -= credit->worth;
+            else if (credit->kill && beat <= credit->peak)
+                cost += never;
+        }
         // The first beat that is not known looks like the last that is: a live cut is made there.
         const Beat seen = std::min(beat, footage_.beats() - 1);
         if (seen >= 0 && beat - seen <= 1 &&
             (jump_cut(footage_, rules_.grammar, seen, from, to) || crosses_line(footage_, seen, from, to)))
             cost += never;
-        for (const Credit& credit : value_.credits()) {
-            if (beat <= credit.begin || beat >= credit.end) continue;
-            const bool seen = credit.until[from] >= beat && credit.from[to] <= beat;
-            if (seen)
-                cost -= credit.worth;
-            else if (credit.kill && beat <= credit.peak)
-                cost += never;
-        }
         return cost;
     }
 
@@ -201,9 +268,12 @@ class Plan {
     Beat horizon_;
     std::size_t rushes_;
     Value value_;
-    std::vector<Choice> shots_;         // of a shot that begins at a beat: when it ends
-    std::vector<Choice> cuts_;          // of a shot that ends at a beat: what comes next
-    std::vector<double> length_costs_;  // by length
+    std::vector<Choice> shots_;                    // of a shot that begins at a beat: when it ends
+    std::vector<Choice> cuts_;                     // of a shot that ends at a beat: what comes next
+    std::vector<double> after_end_;                // what a rush is worth until a beat, and what comes next
+    std::vector<std::vector<WholeMoment>> whole_;  // of each rush
+    std::vector<std::size_t> order_;               // rushes, the best next one first
+    std::vector<double> length_costs_;             // by length
 };
 
 }  // namespace

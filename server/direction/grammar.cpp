@@ -38,7 +38,7 @@ bool enemies(const PlayerState& a, const PlayerState& b) {
 bool jump_cut(const Footage& footage, const Grammar& grammar, Beat beat, std::size_t from, std::size_t to) {
     const Take& before = footage.take(beat, from);
     const Take& after = footage.take(beat, to);
-    const auto near = static_cast<float>(std::cos(grammar.angle_of_jump));
+    const auto near = static_cast<float>(grammar.jump_cosine);
     for (const Index player : {footage.subject(from), footage.subject(to)}) {
         if (!before.shown[player] || !after.shown[player]) continue;
         const Vec3f& eye = footage.player(beat, player).eye;

@@ -160,31 +160,43 @@ class Finder {
         std::ranges::for_each(open, close);
     }
 
+    // Runs of beats of each pair, which is visited only where the two see each other.
     void find_sights(Index rule) {
-        for (Index a = 0; a < footage_.players(); ++a)
-            for (Index b = a + 1; b < footage_.players(); ++b)
-                find_sights(rule, a, b);
-    }
-
-    void find_sights(Index rule, Index a, Index b) {
-        Beat begin = -1;
-        for (Beat beat = from_; beat <= footage_.beats(); ++beat) {
-            const bool holds = beat < footage_.beats() && in_sight(rules_.moments[rule], beat, a, b);
-            if (holds && begin < 0) begin = beat;
-            if (holds || begin < 0) continue;
-            moments_.push_back({rule, begin, beat, begin, a, b});
-            begin = -1;
-        }
-    }
-
-    [[nodiscard]] bool in_sight(const Rule& sentence, Beat beat, Index a, Index b) const {
-        const PlayerState& one = footage_.player(beat, a);
-        if (!one.sees[b]) return false;
-        const PlayerState& other = footage_.player(beat, b);
-        if (!one.alive || !other.alive || !enemies(one, other)) return false;
-        if ((one.eye - other.eye).norm() > static_cast<float>(sentence.range * unit_)) return false;
+        const Rule& sentence = rules_.moments[rule];
+        const auto range = static_cast<float>(sentence.range * unit_);
         const auto cosine = static_cast<float>(std::cos(sentence.facing));
-        return faces(one, other, cosine) || faces(other, one, cosine);
+        struct Run {
+            Beat begin = 0;
+            Beat end = -1;
+        };
+        const std::size_t players = footage_.players();
+        std::vector<Run> runs(players * players);
+        const auto close = [&](const Run& run, Index a, Index b) {
+            if (run.end > run.begin) moments_.push_back({rule, run.begin, run.end, run.begin, a, b});
+        };
+        for (Beat beat = from_; beat < footage_.beats(); ++beat)
+            for (Index a = 0; a < players; ++a) {
+                const PlayerState& one = footage_.player(beat, a);
+                if (!one.alive || one.sees.none()) continue;
+                for (Index b = a + 1; b < players; ++b) {
+                    if (!one.sees[b] || !meet(one, footage_.player(beat, b), range, cosine)) continue;
+                    Run& run = runs[a * players + b];
+                    if (run.end != beat) {
+                        close(run, a, b);
+                        run.begin = beat;
+                    }
+                    run.end = beat + 1;
+                }
+            }
+        for (Index a = 0; a < players; ++a)
+            for (Index b = a + 1; b < players; ++b)
+                close(runs[a * players + b], a, b);
+    }
+
+    [[nodiscard]] static bool meet(const PlayerState& one, const PlayerState& other, float range,
+                                   float cosine) {
+        return other.alive && enemies(one, other) && (one.eye - other.eye).norm() <= range &&
+               (faces(one, other, cosine) || faces(other, one, cosine));
     }
 
     const Footage& footage_;

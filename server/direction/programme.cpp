@@ -71,7 +71,7 @@ std::vector<Shot> direct_for_kills(const Footage& footage, std::span<const Event
     Rules kills;
     kills.grammar.minimum_shot_s = rules.grammar.minimum_shot_s;
     kills.grammar.maximum_shot_s = rules.grammar.maximum_shot_s;
-    kills.grammar.angle_of_jump = rules.grammar.angle_of_jump;
+    kills.grammar.jump_cosine = rules.grammar.jump_cosine;
     kills.grammar.foresight_s = 0.0;
     kills.grammar.length = kills.grammar.cut = kills.grammar.hidden = kills.grammar.dead = 0.0;
     kills.grammar.idle = kills.grammar.inner_cut = kills.grammar.fresh = 0.0;

@@ -70,8 +70,9 @@ struct Grammar {
     double idle = 1.2;       // a second on a player who stands about
     double inner_cut = 2.0;  // of a rush's own cut within a shot
     double beat_after_death_s = 0.7;
-    double fresh = 0.02;           // a second, for each minute since its player was last shown; at most two
-    double angle_of_jump = 0.524;  // radians: two cameras see a player from nearer directions: a jump cut
+    double fresh = 0.02;  // a second, for each minute since its player was last shown; at most two
+    double jump_cosine =
+        0.866;  // of 30 degrees: seen from directions nearer to each other, a cut is a jump cut
     // What is not known yet is worth what is there now, halved every so many seconds.
     double half_life_s = 4.0;
     double foresight_s = 4.0;  // no plan goes further than this beyond what is known

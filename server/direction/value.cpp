@@ -70,12 +70,18 @@ double Value::base_rate(Beat beat, std::size_t rush) const {
 }
 
 void Value::add_span(const Moment& moment, const Rule& rule) {
-    for (Beat beat = std::max(moment.begin, first_); beat < std::min(moment.end, known_); ++beat)
+    const double one = rule.worth * beat_s;
+    const double both = rule.worth_both * beat_s;
+    for (Beat beat = std::max(moment.begin, first_); beat < std::min(moment.end, known_); ++beat) {
+        const auto takes = footage_.takes_at(beat);
+        double* const rates = &rate(beat, 0);
         for (std::size_t rush = 0; rush < rushes_; ++rush) {
-            const Take& take = footage_.take(beat, rush);
-            if (shows(take, moment)) rate(beat, rush) += rule.worth * beat_s;
-            if (shows_both(take, moment)) rate(beat, rush) += rule.worth_both * beat_s;
+            const PlayerSet& shown = takes[rush].shown;
+            const bool actor = moment.actor != nobody && shown[moment.actor];
+            const bool subject = moment.subject != nobody && shown[moment.subject];
+            rates[rush] += (actor || subject ? one : 0.0) + (actor && subject ? both : 0.0);
         }
+    }
 }
 
 void Value::add_credit(std::size_t index, const Moment& moment, const Rule& rule) {
