@@ -202,7 +202,7 @@ Result<void> direct(const DirectOptions& options) {
     const auto judged = judge(*rushes, events, *shots, rules, unit, options.delay);
     line.clear();
     print_table(judged);
-    std::fprintf(stderr, "%.3f ms a decision\n", took.count() / static_cast<double>(rushes->edited.beats()));
+    std::fprintf(stderr, "%.3f ms a decision\n", took.count() * direction::cut_every / static_cast<double>(rushes->edited.beats()));
     if (!options.cameras.empty()) {
         auto written = write_file(options.cameras, format_programme(*inputs, rushes->cameras, *shots, rules));
         if (!written) return written;

@@ -22,6 +22,14 @@ struct Choice {
     std::size_t rush = 0;  // of a cut
 };
 
+Beat first_cut_from(Beat beat) {
+    return (beat + cut_every - 1) / cut_every * cut_every;
+}
+
+Beat last_cut_before(Beat beat) {
+    return (beat - 1) / cut_every * cut_every;
+}
+
 // A moment that a rush shows from its begin to its end.
 struct WholeMoment {
     Beat begin = 0;
@@ -79,7 +87,8 @@ class Plan {
     }
 
     std::vector<Shot> make() {
-        for (Beat beat = horizon_; beat >= now_; --beat) {
+        choose_ends(horizon_);
+        for (Beat beat = last_cut_before(horizon_); beat >= now_; beat -= cut_every) {
             choose_ends(beat);
             choose_cuts(beat);
         }
@@ -113,7 +122,7 @@ class Plan {
     // When a shot ends that began at `begin` and is on the air at `from`.
     [[nodiscard]] Choice best_end(Beat begin, Beat from, std::size_t rush) const {
         const Grammar& grammar = rules_.grammar;
-        const Beat first = std::max(from, begin + beat_of(grammar.minimum_shot_s));
+        const Beat first = first_cut_from(std::max(from, begin + beat_of(grammar.minimum_shot_s)));
         const Beat last = std::max(first, begin + beat_of(grammar.maximum_shot_s));
         const double past = value_.until(from, rush);
         CreditSum credit(whole_[rush], begin, from);
@@ -121,8 +130,8 @@ class Plan {
         for (Beat end = first; end <= last && end < horizon_;) {
             const double earned = credit.at(end) - past;
             const Beat stretch = std::min({last + 1, horizon_, credit.next_end()});
-            for (const double* after = &after_end_[at(end, rush)]; end < stretch; ++end, ++after) {
-                const double worth = *after - cost_of_length(end - begin) + earned;
+            for (; end < stretch; end += cut_every) {
+                const double worth = after_end_[at(end, rush)] - cost_of_length(end - begin) + earned;
                 if (worth > best.worth) best = {worth, end, rush};
             }
         }

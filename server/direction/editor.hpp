@@ -43,10 +43,13 @@ struct OnAir {
     std::vector<Beat> last_shown;  // of each rush; far in the past where it never was
 };
 
+// Cuts are made at beats that are multiples of this.
+inline constexpr Beat cut_every = 2;
+
 // The shots from `now` on, the first of which goes on with the shot on the air or replaces it at once. They
 // cover the beats to the end of the plan, which is the grammar's foresight behind what is known. `moments`:
-// find_moments() of the footage. `unit`: 0.0254 m in map units. Preconditions: a rush; what was shown ended
-// no later than `now`. Thread-safe.
+// find_moments() of the footage. `unit`: 0.0254 m in map units. Preconditions: a rush; `now`, where nothing
+// is on the air or a cut is to be made, is a multiple of cut_every. Thread-safe.
 [[nodiscard]] std::vector<Shot> plan_shots(const Footage& footage, std::span<const Moment> moments,
                                            const Rules& rules, double unit, const OnAir& on_air, Beat now);
 

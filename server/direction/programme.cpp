@@ -59,7 +59,7 @@ Result<std::vector<Shot>> direct(const Footage& footage, std::span<const Event> 
     if (footage.beats() == 0 || footage.rushes() == 0) return fail("the match has no players or no time");
     Director director(footage, events, rules, unit);
     const Beat delay = beat_of(delay_s);
-    for (Beat now = 0; now < footage.beats(); ++now) {
+    for (Beat now = 0; now < footage.beats(); now += cut_every) {
         if (stop.stop_requested()) return fail("interrupted", ErrorCode::interrupted);
         director.decide(now, std::min(now + delay, footage.beats()));
     }

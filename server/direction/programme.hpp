@@ -11,8 +11,9 @@
 namespace camdir::direction {
 
 // Shots that follow each other without gaps from the first beat to the last, no two in a row of one rush. At
-// every beat the editor knows what happened until `delay_s` (>= 0) later, and nothing more; 0: what happened
-// before the beat. `events` ascend by time. Fails with ErrorCode::interrupted soon after `stop` is requested.
+// every beat that may have a cut the editor knows what happened until `delay_s` (>= 0) later, and nothing
+// more; 0: what happened before the beat. `events` ascend by time. Fails with ErrorCode::interrupted soon
+// after `stop` is requested.
 [[nodiscard]] Result<std::vector<Shot>> direct(const Footage& footage, std::span<const Event> events,
                                                const Rules& rules, double unit, double delay_s,
                                                const std::stop_token& stop);

@@ -125,7 +125,7 @@ double best_of_all(const Footage& footage, const Worth& worth, std::vector<Shot>
     for (std::size_t rush = 0; rush < footage.rushes(); ++rush) {
         if (!shots.empty() && shots.back().rush == rush) continue;
         for (Beat end = begin + 1; end <= std::min(begin + 7, footage.beats()); ++end) {
-            if (end - begin < 4 && end < footage.beats()) continue;
+            if ((end - begin < 4 || end % cut_every != 0) && end < footage.beats()) continue;
             shots.push_back({rush, begin, end, {}});
             best = std::max(best, best_of_all(footage, worth, shots, end));
             shots.pop_back();
