@@ -14,10 +14,13 @@
 #include "config/config.hpp"
 #include "direction/baselines.hpp"
 #include "direction/figures.hpp"
+#include "direction/moments.hpp"
 #include "direction/programme.hpp"
+#include "evaluation/figures.hpp"
 #include "evaluation/recording.hpp"
 #include "freespace/visibility.hpp"
 #include "oracle/oracle.hpp"
+#include "report/programme_page.hpp"
 #include "service/signals.hpp"
 
 namespace camdir::app {
@@ -30,6 +33,7 @@ struct DirectOptions {
     std::string events;
     std::string cameras;
     std::string json;
+    std::string report;
     double delay = 10.0;
 };
 
@@ -77,10 +81,7 @@ Result<Rushes> shoot(const DirectOptions& options, const Inputs& inputs, double 
     return Rushes{std::move(recording->cameras), std::move(edited), std::move(judged)};
 }
 
-struct Judged {
-    std::string name;
-    direction::Figures figures;
-};
+using Judged = report::JudgedProgramme;
 
 // The direction's own figures first, then the others', then the bound's.
 std::vector<Judged> judge(const Rushes& rushes, std::span<const direction::Event> events,
@@ -177,11 +178,45 @@ std::string format_programme(const Inputs& inputs, const evaluation::CameraPath&
     return text;
 }
 
+std::vector<report::Fact> facts_of(const DirectOptions& options, const Inputs& inputs) {
+    return {
+        {"Map", options.map + ", " + inputs.map.scene.kind},
+        {"Match", options.trace + ", " + std::to_string(inputs.trace.players.size()) + " players, " +
+                      evaluation::format_value(report::duration(inputs.trace), 1) + " s"},
+        {"Events", options.events},
+        {"Delay", options.delay == 0.0 ? "none: live" : evaluation::format_value(options.delay, 1) + " s"},
+        {"Baked map", options.freespace}};
+}
+
+Result<void> write_report(const DirectOptions& options, const Inputs& inputs, const Rushes& rushes,
+                          const std::vector<direction::Shot>& shots, const std::vector<Judged>& judged,
+                          const direction::Rules& rules, const std::vector<direction::Event>& events,
+                          double unit, ProgressLine& line, const std::stop_token& stop) {
+    report::ProgrammeSubject subject{{inputs.map.scene, inputs.trace, inputs.map.point_radius},
+                                     rushes.cameras,
+                                     "The programme of a match on " + inputs.map.scene.name,
+                                     facts_of(options, inputs),
+                                     judged,
+                                     shots,
+                                     {},
+                                     rushes.judged,
+                                     events,
+                                     direction::find_moments(rushes.judged, events, rules, unit, 0),
+                                     rules};
+    for (const direction::Shot& shot : shots)
+        subject.reasons.push_back(reason_text(shot.reason, rules, inputs.trace));
+    const auto show = [&](std::uint64_t done, std::uint64_t total) { line.show("drawing", done, total); };
+    const auto page = report::to_html(subject, show, stop);
+    line.clear();
+    if (!page) return tl::unexpected(page.error());
+    return write_file(options.report, *page);
+}
+
 Result<void> direct(const DirectOptions& options) {
     const service::Interruption interruption;
     const std::stop_token stop = interruption.token();
     std::optional<ExitWhenInterrupted> reading(interruption);
-    if (auto writable = check_outputs({options.cameras, options.json},
+    if (auto writable = check_outputs({options.cameras, options.json, options.report},
                                       {options.freespace, options.map, options.trace, options.events});
         !writable)
         return writable;
@@ -202,12 +237,18 @@ Result<void> direct(const DirectOptions& options) {
     const auto judged = judge(*rushes, events, *shots, rules, unit, options.delay);
     line.clear();
     print_table(judged);
-    std::fprintf(stderr, "%.3f ms a decision\n", took.count() * direction::cut_every / static_cast<double>(rushes->edited.beats()));
+    std::fprintf(stderr, "%.3f ms a decision\n",
+                 took.count() * direction::cut_every / static_cast<double>(rushes->edited.beats()));
     if (!options.cameras.empty()) {
         auto written = write_file(options.cameras, format_programme(*inputs, rushes->cameras, *shots, rules));
         if (!written) return written;
     }
-    return options.json.empty() ? Result<void>{} : write_file(options.json, to_json(judged));
+    if (!options.json.empty()) {
+        auto written = write_file(options.json, to_json(judged));
+        if (!written) return written;
+    }
+    if (options.report.empty()) return {};
+    return write_report(options, *inputs, *rushes, *shots, judged, rules, events, unit, line, stop);
 }
 
 }  // namespace
@@ -228,8 +269,13 @@ void add_direct(CLI::App& root, Run& run) {
         "--cameras", options->cameras,
         "Write the camera of every frame with its player and reason, CSV; - = standard output");
     command->add_option("--json", options->json, "Write the figures, JSON; - = standard output");
+    command->add_option(
+        "--report", options->report,
+        "Write a page to look at, HTML: figures, a timeline of shots and kills, pictures of the "
+        "cuts; - = standard output");
     command->callback([options, &run] {
-        check_one_standard_output({{"--cameras", options->cameras}, {"--json", options->json}});
+        check_one_standard_output(
+            {{"--cameras", options->cameras}, {"--json", options->json}, {"--report", options->report}});
         run = [options] { return exit_code_of(direct(*options)); };
     });
 }

@@ -13,6 +13,8 @@ namespace {
 
 // More than any plan can be worth: what breaks the grammar is chosen only where everything does.
 constexpr double never = 1e4;
+// A shot is rather for its own player's moments than for what is in the picture beside them.
+constexpr double foreign = 0.25;
 constexpr double worst = -std::numeric_limits<double>::infinity();
 
 // The best that can follow a decision.
@@ -243,7 +245,9 @@ class Plan {
         double most = 0.0;
         Reason reason{before < rushes_ ? Reason::Why::length : Reason::Why::opening};
         for (const Moment& moment : moments_) {
-            const double worth = worth_in(moment, rush, from, end);
+            const Index subject = footage_.subject(rush);
+            const bool own = moment.actor == subject || moment.subject == subject;
+            const double worth = (own ? 1.0 : foreign) * worth_in(moment, rush, from, end);
             if (worth <= most) continue;
             most = worth;
             reason = {Reason::Why::moment, moment.rule, moment.actor, moment.subject};

@@ -72,9 +72,6 @@ class Judge {
         figures.idle_share = idle / static_cast<double>(footage_.beats());
     }
 
-  private:
-    [[nodiscard]] std::size_t rush_at(Beat beat) const { return on_air_[static_cast<std::size_t>(beat)]; }
-
     [[nodiscard]] Seen see(const Kill& kill) const {
         const Beat begin = beat_of(kill.time - before_kill_s);
         const Beat end = beat_of(kill.time + after_kill_s) + 1;
@@ -86,6 +83,9 @@ class Judge {
         }
         return seen;
     }
+
+  private:
+    [[nodiscard]] std::size_t rush_at(Beat beat) const { return on_air_[static_cast<std::size_t>(beat)]; }
 
     [[nodiscard]] bool cut_before(const Kill& kill) const {
         return std::ranges::any_of(shots_.subspan(1), [&](const Shot& shot) {
@@ -136,7 +136,7 @@ class Judge {
 
     const Footage& footage_;
     std::span<const Shot> shots_;
-    const Grammar& grammar_;
+    Grammar grammar_;
     double unit_;
     std::vector<std::size_t> on_air_;  // the rush of each beat
 };
@@ -168,6 +168,11 @@ Figures judge(const Footage& footage, std::span<const Event> events, std::span<c
     judge.judge_cuts(figures);
     judge.judge_idleness(figures);
     return figures;
+}
+
+bool shows_kill(const Footage& footage, std::span<const Shot> shots, const Kill& kill) {
+    const Seen seen = Judge(footage, shots, Grammar{}, 1.0).see(kill);
+    return seen.counted && seen.one;
 }
 
 Figures mean_of(std::span<const Figures> figures) {

@@ -35,6 +35,10 @@ struct Figures {
 [[nodiscard]] Figures judge(const Footage& footage, std::span<const Event> events,
                             std::span<const Shot> shots, const Grammar& grammar, double unit);
 
+// The programme shows the kill, as Figures::kills_seen counts it; false where the match lacks a part of its
+// time.
+[[nodiscard]] bool shows_kill(const Footage& footage, std::span<const Shot> shots, const Kill& kill);
+
 // The mean of each. Precondition: at least one.
 [[nodiscard]] Figures mean_of(std::span<const Figures> figures);
 

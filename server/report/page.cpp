@@ -9,6 +9,7 @@
 #include "report/faults.hpp"
 #include "report/film_strip.hpp"
 #include "report/floor_plan.hpp"
+#include "report/frame.hpp"
 #include "report/markup.hpp"
 #include "report/moments.hpp"
 #include "report/style.hpp"
@@ -17,21 +18,6 @@ namespace camdir::report {
 namespace {
 
 constexpr std::size_t max_moments = 9;
-
-std::string section(const std::string& id, const std::string& title, const std::string& content) {
-    return "<section id=\"" + id + "\"><h2>" + title + "</h2>\n" + content + "</section>\n";
-}
-
-std::string head(const Subject& subject) {
-    const std::string title = escape(subject.cameras.front().name + " on " + subject.scene.name);
-    std::string html =
-        "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
-        "content=\"width=device-width,initial-scale=1\"><title>" +
-        title + "</title><style>" + style + "</style></head><body>\n<header><h1>" + title + "</h1><dl>";
-    for (const Fact& fact : subject.facts)
-        html += "<dt>" + escape(fact.name) + "</dt><dd>" + escape(fact.value) + "</dd>";
-    return html + "</dl></header>\n";
-}
 
 std::string player_choice(const evaluation::Trace& trace) {
     std::string html =
@@ -117,9 +103,9 @@ Result<std::string> to_html(const Subject& subject, const ProgressSink& progress
     if (!worst) return worst;
     const auto from_above = plan(subject, stop);
     if (!from_above) return from_above;
-    return head(subject) + player_choice(subject.trace) + "<main data-duration=\"" +
-           decimal(duration(subject.trace), 3) + "\">\n" +
-           section("figures", "Figures", comparison(subject)) +
+    return head(subject.cameras.front().name + " on " + subject.scene.name, subject.facts) +
+           player_choice(subject.trace) + "<main data-duration=\"" + decimal(duration(subject.trace), 3) +
+           "\">\n" + section("figures", "Figures", comparison(subject)) +
            section("moments", "The worst moments", *worst) + section("plan", "Floor plan", *from_above) +
            section("series", "Over time", charts(subject)) +
            section("distributions", "Distributions", distributions(subject)) + "</main>\n<script>" + script +

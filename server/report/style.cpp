@@ -61,6 +61,12 @@ td.best{color:var(--best);font-weight:600}
 .key{display:inline-block;width:.75em;height:.75em;border-radius:2px;margin:0 .35em 0 .1em;background:var(--c)}
 .key.cut{width:2px;border-radius:0}
 .legend{max-width:none;display:flex;flex-wrap:wrap;gap:.1rem .9rem}
+.timeline{margin:.6rem 0}
+.timeline text{font-size:11px;fill:var(--soft)}.timeline .lane{fill:var(--panel)}.timeline .shot{fill:var(--c)}
+.timeline .moment{fill:var(--soft);opacity:.35}
+.timeline circle.seen{fill:var(--best);stroke:#fff}.timeline circle.missed{fill:#e03131;stroke:#fff}
+.timeline path{fill:none;stroke-width:2.5}.timeline path.seen{stroke:var(--best)}.timeline path.missed{stroke:#e03131}
+.strip.cut{grid-template-columns:repeat(3,1fr);max-width:960px;width:auto;height:auto}
 .plan{background:#fff;border-radius:6px}
 .plan path{fill:none;stroke:var(--c)}
 .plan .eye{stroke-width:4;opacity:.4}.plan .view{stroke-width:1.6;opacity:.9}

@@ -63,6 +63,21 @@ TEST_F(DirectCommand, WritesTheCameraOfEveryFrameAndRepeatsItself) {
     EXPECT_EQ(written(file), first);
 }
 
+TEST_F(DirectCommand, DrawsAPageThatNeedsNothingElse) {
+    const std::string page = folder_ / "programme.html";
+    const std::string file = folder_ / "figures.json";
+    ASSERT_EQ(direct({"--delay", "2", "--json", file, "--report", page}), 0) << errors_;
+    const std::string html = written(page);
+    const json figures = json::parse(written(file));
+    EXPECT_THAT(html,
+                HasSubstr("<tr id=\"kills_seen\"><th>kills_seen</th><td><data value=\"1\">1.00</data>"));
+    for (const char* section : {"figures", "timeline", "cuts"})
+        EXPECT_THAT(html, HasSubstr("<section id=\"" + std::string(section) + "\">"));
+    EXPECT_THAT(html, HasSubstr("<title>3 s: 1 kills 0, seen</title>"));
+    EXPECT_THAT(html, testing::Not(testing::ContainsRegex("https?:|@import|url\\(|<link|<iframe|src=")));
+    EXPECT_TRUE(html.ends_with("</html>\n"));
+}
+
 TEST_F(DirectCommand, RefusesEventsOfAnotherMatchAndLeavesWhatWasThere) {
     const std::string file = folder_ / "programme.csv";
     ASSERT_TRUE(write_file(file, "old"));
