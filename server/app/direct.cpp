@@ -77,8 +77,10 @@ Result<Rushes> shoot(const DirectOptions& options, const Inputs& inputs, double 
         return oracle.segment_clear(from, to);
     };
     auto edited = footage_of(inputs.trace, recording->cameras, unit, proved);
+    if (!edited) return fail(options.trace + ": " + edited.error().message);
     auto judged = footage_of(inputs.trace, recording->cameras, unit, exact);
-    return Rushes{std::move(recording->cameras), std::move(edited), std::move(judged)};
+    if (!judged) return fail(options.trace + ": " + judged.error().message);
+    return Rushes{std::move(recording->cameras), std::move(*edited), std::move(*judged)};
 }
 
 using Judged = report::JudgedProgramme;

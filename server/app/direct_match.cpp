@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <cstdlib>
 #include <map>
 #include <optional>
@@ -22,6 +23,8 @@ using evaluation::CameraPath;
 using evaluation::Trace;
 using evaluation::TraceFrame;
 using evaluation::TracePose;
+
+constexpr double max_player_beats = 4e6;
 
 Index index_of(const Trace& trace, std::uint32_t player) {
     return static_cast<Index>(std::ranges::lower_bound(trace.players, player) - trace.players.begin());
@@ -128,9 +131,16 @@ double item_value(std::string_view item) {
 
 }  // namespace
 
-direction::Footage footage_of(const Trace& trace, const CameraPath& cameras, double unit,
-                              const ClearLine& clear) {
+Result<direction::Footage> footage_of(const Trace& trace, const CameraPath& cameras, double unit,
+                                      const ClearLine& clear) {
     assert(cameras.size() == trace.poses.size() && trace.players.size() <= direction::max_players);
+    const double length = seconds_from_start(trace, trace.frames.back().time);
+    if (length / direction::beat_s * static_cast<double>(trace.players.size()) > max_player_beats)
+        return fail("the match lasts " + std::to_string(std::llround(length)) + " s with " +
+                    std::to_string(trace.players.size()) + " players, expected at most " +
+                    std::to_string(std::llround(max_player_beats * direction::beat_s /
+                                                static_cast<double>(trace.players.size()))) +
+                    " s with so many");
     std::vector<std::vector<TraceFrame>> beats;
     for (const TraceFrame& frame : trace.frames) {
         const auto beat = static_cast<std::size_t>(direction::beat_of(seconds_from_start(trace, frame.time)));

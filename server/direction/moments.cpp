@@ -10,7 +10,8 @@
 namespace camdir::direction {
 namespace {
 
-constexpr double chain_s = 3.0;  // between two kills of a multi-kill
+constexpr double memory_s = 30.0;  // the longest exchange or multi-kill that is seen whole
+constexpr double chain_s = 3.0;    // between two kills of a multi-kill
 constexpr std::size_t streak_kills = 3;
 
 bool between_players(const Event& event) {
@@ -44,7 +45,10 @@ bool faces(const PlayerState& a, const PlayerState& b, float cosine) {
 class Finder {
   public:
     Finder(const Footage& footage, std::span<const Event> events, const Rules& rules, double unit, Beat from)
-        : footage_(footage), events_(events), rules_(rules), unit_(unit), from_(from) {}
+        : footage_(footage), events_(events), rules_(rules), unit_(unit), from_(from) {
+        const double first = static_cast<double>(from) * beat_s - memory_s;
+        recent_ = {std::ranges::lower_bound(events, first, {}, &Event::time), events.end()};
+    }
 
     std::vector<Moment> find() {
         for (Index rule = 0; rule < rules_.moments.size(); ++rule)
@@ -79,14 +83,14 @@ class Finder {
     }
 
     void find_events(Index rule) {
-        for (const Event& event : events_)
+        for (const Event& event : recent_)
             if (trigger_of(event.kind) == rules_.moments[rule].trigger &&
                 (event.kind != EventKind::kill || between_players(event)))
                 add(rule, event.time, event.time, event.actor, event.subject);
     }
 
     void find_multi_kills(Index rule) {
-        const auto kills = kills_of(events_);
+        const auto kills = kills_of(recent_);
         for (std::size_t i = 0; i < kills.size(); ++i)
             if (kills[i].first != i)
                 add(rule, kills[kills[i].first].time, kills[i].time, kills[i].killer, kills[i].victim);
@@ -141,7 +145,7 @@ class Finder {
         const auto close = [&](const Exchange& exchange) {
             add(rule, exchange.first, exchange.last, exchange.a, exchange.b);
         };
-        for (const Event& event : events_) {
+        for (const Event& event : recent_) {
             if (event.kind != EventKind::damage || event.actor == nobody || event.subject == nobody) continue;
             const auto [a, b] = std::minmax(event.actor, event.subject);
             if (a == b) continue;
@@ -201,6 +205,7 @@ class Finder {
 
     const Footage& footage_;
     std::span<const Event> events_;
+    std::span<const Event> recent_;
     const Rules& rules_;
     double unit_;
     Beat from_;

@@ -18,9 +18,9 @@ struct Moment {
 };
 
 // The moments that reach into the beats `from` .. `footage.beats()`, by the footage from there on and the
-// events before its end, in order of their begins. `events` ascend by time; others than those of two seconds
-// before `from` and later have no effect, but for multi-kills, which may begin earlier. Moments that go on at
-// the end of what is known end there. `unit`: 0.0254 m in map units.
+// events before its end, in order of their begins. `events` ascend by time and begin with the match's
+// first: streaks and leads need all, what else they begin is found up to 30 s before `from`. Moments that go
+// on at the end of what is known end there. `unit`: 0.0254 m in map units.
 [[nodiscard]] std::vector<Moment> find_moments(const Footage& footage, std::span<const Event> events,
                                                const Rules& rules, double unit, Beat from);
 

@@ -87,5 +87,15 @@ TEST_F(DirectCommand, RefusesEventsOfAnotherMatchAndLeavesWhatWasThere) {
     EXPECT_EQ(written(file), "old");
 }
 
+TEST_F(DirectCommand, RefusesAMatchThatNeverEnds) {
+    const Bytes bytes = read_file(trace_).value();
+    std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    text += "900000000000,0,0,0,3.4,0,0,0,0,0,0,0.6,0,0,1\n";
+    ASSERT_TRUE(write_file(trace_, text));
+    EXPECT_EQ(direct({"--json", folder_ / "figures.json"}), 1);
+    EXPECT_THAT(errors_,
+                HasSubstr("trace.csv: the match lasts 900000000 s with 2 players, expected at most"));
+}
+
 }  // namespace
 }  // namespace camdir
