@@ -31,6 +31,7 @@ struct DirectOptions {
     std::string map;
     std::string trace;
     std::string events;
+    std::string config;
     std::string cameras;
     std::string json;
     std::string report;
@@ -41,9 +42,12 @@ struct Inputs {
     evaluation::Trace trace;
     std::vector<evaluation::TraceEvent> events;
     SourceMap map;
+    direction::Rules rules;
 };
 
 Result<Inputs> read_inputs(const DirectOptions& options, ProgressLine& line) {
+    auto config = options.config.empty() ? config::parse("{}", "", "") : config::load(options.config);
+    if (!config) return tl::unexpected(config.error());
     line.show("reading " + options.trace, 0, 0);
     auto trace = evaluation::read_trace(options.trace);
     if (!trace) return tl::unexpected(trace.error());
@@ -52,7 +56,7 @@ Result<Inputs> read_inputs(const DirectOptions& options, ProgressLine& line) {
     line.show("reading " + options.map, 0, 0);
     auto map = open_map(options.freespace, options.map);
     if (!map) return tl::unexpected(map.error());
-    return Inputs{std::move(*trace), std::move(*events), std::move(*map)};
+    return Inputs{std::move(*trace), std::move(*events), std::move(*map), std::move(config->direction)};
 }
 
 // The rushes of a match, as the editor sees them through the freespace, and as the judge sees them.
@@ -218,8 +222,9 @@ Result<void> direct(const DirectOptions& options) {
     const service::Interruption interruption;
     const std::stop_token stop = interruption.token();
     std::optional<ExitWhenInterrupted> reading(interruption);
-    if (auto writable = check_outputs({options.cameras, options.json, options.report},
-                                      {options.freespace, options.map, options.trace, options.events});
+    if (auto writable =
+            check_outputs({options.cameras, options.json, options.report},
+                          {options.freespace, options.map, options.trace, options.events, options.config});
         !writable)
         return writable;
     ProgressLine line;
@@ -230,7 +235,7 @@ Result<void> direct(const DirectOptions& options) {
     const auto rushes = shoot(options, *inputs, unit, line, stop);
     if (!rushes) return tl::unexpected(rushes.error());
     line.show("editing", 0, 0);
-    const direction::Rules rules = direction::default_rules();
+    const direction::Rules& rules = inputs->rules;
     const auto events = events_of(inputs->trace, inputs->events);
     const auto begin = std::chrono::steady_clock::now();
     const auto shots = direction::direct(rushes->edited, events, rules, unit, options.delay, stop);

@@ -15,6 +15,7 @@ using nlohmann::json;
 namespace fs = std::filesystem;
 
 constexpr std::size_t max_profile_name = 31;  // ObserverRequest.profile
+constexpr std::size_t max_rules = 64;
 
 // The validation errors of a file, in its order.
 class ValidationErrors {
@@ -146,6 +147,26 @@ void read_profiles(const json& object, Config& config, ValidationErrors& errors)
     }
 }
 
+void read_moments(const json& object, direction::Rules& rules, ValidationErrors& errors) {
+    if (!object.is_object()) return errors.add("/moments", object, "an object of rules by name");
+    for (const auto& [name, value] : object.items()) {
+        const std::string pointer = "/moments/" + escaped(name);
+        if (name.empty() || name.size() > max_profile_name)
+            errors.add(pointer, name, "a name of 1 to " + std::to_string(max_profile_name) + " bytes");
+        auto rule = std::ranges::find(rules.moments, name, &direction::Rule::name);
+        if (rule == rules.moments.end()) {
+            if (value.is_object() && !value.contains("trigger"))
+                errors.add(pointer + "/trigger: missing: expected " +
+                           expected(*find_key("/moments/*", "trigger")));
+            rule = rules.moments.insert(rule, direction::Rule{.name = name});
+        }
+        read_object("/moments/*", pointer, value, {nullptr, nullptr, nullptr, &*rule}, errors);
+    }
+    if (rules.moments.size() > max_rules)
+        errors.add("/moments: " + std::to_string(rules.moments.size()) +
+                   " rules with those that ship, expected at most " + std::to_string(max_rules));
+}
+
 // [min, max] of a number, a list of its choices of a string; errors are added, and nothing is stored then.
 void read_override(const Key& key, const std::string& pointer, const json& value, OverrideRanges& ranges,
                    ValidationErrors& errors) {
@@ -205,6 +226,7 @@ void read_section(const std::string& name, const json& value, Config& config, Va
     const std::string pointer = "/" + name;
     if (pointer == "/maps") return read_maps(value, config, errors);
     if (pointer == "/profiles") return read_profiles(value, config, errors);
+    if (pointer == "/moments") return read_moments(value, config.direction, errors);
     if (pointer == "/overrides") return read_overrides(value, config, errors);
     read_object(pointer, pointer, value, {&config, nullptr, nullptr}, errors);
 }

@@ -11,6 +11,7 @@
 
 #include "base/error.hpp"
 #include "camera/profile.hpp"
+#include "direction/rules.hpp"
 
 namespace camdir::config {
 
@@ -110,6 +111,7 @@ struct Config {
     std::map<std::string, camera::Profile> profiles;  // always has those that ship (camera/profile.hpp)
     std::optional<OverrideRanges> overrides;          // none: every key, within its own range
     Matches matches;
+    direction::Rules direction = direction::default_rules();
     Limits limits;
     Log log;
 };

@@ -68,6 +68,10 @@ ordered section_schema(const Section& section) {
         schema["type"] = "object";
         schema["propertyNames"] = {{"minLength", 1}, {"maxLength", 31}};
         schema["additionalProperties"] = object_schema("/profiles/*");
+    } else if (section.pointer == "/moments") {
+        schema["type"] = "object";
+        schema["propertyNames"] = {{"minLength", 1}, {"maxLength", 31}};
+        schema["additionalProperties"] = object_schema("/moments/*");
     } else if (section.pointer == "/overrides") {
         schema["type"] = "object";
         schema["additionalProperties"] = false;
@@ -121,6 +125,21 @@ std::string shipped_changes() {
     return "The profiles that ship differ from `default` in these values:\n\n" + list + "\n";
 }
 
+std::string shipped_rules() {
+    std::string list;
+    for (direction::Rule& rule : direction::default_rules().moments) {
+        std::string values;
+        for (const Key& key : keys()) {
+            if (key.section != "/moments/*") continue;
+            const nlohmann::json value = value_of(key, {nullptr, nullptr, nullptr, &rule});
+            if (value == default_of(key) && key.name != "trigger") continue;
+            values += (values.empty() ? "`" : ", `") + key.name + "` " + value.dump();
+        }
+        list += "- `" + rule.name + "`: " + values + "\n";
+    }
+    return "The rules that ship:\n\n" + list + "\n";
+}
+
 }  // namespace
 
 std::string schema() {
@@ -138,7 +157,8 @@ std::string schema() {
 std::string reference() {
     std::string page;
     for (const Section& section : sections()) {
-        const bool list = section.pointer == "/maps" || section.pointer == "/profiles";
+        const bool list =
+            section.pointer == "/maps" || section.pointer == "/profiles" || section.pointer == "/moments";
         page += "### `" + section.pointer.substr(1) + "`\n\n" + section.help + "\n\n";
         std::string rows;
         for (const Key& key : keys())
@@ -147,6 +167,7 @@ std::string reference() {
         page +=
             "| key | type | default | range | unit | meaning |\n|---|---|---|---|---|---|\n" + rows + "\n";
         if (section.pointer == "/profiles") page += shipped_changes();
+        if (section.pointer == "/moments") page += shipped_rules();
     }
     return page;
 }

@@ -11,6 +11,22 @@ NLOHMANN_JSON_SERIALIZE_ENUM(Solver, {{Solver::paper, "paper"}, {Solver::planner
 
 }  // namespace camdir::camera
 
+namespace camdir::direction {
+
+NLOHMANN_JSON_SERIALIZE_ENUM(Trigger, {{Trigger::sight, "sight"},
+                                       {Trigger::exchange, "exchange"},
+                                       {Trigger::kill, "kill"},
+                                       {Trigger::multi_kill, "multi_kill"},
+                                       {Trigger::flag_taken, "flag_taken"},
+                                       {Trigger::flag_captured, "flag_captured"},
+                                       {Trigger::objective, "objective"},
+                                       {Trigger::award, "award"},
+                                       {Trigger::item, "item"},
+                                       {Trigger::streak, "streak"},
+                                       {Trigger::lead, "lead"}})
+
+}  // namespace camdir::direction
+
 namespace camdir::config {
 namespace {
 
@@ -263,6 +279,85 @@ void add_maps(std::vector<Key>& table) {
                      true});
 }
 
+Slot<double> in_grammar(double direction::Grammar::*member) {
+    return [=](const Target& target) -> double& { return target.config->direction.grammar.*member; };
+}
+
+template <class T>
+Slot<T> in_rule(T direction::Rule::*member) {
+    return [=](const Target& target) -> T& { return target.rule->*member; };
+}
+
+void add_direction(std::vector<Key>& table) {
+    using direction::Grammar;
+    const auto add = [&](const char* name, double Grammar::*member, const char* help, const char* unit,
+                         double minimum, double maximum) {
+        table.push_back(
+            {"/direction", name, in_grammar(member), help, unit, minimum, maximum, {}, false, true});
+    };
+    add("minimum_shot_s", &Grammar::minimum_shot_s, "No shot is shorter.", "s", 0.4, 60);
+    add("preferred_shot_s", &Grammar::preferred_shot_s, "The length that costs nothing.", "s", 0.4, 600);
+    add("maximum_shot_s", &Grammar::maximum_shot_s,
+        "No shot is longer while another may follow; at least `minimum_shot_s`.", "s", 0.4, 600);
+    add("length", &Grammar::length, "Cost of a shot 2.7 times as long, or as short, as preferred.", "kills",
+        0, 1000);
+    add("cut", &Grammar::cut, "Cost of a cut.", "kills", 0, 1000);
+    add("hidden", &Grammar::hidden, "Cost of a second in which a camera does not show its player.", "kills",
+        0, 1000);
+    add("dead", &Grammar::dead, "Cost of a second on a dead player, after `beat_after_death_s`.", "kills", 0,
+        1000);
+    add("idle", &Grammar::idle, "Cost of a second on a player who stands about.", "kills", 0, 1000);
+    add("inner_cut", &Grammar::inner_cut, "Cost of a jump of the camera within its shot, at a respawn.",
+        "kills", 0, 1000);
+    add("beat_after_death_s", &Grammar::beat_after_death_s, "How long a death may be looked at.", "s", 0, 10);
+    add("fresh", &Grammar::fresh,
+        "Worth of a second, for each minute since its player was last on the air; at most two.", "kills", 0,
+        1000);
+    add("half_life_s", &Grammar::half_life_s,
+        "What is not known yet is worth what is there now, halved every so many seconds.", "s", 0.1, 60);
+    add("foresight_s", &Grammar::foresight_s, "No plan goes further beyond what is known.", "s", 0, 10);
+}
+
+void add_moments(std::vector<Key>& table) {
+    using direction::Rule;
+    const std::string section = "/moments/*";
+    table.push_back(
+        {section,
+         "trigger",
+         in_rule(&Rule::trigger),
+         "What begins a moment: enemies in mutual sight, wounds of two players each within `after_s` of "
+         "the last, an event, several kills of one player each within 3 s of the last, three kills in "
+         "one life, more kills than anybody else.",
+         "",
+         0,
+         16,
+         {"sight", "exchange", "kill", "multi_kill", "flag_taken", "flag_captured", "objective", "award",
+          "item", "streak", "lead"},
+         false,
+         true});
+    const auto add = [&](const char* name, double Rule::*member, const char* help, const char* unit,
+                         double maximum) {
+        table.push_back({section, name, in_rule(member), help, unit, 0, maximum, {}, false, true});
+    };
+    add("before_s", &Rule::before_s, "How long before the event the moment begins.", "s", 10);
+    add("after_s", &Rule::after_s, "How long after the event it ends.", "s", 10);
+    add("worth", &Rule::worth,
+        "Of every second in which one of its players is shown; of a `whole` moment, once.", "kills", 1000);
+    add("worth_both", &Rule::worth_both, "More, while both of its players are shown.", "kills", 1000);
+    table.push_back({section,
+                     "whole",
+                     in_rule(&Rule::whole),
+                     "Counts only when it is shown from its begin to its end.",
+                     "",
+                     0,
+                     0,
+                     {},
+                     false,
+                     true});
+    add("range", &Rule::range, "`sight`: no farther apart; units of 0.0254 m.", "units", 1e9);
+    add("facing", &Rule::facing, "`sight`: one of the two looks this near to the other.", "degrees", 180);
+}
+
 void add_profiles(std::vector<Key>& table) {
     for (const camera::ProfileKey& key : camera::profile_keys())
         table.push_back({"/profiles/*",
@@ -482,6 +577,15 @@ const std::vector<Section>& sections() {
          "`\"overrides\": {\"distance\": [80, 200], \"vertical_fov\": [40, 90]}`. Reloaded by SIGHUP."},
         {"/matches",
          "Lifetime and delay of matches, and the choice of automatic targets. Reloaded by SIGHUP."},
+        {"/direction",
+         "How shots follow each other in the programme of a recorded match (`direct --config`); not used by "
+         "`serve`. "
+         "Costs are counted in kills."},
+        {"/moments",
+         "What is worth seeing there: rules by name. What a file says of those that ship changes single keys "
+         "of them; a "
+         "rule of another name is a new one and needs a `trigger`. A `worth` and `worth_both` of 0 switch a "
+         "rule off."},
         {"/limits",
          "Whatever exceeds a limit is refused. Matches beyond `matches` and `participant_matches`, and "
          "observers beyond `observers`, wait for room in the order in which they came, as many of them as "
@@ -498,6 +602,8 @@ const std::vector<Key>& keys() {
         add_maps(all);
         add_profiles(all);
         add_matches(all);
+        add_direction(all);
+        add_moments(all);
         add_limits(all);
         add_log(all);
         return all;
@@ -521,7 +627,8 @@ json default_of(const Key& key) {
     Config config;
     Map map;
     camera::Profile profile;
-    return value_of(key, {&config, &map, &profile});
+    direction::Rule rule;
+    return value_of(key, {&config, &map, &profile, &rule});
 }
 
 bool assign(const Key& key, const json& value, const Target& target) {
@@ -538,7 +645,7 @@ bool assign(const Key& key, const json& value, const Target& target) {
 
 std::string type_name(const Key& key) {
     static constexpr std::array names = {"boolean", "integer",         "number", "number",
-                                         "string",  "list of strings", "string"};
+                                         "string",  "list of strings", "string", "string"};
     return names[key.slot.index()];
 }
 

@@ -12,21 +12,23 @@
 
 namespace camdir::config {
 
-// Where a key's value is stored: the configuration, a map of its list, or a profile.
+// Where a key's value is stored: the configuration, a map of its list, a profile, or a rule.
 struct Target {
     Config* config = nullptr;
     Map* map = nullptr;
     camera::Profile* profile = nullptr;
+    direction::Rule* rule = nullptr;
 };
 
 template <class T>
 using Slot = std::function<T&(const Target&)>;
 
 struct Key {
-    std::string section;  // JSON pointer, "*" stands for any index or name: "/dds", "/maps/*", "/profiles/*"
+    std::string section;  // JSON pointer, "*" stands for any index or name: "/dds", "/maps/*", "/profiles/*",
+                          // "/moments/*"
     std::string name;
     std::variant<Slot<bool>, Slot<std::int64_t>, Slot<double>, Slot<float>, Slot<std::string>,
-                 Slot<std::vector<std::string>>, Slot<camera::Solver>>
+                 Slot<std::vector<std::string>>, Slot<camera::Solver>, Slot<direction::Trigger>>
         slot;
     std::string help;
     std::string unit = {};

@@ -168,7 +168,7 @@ class Finder {
     void find_sights(Index rule) {
         const Rule& sentence = rules_.moments[rule];
         const auto range = static_cast<float>(sentence.range * unit_);
-        const auto cosine = static_cast<float>(std::cos(sentence.facing));
+        const auto cosine = static_cast<float>(std::cos(sentence.facing * radians_of_a_degree<double>));
         struct Run {
             Beat begin = 0;
             Beat end = -1;

@@ -54,8 +54,8 @@ struct Rule {
     double worth = 0.0;
     double worth_both = 0.0;  // more, while both are shown
     bool whole = false;
-    double range = 1e9;           // sight: no farther apart, units of 0.0254 m
-    double facing = 3.141592654;  // sight: one of them looks this near to the other, radians
+    double range = 1e9;     // sight: no farther apart, units of 0.0254 m
+    double facing = 180.0;  // sight: one of them looks this near to the other, degrees
 };
 
 // How shots follow each other. Seconds, and costs in kills.

@@ -264,5 +264,35 @@ TEST(Changes, NamesOnlyKeysThatNeedARestart) {
     EXPECT_TRUE(changes_for_restart(running, running).empty());
 }
 
+TEST(Moments, ChangeSingleKeysOfARuleOrAddOne) {
+    const Config config = good(R"({"direction": {"preferred_shot_s": 4.5},
+        "moments": {"kill": {"worth": 9}, "duel": {"trigger": "sight", "range": 300, "worth": 0.5}}})");
+    const direction::Rules shipped = direction::default_rules();
+    EXPECT_EQ(config.direction.grammar.preferred_shot_s, 4.5);
+    EXPECT_EQ(config.direction.grammar.cut, shipped.grammar.cut);
+    ASSERT_EQ(config.direction.moments.size(), shipped.moments.size() + 1);
+    const auto rule = [](const direction::Rules& rules, const std::string& name) {
+        return *std::ranges::find(rules.moments, name, &direction::Rule::name);
+    };
+    EXPECT_EQ(rule(config.direction, "kill").worth, 9.0);
+    EXPECT_EQ(rule(config.direction, "kill").before_s, rule(shipped, "kill").before_s);
+    EXPECT_EQ(rule(config.direction, "duel").trigger, direction::Trigger::sight);
+    EXPECT_EQ(rule(config.direction, "duel").range, 300.0);
+}
+
+TEST(Moments, ErrorsSayWhatARuleNeeds) {
+    EXPECT_THAT(problem(R"({"moments": []})"),
+                HasSubstr("/moments: []: expected an object of rules by name"));
+    EXPECT_THAT(problem(R"({"moments": {"duel": {"worth": 1}}})"),
+                HasSubstr("/moments/duel/trigger: missing: expected one of \"sight\""));
+    EXPECT_THAT(problem(R"({"moments": {"kill": {"trigger": "boredom"}}})"),
+                HasSubstr("/moments/kill/trigger: \"boredom\": expected one of \"sight\""));
+    EXPECT_THAT(problem(R"({"moments": {"kill": {"wort": 1}}})"), HasSubstr("did you mean \"worth\"?"));
+    std::string many;
+    for (int i = 0; i < 60; ++i)
+        many += (i > 0 ? ", \"rule " : "\"rule ") + std::to_string(i) + R"(": {"trigger": "kill"})";
+    EXPECT_THAT(problem(R"({"moments": {)" + many + "}}"), HasSubstr("expected at most 64"));
+}
+
 }  // namespace
 }  // namespace camdir::config

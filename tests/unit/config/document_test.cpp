@@ -18,6 +18,8 @@ TEST(Schema, DescribesEveryKey) {
             object = root["properties"]["maps"]["items"];
         else if (key.section == "/profiles/*")
             object = root["properties"]["profiles"]["additionalProperties"];
+        else if (key.section == "/moments/*")
+            object = root["properties"]["moments"]["additionalProperties"];
         else
             object = root["properties"][key.section.substr(1)];
         EXPECT_EQ(object["additionalProperties"], false);

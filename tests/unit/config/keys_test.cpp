@@ -21,6 +21,8 @@ json document_with(const Key& key, const json& value) {
         document["maps"][0][key.name] = value;
     else if (key.section == "/profiles/*")
         document["profiles"]["p"][key.name] = value;
+    else if (key.section == "/moments/*")
+        document["moments"]["kill"][key.name] = value;
     else
         document[json::json_pointer(key.section + "/" + key.name)] = value;
     return document;
@@ -29,6 +31,7 @@ json document_with(const Key& key, const json& value) {
 std::string pointer_of(const Key& key) {
     if (key.section == "/maps/*") return "/maps/0/" + key.name;
     if (key.section == "/profiles/*") return "/profiles/p/" + key.name;
+    if (key.section == "/moments/*") return "/moments/kill/" + key.name;
     return key.section + "/" + key.name;
 }
 

@@ -40,7 +40,7 @@ TEST(Moments, ASightEndsAtItsRangeAndWantsSomebodyToFaceTheOther) {
     script.player(2, 0).facing = -Vec3f::UnitX();
     const auto found = find_moments(
         script.footage(), {},
-        only({.name = "tested", .trigger = Trigger::sight, .range = 101.0, .facing = 0.2}), test::unit, 0);
+        only({.name = "tested", .trigger = Trigger::sight, .range = 101.0, .facing = 11.0}), test::unit, 0);
     ASSERT_EQ(found.size(), 1U);
     EXPECT_EQ(found[0].begin, 0);
     EXPECT_EQ(found[0].end, 1);
