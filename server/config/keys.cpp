@@ -526,7 +526,7 @@ bool fits(const Key& key, const json& value) {
         return value.is_number_integer() && in_range(key, value.get<double>());
     } else if constexpr (std::is_floating_point_v<T>) {
         return value.is_number() && in_range(key, value.get<double>());
-    } else if constexpr (std::is_same_v<T, camera::Solver>) {
+    } else if constexpr (std::is_enum_v<T>) {
         return holds_string(key, value);
     } else if constexpr (std::is_same_v<T, std::string>) {
         return holds_string(key, value) &&
