@@ -269,6 +269,8 @@ void add_direct(CLI::App& root, Run& run) {
         ->required();
     command->add_option("--trace", options->trace, "The recorded match, CSV or CSV.gz")->required();
     command->add_option("--events", options->events, "The match's events, CSV or CSV.gz")->required();
+    command->add_option("--config", options->config,
+                        "Configuration that has the rules and lengths of shots; default: those that ship");
     command->add_option("--delay", options->delay, "Seconds that the audience is behind the match; 0: live")
         ->capture_default_str()
         ->check(CLI::Range(0.0, 120.0));

@@ -78,6 +78,20 @@ TEST_F(DirectCommand, DrawsAPageThatNeedsNothingElse) {
     EXPECT_TRUE(html.ends_with("</html>\n"));
 }
 
+TEST_F(DirectCommand, TakesItsRulesFromTheConfiguration) {
+    const std::string config = folder_ / "director.json";
+    const std::string file = folder_ / "figures.json";
+    ASSERT_TRUE(write_file(config, R"({"direction": {"minimum_shot_s": 60}})"));
+    ASSERT_EQ(direct({"--config", config, "--json", file}), 0) << errors_;
+    const json figures = json::parse(written(file));
+    EXPECT_EQ(figures.at("shot_s_p50"), 0);  // there is no cut
+    EXPECT_EQ(figures.at("random").at("kills"), 1);
+    ASSERT_TRUE(write_file(config, R"({"moments": {"kill": {"worth": -1}}})"));
+    EXPECT_EQ(direct({"--config", config, "--json", file}), 1);
+    EXPECT_THAT(errors_,
+                HasSubstr("director.json: /moments/kill/worth: -1: expected a number from 0 to 1000"));
+}
+
 TEST_F(DirectCommand, RefusesEventsOfAnotherMatchAndLeavesWhatWasThere) {
     const std::string file = folder_ / "programme.csv";
     ASSERT_TRUE(write_file(file, "old"));
