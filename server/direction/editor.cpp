@@ -199,6 +199,7 @@ class Plan {
             else if (credit->kill && beat <= credit->peak)
                 cost += never;
         }
+        if (leaves_fragment(footage_, beat, from, to)) cost += rules_.grammar.inner_cut;
         // The first beat that is not known looks like the last that is: a live cut is made there.
         const Beat seen = std::min(beat, footage_.beats() - 1);
         if (seen >= 0 && beat - seen <= 1 &&

@@ -44,22 +44,19 @@ class Judge {
     }
 
     void judge_cuts(Figures& figures) const {
-        std::vector<double> lengths;
-        double cuts = 0.0;
         for (std::size_t i = 0; i + 1 < shots_.size(); ++i) {
             const Beat cut = shots_[i].end;
             const std::size_t from = shots_[i].rush;
             const std::size_t to = shots_[i + 1].rush;
-            lengths.push_back(static_cast<double>(cut - shots_[i].begin) * beat_s);
-            cuts += 1.0;
             figures.jump_cuts += jump_cut(footage_, grammar_, cut, from, to) ? 1.0 : 0.0;
             figures.line_crossings += crosses_line(footage_, cut, from, to) ? 1.0 : 0.0;
-            figures.shots_under_1_5 += lengths.back() < too_short_s - 1e-9 ? 1.0 : 0.0;
         }
-        for (Beat beat = 0; beat < footage_.beats(); ++beat)
-            cuts += footage_.take(beat, rush_at(beat)).cut ? 1.0 : 0.0;
-        figures.cuts_per_minute = cuts * 60.0 / (static_cast<double>(footage_.beats()) * beat_s);
+        auto lengths = lengths_of_pieces();
+        const double minutes = static_cast<double>(footage_.beats()) * beat_s / 60.0;
+        figures.cuts_per_minute = static_cast<double>(lengths.size()) / minutes;
         std::ranges::sort(lengths);
+        figures.shots_under_1_5 =
+            static_cast<double>(std::ranges::lower_bound(lengths, too_short_s - 1e-9) - lengths.begin());
         figures.shot_s_p10 = percentile(lengths, 0.1);
         figures.shot_s_p50 = percentile(lengths, 0.5);
         figures.shot_s_p90 = percentile(lengths, 0.9);
@@ -86,6 +83,18 @@ class Judge {
 
   private:
     [[nodiscard]] std::size_t rush_at(Beat beat) const { return on_air_[static_cast<std::size_t>(beat)]; }
+
+    // Between two cuts, whoever makes them, and before the first.
+    [[nodiscard]] std::vector<double> lengths_of_pieces() const {
+        std::vector<double> lengths;
+        Beat begin = 0;
+        for (Beat beat = 1; beat < footage_.beats(); ++beat) {
+            if (rush_at(beat) == rush_at(beat - 1) && !footage_.take(beat, rush_at(beat)).cut) continue;
+            lengths.push_back(static_cast<double>(beat - begin) * beat_s);
+            begin = beat;
+        }
+        return lengths;
+    }
 
     [[nodiscard]] bool cut_before(const Kill& kill) const {
         return std::ranges::any_of(shots_.subspan(1), [&](const Shot& shot) {

@@ -18,7 +18,8 @@ struct Figures {
     double multi_kills = 0.0;      // two or more kills of one killer, each within 3 s of the one before
     double multi_kills_seen = 0.0;
     double cuts_per_minute = 0.0;  // with those of the cameras themselves
-    // The shots' lengths, without the last one's; 0 when there is none.
+    // The lengths of what a viewer sees between two cuts, of the programme or of the camera itself, without
+    // the last one's; 0 when there is none.
     double shot_s_p10 = 0.0;
     double shot_s_p50 = 0.0;
     double shot_s_p90 = 0.0;

@@ -7,6 +7,7 @@ namespace camdir::direction {
 namespace {
 
 constexpr double idle_after_s = 2.0;
+constexpr Beat shortest_piece = 15;
 
 float side_of(const Vec3f& from, const Vec3f& to, const Vec3f& point) {
     const Vec3f line = to - from;
@@ -56,6 +57,15 @@ bool crosses_line(const Footage& footage, Beat beat, std::size_t from, std::size
     return side_of(one.eye, other.eye, footage.take(beat, from).position) *
                side_of(one.eye, other.eye, footage.take(beat, to).position) <
            0.0F;
+}
+
+bool leaves_fragment(const Footage& footage, Beat beat, std::size_t from, std::size_t to) {
+    for (Beat away = 1; away < shortest_piece; ++away) {
+        if (beat - away >= 0 && beat - away < footage.beats() && footage.take(beat - away, from).cut)
+            return true;
+        if (beat + away < footage.beats() && footage.take(beat + away, to).cut) return true;
+    }
+    return false;
 }
 
 bool stands_idle(const Footage& footage, Beat beat, std::size_t player, double slow) {

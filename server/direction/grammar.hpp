@@ -20,6 +20,10 @@ namespace camdir::direction {
 // on different sides of the line through them, seen from above. Likewise.
 [[nodiscard]] bool crosses_line(const Footage& footage, Beat beat, std::size_t from, std::size_t to);
 
+// A cut at `beat` leaves a piece of less than 1.5 s between itself and a jump of either camera: the one
+// before jumped just now, or the one after soon will. What is not known counts as none.
+[[nodiscard]] bool leaves_fragment(const Footage& footage, Beat beat, std::size_t from, std::size_t to);
+
 // The subject is alive and stands about: slower than `slow` in every beat of the two seconds before `beat`
 // and in sight of no enemy.
 [[nodiscard]] bool stands_idle(const Footage& footage, Beat beat, std::size_t player, double slow);

@@ -96,6 +96,7 @@ class Worth {
         if (jump_cut(footage_, rules_.grammar, cut, before.rush, after.rush) ||
             crosses_line(footage_, cut, before.rush, after.rush))
             cost += 1e4;
+        if (leaves_fragment(footage_, cut, before.rush, after.rush)) cost += rules_.grammar.inner_cut;
         for (const Moment& moment : moments_) {
             if (!rules_.moments[moment.rule].whole || cut <= moment.begin || cut > moment.peak) continue;
             if (!seen(moment, {before, after})) cost += 1e4;

@@ -56,16 +56,17 @@ TEST(Figures, AMultiKillIsSeenFromItsFirst) {
     EXPECT_EQ(missed.multi_kills_seen, 0.0);
 }
 
-TEST(Figures, ShotsAreMeasuredWithoutTheLast) {
+TEST(Figures, PiecesAreMeasuredWithoutTheLast) {
     Script script(2, 200);
-    script.take(150, 1).cut = true;
-    const Figures figures =
-        judged(script, {}, {{0, 0, 30, {}}, {1, 30, 44, {}}, {0, 44, 114, {}}, {1, 114, 200, {}}});
-    EXPECT_DOUBLE_EQ(figures.shot_s_p10, 1.4);
+    script.take(124, 1).cut = true;
+    script.take(80, 1).cut = true;  // of a camera that is not on the air
+    const std::vector<Shot> shots = {{0, 0, 30, {}}, {1, 30, 44, {}}, {0, 44, 114, {}}, {1, 114, 200, {}}};
+    const Figures figures = judged(script, {}, shots);
+    EXPECT_DOUBLE_EQ(figures.shot_s_p10, 1.0);  // 3, 1.4, 7 and 1 s
     EXPECT_DOUBLE_EQ(figures.shot_s_p50, 3.0);
     EXPECT_DOUBLE_EQ(figures.shot_s_p90, 7.0);
-    EXPECT_EQ(figures.shots_under_1_5, 1.0);
-    EXPECT_DOUBLE_EQ(figures.cuts_per_minute, 4.0 * 3.0);  // and the camera's own
+    EXPECT_EQ(figures.shots_under_1_5, 2.0);
+    EXPECT_DOUBLE_EQ(figures.cuts_per_minute, 4.0 * 3.0);
 }
 
 TEST(Figures, TheDeadAreIdleASecondLaterWhileOthersFight) {

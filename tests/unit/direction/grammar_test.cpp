@@ -60,6 +60,19 @@ TEST(Grammar, TheLineOfActionJoinsEnemiesInSight) {
     EXPECT_FALSE(crosses_line(script.footage(), 0, 0, 1));
 }
 
+TEST(Grammar, ACutNextToAJumpOfACameraLeavesAFragment) {
+    Script script(2, 60);
+    script.take(20, 0).cut = true;
+    const Footage footage = script.footage();
+    EXPECT_FALSE(leaves_fragment(footage, 20, 0, 1));
+    EXPECT_TRUE(leaves_fragment(footage, 21, 0, 1));
+    EXPECT_TRUE(leaves_fragment(footage, 34, 0, 1));
+    EXPECT_FALSE(leaves_fragment(footage, 35, 0, 1));
+    EXPECT_FALSE(leaves_fragment(footage, 5, 1, 0));
+    EXPECT_TRUE(leaves_fragment(footage, 6, 1, 0));
+    EXPECT_FALSE(leaves_fragment(footage, 21, 1, 0));
+}
+
 TEST(Grammar, WhoStandsForTwoSecondsWithoutAnEnemyIsIdle) {
     Script script(2, 40);
     for (std::size_t beat = 10; beat < 40; ++beat)
