@@ -3,6 +3,7 @@
 
 #include <bit>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 
@@ -49,13 +50,22 @@ class ByteSource {
             value |= static_cast<std::uint64_t>(field[i]) << (8 * i);
         return value;
     }
+    // A value beyond 64 bits is no varint.
     std::uint64_t varint() {
         std::uint64_t value = 0;
         for (int shift = 0; shift < 64; shift += 7) {
             const std::uint64_t byte = fixed(1);
+            if (shift == 63 && byte > 1) break;
             value |= (byte & 0x7f) << shift;
             if (byte < 0x80) return value;
         }
+        ok_ = false;
+        return 0;
+    }
+    // A varint of at most 32 bits.
+    std::uint32_t number() {
+        const std::uint64_t value = varint();
+        if (value <= std::numeric_limits<std::uint32_t>::max()) return static_cast<std::uint32_t>(value);
         ok_ = false;
         return 0;
     }
@@ -67,10 +77,10 @@ class ByteSource {
         const auto field = take(varint());
         return {reinterpret_cast<const char*>(field.data()), field.size()};
     }
-    // How many elements follow, each of at least `size` bytes.
-    std::size_t count(std::size_t size) {
+    // How many elements follow, each of at least `size` bytes: at most `max`.
+    std::size_t count(std::size_t size, std::size_t max) {
         const std::uint64_t value = varint();
-        if (value <= left() / size) return static_cast<std::size_t>(value);
+        if (value <= max && value <= left() / size) return static_cast<std::size_t>(value);
         ok_ = false;
         return 0;
     }

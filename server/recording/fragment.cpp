@@ -93,16 +93,19 @@ bool get_info(ByteSource& source, director::MatchInfo& info) {
     info.map_hash = source.fixed(8);
     for (float* value : {&info.metres_per_unit, &info.rate_hz, &info.spectator_delay_s})
         *value = real(source.fixed(4));
-    info.players.resize(source.count(4));
+    info.players.resize(source.count(4, director::max_players));
     for (director::Player& player : info.players) {
-        player.id = static_cast<std::uint32_t>(source.varint());
+        player.id = source.number();
         player.name = source.text();
         player.player_class = source.text();
         player.team = static_cast<std::uint8_t>(source.fixed(1));
     }
-    return info.players.size() <= director::max_players && std::isfinite(info.metres_per_unit) &&
-           std::isfinite(info.rate_hz) && std::isfinite(info.spectator_delay_s);
+    return std::isfinite(info.metres_per_unit) && std::isfinite(info.rate_hz) &&
+           std::isfinite(info.spectator_delay_s);
 }
+
+// Of the last frame and of the match's list: see State.
+constexpr std::size_t max_poses = 2 * director::max_players;
 
 enum class RecordKind : std::uint64_t { info = 1, poses, event, request, withdrawal, cameras };
 
@@ -129,12 +132,13 @@ void put_request(ByteSink& sink, const director::ObserverRequest& request) {
 // Decodes the records of one resource, which start from no poses and no cameras.
 class RecordDecoder {
   public:
-    // Nothing: the kind is unknown. Leaves the source not ok where a field is cut off.
+    // Nothing: the kind is unknown. Leaves the source not ok where a field is cut off or too large, and
+    // `valid` false where a value is none that the record may have.
     std::optional<Message> message(std::uint64_t kind, ByteSource& source, bool& valid) {
         switch (static_cast<RecordKind>(kind)) {
             case RecordKind::info: {
                 director::MatchInfo info;
-                valid = get_info(source, info);
+                valid = get_info(source, info) && valid;
                 return info;
             }
             case RecordKind::poses:
@@ -155,15 +159,14 @@ class RecordDecoder {
     director::PoseFrame poses(ByteSource& source, bool& valid) {
         director::PoseFrame frame;
         frame.epoch = source.varint();
-        frame.frame_number = static_cast<std::uint32_t>(source.varint());
+        frame.frame_number = source.number();
         frame.frame_time = source.difference();
         frame.source_time = source.difference();
-        frame.poses.resize(source.count(13));
-        valid = frame.poses.size() <= 2 * director::max_players;
+        frame.poses.resize(source.count(13, max_poses));
         for (director::PlayerPose& pose : frame.poses) {
-            pose.player_id = static_cast<std::uint32_t>(source.varint());
-            pose.flags = static_cast<std::uint32_t>(source.varint());
-            if (source.fixed(1) != 0) pose.discontinuities = static_cast<std::uint32_t>(source.varint());
+            pose.player_id = source.number();
+            pose.flags = source.number();
+            if (source.fixed(1) != 0) pose.discontinuities = source.number();
             Floats<10>& values = poses_[pose.player_id];
             valid = get(source, values) && valid;
             pose.eye = vector_at(values, 0);
@@ -177,16 +180,15 @@ class RecordDecoder {
     director::CameraFrame cameras(ByteSource& source, bool& valid) {
         director::CameraFrame frame;
         frame.epoch = source.varint();
-        frame.frame_number = static_cast<std::uint32_t>(source.varint());
-        frame.pose_number = static_cast<std::uint32_t>(source.varint());
+        frame.frame_number = source.number();
+        frame.pose_number = source.number();
         frame.frame_time = source.difference();
         frame.source_time = source.difference();
-        frame.cameras.resize(source.count(12));
-        valid = frame.cameras.size() <= director::max_cameras;
+        frame.cameras.resize(source.count(12, director::max_cameras));
         for (director::ShotCamera& camera : frame.cameras) {
-            camera.camera_id = static_cast<std::uint32_t>(source.varint());
-            camera.target = static_cast<std::uint32_t>(source.varint());
-            camera.flags = static_cast<std::uint32_t>(source.varint());
+            camera.camera_id = source.number();
+            camera.target = source.number();
+            camera.flags = source.number();
             Floats<9>& values = cameras_[camera.camera_id];
             valid = get(source, values) && valid;
             camera.position = vector_at(values, 0);
@@ -203,10 +205,10 @@ class RecordDecoder {
         event.epoch = source.varint();
         event.frame_time = source.difference();
         for (std::uint32_t* value : {&event.kind, &event.actor, &event.subject})
-            *value = static_cast<std::uint32_t>(source.varint());
+            *value = source.number();
         event.value = real(source.fixed(4));
         event.detail = source.text();
-        valid = std::isfinite(event.value);
+        valid = std::isfinite(event.value) && valid;
         return event;
     }
 
@@ -214,10 +216,10 @@ class RecordDecoder {
         director::ObserverRequest request;
         request.match_id = source.text();
         request.observer_id = source.text();
-        request.target = static_cast<std::uint32_t>(source.varint());
-        request.group.resize(source.count(1));
+        request.target = source.number();
+        request.group.resize(source.count(1, source.left()));
         for (std::uint32_t& id : request.group)
-            id = static_cast<std::uint32_t>(source.varint());
+            id = source.number();
         request.profile = source.text();
         request.overrides = source.text();
         return request;
@@ -291,6 +293,7 @@ void RecordEncoder::add(std::int64_t time, const Message& message) {
     sink_.varint(message.index() + 1);  // RecordKind has the variant's order
     sink_.varint(body.bytes.size());
     sink_.append(body.bytes);
+    ++count_;
 }
 
 Result<std::vector<Record>> decode_records(const Resource& resource, const std::string& name) {
@@ -304,16 +307,16 @@ Result<std::vector<Record>> decode_records(const Resource& resource, const std::
         const std::uint64_t kind = source.varint();
         ByteSource body(source.take(source.varint()));
         if (!source.ok()) return fail(where + "expected a record's kind, length and body");
-        const auto step = static_cast<std::uint64_t>(body.difference());
-        // Unsigned, since damaged bytes may hold any step.
-        const auto next = static_cast<std::int64_t>(static_cast<std::uint64_t>(time) + step);
-        bool valid = true;
+        const std::int64_t step = body.difference();
+        bool valid = step >= 0 && !__builtin_add_overflow(time, step, &time);
         auto message = decoder.message(kind, body, valid);
-        if (!body.ok() || !valid || next < time)
+        if (!body.ok() || !valid)
             return fail(where + "expected a whole record of kind " + std::to_string(kind) +
                         " with finite numbers, unit quaternions and a time not before the last one");
-        time = next;
-        if (message) records.push_back({time, std::move(*message)});
+        if (!message) continue;
+        if (records.size() == max_records)
+            return fail(where + "expected at most " + std::to_string(max_records) + " records");
+        records.push_back({time, std::move(*message)});
     }
     return records;
 }

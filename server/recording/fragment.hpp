@@ -25,16 +25,21 @@ class RecordEncoder {
     explicit RecordEncoder(std::int64_t begin_time) : time_(begin_time) {}
     void add(std::int64_t time, const Message& message);
     [[nodiscard]] const Bytes& content() const { return sink_.bytes; }
+    [[nodiscard]] std::size_t count() const { return count_; }  // of the records
 
   private:
     std::int64_t time_;
+    std::size_t count_ = 0;
     std::map<std::uint32_t, std::array<std::uint32_t, 10>> poses_;
     std::map<std::uint32_t, std::array<std::uint32_t, 9>> cameras_;
     ByteSink sink_;
 };
 
+// Of one resource. Bounds what its decoding allocates: a record of four bytes becomes one of two hundred.
+inline constexpr std::size_t max_records = 1U << 17U;
+
 // Unknown kinds of records are skipped, and so is what a newer minor version appends to a record. Floats
-// are finite and quaternions of length 1 within 1e-3, or it is an error.
+// are finite, quaternions of length 1 within 1e-3 and known records at most max_records, or it is an error.
 [[nodiscard]] Result<std::vector<Record>> decode_records(const Resource& resource, const std::string& name);
 
 }  // namespace camdir::recording

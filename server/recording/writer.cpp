@@ -48,14 +48,20 @@ Result<void> Writer::append(const Record& record) {
     if (pending_ && record.time < time_)
         return fail(folder_.string() + ": a record at " + std::to_string(record.time) +
                     " ns, expected not before " + std::to_string(time_));
-    if (pending_ &&
-        (record.time - pending_->begin_time >= duration_ || pending_->records.content().size() > max_delta))
+    if (pending_ && is_full(*pending_, record.time))
         if (auto done = complete_fragment(); !done) return done;
     if (!pending_) pending_.emplace(Pending{record.time, state_, RecordEncoder(record.time)});
     time_ = record.time;
     pending_->records.add(record.time, record.message);
     state_.apply(record.message);
     return {};
+}
+
+// The time is not before the fragment's: a difference beyond 64 bits is one of more than any duration.
+bool Writer::is_full(const Pending& pending, std::int64_t time) const {
+    std::int64_t elapsed = 0;
+    return __builtin_sub_overflow(time, pending.begin_time, &elapsed) || elapsed >= duration_ ||
+           pending.records.content().size() > max_delta || pending.records.count() == max_records;
 }
 
 Result<void> Writer::finish() {
@@ -94,11 +100,12 @@ Result<void> Writer::write_fragment() {
     std::uint32_t first = next_;
     for (auto it = written_.rbegin(); it != written_.rend(); ++it) {
         total += it->bytes;
-        if (total > max_bytes_ && it != written_.rbegin()) break;
+        if (it->fragment < first_ || (total > max_bytes_ && it != written_.rbegin())) break;
         first = it->fragment;
     }
     done = write_file(folder_ / "sync", encode(Sync{first, next_}));
     if (!done) return done;
+    first_ = first;
     remove_before(first);
     ++next_;
     return {};

@@ -16,8 +16,9 @@ class Writer {
     [[nodiscard]] static Result<Writer> create(const std::filesystem::path& folder, const Start& start,
                                                std::uint64_t max_bytes);
 
-    // Blocks for a write and fsync when the record begins the next fragment. Times never descend. An error
-    // ends the recording at its last complete fragment: every later call returns the same error.
+    // Blocks for a write and fsync when the record begins the next fragment. A record with a time before the
+    // last one's is refused, and is no part of the recording. An error of the disk ends the recording at its
+    // last complete fragment: every later call returns the same error.
     [[nodiscard]] Result<void> append(const Record& record);
 
     // Writes what the last fragment has. Nothing may be appended after it.
@@ -36,6 +37,7 @@ class Writer {
 
     Writer(std::filesystem::path folder, std::int64_t duration, std::uint64_t max_bytes)
         : folder_(std::move(folder)), duration_(duration), max_bytes_(max_bytes) {}
+    [[nodiscard]] bool is_full(const Pending& pending, std::int64_t time) const;
     Result<void> complete_fragment();
     Result<void> write_fragment();
     void remove_before(std::uint32_t first);
@@ -47,7 +49,8 @@ class Writer {
     std::int64_t time_ = 0;
     std::uint32_t next_ = 0;
     std::optional<Pending> pending_;
-    std::vector<Written> written_;
+    std::uint32_t first_ = 0;       // that `sync` names
+    std::vector<Written> written_;  // ascending; those before first_ could not be removed yet
     std::optional<Error> error_;
 };
 

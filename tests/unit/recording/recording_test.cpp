@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 
 #include <fstream>
+#include <limits>
 #include <random>
 
 #include "recording/reader.hpp"
@@ -183,6 +184,14 @@ TEST(Recording, AMajorVersionIsRefusedWithAdvice) {
                 HasSubstr("byte 4: format version 2, expected 1: read it with the release that wrote it"));
 }
 
+Bytes record_of(std::uint64_t kind, const ByteSink& body) {
+    ByteSink sink;
+    sink.varint(kind);
+    sink.varint(body.bytes.size());
+    sink.append(body.bytes);
+    return sink.bytes;
+}
+
 TEST(Recording, UnknownRecordsAndAppendedFieldsAreSkipped) {
     ByteSink sink;
     for (const std::uint64_t kind : {99, 5}) {
@@ -190,15 +199,77 @@ TEST(Recording, UnknownRecordsAndAppendedFieldsAreSkipped) {
         body.difference(1);
         body.text("observer");
         body.text("a later version's field");
-        sink.varint(kind);
-        sink.varint(body.bytes.size());
-        sink.append(body.bytes);
+        sink.append(record_of(kind, body));
     }
     const auto records = decode_records({ResourceKind::delta, 0, 0, sink.bytes}, "delta");
     ASSERT_TRUE(records) << records.error().message;
     ASSERT_EQ(records->size(), 1U);
     EXPECT_EQ(records->front().time, 2);
     EXPECT_EQ(std::get<Withdrawal>(records->front().message).observer_id, "observer");
+}
+
+TEST(Recording, ATimeNeverGoesBackNotEvenRoundTheEnds) {
+    using Limits = std::numeric_limits<std::int64_t>;
+    for (const auto& [begin, step] :
+         {std::pair{std::int64_t{0}, std::int64_t{-1}}, {Limits::min(), -1}, {1, Limits::max()}}) {
+        ByteSink body;
+        body.difference(step);
+        body.text("observer");
+        const Resource delta{ResourceKind::delta, 0, begin, record_of(5, body)};
+        const auto records = decode_records(delta, "delta");
+        ASSERT_FALSE(records) << begin << ' ' << step;
+        EXPECT_THAT(records.error().message, HasSubstr("a time not before the last one"));
+    }
+}
+
+TEST(Recording, ANumberBeyondItsFieldIsAnErrorAndNotAnotherNumber) {
+    const auto request_of = [](std::uint64_t target) {
+        ByteSink body;
+        body.difference(0);
+        body.text("match");
+        body.text("observer");
+        body.varint(target);
+        for (int i = 0; i < 3; ++i)
+            body.varint(0);  // no group, profile and overrides
+        return decode_records({ResourceKind::delta, 0, 0, record_of(4, body)}, "delta");
+    };
+    ASSERT_TRUE(request_of(0xffffffffU));
+    EXPECT_FALSE(request_of(0x100000000U));
+    Bytes ten(9, std::byte{0xff});
+    ten.push_back(std::byte{1});
+    EXPECT_EQ(ByteSource(ten).varint(), std::numeric_limits<std::uint64_t>::max());
+    ten.back() = std::byte{2};
+    ByteSource beyond(ten);
+    (void)beyond.varint();
+    EXPECT_FALSE(beyond.ok());
+}
+
+TEST(Recording, AFragmentHoldsNoMoreRecordsThanAReaderTakes) {
+    const test::TemporaryFolder folder;
+    auto writer = Writer::create(folder / "r", start_of_match(), unlimited);
+    RecordEncoder all(0);
+    for (std::size_t i = 0; i <= max_records; ++i) {
+        ASSERT_TRUE(writer->append({0, Withdrawal{}}));
+        all.add(0, Withdrawal{});
+    }
+    ASSERT_TRUE(writer->finish());
+    const auto reader = Reader::open(folder / "r");
+    ASSERT_TRUE(reader);
+    EXPECT_EQ(reader->delta(0)->size(), max_records);
+    EXPECT_EQ(reader->delta(1)->size(), 1U);
+    const auto records = decode_records({ResourceKind::delta, 0, 0, all.content()}, "delta");
+    ASSERT_FALSE(records);
+    EXPECT_THAT(records.error().message, HasSubstr("expected at most 131072 records"));
+}
+
+TEST(Recording, ATimeThatGoesBackIsNoPartOfTheRecording) {
+    const test::TemporaryFolder folder;
+    auto writer = Writer::create(folder / "r", start_of_match(), unlimited);
+    ASSERT_TRUE(writer->append({5, Withdrawal{"a"}}));
+    EXPECT_THAT(writer->append({4, Withdrawal{"b"}}).error().message, HasSubstr("expected not before 5"));
+    ASSERT_TRUE(writer->append({6, Withdrawal{"c"}}));
+    ASSERT_TRUE(writer->finish());
+    EXPECT_EQ(Reader::open(folder / "r")->delta(0)->size(), 2U);
 }
 
 TEST(Recording, AnErrorOfTheDiskEndsTheRecording) {
