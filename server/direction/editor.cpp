@@ -265,13 +265,11 @@ class Plan {
         const Rule& rule = rules_.moments[moment.rule];
         const Beat first = std::max(from - 1, moment.begin);
         const Beat last = std::min({end, moment.end, footage_.beats()});
-        if (rule.whole && (moment.begin < from || moment.end > end)) return 0.0;
-        double worth = 0.0;
+        if (last <= first || (rule.whole && (moment.begin < from || moment.end > end))) return 0.0;
+        double shown = 0.0;  // beats
         for (Beat beat = first; beat < last; ++beat)
-            worth += shows(footage_.take(beat, rush), moment) ? rule.worth * beat_s : 0.0;
-        return rule.whole && last > first
-                   ? rule.worth * worth / (rule.worth * beat_s * static_cast<double>(last - first))
-                   : worth;
+            shown += shows(footage_.take(beat, rush), moment) ? 1.0 : 0.0;
+        return rule.worth * shown * (rule.whole ? 1.0 / static_cast<double>(last - first) : beat_s);
     }
 
     const Footage& footage_;

@@ -8,12 +8,20 @@
 namespace camdir::direction {
 namespace {
 
-constexpr double before_kill_s = 1.0;
-constexpr double after_kill_s = 0.5;
 constexpr double mourning_s = 1.0;
 constexpr double fight_range = 1200.0;
 constexpr double idle_speed = 32.0;
 constexpr double too_short_s = 1.5;
+
+struct Beats {
+    Beat begin = 0;
+    Beat end = 0;  // not of it any more
+};
+
+// In which a kill is to be seen.
+Beats beats_of_kill(double time) {
+    return {beat_of(time - before_kill_s), beat_of(time + after_kill_s) + 1};
+}
 
 struct Seen {
     bool counted = false;
@@ -70,9 +78,8 @@ class Judge {
     }
 
     [[nodiscard]] Seen see(const Kill& kill) const {
-        const Beat begin = beat_of(kill.time - before_kill_s);
-        const Beat end = beat_of(kill.time + after_kill_s) + 1;
-        Seen seen{begin >= 0 && end <= footage_.beats()};
+        const auto [begin, end] = beats_of_kill(kill.time);
+        Seen seen{kill_counts(footage_, kill.time)};
         for (Beat beat = begin; seen.counted && beat < end; ++beat) {
             const PlayerSet& shown = footage_.take(beat, rush_at(beat)).shown;
             seen.one = seen.one && (shown[kill.killer] || shown[kill.victim]);
@@ -103,19 +110,22 @@ class Judge {
     }
 
     static void judge_chains(std::span<const Kill> kills, std::span<const Seen> seen, Figures& figures) {
-        for (std::size_t first = 0; first < kills.size(); ++first) {
-            bool counted = seen[first].counted;
-            bool all = seen[first].one;
-            std::size_t links = 1;
-            for (std::size_t i = first + 1; i < kills.size(); ++i) {
-                if (kills[i].first != first) continue;
-                ++links;
-                counted = counted && seen[i].counted;
-                all = all && seen[i].one;
-            }
-            if (links < 2 || !counted) continue;
+        struct Chain {
+            std::size_t links = 0;
+            bool counted = true;
+            bool all = true;
+        };
+        std::vector<Chain> chains(kills.size());  // at the place of their first kill
+        for (std::size_t i = 0; i < kills.size(); ++i) {
+            Chain& chain = chains[kills[i].first];
+            ++chain.links;
+            chain.counted = chain.counted && seen[i].counted;
+            chain.all = chain.all && seen[i].one;
+        }
+        for (const Chain& chain : chains) {
+            if (chain.links < 2 || !chain.counted) continue;
             figures.multi_kills += 1.0;
-            figures.multi_kills_seen += all ? 1.0 : 0.0;
+            figures.multi_kills_seen += chain.all ? 1.0 : 0.0;
         }
     }
 
@@ -179,9 +189,20 @@ Figures judge(const Footage& footage, std::span<const Event> events, std::span<c
     return figures;
 }
 
-bool shows_kill(const Footage& footage, std::span<const Shot> shots, const Kill& kill) {
-    const Seen seen = Judge(footage, shots, Grammar{}, 1.0).see(kill);
-    return seen.counted && seen.one;
+std::vector<bool> kills_shown(const Footage& footage, std::span<const Shot> shots,
+                              std::span<const Kill> kills) {
+    const Judge judge(footage, shots, Grammar{}, 1.0);
+    std::vector<bool> shown;
+    for (const Kill& kill : kills) {
+        const Seen seen = judge.see(kill);
+        shown.push_back(seen.counted && seen.one);
+    }
+    return shown;
+}
+
+bool kill_counts(const Footage& footage, double kill_time) {
+    const auto [begin, end] = beats_of_kill(kill_time);
+    return begin >= 0 && end <= footage.beats();
 }
 
 Figures mean_of(std::span<const Figures> figures) {

@@ -36,9 +36,15 @@ struct Figures {
 [[nodiscard]] Figures judge(const Footage& footage, std::span<const Event> events,
                             std::span<const Shot> shots, const Grammar& grammar, double unit);
 
-// The programme shows the kill, as Figures::kills_seen counts it; false where the match lacks a part of its
-// time.
-[[nodiscard]] bool shows_kill(const Footage& footage, std::span<const Shot> shots, const Kill& kill);
+// Of each kill: the programme shows it, as Figures::kills_seen counts it; false where the match lacks a part
+// of its time.
+[[nodiscard]] std::vector<bool> kills_shown(const Footage& footage, std::span<const Shot> shots,
+                                            std::span<const Kill> kills);
+
+// How long before and after a kill it is to be seen, and whether the match has all of that time.
+inline constexpr double before_kill_s = 1.0;
+inline constexpr double after_kill_s = 0.5;
+[[nodiscard]] bool kill_counts(const Footage& footage, double kill_time);
 
 // The mean of each. Precondition: at least one.
 [[nodiscard]] Figures mean_of(std::span<const Figures> figures);

@@ -115,7 +115,6 @@ class Finder {
             if (lives[player].kills >= streak_kills) add(rule, lives[player].since, end_s(), player, nobody);
     }
 
-    // Whose lead began before what is known ends: earlier leads are over.
     void find_lead(Index rule) {
         std::vector<std::size_t> kills(footage_.players());
         Index leader = nobody;
@@ -124,7 +123,8 @@ class Finder {
             if (event.kind != EventKind::kill || !between_players(event)) continue;
             ++kills[event.actor];
             if (leader != nobody && kills[event.actor] <= kills[leader]) continue;
-            if (leader != event.actor) since = event.time;
+            if (leader != nobody) add(rule, since, event.time, leader, nobody);
+            since = event.time;
             leader = event.actor;
         }
         if (leader != nobody) add(rule, since, end_s(), leader, nobody);

@@ -1,6 +1,9 @@
 #include "direction/programme.hpp"
 
 #include <algorithm>
+#include <iterator>
+
+#include "direction/figures.hpp"
 
 namespace camdir::direction {
 namespace {
@@ -75,11 +78,16 @@ std::vector<Shot> direct_for_kills(const Footage& footage, std::span<const Event
     kills.grammar.foresight_s = 0.0;
     kills.grammar.length = kills.grammar.cut = kills.grammar.hidden = kills.grammar.dead = 0.0;
     kills.grammar.idle = kills.grammar.inner_cut = kills.grammar.fresh = 0.0;
-    std::ranges::copy_if(rules.moments, std::back_inserter(kills.moments),
-                         [](const Rule& rule) { return rule.trigger == Trigger::kill; });
-    for (Rule& rule : kills.moments)
-        rule.worth_both = 0.0;
-    const auto moments = find_moments(footage, events, kills, unit, 0);
+    kills.moments = {{.name = "kill",
+                      .trigger = Trigger::kill,
+                      .before_s = before_kill_s,
+                      .after_s = after_kill_s,
+                      .worth = 1.0,
+                      .whole = true}};
+    std::vector<Event> counted;
+    std::ranges::copy_if(events, std::back_inserter(counted),
+                         [&](const Event& event) { return kill_counts(footage, event.time); });
+    const auto moments = find_moments(footage, counted, kills, unit, 0);
     const OnAir nothing{{}, std::vector<Beat>(footage.rushes(), never_shown)};
     return plan_shots(footage, moments, kills, unit, nothing, 0);
 }

@@ -18,8 +18,9 @@ namespace camdir::direction {
                                                const Rules& rules, double unit, double delay_s,
                                                const std::stop_token& stop);
 
-// The programme that shows the most kills by the same grammar, for an editor who wants nothing else and knows
-// the whole match. Precondition: a beat.
+// The programme that shows the most kills by the same grammar, as Figures::kills_seen counts them, for an
+// editor who wants nothing else and knows the whole match; what the rules say of moments does not matter.
+// Precondition: a beat.
 [[nodiscard]] std::vector<Shot> direct_for_kills(const Footage& footage, std::span<const Event> events,
                                                  const Rules& rules, double unit);
 

@@ -24,7 +24,7 @@ struct Event {
     EventKind kind = EventKind::kill;
     Index actor = nobody;
     Index subject = nobody;
-    double value = 0.0;  // hit points of damage
+    double value = 0.0;  // of an item, in kills: see quakeworld()
 };
 
 // What begins a moment.

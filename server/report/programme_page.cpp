@@ -37,7 +37,8 @@ class Timeline {
     explicit Timeline(const ProgrammeSubject& subject)
         : subject_(subject),
           players_(subject.stage.trace.players),
-          kills_(direction::kills_of(subject.events)) {}
+          kills_(direction::kills_of(subject.events)),
+          shown_(direction::kills_shown(subject.footage, subject.shots, kills_)) {}
 
     [[nodiscard]] std::string html() const {
         std::string html = legend();
@@ -49,12 +50,9 @@ class Timeline {
   private:
     static std::string legend() {
         return "<p>A row a minute, a lane a player. Wide: this player's camera is on the air; point at it "
-               "for the "
-               "reason. Thin: the player is in a moment. A disc is a kill on its killer's lane, a cross on "
-               "its "
-               "victim's: green where the programme shows one of them from 1 s before to 0.5 s after, red "
-               "where "
-               "not.</p>\n";
+               "for the reason. Thin: the player is in a moment. A disc is a kill on its killer's lane, a "
+               "cross on its victim's: green where the programme shows one of them from 1 s before to 0.5 s "
+               "after, red where not.</p>\n";
     }
 
     [[nodiscard]] std::string row(Beat begin) const {
@@ -68,8 +66,8 @@ class Timeline {
             svg += moment_bars(moment, begin, end);
         for (std::size_t i = 0; i < subject_.shots.size(); ++i)
             svg += shot_bar(i, begin, end);
-        for (const direction::Kill& kill : kills_)
-            svg += kill_marks(kill, begin, end);
+        for (std::size_t i = 0; i < kills_.size(); ++i)
+            svg += kill_marks(i, begin, end);
         return svg + "</svg>\n";
     }
 
@@ -116,12 +114,12 @@ class Timeline {
         return svg;
     }
 
-    [[nodiscard]] std::string kill_marks(const direction::Kill& kill, Beat begin, Beat end) const {
+    [[nodiscard]] std::string kill_marks(std::size_t i, Beat begin, Beat end) const {
+        const direction::Kill& kill = kills_[i];
         const Beat beat = direction::beat_of(kill.time);
         if (beat < begin || beat >= end) return {};
         const std::string where = number(x(beat, begin));
-        const std::string seen =
-            direction::shows_kill(subject_.footage, subject_.shots, kill) ? "seen" : "missed";
+        const std::string seen = shown_[i] ? "seen" : "missed";
         const std::string title = "<title>" + decimal(kill.time, 1) +
                                   " s: " + std::to_string(players_[kill.killer]) + " kills " +
                                   std::to_string(players_[kill.victim]) + ", " + seen + "</title>";
@@ -137,6 +135,7 @@ class Timeline {
     const ProgrammeSubject& subject_;
     const std::vector<std::uint32_t>& players_;
     std::vector<direction::Kill> kills_;
+    std::vector<bool> shown_;  // of each kill
 };
 
 std::string figures(const ProgrammeSubject& subject) {
@@ -154,7 +153,7 @@ std::string figures(const ProgrammeSubject& subject) {
     return html + "</tbody></table></div>\n";
 }
 
-// The last frame before a beat, and the first one from it on, in which the player has a pose.
+// The first frame from the beat on; the match's last where there is none.
 std::size_t frame_from(const evaluation::Trace& trace, Beat beat) {
     std::size_t frame = 0;
     while (frame + 1 < trace.frames.size() && direction::beat_of(seconds_at(trace, frame)) < beat)

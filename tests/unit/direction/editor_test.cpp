@@ -188,6 +188,22 @@ TEST(Editor, CutsToAFightBeforeItBeginsWhenItIsKnown) {
     EXPECT_EQ(shot->reason.why, Reason::Why::moment);
 }
 
+TEST(Editor, ARuleThatIsSwitchedOffIsNoReason) {
+    Script script(2, 100);
+    for (std::size_t beat = 0; beat < 100; ++beat)
+        script.meet(beat, 0, 1);
+    const std::vector<Event> events = {kill(5.0, 0, 1)};
+    Rules rules;
+    rules.moments = {
+        {.name = "sight", .trigger = Trigger::sight, .worth = 1.0},
+        {.name = "kill", .trigger = Trigger::kill, .before_s = 1.0, .after_s = 0.5, .whole = true}};
+    const Footage footage = script.footage();
+    const auto plan = plan_shots(footage, find_moments(footage, events, rules, test::unit, 0), rules,
+                                 test::unit, nothing_yet(footage), 0);
+    EXPECT_EQ(plan[0].reason.why, Reason::Why::moment);
+    EXPECT_EQ(plan[0].reason.rule, 0);
+}
+
 TEST(Editor, AShotOnTheAirIsNotCutBeforeItsTime) {
     Script script(2, 30);
     for (std::size_t beat = 0; beat < 30; ++beat)

@@ -126,10 +126,13 @@ TEST(Moments, TheLeadIsWhoseKillsAreMore) {
     const std::vector<Event> events = {kill(1.0, 0, 1), kill(2.0, 1, 0), kill(3.0, 1, 0)};
     const auto found = find_moments(Script(2, 50).footage(), events,
                                     only({.name = "tested", .trigger = Trigger::lead}), test::unit, 0);
-    ASSERT_EQ(found.size(), 1U);
-    EXPECT_EQ(found[0].actor, 1);
-    EXPECT_EQ(found[0].begin, 30);
-    EXPECT_EQ(found[0].end, 50);
+    ASSERT_EQ(found.size(), 2U);
+    EXPECT_EQ(found[0].actor, 0);
+    EXPECT_EQ(found[0].begin, 10);
+    EXPECT_EQ(found[0].end, 31);  // until another has more
+    EXPECT_EQ(found[1].actor, 1);
+    EXPECT_EQ(found[1].begin, 30);
+    EXPECT_EQ(found[1].end, 50);
 }
 
 }  // namespace

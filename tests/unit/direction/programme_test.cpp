@@ -80,6 +80,22 @@ TEST(Programme, ForKillsSeesAtLeastWhatTheEditorSees) {
     }
 }
 
+// 0 kills twice before there is a second to be seen, and once where the match ends; 1 kills where it counts.
+TEST(Programme, ForKillsWantsThoseThatCountWhateverTheRulesSay) {
+    const Footage footage = test::Script(4, 30).footage();
+    const std::vector<Event> events = {test::kill(0.1, 0, 2), test::kill(0.2, 0, 2), test::kill(1.4, 1, 3),
+                                       test::kill(2.9, 0, 2)};
+    Rules rules = default_rules();
+    const auto seen = [&] {
+        return judge(footage, events, direct_for_kills(footage, events, rules, test::unit), rules.grammar,
+                     test::unit)
+            .kills_seen;
+    };
+    EXPECT_EQ(seen(), 1.0);
+    rules.moments.clear();
+    EXPECT_EQ(seen(), 1.0);
+}
+
 TEST(Programme, StopsWhenAsked) {
     std::stop_source source;
     source.request_stop();
