@@ -147,12 +147,22 @@ void read_profiles(const json& object, Config& config, ValidationErrors& errors)
     }
 }
 
+// Such a name is a field of a table of shots.
+bool is_rule_name(const std::string& name) {
+    const auto breaks_a_table = [](char c) {
+        return c == ',' || c == '"' || static_cast<unsigned char>(c) < ' ' || c == '\x7f';
+    };
+    return !name.empty() && name.size() <= max_profile_name && std::ranges::none_of(name, breaks_a_table);
+}
+
 void read_moments(const json& object, direction::Rules& rules, ValidationErrors& errors) {
     if (!object.is_object()) return errors.add("/moments", object, "an object of rules by name");
     for (const auto& [name, value] : object.items()) {
         const std::string pointer = "/moments/" + escaped(name);
-        if (name.empty() || name.size() > max_profile_name)
-            errors.add(pointer, name, "a name of 1 to " + std::to_string(max_profile_name) + " bytes");
+        if (!is_rule_name(name))
+            errors.add(pointer, name,
+                       "a name of 1 to " + std::to_string(max_profile_name) +
+                           " bytes without commas, quotation marks and control characters");
         auto rule = std::ranges::find(rules.moments, name, &direction::Rule::name);
         if (rule == rules.moments.end()) {
             if (value.is_object() && !value.contains("trigger"))

@@ -70,7 +70,8 @@ ordered section_schema(const Section& section) {
         schema["additionalProperties"] = object_schema("/profiles/*");
     } else if (section.pointer == "/moments") {
         schema["type"] = "object";
-        schema["propertyNames"] = {{"minLength", 1}, {"maxLength", 31}};
+        schema["propertyNames"] = {
+            {"minLength", 1}, {"maxLength", 31}, {"pattern", R"(^[^,"\x00-\x1f\x7f]*$)"}};
         schema["additionalProperties"] = object_schema("/moments/*");
     } else if (section.pointer == "/overrides") {
         schema["type"] = "object";

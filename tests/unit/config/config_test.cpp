@@ -288,6 +288,11 @@ TEST(Moments, ErrorsSayWhatARuleNeeds) {
     EXPECT_THAT(problem(R"({"moments": {"kill": {"trigger": "boredom"}}})"),
                 HasSubstr("/moments/kill/trigger: \"boredom\": expected one of \"sight\""));
     EXPECT_THAT(problem(R"({"moments": {"kill": {"wort": 1}}})"), HasSubstr("did you mean \"worth\"?"));
+    EXPECT_EQ(problem(R"({"moments": {"frag \u00e9": {"trigger": "kill"}}})"), "no problem");
+    for (const char* name : {"", "a,b", "a\\\"b", "a\\nb", "a\\u007f", "12345678901234567890123456789012"})
+        EXPECT_THAT(problem(R"({"moments": {")" + std::string(name) + R"(": {"trigger": "kill"}}})"),
+                    HasSubstr("expected a name of 1 to 31 bytes without commas"))
+            << name;
     std::string many;
     for (int i = 0; i < 60; ++i)
         many += (i > 0 ? ", \"rule " : "\"rule ") + std::to_string(i) + R"(": {"trigger": "kill"})";
