@@ -37,7 +37,7 @@ bool is_input(const std::string& file, const std::string& input) {
 bool is_same_file(const std::string& a, const std::string& b) {
     if (a.empty() || b.empty() || a == "-" || b == "-") return false;
     if (fs::exists(a) && !fs::is_regular_file(a)) return false;
-    return fs::weakly_canonical(a) == fs::weakly_canonical(b);
+    return fs::weakly_canonical(fs::absolute(a)) == fs::weakly_canonical(fs::absolute(b));
 }
 
 }  // namespace

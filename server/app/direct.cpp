@@ -51,11 +51,14 @@ Result<Inputs> read_inputs(const DirectOptions& options, ProgressLine& line) {
     line.show("reading " + options.trace, 0, 0);
     auto trace = evaluation::read_trace(options.trace);
     if (!trace) return tl::unexpected(trace.error());
+    if (auto fits = check_length(*trace); !fits) return fail(options.trace + ": " + fits.error().message);
     auto events = evaluation::read_events(options.events, *trace);
     if (!events) return tl::unexpected(events.error());
     line.show("reading " + options.map, 0, 0);
     auto map = open_map(options.freespace, options.map);
     if (!map) return tl::unexpected(map.error());
+    line.clear();
+    warn_of_another_source(options.freespace, options.map, *map);
     return Inputs{std::move(*trace), std::move(*events), std::move(*map), std::move(config->direction)};
 }
 
@@ -80,31 +83,33 @@ Result<Rushes> shoot(const DirectOptions& options, const Inputs& inputs, double 
     const ClearLine exact = [&](const Vec3d& from, const Vec3d& to) {
         return oracle.segment_clear(from, to);
     };
-    auto edited = footage_of(inputs.trace, recording->cameras, unit, proved);
-    if (!edited) return fail(options.trace + ": " + edited.error().message);
-    auto judged = footage_of(inputs.trace, recording->cameras, unit, exact);
-    if (!judged) return fail(options.trace + ": " + judged.error().message);
+    auto edited = footage_of(inputs.trace, recording->cameras, unit, proved, stop);
+    if (!edited) return tl::unexpected(edited.error());
+    auto judged = footage_of(inputs.trace, recording->cameras, unit, exact, stop);
+    if (!judged) return tl::unexpected(judged.error());
     return Rushes{std::move(recording->cameras), std::move(*edited), std::move(*judged)};
 }
 
 using Judged = report::JudgedProgramme;
 
 // The direction's own figures first, then the others', then the bound's.
-std::vector<Judged> judge(const Rushes& rushes, std::span<const direction::Event> events,
-                          std::span<const direction::Shot> shots, const direction::Rules& rules, double unit,
-                          double delay) {
+Result<std::vector<Judged>> judge(const Rushes& rushes, std::span<const direction::Event> events,
+                                  std::span<const direction::Shot> shots, const direction::Rules& rules,
+                                  double unit, double delay, const std::stop_token& stop) {
     constexpr std::uint64_t seeds = 64;
     const auto figures = [&](std::span<const direction::Shot> programme) {
         return direction::judge(rushes.judged, events, programme, rules.grammar, unit);
     };
     std::vector<direction::Figures> switches;
-    for (std::uint64_t seed = 0; seed < seeds; ++seed)
+    for (std::uint64_t seed = 0; seed < seeds && !stop.stop_requested(); ++seed)
         switches.push_back(figures(direction::random_switch(rushes.judged, seed)));
-    return {{"direction", figures(shots)},
-            {"random", direction::mean_of(switches)},
-            {"hltv", figures(direction::hltv(rushes.judged, events, unit, delay))},
-            {"quakeworld", figures(direction::quakeworld(rushes.judged, events))},
-            {"bound", figures(direction::direct_for_kills(rushes.judged, events, rules, unit))}};
+    if (stop.stop_requested()) return fail("interrupted", ErrorCode::interrupted);
+    return std::vector<Judged>{
+        {"direction", figures(shots)},
+        {"random", direction::mean_of(switches)},
+        {"hltv", figures(direction::hltv(rushes.judged, events, unit, delay))},
+        {"quakeworld", figures(direction::quakeworld(rushes.judged, events))},
+        {"bound", figures(direction::direct_for_kills(rushes.judged, events, rules, unit))}};
 }
 
 nlohmann::ordered_json object_of(const direction::Figures& figures) {
@@ -196,8 +201,9 @@ std::vector<report::Fact> facts_of(const DirectOptions& options, const Inputs& i
 
 Result<void> write_report(const DirectOptions& options, const Inputs& inputs, const Rushes& rushes,
                           const std::vector<direction::Shot>& shots, const std::vector<Judged>& judged,
-                          const direction::Rules& rules, const std::vector<direction::Event>& events,
-                          double unit, ProgressLine& line, const std::stop_token& stop) {
+                          const std::vector<direction::Event>& events, double unit, ProgressLine& line,
+                          const std::stop_token& stop) {
+    const direction::Rules& rules = inputs.rules;
     report::ProgrammeSubject subject{{inputs.map.scene, inputs.trace, inputs.map.point_radius},
                                      rushes.cameras,
                                      "The programme of a match on " + inputs.map.scene.name,
@@ -241,9 +247,11 @@ Result<void> direct(const DirectOptions& options) {
     const auto shots = direction::direct(rushes->edited, events, rules, unit, options.delay, stop);
     if (!shots) return tl::unexpected(shots.error());
     const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
-    const auto judged = judge(*rushes, events, *shots, rules, unit, options.delay);
+    line.show("judging", 0, 0);
+    const auto judged = judge(*rushes, events, *shots, rules, unit, options.delay, stop);
+    if (!judged) return tl::unexpected(judged.error());
     line.clear();
-    print_table(judged);
+    print_table(*judged);
     std::fprintf(stderr, "%.3f ms a decision\n",
                  took.count() * direction::cut_every / static_cast<double>(rushes->edited.beats()));
     if (!options.cameras.empty()) {
@@ -251,11 +259,11 @@ Result<void> direct(const DirectOptions& options) {
         if (!written) return written;
     }
     if (!options.json.empty()) {
-        auto written = write_file(options.json, to_json(judged));
+        auto written = write_file(options.json, to_json(*judged));
         if (!written) return written;
     }
     if (options.report.empty()) return {};
-    return write_report(options, *inputs, *rushes, *shots, judged, rules, events, unit, line, stop);
+    return write_report(options, *inputs, *rushes, *shots, *judged, events, unit, line, stop);
 }
 
 }  // namespace
@@ -283,6 +291,7 @@ void add_direct(CLI::App& root, Run& run) {
         "Write a page to look at, HTML: figures, a timeline of shots and kills, pictures of the "
         "cuts; - = standard output");
     command->callback([options, &run] {
+        if (options->freespace.empty()) throw CLI::RequiredError("FILE.vfs");
         check_one_standard_output(
             {{"--cameras", options->cameras}, {"--json", options->json}, {"--report", options->report}});
         run = [options] { return exit_code_of(direct(*options)); };

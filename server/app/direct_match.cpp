@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <cstdlib>
 #include <map>
 #include <optional>
 #include <string_view>
@@ -131,9 +130,7 @@ double item_value(std::string_view item) {
 
 }  // namespace
 
-Result<direction::Footage> footage_of(const Trace& trace, const CameraPath& cameras, double unit,
-                                      const ClearLine& clear) {
-    assert(cameras.size() == trace.poses.size() && trace.players.size() <= direction::max_players);
+Result<void> check_length(const Trace& trace) {
     const double length = seconds_from_start(trace, trace.frames.back().time);
     if (length / direction::beat_s * static_cast<double>(trace.players.size()) > max_player_beats)
         return fail("the match lasts " + std::to_string(std::llround(length)) + " s with " +
@@ -141,6 +138,12 @@ Result<direction::Footage> footage_of(const Trace& trace, const CameraPath& came
                     std::to_string(std::llround(max_player_beats * direction::beat_s /
                                                 static_cast<double>(trace.players.size()))) +
                     " s with so many");
+    return {};
+}
+
+Result<direction::Footage> footage_of(const Trace& trace, const CameraPath& cameras, double unit,
+                                      const ClearLine& clear, const std::stop_token& stop) {
+    assert(cameras.size() == trace.poses.size() && trace.players.size() <= direction::max_players);
     std::vector<std::vector<TraceFrame>> beats;
     for (const TraceFrame& frame : trace.frames) {
         const auto beat = static_cast<std::size_t>(direction::beat_of(seconds_from_start(trace, frame.time)));
@@ -150,8 +153,10 @@ Result<direction::Footage> footage_of(const Trace& trace, const CameraPath& came
     std::vector<std::vector<PlayerState>> players(beats.size());
     std::vector<std::vector<Take>> takes(beats.size());
     const BeatReader reader(trace, cameras, unit, clear);
-    parallel_for(std::size_t{0}, beats.size(),
-                 [&](std::size_t beat) { reader.read(beats[beat], players[beat], takes[beat]); });
+    parallel_for(std::size_t{0}, beats.size(), [&](std::size_t beat) {
+        if (!stop.stop_requested()) reader.read(beats[beat], players[beat], takes[beat]);
+    });
+    if (stop.stop_requested()) return fail("interrupted", ErrorCode::interrupted);
     std::vector<Index> subjects(trace.players.size());
     for (std::size_t player = 0; player < subjects.size(); ++player)
         subjects[player] = static_cast<Index>(player);
@@ -160,6 +165,8 @@ Result<direction::Footage> footage_of(const Trace& trace, const CameraPath& came
     for (std::size_t beat = 0; beat < beats.size(); ++beat) {
         if (!beats[beat].empty()) filled = beat;
         footage.append(players[filled], takes[filled]);
+        for (Take& take : takes[filled])
+            take.cut = false;  // of the beats that repeat this one
     }
     return footage;
 }
@@ -173,8 +180,7 @@ std::vector<direction::Event> events_of(const Trace& trace,
         const auto index = [&](const std::optional<std::uint32_t>& player) {
             return player ? index_of(trace, *player) : direction::nobody;
         };
-        const double value =
-            *kind == EventKind::item ? item_value(event.detail) : std::atof(event.detail.c_str());
+        const double value = *kind == EventKind::item ? item_value(event.detail) : 0.0;
         known.push_back(
             {seconds_from_start(trace, event.time), *kind, index(event.actor), index(event.subject), value});
     }

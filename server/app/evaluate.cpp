@@ -147,12 +147,6 @@ Result<void> write_report(const EvaluateOptions& options, const Match& match, co
     return write_file(options.report, *page);
 }
 
-void warn_of_another_source(const EvaluateOptions& options, const SourceMap& map) {
-    if (!map.freespace || map.freespace->metadata().source_hash == map.scene.source_hash) return;
-    std::cerr << "camera-director: warning: " << options.freespace << " was baked from another file than "
-              << options.map << '\n';
-}
-
 Result<void> evaluate(const EvaluateOptions& options) {
     const service::Interruption interruption;
     const std::stop_token stop = interruption.token();
@@ -170,7 +164,7 @@ Result<void> evaluate(const EvaluateOptions& options) {
     const auto map = open_map(options.freespace, options.map);
     if (!map) return tl::unexpected(map.error());
     line.clear();
-    warn_of_another_source(options, *map);
+    warn_of_another_source(options.freespace, options.map, *map);
     Judge judge(*match, *map);
     reading.reset();
     const auto made = make_cameras(options, *match, *map, line, stop);

@@ -1,5 +1,7 @@
 #include "app/evaluate_inputs.hpp"
 
+#include <iostream>
+
 #include "evaluation/resample.hpp"
 #include "maps/source.hpp"
 #include "scene/load.hpp"
@@ -39,6 +41,12 @@ Result<SourceMap> open_map(const std::string& freespace, const std::string& map)
     if (!scene) return tl::unexpected(scene.error());
     const double d0 = opened->metadata().d0;
     return SourceMap{std::move(*scene), std::move(*opened), d0};
+}
+
+void warn_of_another_source(const std::string& freespace, const std::string& map, const SourceMap& opened) {
+    if (!opened.freespace || opened.freespace->metadata().source_hash == opened.scene.source_hash) return;
+    std::cerr << "camera-director: warning: " << freespace << " was baked from another file than " << map
+              << '\n';
 }
 
 }  // namespace camdir::app

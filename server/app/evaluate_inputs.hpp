@@ -52,4 +52,7 @@ struct SourceMap {
 // `freespace` may be empty; a point cloud needs one.
 [[nodiscard]] Result<SourceMap> open_map(const std::string& freespace, const std::string& map);
 
+// Warns on standard error where these two files of opened maps do not belong together.
+void warn_of_another_source(const std::string& freespace, const std::string& map, const SourceMap& opened);
+
 }  // namespace camdir::app

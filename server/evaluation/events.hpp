@@ -26,7 +26,7 @@ struct TraceEvent {
 // or their other names t_ms, kind, actor, subject, value; rows of one time in the table's order. An empty
 // player is nobody, as is 1022, the world, where no player has this number. Errors name the file, the line,
 // the column and what was expected; a player whom the trace does not know and a time before the last row's
-// are errors. Memory: at most five times the text's size. Thread-safe.
+// are errors. Memory: at most 300 bytes for each row, and a detail's own. Thread-safe.
 [[nodiscard]] Result<std::vector<TraceEvent>> read_events(const std::filesystem::path& path,
                                                           const Trace& trace);
 

@@ -101,6 +101,36 @@ TEST_F(DirectCommand, RefusesEventsOfAnotherMatchAndLeavesWhatWasThere) {
     EXPECT_EQ(written(file), "old");
 }
 
+// Four frames a second: most beats have none.
+TEST_F(DirectCommand, AJumpOfTheCameraIsOneCutHoweverRareTheFramesAre) {
+    std::string text = "t_ms,player,x,y,z,pitch,yaw,roll,vx,vy,vz,viewheight,team,teleport_bit,alive\n";
+    for (int t = 0; t < 4000; t += 250)
+        text += std::to_string(t) + (t < 2000 ? ",0,3,3" : ",0,-3,-3") + ",3.4,0,0,0,0,0,0,0.6,0," +
+                (t < 2000 ? "0" : "1") + ",1\n";
+    ASSERT_TRUE(write_file(trace_, text));
+    ASSERT_TRUE(write_file(events_, "t_ms,event,player,other\n"));
+    const std::string file = folder_ / "figures.json";
+    ASSERT_EQ(direct({"--json", file}), 0) << errors_;
+    const json figures = json::parse(written(file));
+    EXPECT_EQ(figures.at("shot_s_p50"), 2.0);
+    EXPECT_EQ(figures.at("shots_under_1_5"), 0);
+    EXPECT_NEAR(figures.at("cuts_per_minute"), 60.0 / 3.8, 1e-9);
+}
+
+TEST_F(DirectCommand, NeedsABakedMapAndAFileForEachOutput) {
+    vfs_.clear();
+    EXPECT_EQ(direct({}), 2);
+    EXPECT_THAT(errors_, HasSubstr("FILE.vfs is required"));
+    vfs_ = folder_ / "hall.vfs";
+    EXPECT_EQ(direct({"--json", "figures", "--cameras", "./figures"}), 1);
+    EXPECT_THAT(errors_, HasSubstr("is named for two outputs; expected a file for each"));
+}
+
+TEST_F(DirectCommand, WarnsOfABakedMapOfAnotherSource) {
+    ASSERT_EQ(direct({}), 0) << errors_;
+    EXPECT_THAT(errors_, HasSubstr("hall.vfs was baked from another file than"));
+}
+
 TEST_F(DirectCommand, RefusesAMatchThatNeverEnds) {
     const Bytes bytes = read_file(trace_).value();
     std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());

@@ -26,7 +26,7 @@ class HallMatch : public testing::Test {
 
     test::TemporaryFolder folder_;
     const std::string map_ = folder_ / "hall.obj";
-    const std::string vfs_ = folder_ / "hall.vfs";
+    std::string vfs_ = folder_ / "hall.vfs";
     const std::string trace_ = folder_ / "trace.csv";
     const std::string events_ = folder_ / "events.csv";
 
