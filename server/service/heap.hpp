@@ -3,9 +3,9 @@
 
 namespace camdir::service {
 
-// One arena for all threads, and large blocks apart: what leaves goes back to the system, and does not stay
-// as gaps between what Cyclone DDS keeps. To be called before the first other thread begins. The lock is no
-// bottleneck: blocks of up to 1 kB come from the thread's own cache.
+// One arena for all threads: each would have gaps of its own between what Cyclone DDS keeps
+// (server/README.md, Memory over months). To be called before the first other thread begins. Its lock is
+// rarely waited for: small blocks come from each thread's own cache.
 void keep_heap_compact();
 // Gives back what is free now.
 void trim_heap();

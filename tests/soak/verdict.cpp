@@ -33,7 +33,8 @@ bool removes_leader(const Act& act) {
 }
 
 bool begins_matches(const Act& act) {
-    return act.kind == ActKind::flood_matches || act.kind == ActKind::passing_matches;
+    return act.kind == ActKind::flapping_match || act.kind == ActKind::flood_matches ||
+           act.kind == ActKind::passing_matches;
 }
 
 class Judge {

@@ -141,9 +141,9 @@ TEST(Verdict, GrowthFailsBeyondWhatDdsKeepsOfMatches) {
     };
     EXPECT_THAT(failures(grown_to(56.0)), testing::IsEmpty());  // 5 % and 4 MiB are 6.5
     expect_failure(grown_to(57.0), "memory");
-    timeline.acts[0].act.kind = ActKind::flood_matches;  // 10,000 x 4,200 bytes are 40.1 MiB
-    EXPECT_THAT(failures(grown_to(96.0)), testing::IsEmpty());
-    expect_failure(grown_to(97.0), "memory");
+    timeline.acts[0].act.kind = ActKind::flood_matches;  // 10,000 x 5,000 bytes are 47.7 MiB
+    EXPECT_THAT(failures(grown_to(104.0)), testing::IsEmpty());
+    expect_failure(grown_to(105.0), "memory");
 }
 
 TEST(Verdict, DescriptorsAndThreadsThatStayFail) {
