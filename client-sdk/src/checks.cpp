@@ -125,7 +125,7 @@ void check(const cdir_match_event& event) {
     require(!has_control_character(detail), "an event's detail must not contain control characters");
 }
 
-bool is_valid(const camera_director_MatchInfo& info, const std::string& match_id) {
+bool is_valid(const camera_director_ShownMatch& info, const std::string& match_id) {
     const std::uint32_t n = info.player_id._length;
     return info.match_id == match_id && n <= CDIR_MAX_PLAYERS && info.map_name != nullptr &&
            std::strlen(info.map_name) < sizeof cdir_match_info::map_name &&

@@ -31,7 +31,7 @@ void check(const cdir_match_event& event);
 [[nodiscard]] bool all_unit(const float* quaternions, std::size_t count);
 
 // For samples: true when the sample is valid. `match_id` is that of its partition.
-[[nodiscard]] bool is_valid(const camera_director_MatchInfo& info, const std::string& match_id);
+[[nodiscard]] bool is_valid(const camera_director_ShownMatch& info, const std::string& match_id);
 [[nodiscard]] bool is_valid(const camera_director_CameraFrame& frame, const std::string& match_id);
 [[nodiscard]] bool is_valid(const camera_director_ObserverStatus& status);
 

@@ -188,16 +188,9 @@ void Observer::take_info_and_status() {
         }
     }
     for (Taken taken; (taken = status_sample_.take(status_reader_)) != Taken::nothing;) {
-        if (taken == Taken::data) {
-            match_.accept(*status_sample_);
-        } else if (status_sample_->observer_id != observer_id_) {
-            continue;
-        } else if (taken == Taken::disposed) {
-            match_.status_withdrawn();
-        } else {
-            match_.status_abandoned();
-            unanswered_loss_ = true;  // also of a writer that is back already
-        }
+        const bool holds = taken == Taken::data ? match_.accept(*status_sample_)
+                                                : match_.statuses_abandoned(status_sample_->bucket);
+        unanswered_loss_ = unanswered_loss_ || !holds;  // also of a writer that is back already
     }
 }
 

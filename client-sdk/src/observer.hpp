@@ -71,9 +71,10 @@ class Observer {
     ReceivedMatch match_;
     Request request_;               // the last one
     bool unanswered_loss_ = false;  // a director was lost, and the request not written again
-    WireSample<camera_director_MatchInfo> info_sample_{camera_director_MatchInfo_desc};
+    WireSample<camera_director_ShownMatch> info_sample_{camera_director_ShownMatch_desc};
     std::uint32_t info_disposals_ = 0;  // of the last one
-    WireSample<camera_director_ObserverStatus> status_sample_{camera_director_ObserverStatus_desc};
+    WireSample<camera_director_ObserverStatusBucket> status_sample_{
+        camera_director_ObserverStatusBucket_desc};
     WireSample<camera_director_CameraFrame> frame_sample_{camera_director_CameraFrame_desc};
 
     Entity publisher_;

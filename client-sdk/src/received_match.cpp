@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <span>
 #include <utility>
 
 #include "checks.hpp"
@@ -13,7 +14,7 @@ namespace {
 
 constexpr std::int64_t max_step_back = 1'000'000'000;  // ns; what comes late by less has been shown
 
-cdir_player player_at(const camera_director_MatchInfo& info, std::uint32_t index) {
+cdir_player player_at(const camera_director_ShownMatch& info, std::uint32_t index) {
     cdir_player player{};
     player.id = info.player_id._buffer[index];
     if (info.player_team._length > 0) player.team = info.player_team._buffer[index];
@@ -22,7 +23,7 @@ cdir_player player_at(const camera_director_MatchInfo& info, std::uint32_t index
     return player;
 }
 
-ReceivedMatch::Info info_from(const camera_director_MatchInfo& sample) {
+ReceivedMatch::Info info_from(const camera_director_ShownMatch& sample) {
     ReceivedMatch::Info info{cdir_match_info_default(), {}};
     copy_string(info.match.match_id, sample.match_id);
     copy_string(info.match.map_name, sample.map_name);
@@ -102,7 +103,7 @@ void ReceivedMatch::forget_future(const camera_director_CameraFrame& frame) {
     clock_.clear();
 }
 
-void ReceivedMatch::accept(const camera_director_MatchInfo& info) {
+void ReceivedMatch::accept(const camera_director_ShownMatch& info) {
     if (!is_valid(info, match_id_)) {
         ++counters_.invalid;
     } else if (enter_epoch(info.epoch)) {
@@ -118,8 +119,29 @@ void ReceivedMatch::match_ended() {
     take_early_status();
 }
 
+bool ReceivedMatch::accept(const camera_director_ObserverStatusBucket& answers) {
+    if (answers.match_id != match_id_) {
+        ++counters_.invalid;
+        return true;
+    }
+    const std::span statuses(answers.statuses._buffer, answers.statuses._length);
+    const auto own = std::find_if(statuses.begin(), statuses.end(),
+                                  [this](const auto& status) { return status.observer_id == observer_id_; });
+    if (own == statuses.end()) return statuses_abandoned(answers.bucket);
+    bucket_ = answers.bucket;
+    accept(*own);
+    return true;
+}
+
+bool ReceivedMatch::statuses_abandoned(std::uint8_t bucket) {
+    if (bucket_ != bucket) return true;  // other observers'
+    bucket_.reset();
+    answered_ = false;
+    early_status_.reset();
+    return false;
+}
+
 void ReceivedMatch::accept(const camera_director_ObserverStatus& status) {
-    if (status.match_id != match_id_ || status.observer_id != observer_id_) return;  // another observer's
     if (!is_valid(status)) {
         ++counters_.invalid;
         return;
@@ -187,10 +209,11 @@ std::optional<cdir_camera> ReceivedMatch::camera_of_shot(const camera_director_C
 
 void ReceivedMatch::set_requested(bool requested) {
     requested_ = requested;
-    if (!requested) {
-        status_withdrawn();
-        track_.clear();
-    }
+    if (requested) return;
+    bucket_.reset();
+    status_.reset();
+    early_status_.reset();
+    track_.clear();
 }
 
 cdir_shot_status ReceivedMatch::shot_status() const {

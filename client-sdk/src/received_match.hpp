@@ -24,21 +24,16 @@ class ReceivedMatch {
   public:
     ReceivedMatch(std::string match_id, std::string observer_id, std::int64_t interpolation_delay);
 
-    void accept(const camera_director_MatchInfo& info);
+    void accept(const camera_director_ShownMatch& info);
     void match_ended();
     // The description's writer is silent or dead. It holds until another epoch begins, by whatever sample.
     void info_abandoned() { described_ = false; }
-    void accept(const camera_director_ObserverStatus& status);
-    void status_withdrawn() {
-        status_.reset();
-        early_status_.reset();
-    }
-    // The answer's writer is silent or dead. Until the next answer, its camera stays the shot's, whoever
-    // writes the next frame.
-    void status_abandoned() {
-        answered_ = false;
-        early_status_.reset();
-    }
+    // Returns false when the observer's answer was among them before, and is no longer: it counts as
+    // abandoned.
+    bool accept(const camera_director_ObserverStatusBucket& answers);
+    // The answers in this bucket are of a writer that is silent or dead. Returns false when the observer's
+    // was among them: until the next answer, its camera stays the shot's, whoever writes the next frame.
+    bool statuses_abandoned(std::uint8_t bucket);
     // `now`: see DisplayClock. Returns false when the frame was dropped.
     bool accept(const camera_director_CameraFrame& frame, std::int64_t now);
 
@@ -60,6 +55,7 @@ class ReceivedMatch {
     [[nodiscard]] bool enter_epoch(std::uint64_t epoch);
     [[nodiscard]] bool is_of_epoch(std::uint64_t epoch);
     void begin_epoch(std::uint64_t epoch);
+    void accept(const camera_director_ObserverStatus& status);
     void take_early_status();
     [[nodiscard]] bool is_repeated(const camera_director_CameraFrame& frame) const;
     [[nodiscard]] bool is_of_past(const camera_director_CameraFrame& frame) const;
@@ -81,6 +77,7 @@ class ReceivedMatch {
     std::uint64_t epoch_ = 0;
     std::optional<Info> info_;
     std::optional<cdir_shot_status> status_;
+    std::optional<std::uint8_t> bucket_;                          // in which the observer's answer is
     std::optional<camera_director_ObserverStatus> early_status_;  // of an epoch that is to come
     std::optional<FrameId> last_frame_;                           // of this epoch
     CameraTrack track_;

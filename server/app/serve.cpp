@@ -7,6 +7,7 @@
 #include "app/commands.hpp"
 #include "base/file.hpp"
 #include "dds/protection.hpp"
+#include "service/heap.hpp"
 #include "service/logging.hpp"
 #include "service/service.hpp"
 
@@ -50,6 +51,7 @@ int serve(const ServeOptions& options) {
     if (!config) return report(config.error());
     if (options.check) return check(*config, options.config);
 
+    service::keep_heap_compact();
     service::Signals signals;
     service::start_logging(config->log);
     auto opened = service::Service::open(options.config, options.shard, std::move(*config));

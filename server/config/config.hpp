@@ -93,6 +93,7 @@ struct Limits {
     std::int64_t players = 256;    // a match
     std::int64_t observers = 256;  // a match
     std::int64_t participant_matches = 64;
+    double participant_match_rate = 8.0;       // that it may begin in a second, beyond as many at once
     std::int64_t participant_observers = 256;  // a match
     std::int64_t shots = 256;                  // a match
     std::int64_t delay_mib = 64;               // a match

@@ -473,6 +473,11 @@ void add_limits(std::vector<Key>& table) {
     table.push_back({section, "participant_matches", slot(&Limits::participant_matches),
                      "Matches of one DDS participant. Lower it where several hosts run game servers.", "", 1,
                      4096});
+    table.push_back(
+        {section, "participant_match_rate", slot(&Limits::participant_match_rate),
+         "How fast a DDS participant may begin matches after its first `participant_matches`. Each that "
+         "was ever begun leaves 4 kB in a director.",
+         "1/s", 0.01, 1000});
     table.push_back({section, "participant_observers", slot(&Limits::participant_observers),
                      "Observers of a match that are one DDS participant's. Lower it where strangers can ask.",
                      "", 1, 65536});
@@ -588,8 +593,9 @@ const std::vector<Section>& sections() {
          "rule of another name is a new one and needs a `trigger`. A `worth` and `worth_both` of 0 switch a "
          "rule off."},
         {"/limits",
-         "Whatever exceeds a limit is refused. Matches beyond `matches` and `participant_matches`, and "
-         "observers beyond `observers`, wait for room in the order in which they came, as many of them as "
+         "Whatever exceeds a limit is refused. Matches beyond `matches`, `participant_matches` and "
+         "`participant_match_rate`, and observers beyond `observers`, wait for room in the order in which "
+         "they came, as many of them as "
          "may be served, and of one participant's matches a quarter of that. Takes effect at a restart."},
         {"/log", "Written to standard error. `level` is reloaded by SIGHUP."}};
     return list;

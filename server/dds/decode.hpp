@@ -26,13 +26,15 @@ enum class ValidationError : std::size_t {
     long_map_name,      // more than 255 bytes: no configured map has such a name
     not_owner,          // the match is another participant's, or the request another writer's
     participant_limit,  // the participant has as many matches or observers as it may have
+    participant_rate,   // the participant begins matches faster than it may
     waiting_limit,      // as many matches wait as may wait, of the participant or in all
 };
 
 // Names in metrics and log, in the order of ValidationError.
-inline constexpr std::array<const char*, 11> validation_error_names = {
-    "array_length",    "too_many",      "not_finite", "not_unit",          "out_of_range", "bad_match_id",
-    "wrong_partition", "long_map_name", "not_owner",  "participant_limit", "waiting_limit"};
+inline constexpr std::array<const char*, 12> validation_error_names = {
+    "array_length", "too_many",          "not_finite",       "not_unit",
+    "out_of_range", "bad_match_id",      "wrong_partition",  "long_map_name",
+    "not_owner",    "participant_limit", "participant_rate", "waiting_limit"};
 
 // Each function fills `message`, whose memory it reuses, or returns the first error found and leaves
 // `message` unspecified. Reads nothing beyond the sample's arrays.

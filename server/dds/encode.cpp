@@ -31,7 +31,7 @@ void borrow(Sequence& sequence, Storage& storage) {
 
 CameraFrameEncoder::CameraFrameEncoder(const std::string& match_id, std::uint64_t director_id) {
     assert(match_id.size() < sizeof sample_.match_id);
-    sample_ = camera_frame_key(match_id);
+    copy_string(sample_.match_id, match_id);
     sample_.director_id = director_id;
     borrow(sample_.camera_id, camera_id_);
     borrow(sample_.target, target_);
@@ -69,7 +69,7 @@ const camera_director_CameraFrame& CameraFrameEncoder::encode(const director::Ca
     return sample_;
 }
 
-const camera_director_MatchInfo& ShownMatchEncoder::encode(const director::MatchInfo& info) {
+const camera_director_ShownMatch& ShownMatchEncoder::encode(const director::MatchInfo& info) {
     const std::size_t count = info.players.size();
     map_name_ = info.map_name;
     player_id_.resize(count);
@@ -83,7 +83,7 @@ const camera_director_MatchInfo& ShownMatchEncoder::encode(const director::Match
         copy_string(player_class_[i], player.player_class);
         player_team_[i] = player.team;
     }
-    sample_ = shown_match_key(info.match_id);
+    copy_string(sample_.match_id, info.match_id);
     sample_.epoch = info.epoch;
     sample_.map_name = map_name_.data();
     sample_.map_hash = info.map_hash;
@@ -99,8 +99,24 @@ const camera_director_MatchInfo& ShownMatchEncoder::encode(const director::Match
     return sample_;
 }
 
+StatusBucketEncoder::StatusBucketEncoder(const std::string& match_id) {
+    copy_string(sample_.match_id, match_id);
+}
+
+const camera_director_ObserverStatusBucket& StatusBucketEncoder::encode(StatusBuckets::Number number,
+                                                                        const StatusBuckets::Bucket& bucket) {
+    statuses_.clear();
+    for (const auto& [observer_id, status] : bucket)
+        statuses_.push_back(dds::encode(status));
+    sample_.bucket = number;
+    borrow(sample_.statuses, statuses_);
+    sample_.statuses._length = static_cast<std::uint32_t>(statuses_.size());
+    return sample_;
+}
+
 camera_director_ObserverStatus encode(const director::ObserverStatus& status) {
-    camera_director_ObserverStatus sample = observer_status_key(status.match_id, status.observer_id);
+    camera_director_ObserverStatus sample{};
+    copy_string(sample.observer_id, status.observer_id);
     sample.epoch = status.epoch;
     sample.state = static_cast<std::uint32_t>(status.state);
     sample.camera_id = status.camera_id;
@@ -121,23 +137,9 @@ camera_director_DirectorSign encode(const std::string& match_id, const Sign& sig
     return sample;
 }
 
-camera_director_MatchInfo shown_match_key(const std::string& match_id) {
-    camera_director_MatchInfo sample{};
-    copy_string(sample.match_id, match_id);
-    return sample;
-}
-
-camera_director_CameraFrame camera_frame_key(const std::string& match_id) {
-    camera_director_CameraFrame sample{};
-    copy_string(sample.match_id, match_id);
-    return sample;
-}
-
-camera_director_ObserverStatus observer_status_key(const std::string& match_id,
-                                                   const std::string& observer_id) {
-    camera_director_ObserverStatus sample{};
-    copy_string(sample.match_id, match_id);
-    copy_string(sample.observer_id, observer_id);
+camera_director_ObserverStatusBucket observer_status_key(StatusBuckets::Number number) {
+    camera_director_ObserverStatusBucket sample{};
+    sample.bucket = number;
     return sample;
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "dds/status_buckets.hpp"
 #include "dds/succession.hpp"
 #include "director/messages.hpp"
 
@@ -46,7 +47,7 @@ class ShownMatchEncoder {
     ShownMatchEncoder& operator=(const ShownMatchEncoder&) = delete;
 
     // The sample points into the encoder and is valid until the next call. Strings are cut as below.
-    [[nodiscard]] const camera_director_MatchInfo& encode(const director::MatchInfo& info);
+    [[nodiscard]] const camera_director_ShownMatch& encode(const director::MatchInfo& info);
 
   private:
     std::string map_name_;
@@ -54,7 +55,24 @@ class ShownMatchEncoder {
     std::vector<std::array<char, 64>> player_name_;
     std::vector<std::array<char, 32>> player_class_;
     std::vector<std::uint8_t> player_team_;
-    camera_director_MatchInfo sample_{};
+    camera_director_ShownMatch sample_{};
+};
+
+// Makes the ObserverStatus samples of one match in its own memory. One thread at a time.
+class StatusBucketEncoder {
+  public:
+    // `match_id` has at most 63 bytes.
+    explicit StatusBucketEncoder(const std::string& match_id);
+    StatusBucketEncoder(const StatusBucketEncoder&) = delete;
+    StatusBucketEncoder& operator=(const StatusBucketEncoder&) = delete;
+
+    // The sample points into the encoder and is valid until the next call. Strings are cut as below.
+    [[nodiscard]] const camera_director_ObserverStatusBucket& encode(StatusBuckets::Number number,
+                                                                     const StatusBuckets::Bucket& bucket);
+
+  private:
+    std::vector<camera_director_ObserverStatus> statuses_;
+    camera_director_ObserverStatusBucket sample_{};
 };
 
 // Strings are cut to the bounds of the wire type, at the end of a UTF-8 character.
@@ -62,9 +80,6 @@ class ShownMatchEncoder {
 [[nodiscard]] camera_director_DirectorSign encode(const std::string& match_id, const Sign& sign);
 
 // Samples with only the key set, for unregistering and disposing.
-[[nodiscard]] camera_director_MatchInfo shown_match_key(const std::string& match_id);
-[[nodiscard]] camera_director_CameraFrame camera_frame_key(const std::string& match_id);
-[[nodiscard]] camera_director_ObserverStatus observer_status_key(const std::string& match_id,
-                                                                 const std::string& observer_id);
+[[nodiscard]] camera_director_ObserverStatusBucket observer_status_key(StatusBuckets::Number number);
 
 }  // namespace camdir::dds

@@ -23,6 +23,7 @@ Subscriber::Options subscriber_options(const config::Dds& config, const config::
             .shards = {config.shard, config.shards},
             .matches = static_cast<std::size_t>(limits.matches),
             .participant_matches = static_cast<std::size_t>(limits.participant_matches),
+            .participant_match_rate = limits.participant_match_rate,
             .participant_observers = static_cast<std::size_t>(limits.participant_observers)};
 }
 

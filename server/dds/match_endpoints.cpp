@@ -35,7 +35,8 @@ MatchEndpoints::MatchEndpoints(std::string match_id, const Leadership& leadershi
       lease_(leadership.lease),
       succession_(director_id, leadership.rank, leadership.lease, Clock::now()),
       in_effect_(succession_.own()),
-      encoder_(match_id_, director_id) {}
+      encoder_(match_id_, director_id),
+      status_encoder_(match_id_) {}
 
 Result<std::unique_ptr<MatchEndpoints>> MatchEndpoints::open(const Participant& participant,
                                                              const std::string& match_id,
@@ -150,8 +151,8 @@ void MatchEndpoints::take_over() {
     if (std::exchange(ended_unwritten_, false)) dispose_shown();
     if (shown_)
         count(dds_write(shown_writer_, &shown_encoder_.encode(*shown_)), counters_.shown_matches_written);
-    for (const auto& [observer_id, status] : statuses_)
-        count(write_now(status), counters_.statuses_written);
+    for (const auto& [number, bucket] : statuses_.used())
+        count(write_now(number), counters_.statuses_written);
     for (const Kept& kept : kept_)
         count(write_now(kept.frame), counters_.camera_frames_written);
     kept_.clear();
@@ -173,15 +174,19 @@ void MatchEndpoints::count(dds_return_t written, WireCounter& counter) {
 // Readers forget what this director wrote.
 void MatchEndpoints::stand_by() {
     if (shown_) {
-        const camera_director_MatchInfo key = shown_match_key(match_id_);
-        dds_unregister_instance(shown_writer_, &key);
+        const camera_director_ShownMatch any{};
+        dds_unregister_instance(shown_writer_, &any);
     }
-    for (const auto& [observer_id, status] : statuses_) {
-        const camera_director_ObserverStatus key = observer_status_key(match_id_, observer_id);
+    for (const auto& [number, bucket] : statuses_.used()) {
+        const camera_director_ObserverStatusBucket key = observer_status_key(number);
         dds_unregister_instance(status_writer_, &key);
     }
-    const camera_director_CameraFrame key = camera_frame_key(match_id_);
-    dds_unregister_instance(camera_writer_, &key);
+    unregister_cameras();
+}
+
+void MatchEndpoints::unregister_cameras() const {
+    const camera_director_CameraFrame any{};  // it has no key
+    dds_unregister_instance(camera_writer_, &any);
 }
 
 // Never an older one after a newer one.
@@ -211,8 +216,8 @@ Written MatchEndpoints::end_shown() {
 }
 
 dds_return_t MatchEndpoints::dispose_shown() {
-    const camera_director_MatchInfo key = shown_match_key(match_id_);
-    return dds_dispose(shown_writer_, &key);
+    const camera_director_ShownMatch any{};  // it has no key
+    return dds_dispose(shown_writer_, &any);
 }
 
 Written MatchEndpoints::write(const director::CameraFrame& frame) {
@@ -232,9 +237,9 @@ Written MatchEndpoints::write(const director::CameraFrame& frame) {
 Written MatchEndpoints::write(const director::ObserverStatus& status) {
     const std::lock_guard lock(writing_);
     const bool writes = leads();
-    statuses_[status.observer_id] = status;
+    if (!statuses_.put(status)) return DDS_RETCODE_OUT_OF_RESOURCES;
     if (!writes) return std::nullopt;
-    return write_now(status);
+    return write_now(StatusBuckets::number_of(status.observer_id));
 }
 
 Written MatchEndpoints::withdraw(const std::string& observer_id) {
@@ -242,14 +247,11 @@ Written MatchEndpoints::withdraw(const std::string& observer_id) {
     const bool writes = leads();
     statuses_.erase(observer_id);
     if (!writes) return std::nullopt;
-    const camera_director_ObserverStatus key = observer_status_key(match_id_, observer_id);
-    if (const dds_return_t disposed = dds_dispose(status_writer_, &key); disposed < 0) return disposed;
-    return dds_unregister_instance(status_writer_, &key);
+    return write_now(StatusBuckets::number_of(observer_id));
 }
 
-dds_return_t MatchEndpoints::write_now(const director::ObserverStatus& status) {
-    const camera_director_ObserverStatus sample = encode(status);
-    return dds_write(status_writer_, &sample);
+dds_return_t MatchEndpoints::write_now(StatusBuckets::Number number) {
+    return dds_write(status_writer_, &status_encoder_.encode(number, statuses_.bucket(number)));
 }
 
 dds_return_t MatchEndpoints::write_now(const director::CameraFrame& frame) {
@@ -366,8 +368,7 @@ bool MatchEndpoints::hand_over() {
 }
 
 void MatchEndpoints::release_ownership() {
-    const camera_director_CameraFrame key = camera_frame_key(match_id_);
-    dds_unregister_instance(camera_writer_, &key);
+    unregister_cameras();
     // Deleting a writer unregisters its instances at the readers.
     dds_delete(status_writer_);
     dds_delete(shown_writer_);

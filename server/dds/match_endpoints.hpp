@@ -5,7 +5,6 @@
 #include <atomic>
 #include <chrono>
 #include <deque>
-#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -15,6 +14,7 @@
 #include "dds/encode.hpp"
 #include "dds/entity.hpp"
 #include "dds/participant.hpp"
+#include "dds/status_buckets.hpp"
 #include "dds/succession.hpp"
 
 namespace camdir::dds {
@@ -45,7 +45,7 @@ class MatchEndpoints {
     [[nodiscard]] Written end_shown();
     [[nodiscard]] Written write(const director::CameraFrame& frame);
     [[nodiscard]] Written write(const director::ObserverStatus& status);
-    // Disposes the observer's status.
+    // The observer has no status any more.
     [[nodiscard]] Written withdraw(const std::string& observer_id);
 
     // The game server has sent a pose frame. Returns whether decide() is due. One thread at a time, as for
@@ -93,6 +93,7 @@ class MatchEndpoints {
     void set_strength(const Sign& part);
     void take_over();
     void stand_by();
+    void unregister_cameras() const;
     void count(dds_return_t written, WireCounter& counter);
     void forget_shown();
     dds_return_t dispose_shown();
@@ -104,7 +105,7 @@ class MatchEndpoints {
     void drop_kept();
     [[nodiscard]] bool misses_frames() const;
     [[nodiscard]] bool is_shown(const PoseId& frame) const;
-    dds_return_t write_now(const director::ObserverStatus& status);
+    dds_return_t write_now(StatusBuckets::Number number);
     dds_return_t write_now(const director::CameraFrame& frame);
     void number_on(const director::CameraFrame& first);
 
@@ -134,10 +135,11 @@ class MatchEndpoints {
     std::mutex writing_;  // guards the rest; locked before deciding_
     CameraFrameEncoder encoder_;
     ShownMatchEncoder shown_encoder_;
+    StatusBucketEncoder status_encoder_;
     // What is published now, whoever writes it.
     std::optional<director::MatchInfo> shown_;
     bool ended_unwritten_ = false;  // a match before it, perhaps unknown to the leader
-    std::map<std::string, director::ObserverStatus> statuses_;
+    StatusBuckets statuses_;
     // Of a standby: the newest frames after the leader's last one.
     struct Kept {
         director::CameraFrame frame;

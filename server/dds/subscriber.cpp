@@ -33,6 +33,7 @@ Subscriber::Subscriber(const Participant& participant, Options options, MatchTab
       table_(table),
       counters_(counters),
       shards_(options_.shards),
+      rate_(options_.participant_matches, options_.participant_match_rate),
       waiting_(options_.matches, std::max<std::size_t>(options_.matches / 4, 1)),
       elsewhere_(none_elsewhere()),
       removal_(options_.matches),
@@ -145,6 +146,7 @@ void Subscriber::run() noexcept {
             assert_liveliness();
             leave_matches();
             admit_waiting();
+            rate_.forget_idle(Clock::now());
             next_assertion_ = Clock::now() + assertion_interval();
         }
         take_signs_of_new_matches();

@@ -14,6 +14,7 @@
 
 #include "base/log_limit.hpp"
 #include "config/config.hpp"
+#include "dds/admission_rate.hpp"
 #include "dds/counters.hpp"
 #include "dds/endpoint_removal.hpp"
 #include "dds/match_table.hpp"
@@ -42,6 +43,7 @@ class Subscriber {
         Shards shards;
         std::size_t matches = 0;
         std::size_t participant_matches = 0;
+        double participant_match_rate = 0.0;    // that it may begin in a second
         std::size_t participant_observers = 0;  // of a match
     };
 
@@ -169,6 +171,7 @@ class Subscriber {
 
     // Used by the thread only.
     Shards shards_;
+    AdmissionRate rate_;
     WaitingMatches waiting_;    // for room
     WaitingMatches elsewhere_;  // of other shards
     EndpointRemoval removal_;

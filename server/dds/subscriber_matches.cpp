@@ -70,13 +70,21 @@ bool Subscriber::admit(const Ownership::Claim& claim) {
         drop(Topic::match_info, ValidationError::participant_limit, claim.info.match_id);
         return false;
     }
+    if (!rate_.allows(claim.sender, Clock::now())) {
+        drop(Topic::match_info, ValidationError::participant_rate, claim.info.match_id);
+        return false;
+    }
     // It counts and logs what it refuses.
-    return removal_.has_room() && ingress_->admit(claim.info.match_id);
+    if (!removal_.has_room() || !ingress_->admit(claim.info.match_id)) return false;
+    rate_.take(claim.sender, Clock::now());
+    return true;
 }
 
 // No more at once than leave the matches that run their beat.
 void Subscriber::admit_waiting() {
-    const auto is_wanted = [this](const Ownership::Claim& claim) { return may_own_another(claim.sender); };
+    const auto is_wanted = [this](const Ownership::Claim& claim) {
+        return may_own_another(claim.sender) && rate_.allows(claim.sender, Clock::now());
+    };
     for (int i = 0; i < admissions_a_beat && removal_.has_room() && ingress_->has_room(); ++i) {
         std::optional<Ownership::Claim> claim = waiting_.take(is_wanted);
         if (!claim || !described(std::move(*claim))) return;

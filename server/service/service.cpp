@@ -1,6 +1,5 @@
 #include "service/service.hpp"
 
-#include <malloc.h>
 #include <spdlog/spdlog.h>
 
 #include <iterator>
@@ -8,6 +7,7 @@
 
 #include "http/metrics.hpp"
 #include "http/status.hpp"
+#include "service/heap.hpp"
 #include "service/logging.hpp"
 #include "service/supervisor.hpp"
 #include "service/wire_metrics.hpp"
@@ -128,8 +128,7 @@ void Service::run(Signals& signals) {
     for (bool ready = false;;) {
         watch(ready);
         if (const auto now = std::chrono::steady_clock::now(); now - trimmed >= trim_period) {
-            // What matches and peers that are gone have left free between what stays.
-            malloc_trim(0);
+            trim_heap();  // of what matches and peers that are gone have left free
             trimmed = now;
         }
         const Signal signal = signals.wait(watch_period);

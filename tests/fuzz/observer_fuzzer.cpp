@@ -27,10 +27,10 @@ class Viewer {
         now_ += frame_interval;
         switch (record.topic % 4) {
             case 0:
-                return accept<camera_director_MatchInfo>(camera_director_MatchInfo_desc, record.fields);
+                return accept<camera_director_ShownMatch>(camera_director_ShownMatch_desc, record.fields);
             case 1:
-                return accept<camera_director_ObserverStatus>(camera_director_ObserverStatus_desc,
-                                                              record.fields);
+                return accept<camera_director_ObserverStatusBucket>(camera_director_ObserverStatusBucket_desc,
+                                                                    record.fields);
             case 2: {
                 const fuzz::ReceivedSample<camera_director_CameraFrame> frame(
                     camera_director_CameraFrame_desc, record.fields);
@@ -71,8 +71,7 @@ class Viewer {
     void lose(unsigned what) {
         if (what % 4 == 0) match_.match_ended();
         if (what % 4 == 1) match_.info_abandoned();
-        if (what % 4 == 2) match_.status_withdrawn();
-        if (what % 4 == 3) match_.status_abandoned();
+        if (what % 4 >= 2) match_.statuses_abandoned(static_cast<std::uint8_t>(what));
     }
 
     ReceivedMatch match_{"m", "o", 100'000'000};

@@ -8,6 +8,7 @@
 #include "dds/decode.hpp"
 #include "dds/encode.hpp"
 #include "director/director.hpp"
+#include "support/descriptions.hpp"
 #include "support/freespace_meshes.hpp"
 #include "wire_input.hpp"
 
@@ -25,7 +26,7 @@ class Encoder final : public director::Publisher {
   public:
     void publish(const director::MatchInfo& shown) override {
         dds::ShownMatchEncoder encoder;
-        const camera_director_MatchInfo& sample = encoder.encode(shown);
+        const auto sample = test::described_as<camera_director_MatchInfo>(encoder.encode(shown));
         director::MatchInfo again;
         assert(!dds::decode(sample, again));
     }

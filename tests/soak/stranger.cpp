@@ -81,6 +81,7 @@ class Stranger {
             peer.write(info);
             peer.write(test::raw_request(match, "viewer", 0));
             send_poses(peer, match, 1, frame_interval * 15);
+            answered_ += peer.directors() > 0 ? 1 : 0;
             if (number % 2 == 0) peer.dispose(info);  // the others are gone without a word
         }
     }

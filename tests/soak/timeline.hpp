@@ -44,7 +44,7 @@ struct Slice {
 struct ActRecord {
     Act act;
     double begin = 0.0, end = 0.0;
-    std::uint64_t invented = 0;  // observers that a director answered, of a flood
+    std::uint64_t invented = 0;  // observers or matches that a director answered
     std::string failure;         // empty: it was carried out
 };
 

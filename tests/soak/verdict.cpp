@@ -32,6 +32,11 @@ bool removes_leader(const Act& act) {
     return is_done_to_director(act.kind) && act.kind != ActKind::reload && act.director == Role::leader;
 }
 
+bool begins_matches(const Act& act) {
+    return act.kind == ActKind::flapping_match || act.kind == ActKind::flood_matches ||
+           act.kind == ActKind::passing_matches;
+}
+
 class Judge {
   public:
     Judge(const Timeline& timeline, bool sanitized) : timeline_(timeline), sanitized_(sanitized) {}
@@ -200,7 +205,8 @@ class Judge {
                 Check{whose + what, text(before, decimals) + " then " + text(after, decimals),
                       "at most " + text(before + more, decimals), verdict_of(after <= before + more)});
         };
-        const double kept = kept_bytes_a_key * static_cast<double>(invented(*first.front(), *last.back()));
+        const double kept =
+            kept_bytes_a_match * static_cast<double>(served_in_between(*first.front(), *last.back()));
         Check& memory = compare(
             "memory, MiB", &Usage::resident_mib,
             max_growth * level(first, &Usage::resident_mib) + slack_mib + kept / (1024.0 * 1024.0), 1);
@@ -209,11 +215,11 @@ class Judge {
         compare("threads", &Usage::threads, 0.0, 0);
     }
 
-    // Observers that were answered in between.
-    [[nodiscard]] std::uint64_t invented(const Slice& first, const Slice& last) const {
+    // Matches of strangers.
+    [[nodiscard]] std::uint64_t served_in_between(const Slice& first, const Slice& last) const {
         std::uint64_t sum = 0;
         for (const ActRecord& act : timeline_.acts)
-            if (act.end > first.begin && act.begin < last.end) sum += act.invented;
+            if (begins_matches(act.act) && act.end > first.begin && act.begin < last.end) sum += act.invented;
         return sum;
     }
 

@@ -136,8 +136,8 @@ RawPeer::RawPeer(std::uint32_t domain, const std::string& match_id, std::vector<
         add_writer(camera_director_ObserverRequest_desc, "ObserverRequest", observer_request_qos());
     sign_ = add_writer(camera_director_DirectorSign_desc, "DirectorSign", newest_for_late_joiners());
     camera_frame_ = add_reader(camera_director_CameraFrame_desc, "CameraFrame", camera_frame_qos());
-    observer_status_ = add_reader(camera_director_ObserverStatus_desc, "ObserverStatus", answer_qos());
-    shown_match_ = add_reader(camera_director_MatchInfo_desc, "ShownMatch", answer_qos());
+    observer_status_ = add_reader(camera_director_ObserverStatusBucket_desc, "ObserverStatus", answer_qos());
+    shown_match_ = add_reader(camera_director_ShownMatch_desc, "ShownMatch", answer_qos());
 }
 
 RawPeer::~RawPeer() {
@@ -207,15 +207,18 @@ std::vector<RawPeer::CameraFrame> RawPeer::take_cameras() {
 }
 
 const std::map<std::string, camera_director_ObserverStatus>& RawPeer::statuses() {
-    camera_director_ObserverStatus sample{};
-    void* samples[] = {&sample};
+    void* taken = nullptr;
     dds_sample_info_t info;
-    while (dds_take(observer_status_, samples, &info, 1, 1) > 0) {
-        if (info.instance_state != DDS_ALIVE_INSTANCE_STATE) {
-            statuses_.erase(sample.observer_id);
-        } else if (info.valid_data) {
-            statuses_[sample.observer_id] = sample;
+    while (dds_take(observer_status_, &taken, &info, 1, 1) > 0) {
+        const auto& sample = *static_cast<const camera_director_ObserverStatusBucket*>(taken);
+        std::erase_if(statuses_, [&](const auto& status) { return buckets_[status.first] == sample.bucket; });
+        const bool is_alive = info.valid_data && info.instance_state == DDS_ALIVE_INSTANCE_STATE;
+        for (std::uint32_t i = 0; is_alive && i < sample.statuses._length; ++i) {
+            const camera_director_ObserverStatus& status = sample.statuses._buffer[i];
+            statuses_[status.observer_id] = status;
+            buckets_[status.observer_id] = sample.bucket;
         }
+        dds_return_loan(observer_status_, &taken, 1);
     }
     return statuses_;
 }
@@ -226,7 +229,7 @@ std::vector<std::optional<std::uint64_t>> RawPeer::take_shown_epochs() {
     dds_sample_info_t info;
     while (dds_take(shown_match_, &sample, &info, 1, 1) > 0) {
         if (info.valid_data)
-            epochs.emplace_back(static_cast<const camera_director_MatchInfo*>(sample)->epoch);
+            epochs.emplace_back(static_cast<const camera_director_ShownMatch*>(sample)->epoch);
         if (info.instance_state != DDS_ALIVE_INSTANCE_STATE) epochs.emplace_back(std::nullopt);
         dds_return_loan(shown_match_, &sample, 1);
     }

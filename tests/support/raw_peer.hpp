@@ -69,6 +69,7 @@ class RawPeer {
     dds_entity_t sign_ = 0, shown_camera_ = 0;
     dds_entity_t camera_frame_ = 0, observer_status_ = 0, shown_match_ = 0;
     std::map<std::string, camera_director_ObserverStatus> statuses_;
+    std::map<std::string, std::uint8_t> buckets_;  // of those observers
 };
 
 // Valid samples without players or group.

@@ -14,6 +14,7 @@
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "idl/topics.hpp"
@@ -63,19 +64,15 @@ class RawMatch {
     // Answered with the next poses, which tell the epoch.
     void accept(const camera_director_ObserverRequest& request) {
         shots_.insert(request.target);
-        camera_director_ObserverStatus& status = unanswered_.emplace_back();
-        std::memcpy(status.match_id, request.match_id, sizeof status.match_id);
+        camera_director_ObserverStatus& status = answers_.emplace_back();
         std::memcpy(status.observer_id, request.observer_id, sizeof status.observer_id);
         status.state = 1;
         status.camera_id = request.target + 1;
+        is_answered_ = false;
     }
 
     void answer(const camera_director_PoseFrame& poses) {
-        for (camera_director_ObserverStatus& status : unanswered_) {
-            status.epoch = poses.epoch;
-            dds_write(statuses_, &status);
-        }
-        unanswered_.clear();
+        if (!std::exchange(is_answered_, true)) write_answers(poses.epoch);
         clear();
         for (std::uint32_t i = 0; i < poses.player_id._length; ++i)
             if (shots_.contains(poses.player_id._buffer[i])) add(poses, i);
@@ -104,6 +101,15 @@ class RawMatch {
         const wire::Qos qos = wire::topic_qos(which, DDS_MSECS(100));
         return created(dds_create_writer(publisher_, topic(participant, which), qos.get(), nullptr));
     }
+    // All in one bucket.
+    void write_answers(std::uint64_t epoch) {
+        for (camera_director_ObserverStatus& status : answers_)
+            status.epoch = epoch;
+        camera_director_ObserverStatusBucket sample{};
+        std::memcpy(sample.match_id, sample_.match_id, sizeof sample.match_id);
+        borrow(answers_, sample.statuses);
+        dds_write(statuses_, &sample);
+    }
     void clear() {
         camera_id_.clear();
         target_.clear();
@@ -125,7 +131,8 @@ class RawMatch {
 
     dds_entity_t publisher_, cameras_, statuses_;
     std::set<std::uint32_t> shots_;
-    std::vector<camera_director_ObserverStatus> unanswered_;
+    std::vector<camera_director_ObserverStatus> answers_;
+    bool is_answered_ = true;
     camera_director_CameraFrame sample_{};
     std::vector<std::uint32_t> camera_id_, target_, flags_;
     std::vector<float> position_, orientation_, one_;

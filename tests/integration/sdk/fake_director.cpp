@@ -5,6 +5,8 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "support/descriptions.hpp"
+
 namespace camdir::test {
 
 namespace {
@@ -104,8 +106,8 @@ FakeDirector::FakeDirector(std::uint32_t domain, const std::string& match_id, st
     answers.transient_local().exclusive(strength);
     dds_qset_writer_data_lifecycle(answers.qos, false);
     status_writer_ = created(dds_create_writer(
-        publisher, topic(camera_director_ObserverStatus_desc, "ObserverStatus"), answers.qos, nullptr));
-    shown_writer_ = created(dds_create_writer(publisher, topic(camera_director_MatchInfo_desc, "ShownMatch"),
+        publisher, topic(camera_director_ObserverStatusBucket_desc, "ObserverStatus"), answers.qos, nullptr));
+    shown_writer_ = created(dds_create_writer(publisher, topic(camera_director_ShownMatch_desc, "ShownMatch"),
                                               answers.qos, nullptr));
 }
 
@@ -175,16 +177,16 @@ bool FakeDirector::has_ended(dds_entity_t reader) {
 
 bool FakeDirector::show_match() {
     const auto pass_on = [&](const camera_director_MatchInfo& sample) {
-        return dds_write(shown_writer_, &sample) == DDS_RETCODE_OK;
+        const auto shown = described_as<camera_director_ShownMatch>(sample);
+        return dds_write(shown_writer_, &shown) == DDS_RETCODE_OK;
     };
     return take<camera_director_MatchInfo>(info_reader_, camera_director_MatchInfo_desc, pass_on)
         .value_or(false);
 }
 
 void FakeDirector::end_shown_match() {
-    camera_director_MatchInfo key{};
-    match_id_.copy(key.match_id, sizeof key.match_id - 1);
-    ASSERT_EQ(dds_dispose(shown_writer_, &key), DDS_RETCODE_OK);
+    const camera_director_ShownMatch any{};
+    ASSERT_EQ(dds_dispose(shown_writer_, &any), DDS_RETCODE_OK);
 }
 
 void FakeDirector::write(CameraFrameArrays& frame) {
@@ -194,21 +196,30 @@ void FakeDirector::write(CameraFrameArrays& frame) {
 
 void FakeDirector::write_status(const std::string& observer_id, std::uint64_t epoch, std::uint32_t state,
                                 std::uint32_t camera_id, const std::string& reason) {
-    camera_director_ObserverStatus sample{};
-    match_id_.copy(sample.match_id, sizeof sample.match_id - 1);
-    observer_id.copy(sample.observer_id, sizeof sample.observer_id - 1);
-    reason.copy(sample.reason, sizeof sample.reason - 1);
-    sample.epoch = epoch;
-    sample.state = state;
-    sample.camera_id = camera_id;
-    ASSERT_EQ(dds_write(status_writer_, &sample), DDS_RETCODE_OK);
+    camera_director_ObserverStatus status{};
+    observer_id.copy(status.observer_id, sizeof status.observer_id - 1);
+    reason.copy(status.reason, sizeof status.reason - 1);
+    status.epoch = epoch;
+    status.state = state;
+    status.camera_id = camera_id;
+    statuses_[observer_id] = status;
+    write_statuses();
 }
 
 void FakeDirector::withdraw_status(const std::string& observer_id) {
-    camera_director_ObserverStatus key{};
-    match_id_.copy(key.match_id, sizeof key.match_id - 1);
-    observer_id.copy(key.observer_id, sizeof key.observer_id - 1);
-    ASSERT_EQ(dds_dispose(status_writer_, &key), DDS_RETCODE_OK);
+    statuses_.erase(observer_id);
+    write_statuses();
+}
+
+void FakeDirector::write_statuses() {
+    std::vector<camera_director_ObserverStatus> statuses;
+    for (const auto& [observer_id, status] : statuses_)
+        statuses.push_back(status);
+    camera_director_ObserverStatusBucket sample{};
+    match_id_.copy(sample.match_id, sizeof sample.match_id - 1);
+    sample.statuses._buffer = statuses.data();
+    sample.statuses._length = sample.statuses._maximum = static_cast<std::uint32_t>(statuses.size());
+    ASSERT_EQ(dds_write(status_writer_, &sample), DDS_RETCODE_OK);
 }
 
 std::uint32_t FakeDirector::observer_count() const {

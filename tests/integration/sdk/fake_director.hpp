@@ -83,8 +83,10 @@ class FakeDirector {
   private:
     [[nodiscard]] dds_entity_t topic(const dds_topic_descriptor_t& type, const char* name);
     [[nodiscard]] bool has_ended(dds_entity_t reader);
+    void write_statuses();
 
     std::string match_id_;
+    std::map<std::string, camera_director_ObserverStatus> statuses_;  // of all observers, in one bucket
     dds_entity_t participant_;
     dds_entity_t info_reader_;
     dds_entity_t pose_reader_;

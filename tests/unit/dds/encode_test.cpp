@@ -7,6 +7,7 @@
 #include <random>
 
 #include "dds/decode.hpp"
+#include "support/descriptions.hpp"
 
 namespace camdir::dds {
 namespace {
@@ -93,7 +94,8 @@ RC_GTEST_PROP(EncodeShownMatch, IsDecodedToTheSame, ()) {
             info.players.push_back(
                 {i * 7, std::string(i % 64, 'n'), std::string(i % 32, 'c'), static_cast<std::uint8_t>(i)});
         director::MatchInfo decoded;
-        RC_ASSERT(!decode(encoder.encode(info), decoded));
+        const auto sample = test::described_as<camera_director_MatchInfo>(encoder.encode(info));
+        RC_ASSERT(!decode(sample, decoded));
         RC_ASSERT(decoded == info);
     }
 }
@@ -103,7 +105,7 @@ TEST(EncodeShownMatch, CutsStringsBetweenCharacters) {
     info.match_id = "m";
     info.players.push_back({1, std::string(62, 'x') + "ä", std::string(30, 'x') + "ä", 0});
     ShownMatchEncoder encoder;
-    const camera_director_MatchInfo& sample = encoder.encode(info);
+    const camera_director_ShownMatch& sample = encoder.encode(info);
     EXPECT_EQ(std::string(sample.player_name._buffer[0]), std::string(62, 'x'));
     EXPECT_EQ(std::string(sample.player_class._buffer[0]), std::string(30, 'x'));
 }
@@ -124,6 +126,52 @@ TEST(EncodeObserverStatus, CutsStringsBetweenCharacters) {
     EXPECT_EQ(std::string(sample.reason), std::string(254, 'x'));
     status.reason = std::string(253, 'x') + "ä";
     EXPECT_EQ(std::string(encode(status).reason), status.reason);
+}
+
+director::ObserverStatus status_of(const std::string& observer, std::uint32_t camera_id) {
+    director::ObserverStatus status;
+    status.match_id = "cup";
+    status.observer_id = observer;
+    status.camera_id = camera_id;
+    return status;
+}
+
+TEST(EncodeStatusBucket, HoldsTheStatusesOfItsObserversAndNoneOfThoseErased) {
+    StatusBuckets statuses;
+    const StatusBuckets::Number number = StatusBuckets::number_of("anna");
+    std::string neighbour;  // in the same bucket
+    for (int i = 0; neighbour.empty(); ++i)
+        if (StatusBuckets::number_of(std::to_string(i)) == number) neighbour = std::to_string(i);
+    ASSERT_TRUE(statuses.put(status_of("anna", 5)));
+    ASSERT_TRUE(statuses.put(status_of(neighbour, 6)));
+    ASSERT_TRUE(statuses.put(status_of("anna", 7)));
+
+    StatusBucketEncoder encoder("cup");
+    const camera_director_ObserverStatusBucket& sample = encoder.encode(number, statuses.bucket(number));
+    EXPECT_STREQ(sample.match_id, "cup");
+    EXPECT_EQ(sample.bucket, number);
+    ASSERT_EQ(sample.statuses._length, 2U);
+    EXPECT_STREQ(sample.statuses._buffer[0].observer_id, neighbour.c_str());
+    EXPECT_EQ(sample.statuses._buffer[1].camera_id, 7U);
+    statuses.erase(neighbour);
+    EXPECT_EQ(encoder.encode(number, statuses.bucket(number)).statuses._length, 1U);
+    statuses.erase("anna");
+    EXPECT_EQ(encoder.encode(number, statuses.bucket(number)).statuses._length, 0U);
+    EXPECT_EQ(statuses.used().size(), 1U);
+}
+
+TEST(StatusBuckets, AreBounded) {
+    StatusBuckets statuses;
+    std::vector<std::string> observers;  // of one bucket
+    for (int i = 0; observers.size() <= StatusBuckets::max_statuses; ++i)
+        if (StatusBuckets::number_of(std::to_string(i)) == 0) observers.push_back(std::to_string(i));
+    const auto put = [&](const std::string& observer) { return statuses.put(status_of(observer, 1)); };
+    for (std::size_t i = 0; i < StatusBuckets::max_statuses; ++i)
+        ASSERT_TRUE(put(observers[i]));
+    EXPECT_FALSE(put(observers.back()));
+    EXPECT_TRUE(put(observers.front())) << "it is there already";
+    statuses.erase(observers.front());
+    EXPECT_TRUE(put(observers.back()));
 }
 
 TEST(EncodeSign, IsDecodedAsItWas) {

@@ -312,6 +312,26 @@ TEST_F(LimitsTest, CountsTheMatchesThatMayNotWait) {
     EXPECT_EQ(dropped(Topic::match_info, ValidationError::participant_limit), 3U);
 }
 
+class RateTest : public LimitsTest {
+  protected:
+    RateTest() { limits_.participant_match_rate = 0.2; }  // a test is fast
+};
+
+TEST_F(RateTest, AParticipantThatBeginsMatchesTooFastWaits) {
+    RawPeer& restless = peer("a", {"match/a", "match/b", "match/c"});
+    for (const std::string match_id : {"a", "b"}) {
+        restless.write(test::raw_match_info(match_id, 1));
+        ASSERT_TRUE(eventually([&] { return recorder_.has("info " + match_id + " 1"); }));
+        restless.dispose(test::raw_match_info(match_id, 1));
+        ASSERT_TRUE(eventually([&] { return recorder_.has("over " + match_id); }));
+    }
+    restless.write(test::raw_match_info("c", 1));
+    EXPECT_TRUE(
+        eventually([&] { return dropped(Topic::match_info, ValidationError::participant_rate) == 1; }));
+    game("cup");
+    EXPECT_TRUE(eventually([&] { return recorder_.has("info c 1"); })) << "it has waited";
+}
+
 TEST(WaitingMatches, KeepsTheNewestDescriptionOfEachWithinItsBoundsUntilItIsGone) {
     WaitingMatches waiting(4, 2);
     const auto claim = [](unsigned char sender, const std::string& match_id, std::uint64_t epoch = 1) {

@@ -29,7 +29,6 @@ CameraFrameArrays frame_of(std::uint64_t epoch, std::uint32_t number) {
 camera_director_ObserverStatus status_of(std::uint64_t epoch, std::uint32_t camera_id,
                                          const std::string& observer = "anna") {
     camera_director_ObserverStatus status{};
-    std::string("cup").copy(status.match_id, 63);
     observer.copy(status.observer_id, 63);
     status.epoch = epoch;
     status.state = CDIR_SHOT_ACCEPTED;
@@ -51,14 +50,24 @@ class ReceivedMatchTest : public testing::Test {
         return accept(frame);
     }
 
+    // All answers of the bucket.
+    bool take(std::vector<camera_director_ObserverStatus> statuses, std::uint8_t bucket = 3) {
+        camera_director_ObserverStatusBucket answers{};
+        std::string("cup").copy(answers.match_id, 63);
+        answers.bucket = bucket;
+        answers.statuses._buffer = statuses.data();
+        answers.statuses._length = static_cast<std::uint32_t>(statuses.size());
+        return match_.accept(answers);
+    }
+
     void answer(std::uint64_t epoch, std::uint32_t camera_id) {
         match_.set_requested(true);
-        match_.accept(status_of(epoch, camera_id));
+        take({status_of(epoch, camera_id)});
     }
 
     // By a director.
     void describe(std::uint64_t epoch) {
-        camera_director_MatchInfo info{};
+        camera_director_ShownMatch info{};
         std::string("cup").copy(info.match_id, 63);
         std::string map = "oa_dm1";
         info.map_name = map.data();
@@ -91,9 +100,25 @@ TEST_F(ReceivedMatchTest, AnAnswerThatOvertakesTheDescriptionOfAnEarlierEpochIsK
 
 TEST_F(ReceivedMatchTest, AnswersToOtherObserversAreIgnored) {
     match_.set_requested(true);
-    match_.accept(status_of(1, 5, "bert"));
+    take({status_of(1, 5, "bert")});
     EXPECT_EQ(match_.shot_status().state, static_cast<std::uint32_t>(CDIR_SHOT_UNANSWERED));
     EXPECT_EQ(match_.counters().invalid, 0U);
+}
+
+TEST_F(ReceivedMatchTest, TheAnswerIsFoundAmongThoseOfItsBucketAndLostOnceOnly) {
+    match_.set_requested(true);
+    EXPECT_TRUE(take({status_of(1, 4, "bert")}, 3)) << "there was none";
+    EXPECT_TRUE(take({status_of(1, 4, "bert"), status_of(1, 5), status_of(1, 6, "cleo")}, 3));
+    EXPECT_EQ(match_.shot_status().camera_id, 5U);
+    EXPECT_TRUE(take({}, 4)) << "other observers' bucket";
+    EXPECT_TRUE(match_.statuses_abandoned(4));
+    EXPECT_EQ(match_.shot_status().camera_id, 5U);
+    EXPECT_FALSE(take({status_of(1, 4, "bert")}, 3));
+    EXPECT_EQ(match_.shot_status().state, static_cast<std::uint32_t>(CDIR_SHOT_UNANSWERED));
+    EXPECT_TRUE(take({}, 3)) << "it is known";
+    EXPECT_TRUE(take({status_of(1, 7)}, 9)) << "of a director with other buckets";
+    EXPECT_TRUE(take({}, 3));
+    EXPECT_EQ(match_.shot_status().camera_id, 7U);
 }
 
 TEST_F(ReceivedMatchTest, StatusGoesFromNotRequestedToAnsweredAndBack) {
@@ -103,10 +128,10 @@ TEST_F(ReceivedMatchTest, StatusGoesFromNotRequestedToAnsweredAndBack) {
     camera_director_ObserverStatus refused = status_of(1, 0);
     refused.state = CDIR_SHOT_REFUSED;
     std::string("no such profile").copy(refused.reason, 255);
-    match_.accept(refused);
+    take({refused});
     EXPECT_EQ(match_.shot_status().state, static_cast<std::uint32_t>(CDIR_SHOT_REFUSED));
     EXPECT_STREQ(match_.shot_status().reason, "no such profile");
-    match_.status_withdrawn();
+    EXPECT_FALSE(take({}));
     EXPECT_EQ(match_.shot_status().state, static_cast<std::uint32_t>(CDIR_SHOT_UNANSWERED));
     match_.set_requested(false);
     EXPECT_EQ(match_.shot_status().state, static_cast<std::uint32_t>(CDIR_SHOT_NOT_REQUESTED));
@@ -114,11 +139,11 @@ TEST_F(ReceivedMatchTest, StatusGoesFromNotRequestedToAnsweredAndBack) {
 
 TEST_F(ReceivedMatchTest, TheCameraOfADirectorThatIsGoneIsFoundInTheNextOnesFrames) {
     answer(1, 5);
-    match_.status_abandoned();
+    EXPECT_FALSE(match_.statuses_abandoned(3));
     EXPECT_EQ(match_.shot_status().state, static_cast<std::uint32_t>(CDIR_SHOT_UNANSWERED));
     EXPECT_TRUE(accept(1, 0, 12.0F, 0, 2));
     EXPECT_EQ(match_.track().newest()->camera.position[0], 12.0F);
-    match_.accept(status_of(1, 5));
+    take({status_of(1, 5)});
     EXPECT_EQ(match_.shot_status().state, static_cast<std::uint32_t>(CDIR_SHOT_ACCEPTED));
 }
 
@@ -127,7 +152,7 @@ TEST_F(ReceivedMatchTest, OlderEpochsAreDroppedAndCounted) {
     answer(3, 5);
     EXPECT_TRUE(accept(3, 7, 1.0F));
     EXPECT_FALSE(accept(2, 8, 2.0F));
-    match_.accept(status_of(2, 4));
+    take({status_of(2, 4)});
     describe(2);
     EXPECT_EQ(match_.counters().stale_epoch, 3U);
     EXPECT_EQ(match_.counters().invalid, 0U);
@@ -145,14 +170,14 @@ TEST_F(ReceivedMatchTest, AFalseEpochDoesNotSilenceTheDescribedOne) {
         if (known) describe(3);
         answer(3, 5);
         EXPECT_EQ(accept(last, 0, 1.0F), !known);
-        match_.accept(status_of(last, 5));
+        take({status_of(last, 5)});
         describe(3);
-        match_.accept(status_of(3, 5));
+        take({status_of(3, 5)});
         EXPECT_TRUE(accept(3, 1, 2.0F));
         EXPECT_EQ(match_.track().newest()->camera.position[0], 2.0F);
         describe(4);
         EXPECT_EQ(match_.shot_status().state, static_cast<std::uint32_t>(CDIR_SHOT_UNANSWERED));
-        match_.accept(status_of(4, 5));
+        take({status_of(4, 5)});
         EXPECT_TRUE(accept(4, 0, 3.0F));
         EXPECT_EQ(match_.track().newest()->camera.position[0], 3.0F);
     }
@@ -161,13 +186,13 @@ TEST_F(ReceivedMatchTest, AFalseEpochDoesNotSilenceTheDescribedOne) {
 TEST_F(ReceivedMatchTest, AnAnswerThatOvertakesItsEpochHoldsOnceThatBegins) {
     describe(3);
     answer(3, 5);
-    match_.accept(status_of(4, 4));
+    take({status_of(4, 4)});
     EXPECT_EQ(match_.shot_status().camera_id, 5U);
     describe(4);
     EXPECT_EQ(match_.shot_status().camera_id, 4U);
     EXPECT_TRUE(accept(4, 0, 1.0F));
     EXPECT_EQ(match_.track().newest()->camera.position[0], -1.0F);
-    match_.accept(status_of(5, 6));
+    take({status_of(5, 6)});
     EXPECT_EQ(match_.shot_status().camera_id, 4U);
     match_.match_ended();
     EXPECT_EQ(match_.shot_status().camera_id, 6U) << "the next one's description may come later";
@@ -295,7 +320,7 @@ TEST_F(ReceivedMatchTest, CutAbsenceAndAnotherCameraBeginASegment) {
     accept(frame_of(1, 2));  // without the camera
     accept(1, 3, 3.0F);
     EXPECT_EQ(segment(), first + 2);
-    match_.accept(status_of(1, 4));
+    take({status_of(1, 4)});
     accept(1, 4, 4.0F);
     EXPECT_EQ(segment(), first + 3);
     EXPECT_EQ(match_.track().newest()->camera.camera_id, 4U);
@@ -369,7 +394,7 @@ TEST_F(ReceivedMatchTest, NoFrameLeavesAnInvalidCamera) {
         if (below(8) == 0) frame.vertical_fov.assign(frame.camera_id.size(), any_float());
         if (below(8) == 0) frame.flags.resize(below(6));
         accept(frame);
-        match_.accept(status_of(epoch, 3 + below(4)));
+        take({status_of(epoch, 3 + below(4))});
         const auto view = match_.track().at(frame.frame_time - static_cast<std::int64_t>(below(100)) * ms);
         if (!view) continue;
         const cdir_camera& camera = view->camera;
@@ -389,7 +414,7 @@ TEST_F(ReceivedMatchTest, UnknownStateIsInvalid) {
     match_.set_requested(true);
     camera_director_ObserverStatus status = status_of(1, 5);
     status.state = 4;
-    match_.accept(status);
+    take({status});
     EXPECT_EQ(match_.counters().invalid, 1U);
     EXPECT_EQ(match_.shot_status().state, static_cast<std::uint32_t>(CDIR_SHOT_UNANSWERED));
 }

@@ -132,14 +132,18 @@ TEST(Verdict, CamerasThatDoNotReturnFail) {
     expect_failure(timeline, "cameras again");
 }
 
-TEST(Verdict, GrowthFailsBeyondWhatDdsKeeps) {
+TEST(Verdict, GrowthFailsBeyondWhatDdsKeepsOfMatches) {
     Timeline timeline = flooded();
-    for (std::size_t i = 60; i < timeline.slices.size(); ++i)
-        timeline.slices[i].directors[0]->resident_mib = 59.0;  // 5 % and 4 MiB and 10,000 x 310 bytes are 9.5
-    EXPECT_THAT(failures(timeline), testing::IsEmpty());
-    for (std::size_t i = 60; i < timeline.slices.size(); ++i)
-        timeline.slices[i].directors[0]->resident_mib = 60.0;
-    expect_failure(timeline, "memory");
+    const auto grown_to = [&](double mib) {
+        for (std::size_t i = 60; i < timeline.slices.size(); ++i)
+            timeline.slices[i].directors[0]->resident_mib = mib;
+        return timeline;
+    };
+    EXPECT_THAT(failures(grown_to(56.0)), testing::IsEmpty());  // 5 % and 4 MiB are 6.5
+    expect_failure(grown_to(57.0), "memory");
+    timeline.acts[0].act.kind = ActKind::flood_matches;  // 10,000 x 5,000 bytes are 47.7 MiB
+    EXPECT_THAT(failures(grown_to(104.0)), testing::IsEmpty());
+    expect_failure(grown_to(105.0), "memory");
 }
 
 TEST(Verdict, DescriptorsAndThreadsThatStayFail) {
