@@ -48,9 +48,23 @@ float& FreeLengths::at(const Vec3f& eye, std::size_t bin, float cell) {
     return entry.length;
 }
 
+Beams::Beams(const freespace::Freespace& freespace, const MapProfile& profile, const Future& future,
+             FreeBeams& known, FreeLengths& lengths, BeamScratch& scratch)
+    : freespace_(freespace),
+      profile_(profile),
+      future_(future),
+      known_(known),
+      lengths_(lengths),
+      scratch_(scratch) {
+    std::fill_n(scratch_.radius.begin(), future.count, -1.0F);
+    std::fill_n(scratch_.origins.begin(), future.count, std::nullopt);
+    lengths_.use(profile.distance, profile.minimum_clearance);
+}
+
 float Beams::radius(std::size_t i) {
-    if (radius_[i] < 0.0F) radius_[i] = radius_from(future_[i].eye);
-    return radius_[i];
+    float& radius = scratch_.radius[i];
+    if (radius < 0.0F) radius = radius_from(future_[i].eye);
+    return radius;
 }
 
 float Beams::radius_from(const Vec3f& eye) {
@@ -64,8 +78,9 @@ float Beams::radius_from(const Vec3f& eye) {
 }
 
 const freespace::SightOrigin& Beams::origin(std::size_t i) {
-    if (!origins_[i]) origins_[i].emplace(freespace_, future_[i].eye, radius(i));
-    return *origins_[i];
+    auto& origin = scratch_.origins[i];
+    if (!origin) origin.emplace(freespace_, future_[i].eye, radius(i));
+    return *origin;
 }
 
 float Beams::free_length(std::size_t i, const Vec3f& direction, float length) {

@@ -66,16 +66,18 @@ struct BeamEnd {
     Vec3f normal;  // roughly of the obstacle: the way out of the last free ball, length 1
 };
 
+// What beams look up once for each sample of a plan.
+struct BeamScratch {
+    std::array<float, Future::capacity> radius;  // negative: not asked yet
+    std::array<std::optional<freespace::SightOrigin>, Future::capacity> origins;
+};
+
 // Beams from the eyes of a future. Their radius is 4/3 of the clearance that the camera keeps, but less than
 // the eye's own clearance.
 class Beams {
   public:
     Beams(const freespace::Freespace& freespace, const MapProfile& profile, const Future& future,
-          FreeBeams& known, FreeLengths& lengths)
-        : freespace_(freespace), profile_(profile), future_(future), known_(known), lengths_(lengths) {
-        radius_.fill(-1.0F);
-        lengths_.use(profile.distance, profile.minimum_clearance);
-    }
+          FreeBeams& known, FreeLengths& lengths, BeamScratch& scratch);
 
     // How far the beam from the eye of sample i is free in a direction (unit), at most `length`.
     [[nodiscard]] float free_length(std::size_t i, const Vec3f& direction, float length);
@@ -99,8 +101,7 @@ class Beams {
     const Future& future_;
     FreeBeams& known_;
     FreeLengths& lengths_;
-    std::array<float, Future::capacity> radius_;  // negative: not asked yet
-    std::array<std::optional<freespace::SightOrigin>, Future::capacity> origins_;
+    BeamScratch& scratch_;
     Vec3f clear_eye_ = Vec3f::Zero();  // the last eye whose clearance was looked up
     float clearance_ = -1.0F;
 };

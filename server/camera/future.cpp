@@ -33,17 +33,21 @@ Look view_of(const Pose& pose, float near_yaw) {
     return view;
 }
 
-// The continuous stretch of the window around an index.
+// The continuous stretch of the window around an index, from as early on as velocities are taken from.
 struct Stretch {
     Window window;
     std::size_t first;
     std::size_t last;
 
     Stretch(Window all, std::size_t index) : window(all), first(index), last(index) {
-        while (first > 0 && continuous(window, static_cast<std::ptrdiff_t>(first) - 1))
-            --first;
         while (continuous(window, static_cast<std::ptrdiff_t>(last)))
             ++last;
+        const double interval = last > 0 ? window[last].time - window[last - 1].time : 0.0;
+        const double since =
+            window[index].time - std::max(velocity_span, 2.0 * std::max(turn_span, interval));
+        while (first > 0 && window[first].time > since &&
+               continuous(window, static_cast<std::ptrdiff_t>(first) - 1))
+            --first;
     }
     [[nodiscard]] double begin() const { return window[first].time; }
     [[nodiscard]] double end() const { return window[last].time; }

@@ -33,7 +33,7 @@ void make_plan(const freespace::Freespace& freespace, const MapProfile& profile,
     plan.knot_spacing = plan.samples_in(plan.ahead ? knot_interval_ahead : knot_interval);
 
     smooth_heading(profile, state.history, plan);
-    Beams beams(freespace, profile, plan.future, state.free_beams, state.free_lengths);
+    Beams beams(freespace, profile, plan.future, state.free_beams, state.free_lengths, scratch.beams);
     choose_vantages(profile, state.history, beams, plan, scratch.candidates, state.vantages);
     set_goals(profile, state.vantages, beams, plan);
     refine_path(profile, state.history, beams, plan);

@@ -32,6 +32,7 @@ struct PlanState {
 // Memory for planning, for any number of shots one after the other; one thread at a time.
 struct PlanScratch {
     Plan plan;
+    BeamScratch beams;
     CandidateScratch candidates;
 };
 
