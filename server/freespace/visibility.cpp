@@ -51,11 +51,10 @@ struct BallOnSegment {
     }
 };
 
-// Where on [begin, end] the march should change from ball `from` to ball `to`: near the point where both give
-// the same clearance. `from` is the better one at `begin`, `to` at `end`. Any answer is safe.
-double changeover(const BallOnSegment& from, const BallOnSegment& to, double begin, double end) {
-    const double ahead = from.clearance(begin) - to.clearance(begin);
-    const double behind = to.clearance(end) - from.clearance(end);
+// Where on [begin, end] the march should change from one ball to the next: near the point where both give the
+// same clearance. `ahead`: by how much the first one's is larger at `begin`; `behind`: the next one's at
+// `end`. Any answer is safe.
+double changeover(double begin, double end, double ahead, double behind) {
     return ahead > 0.0 && behind > 0.0 ? begin + (end - begin) * (ahead / (ahead + behind)) : end;
 }
 
@@ -64,29 +63,31 @@ SlabPoint roomiest(const SlabOctree& octree, const Sweep& sweep, double t) {
     return octree.best(sweep.at(t), static_cast<float>(sweep.radius));
 }
 
-// Carries the sphere at t to the end, or on by more than `gain`.
-bool carries_on(const BallOnSegment& ball, const Sweep& sweep, double t, double gain) {
-    const double exit = ball.exit(sweep.radius);
-    return ball.clearance(t) > sweep.radius && (exit >= sweep.length || exit - t > gain);
-}
-
 // `next`: the slab point for the next ball.
 Sight march(const SlabOctree& octree, const Sweep& sweep, SlabPoint next) {
     Sight sight;
     std::optional<BallOnSegment> last;
     double entered = 0.0;  // where the last ball was entered
+    double entry = 0.0;    // its clearance there
     double reached = 0.0;  // free up to here
-    double gain = 0.0;
+    double gain = 0.0;     // that the next ball must bring, unless it reaches the end
     double clearance = std::numeric_limits<double>::infinity();
     for (int i = 0; i < ball_limit && next.triangle != none; ++i) {
         const BallOnSegment ball(sweep, octree.ball(next));
-        if (!carries_on(ball, sweep, reached, gain)) break;
-        const double change = last ? changeover(*last, ball, entered, reached) : 0.0;
-        if (last) clearance = std::min(clearance, last->clearance(change));
+        const double here = ball.clearance(reached);
+        const double exit = ball.exit(sweep.radius);
+        if (!(here > sweep.radius && (exit >= sweep.length || exit - reached > gain))) break;
+        double change = 0.0;
+        if (last) {
+            change = changeover(entered, reached, entry - ball.clearance(entered),
+                                here - last->clearance(reached));
+            clearance = std::min(clearance, last->clearance(change));
+        }
         clearance = std::min(clearance, ball.clearance(change));
         sight.triangle = next.triangle;
         entered = reached;
-        reached = std::min(ball.exit(sweep.radius), sweep.length);
+        entry = here;
+        reached = std::min(exit, sweep.length);
         last = ball;
         sight.clear = reached == sweep.length;
         if (sight.clear) break;
