@@ -49,22 +49,20 @@ float& FreeLengths::at(const Vec3f& eye, std::size_t bin, float cell) {
 }
 
 Beams::Beams(const freespace::Freespace& freespace, const MapProfile& profile, const Future& future,
-             FreeBeams& known, FreeLengths& lengths, BeamScratch& scratch)
+             FreeBeams& known, FreeLengths& lengths, freespace::RecentBalls& balls)
     : freespace_(freespace),
       profile_(profile),
       future_(future),
       known_(known),
       lengths_(lengths),
-      scratch_(scratch) {
-    std::fill_n(scratch_.radius.begin(), future.count, -1.0F);
-    std::fill_n(scratch_.origins.begin(), future.count, std::nullopt);
+      balls_(balls) {
+    std::fill_n(radius_.begin(), future.count, -1.0F);
     lengths_.use(profile.distance, profile.minimum_clearance);
 }
 
 float Beams::radius(std::size_t i) {
-    float& radius = scratch_.radius[i];
-    if (radius < 0.0F) radius = radius_from(future_[i].eye);
-    return radius;
+    if (radius_[i] < 0.0F) radius_[i] = radius_from(future_[i].eye);
+    return radius_[i];
 }
 
 float Beams::radius_from(const Vec3f& eye) {
@@ -77,15 +75,13 @@ float Beams::radius_from(const Vec3f& eye) {
     return std::max(0.0F, std::min(widest_radius, inside_eye_ball * clearance_));
 }
 
-const freespace::SightOrigin& Beams::origin(std::size_t i) {
-    auto& origin = scratch_.origins[i];
-    if (!origin) origin.emplace(freespace_, future_[i].eye, radius(i));
-    return *origin;
+freespace::Sight Beams::sight(std::size_t i, const Vec3f& goal) {
+    return freespace::sight(freespace_, future_[i].eye, goal, radius(i), balls_);
 }
 
 float Beams::free_length(std::size_t i, const Vec3f& direction, float length) {
     const Vec3f& eye = future_[i].eye;
-    const freespace::Sight beam = origin(i).to(eye + length * direction);
+    const freespace::Sight beam = sight(i, eye + length * direction);
     return beam.clear ? length : std::max(0.0F, beam.free_length - inside_beam * profile_.unit);
 }
 
@@ -100,7 +96,7 @@ std::optional<BeamEnd> Beams::end(std::size_t i, const Vec3f& direction, float l
     const Vec3f goal = eye + length * direction;
     FreeBeam& known = known_.of_sample(i);
     if (known.covers(eye, goal, widest(profile_)) || known.covers(eye, goal, radius(i))) return std::nullopt;
-    const freespace::Sight beam = origin(i).to(goal);
+    const freespace::Sight beam = sight(i, goal);
     if (beam.clear) {
         known = {eye, goal, beam.clearance};
         return std::nullopt;

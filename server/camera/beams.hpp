@@ -66,18 +66,12 @@ struct BeamEnd {
     Vec3f normal;  // roughly of the obstacle: the way out of the last free ball, length 1
 };
 
-// What beams look up once for each sample of a plan.
-struct BeamScratch {
-    std::array<float, Future::capacity> radius;  // negative: not asked yet
-    std::array<std::optional<freespace::SightOrigin>, Future::capacity> origins;
-};
-
 // Beams from the eyes of a future. Their radius is 4/3 of the clearance that the camera keeps, but less than
 // the eye's own clearance.
 class Beams {
   public:
     Beams(const freespace::Freespace& freespace, const MapProfile& profile, const Future& future,
-          FreeBeams& known, FreeLengths& lengths, BeamScratch& scratch);
+          FreeBeams& known, FreeLengths& lengths, freespace::RecentBalls& balls);
 
     // How far the beam from the eye of sample i is free in a direction (unit), at most `length`.
     [[nodiscard]] float free_length(std::size_t i, const Vec3f& direction, float length);
@@ -94,15 +88,16 @@ class Beams {
   private:
     float radius(std::size_t i);
     float radius_from(const Vec3f& eye);
-    const freespace::SightOrigin& origin(std::size_t i);
+    freespace::Sight sight(std::size_t i, const Vec3f& goal);
 
     const freespace::Freespace& freespace_;
     const MapProfile& profile_;
     const Future& future_;
     FreeBeams& known_;
     FreeLengths& lengths_;
-    BeamScratch& scratch_;
-    Vec3f clear_eye_ = Vec3f::Zero();  // the last eye whose clearance was looked up
+    freespace::RecentBalls& balls_;
+    std::array<float, Future::capacity> radius_;  // of each sample; negative: not asked yet
+    Vec3f clear_eye_ = Vec3f::Zero();             // the last eye whose clearance was looked up
     float clearance_ = -1.0F;
 };
 

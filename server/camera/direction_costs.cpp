@@ -119,7 +119,7 @@ void weigh_directions(const MapProfile& profile, const Plan& plan, std::size_t f
     SideView side_view(Plan::side_view(profile), share * side_view_cost * profile.weight_angle);
     const std::size_t end = std::min(plan.count(), first + plan.knot_spacing);
     for (std::size_t i = first; i < end; i += stride)
-        side_view.look_at(direction_of(plan.future[i].view));
+        side_view.look_at(plan.view[i]);
 
     for (std::size_t i = 0; i < quad_count; ++i) {
         const Quad& quad = quads()[i];

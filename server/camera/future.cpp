@@ -141,7 +141,7 @@ Vec3f travel(const Rates& rates, float seconds) {
 }  // namespace
 
 void foresee(const freespace::Freespace& freespace, const MapProfile& profile, Window window, double start,
-             double step, double horizon, float yaw, Future& future) {
+             double step, double horizon, float yaw, freespace::RecentBalls& balls, Future& future) {
     const Stretch stretch(window, static_cast<std::size_t>(index_at(window, start)));
     const double known = std::clamp(stretch.end() - start, 0.0, horizon);
     const double predicted =
@@ -165,7 +165,7 @@ void foresee(const freespace::Freespace& freespace, const MapProfile& profile, W
     float share = 1.0F;  // of the way that walls leave
     const float length = way.norm();
     if (length > profile.unit) {
-        const freespace::Sight free = freespace::sight(freespace, last.eye, last.eye + way);
+        const freespace::Sight free = freespace::sight(freespace, last.eye, last.eye + way, 0.0F, balls);
         if (!free.clear) share = std::max(0.0F, free.free_length - from_wall * profile.unit) / length;
     }
     for (std::size_t i = future.known; i < future.count; ++i) {

@@ -77,7 +77,7 @@ void keep_behind(const MapProfile& profile, Plan& plan) {
     const float least_cosine = std::cos(limit);
     for (std::size_t i = 0; i < plan.count(); ++i) {
         const Vec3f arm = plan.position[i].cast<float>() - plan.future[i].eye;
-        const Vec3f behind = -direction_of(plan.future[i].view);
+        const Vec3f behind = -plan.view[i];
         const float length = arm.norm();
         const float along = arm.dot(behind);
         if (along >= least_cosine * length) continue;

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <utility>
 
+#include "camera/float4_angles.hpp"
+
 namespace camdir::camera {
 namespace {
 
@@ -31,6 +33,17 @@ float Plan::side_view(const MapProfile& profile) {
 Look Plan::behind(std::size_t i, float elevation) const {
     const double pitch = std::clamp(-heading_pitch[i] + elevation, -steepest_view, steepest_view);
     return {static_cast<float>(heading_yaw[i] + std::numbers::pi), static_cast<float>(pitch)};
+}
+
+void Plan::find_views() {
+    for (std::size_t i = 0; i < count(); i += lane_count) {
+        const auto look = [&](std::size_t k) { return future[std::min(i + k, count() - 1)].view; };
+        const Directions four =
+            directions_of(Float4{look(0).yaw, look(1).yaw, look(2).yaw, look(3).yaw},
+                          Float4{look(0).pitch, look(1).pitch, look(2).pitch, look(3).pitch});
+        for (int k = 0; k < lane_count; ++k)
+            view[i + static_cast<std::size_t>(k)] = {four.x[k], four.y[k], four.z[k]};
+    }
 }
 
 const Smoother& Plan::smoother(double time_constant) {

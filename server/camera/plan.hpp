@@ -4,6 +4,7 @@
 #include <array>
 #include <span>
 
+#include "base/float4.hpp"
 #include "camera/future.hpp"
 #include "camera/smoother.hpp"
 
@@ -24,13 +25,14 @@ using History = std::array<PlannedSample, 2>;
 
 struct Plan {
     static constexpr std::size_t capacity = Future::capacity;
-    static_assert(capacity <= Smoother::capacity);
+    static_assert(capacity <= Smoother::capacity && capacity % lane_count == 0);
     template <class Value>
     using PerSample = std::array<Value, capacity>;
 
     Future future;
     bool ahead = false;            // a recorded future, not only a prediction
     std::size_t knot_spacing = 1;  // samples between two knots
+    PerSample<Vec3f> view;         // direction of the player's view
     PerSample<double> heading_yaw;
     PerSample<double> heading_pitch;
     PerSample<Vec3d> eye;      // smoothed
@@ -52,6 +54,8 @@ struct Plan {
     // Where the camera stands from the player when it is straight behind; `elevation` above that, rad.
     [[nodiscard]] Look behind(std::size_t i, float elevation) const;
 
+    // Sets `view` from the future.
+    void find_views();
     // The smoother of the plan's weights. Valid until the next call.
     [[nodiscard]] const Smoother& smoother(double time_constant);
     // A smoothed curve through wanted[i] with weights[i], after two values of history.

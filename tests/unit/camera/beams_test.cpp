@@ -114,7 +114,6 @@ TEST(Beams, RememberNothingThatIsNotFree) {
     const auto known = std::make_unique<FreeBeams>();
     const auto lengths = std::make_unique<FreeLengths>();
     const auto future = std::make_unique<Future>();
-    const auto scratch = std::make_unique<BeamScratch>();
     future->count = 1;
     Runner runner(plan, plan.eye('s'), 2);
     int spared = 0;
@@ -122,11 +121,13 @@ TEST(Beams, RememberNothingThatIsNotFree) {
         const Pose pose = runner.next(1.0F / 60.0F);
         future->samples[0] = {pose.eye, {}};
         const Vec3f back = -(pose.orientation * Vec3f::UnitX());
+        freespace::RecentBalls balls;
+        freespace::RecentBalls other_balls;
         const auto unknown = std::make_unique<FreeBeams>();
         const auto remembered =
-            Beams(freespace, profile, *future, *known, *lengths, *scratch).end(0, back, 90.0F);
+            Beams(freespace, profile, *future, *known, *lengths, balls).end(0, back, 90.0F);
         const auto asked =
-            Beams(freespace, profile, *future, *unknown, *lengths, *scratch).end(0, back, 90.0F);
+            Beams(freespace, profile, *future, *unknown, *lengths, other_balls).end(0, back, 90.0F);
         if (remembered) {
             ASSERT_TRUE(asked);
             EXPECT_EQ(remembered->free_length, asked->free_length);
