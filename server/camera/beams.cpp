@@ -48,6 +48,18 @@ float& FreeLengths::at(const Vec3f& eye, std::size_t bin, float cell) {
     return entry.length;
 }
 
+Beams::Beams(const freespace::Freespace& freespace, const MapProfile& profile, const Future& future,
+             FreeBeams& known, FreeLengths& lengths, freespace::RecentBalls& balls)
+    : freespace_(freespace),
+      profile_(profile),
+      future_(future),
+      known_(known),
+      lengths_(lengths),
+      balls_(balls) {
+    std::fill_n(radius_.begin(), future.count, -1.0F);
+    lengths_.use(profile.distance, profile.minimum_clearance);
+}
+
 float Beams::radius(std::size_t i) {
     if (radius_[i] < 0.0F) radius_[i] = radius_from(future_[i].eye);
     return radius_[i];
@@ -63,14 +75,13 @@ float Beams::radius_from(const Vec3f& eye) {
     return std::max(0.0F, std::min(widest_radius, inside_eye_ball * clearance_));
 }
 
-const freespace::SightOrigin& Beams::origin(std::size_t i) {
-    if (!origins_[i]) origins_[i].emplace(freespace_, future_[i].eye, radius(i));
-    return *origins_[i];
+freespace::Sight Beams::sight(std::size_t i, const Vec3f& goal) {
+    return freespace::sight(freespace_, future_[i].eye, goal, radius(i), balls_);
 }
 
 float Beams::free_length(std::size_t i, const Vec3f& direction, float length) {
     const Vec3f& eye = future_[i].eye;
-    const freespace::Sight beam = origin(i).to(eye + length * direction);
+    const freespace::Sight beam = sight(i, eye + length * direction);
     return beam.clear ? length : std::max(0.0F, beam.free_length - inside_beam * profile_.unit);
 }
 
@@ -85,7 +96,7 @@ std::optional<BeamEnd> Beams::end(std::size_t i, const Vec3f& direction, float l
     const Vec3f goal = eye + length * direction;
     FreeBeam& known = known_.of_sample(i);
     if (known.covers(eye, goal, widest(profile_)) || known.covers(eye, goal, radius(i))) return std::nullopt;
-    const freespace::Sight beam = origin(i).to(goal);
+    const freespace::Sight beam = sight(i, goal);
     if (beam.clear) {
         known = {eye, goal, beam.clearance};
         return std::nullopt;

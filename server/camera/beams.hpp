@@ -71,11 +71,7 @@ struct BeamEnd {
 class Beams {
   public:
     Beams(const freespace::Freespace& freespace, const MapProfile& profile, const Future& future,
-          FreeBeams& known, FreeLengths& lengths)
-        : freespace_(freespace), profile_(profile), future_(future), known_(known), lengths_(lengths) {
-        radius_.fill(-1.0F);
-        lengths_.use(profile.distance, profile.minimum_clearance);
-    }
+          FreeBeams& known, FreeLengths& lengths, freespace::RecentBalls& balls);
 
     // How far the beam from the eye of sample i is free in a direction (unit), at most `length`.
     [[nodiscard]] float free_length(std::size_t i, const Vec3f& direction, float length);
@@ -92,16 +88,16 @@ class Beams {
   private:
     float radius(std::size_t i);
     float radius_from(const Vec3f& eye);
-    const freespace::SightOrigin& origin(std::size_t i);
+    freespace::Sight sight(std::size_t i, const Vec3f& goal);
 
     const freespace::Freespace& freespace_;
     const MapProfile& profile_;
     const Future& future_;
     FreeBeams& known_;
     FreeLengths& lengths_;
-    std::array<float, Future::capacity> radius_;  // negative: not asked yet
-    std::array<std::optional<freespace::SightOrigin>, Future::capacity> origins_;
-    Vec3f clear_eye_ = Vec3f::Zero();  // the last eye whose clearance was looked up
+    freespace::RecentBalls& balls_;
+    std::array<float, Future::capacity> radius_;  // of each sample; negative: not asked yet
+    Vec3f clear_eye_ = Vec3f::Zero();             // the last eye whose clearance was looked up
     float clearance_ = -1.0F;
 };
 

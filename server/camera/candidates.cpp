@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/float4.hpp"
+#include "camera/float4_angles.hpp"
+
 namespace camdir::camera {
 namespace {
 
@@ -62,9 +65,10 @@ class Choosing {
         const Vec3f direction = direction_of(behind);
         if (angle_between(direction, directions_[choice.bin]) < snap_angle) {
             const float length = beams_.free_length(i, direction, profile_.distance);
-            if (length >= choice.length - snap_length * profile_.unit) return {behind, length, true, behind};
+            if (length >= choice.length - snap_length * profile_.unit)
+                return {behind, length, true, direction};
         }
-        return {DirectionGrid::look(choice.bin), choice.length, false, behind};
+        return {DirectionGrid::look(choice.bin), choice.length, false, direction};
     }
 
     const std::array<Vec3f, DirectionGrid::size>& directions_ = DirectionGrid::directions();
@@ -83,7 +87,7 @@ bool still_hold(const MapProfile& profile, const Plan& plan, const Vantages& van
     for (std::size_t knot = 0; knot < vantages.count; ++knot) {
         const std::size_t i = std::max(knot * plan.knot_spacing, vantages.age) - vantages.age;
         const Vec3f behind = direction_of(plan.behind(i, profile.elevation));
-        if (angle_between(behind, direction_of(vantages.at_knots[knot].foreseen)) > as_foreseen) return false;
+        if (angle_between(behind, vantages.at_knots[knot].foreseen) > as_foreseen) return false;
     }
     return true;
 }
@@ -93,10 +97,24 @@ void set_goal(std::size_t i, const Vec3f& direction, float length, Plan& plan) {
     plan.goal[i] = plan.eye[i] + plan.length[i] * direction.cast<double>();
 }
 
-Look between(const Vantage& from, const Vantage& to, float share, const Look& behind) {
-    if (from.behind && to.behind) return behind;
-    return {from.look.yaw + share * wrapped(to.look.yaw - from.look.yaw),
-            from.look.pitch + share * (to.look.pitch - from.look.pitch)};
+struct Arm {
+    Look look;
+    float length;
+};
+
+// From the eye of sample i, between the vantages of two knots.
+Arm arm_at(const MapProfile& profile, const Vantages& vantages, std::size_t i, const Plan& plan) {
+    const std::size_t last = vantages.count - 1;
+    const std::size_t knot = (vantages.age + i) / plan.knot_spacing;
+    const Vantage& from = vantages.at_knots[std::min(knot, last)];
+    const Vantage& to = vantages.at_knots[std::min(knot + 1, last)];
+    const float share =
+        static_cast<float>((vantages.age + i) % plan.knot_spacing) / static_cast<float>(plan.knot_spacing);
+    const float length = from.length + share * (to.length - from.length);
+    if (from.behind && to.behind) return {plan.behind(i, profile.elevation), length};
+    return {{from.look.yaw + share * wrapped(to.look.yaw - from.look.yaw),
+             from.look.pitch + share * (to.look.pitch - from.look.pitch)},
+            length};
 }
 
 }  // namespace
@@ -117,21 +135,22 @@ void choose_vantages(const MapProfile& profile, const History& history, Beams& b
 }
 
 void set_goals(const MapProfile& profile, const Vantages& vantages, Beams& beams, Plan& plan) {
-    for (std::size_t i = 0; i < plan.count(); ++i) {
-        const Look behind = plan.behind(i, profile.elevation);
-        if (vantages.count == 0) {
-            const Vec3f direction = direction_of(behind);
+    if (vantages.count == 0) {
+        for (std::size_t i = 0; i < plan.count(); ++i) {
+            const Vec3f direction = direction_of(plan.behind(i, profile.elevation));
             set_goal(i, direction, beams.free_length(i, direction, profile.distance), plan);
-            continue;
         }
-        const std::size_t last = vantages.count - 1;
-        const std::size_t knot = (vantages.age + i) / plan.knot_spacing;
-        const Vantage& from = vantages.at_knots[std::min(knot, last)];
-        const Vantage& to = vantages.at_knots[std::min(knot + 1, last)];
-        const float share = static_cast<float>((vantages.age + i) % plan.knot_spacing) /
-                            static_cast<float>(plan.knot_spacing);
-        set_goal(i, direction_of(between(from, to, share, behind)),
-                 from.length + share * (to.length - from.length), plan);
+        return;
+    }
+    for (std::size_t i = 0; i < plan.count(); i += lane_count) {
+        std::array<Arm, lane_count> four;
+        for (std::size_t k = 0; k < four.size(); ++k)
+            four[k] = arm_at(profile, vantages, std::min(i + k, plan.count() - 1), plan);
+        const Directions directions = directions_of(
+            Float4{four[0].look.yaw, four[1].look.yaw, four[2].look.yaw, four[3].look.yaw},
+            Float4{four[0].look.pitch, four[1].look.pitch, four[2].look.pitch, four[3].look.pitch});
+        for (std::size_t k = 0; k < std::min(four.size(), plan.count() - i); ++k)
+            set_goal(i + k, {directions.x[k], directions.y[k], directions.z[k]}, four[k].length, plan);
     }
 }
 

@@ -20,8 +20,8 @@ struct CandidateScratch {
 struct Vantage {
     Look look;  // from the eye
     float length = 0.0F;
-    bool behind = false;  // straight behind, wherever that turns
-    Look foreseen;        // straight behind, when it was chosen
+    bool behind = false;             // straight behind, wherever that turns
+    Vec3f foreseen = Vec3f::Zero();  // straight behind, when it was chosen
 };
 
 // The vantages of a plan; after the last one, that one. A value.

@@ -1,6 +1,7 @@
 #include "camera/direction_costs.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 
@@ -12,7 +13,7 @@ namespace {
 constexpr float degree = radians_of_a_degree<float>;
 constexpr float angle_cost = 1.5F;
 // From this far above the spot behind the player, the floor begins to fill the picture.
-constexpr float view_from_above = 25.0F * degree;
+constexpr float begin_above = 25.0F * degree;
 constexpr float view_from_above_tolerance = 20.0F * degree;
 constexpr float side_view_tolerance = 10.0F * degree;
 constexpr float side_view_cost = 0.7F;
@@ -61,33 +62,47 @@ Float4 squared_share(Float4 value, float tolerance) {
     return share * share;
 }
 
-// Adds `cost` of each quad that has a direction that is not forbidden.
-template <class Cost>
-void add(DirectionCosts& costs, const Cost& cost) {
-    for (std::size_t i = 0; i < quad_count; ++i) {
-        float* const quad = &costs[i * lane_count];
-        const Float4 before = load(quad);
-        if (bits(before < forbidden) != 0) store(before + cost(quads()[i]), quad);
+// Costs more the further a direction is above the spot behind the player.
+class ViewFromAbove {
+  public:
+    ViewFromAbove(float behind, float cost) : begin_(std::max(0.0F, behind) + begin_above), cost_(cost) {}
+
+    [[nodiscard]] Float4 operator()(const Quad& quad) const {
+        const Float4 above = larger(quad.pitch - begin_, Float4{});
+        return cost_ * squared_share(above, view_from_above_tolerance);
     }
-}
 
-void add_view_from_above(float behind, float cost, DirectionCosts& costs) {
-    const float begin = std::max(0.0F, behind) + view_from_above;
-    add(costs, [&](const Quad& quad) {
-        const Float4 above = larger(quad.pitch - begin, Float4{});
-        return cost * squared_share(above, view_from_above_tolerance);
-    });
-}
+  private:
+    float begin_;
+    float cost_;
+};
 
-void add_side_view(const Vec3f& view, float begin, float cost, DirectionCosts& costs) {
-    const float cosine_at_begin = std::cos(begin);
-    add(costs, [&](const Quad& quad) {
-        const Float4 cosine = -quad.dot(view);
-        if (bits(cosine < cosine_at_begin) == 0) return Float4{};
-        const Float4 beyond = larger(arc_cosine(cosine) - begin, Float4{});
-        return cost * smaller(squared_share(beyond, side_view_tolerance), broadcast(side_view_limit));
-    });
-}
+// Costs more the further to the side a direction sees the player, at some instants.
+class SideView {
+  public:
+    SideView(float begin, float cost) : begin_(begin), cosine_at_begin_(std::cos(begin)), cost_(cost) {}
+
+    void look_at(const Vec3f& view) {
+        assert(count_ < views_.size());
+        views_[count_++] = view;
+    }
+    // Adds to `costs`.
+    void add(const Quad& quad, Float4& costs) const {
+        for (std::size_t i = 0; i < count_; ++i) {
+            const Float4 cosine = -quad.dot(views_[i]);
+            if (bits(cosine < cosine_at_begin_) == 0) continue;
+            const Float4 beyond = larger(arc_cosine(cosine) - begin_, Float4{});
+            costs += cost_ * smaller(squared_share(beyond, side_view_tolerance), broadcast(side_view_limit));
+        }
+    }
+
+  private:
+    float begin_;
+    float cosine_at_begin_;
+    float cost_;
+    std::array<Vec3f, 8> views_;  // a knot has four or five instants, 7 at most
+    std::size_t count_ = 0;
+};
 
 }  // namespace
 
@@ -96,27 +111,36 @@ void weigh_directions(const MapProfile& profile, const Plan& plan, std::size_t f
     const Vec3f behind = direction_of(look_behind);
     const float cost = angle_cost * profile.weight_angle;
     const float least_cosine = std::cos(profile.swing);
-    for (std::size_t i = 0; i < quad_count; ++i) {
-        const Float4 cosine = quads()[i].dot(behind);
-        const Float4 off = cost * squared_share(arc_cosine(cosine), profile.angle_tolerance);
-        store(cosine < least_cosine ? broadcast(2.0F * forbidden) : off, &costs[i * lane_count]);
-    }
-    add_view_from_above(look_behind.pitch, profile.weight_angle, costs);
+    const ViewFromAbove view_from_above(look_behind.pitch, profile.weight_angle);
 
-    const float begin = Plan::side_view(profile);
     const std::size_t stride = plan.samples_in(side_view_interval);
     const auto share =
         static_cast<float>(static_cast<double>(stride) * plan.future.step / side_view_interval);
+    SideView side_view(Plan::side_view(profile), share * side_view_cost * profile.weight_angle);
     const std::size_t end = std::min(plan.count(), first + plan.knot_spacing);
     for (std::size_t i = first; i < end; i += stride)
-        add_side_view(direction_of(plan.future[i].view), begin, share * side_view_cost * profile.weight_angle,
-                      costs);
+        side_view.look_at(plan.view[i]);
+
+    for (std::size_t i = 0; i < quad_count; ++i) {
+        const Quad& quad = quads()[i];
+        const Float4 cosine = quad.dot(behind);
+        Float4 sum = broadcast(2.0F * forbidden);
+        if (bits(cosine >= least_cosine) != 0) {
+            const Float4 off = cost * squared_share(arc_cosine(cosine), profile.angle_tolerance);
+            sum = (cosine < least_cosine ? sum : off) + view_from_above(quad);
+            side_view.add(quad, sum);
+        }
+        store(sum, &costs[i * lane_count]);
+    }
 }
 
 void add_turn(const Vec3f& from, float cost, DirectionCosts& costs) {
-    add(costs, [&](const Quad& quad) {
-        return cost * squared_share(arc_cosine(quad.dot(from)), DirectionGrid::spacing);
-    });
+    for (std::size_t i = 0; i < quad_count; ++i) {
+        float* const quad = &costs[i * lane_count];
+        const Float4 before = load(quad);
+        if (bits(before < forbidden) == 0) continue;
+        store(before + cost * squared_share(arc_cosine(quads()[i].dot(from)), DirectionGrid::spacing), quad);
+    }
 }
 
 }  // namespace camdir::camera

@@ -33,17 +33,21 @@ Look view_of(const Pose& pose, float near_yaw) {
     return view;
 }
 
-// The continuous stretch of the window around an index.
+// The continuous stretch of the window around an index, from as early on as velocities are taken from.
 struct Stretch {
     Window window;
     std::size_t first;
     std::size_t last;
 
     Stretch(Window all, std::size_t index) : window(all), first(index), last(index) {
-        while (first > 0 && continuous(window, static_cast<std::ptrdiff_t>(first) - 1))
-            --first;
         while (continuous(window, static_cast<std::ptrdiff_t>(last)))
             ++last;
+        const double interval = last > 0 ? window[last].time - window[last - 1].time : 0.0;
+        const double since =
+            window[index].time - std::max(velocity_span, 2.0 * std::max(turn_span, interval));
+        while (first > 0 && window[first].time > since &&
+               continuous(window, static_cast<std::ptrdiff_t>(first) - 1))
+            --first;
     }
     [[nodiscard]] double begin() const { return window[first].time; }
     [[nodiscard]] double end() const { return window[last].time; }
@@ -137,7 +141,7 @@ Vec3f travel(const Rates& rates, float seconds) {
 }  // namespace
 
 void foresee(const freespace::Freespace& freespace, const MapProfile& profile, Window window, double start,
-             double step, double horizon, float yaw, Future& future) {
+             double step, double horizon, float yaw, freespace::RecentBalls& balls, Future& future) {
     const Stretch stretch(window, static_cast<std::size_t>(index_at(window, start)));
     const double known = std::clamp(stretch.end() - start, 0.0, horizon);
     const double predicted =
@@ -161,7 +165,7 @@ void foresee(const freespace::Freespace& freespace, const MapProfile& profile, W
     float share = 1.0F;  // of the way that walls leave
     const float length = way.norm();
     if (length > profile.unit) {
-        const freespace::Sight free = freespace::sight(freespace, last.eye, last.eye + way);
+        const freespace::Sight free = freespace::sight(freespace, last.eye, last.eye + way, 0.0F, balls);
         if (!free.clear) share = std::max(0.0F, free.free_length - from_wall * profile.unit) / length;
     }
     for (std::size_t i = future.known; i < future.count; ++i) {

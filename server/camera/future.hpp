@@ -8,6 +8,7 @@
 #include "camera/view.hpp"
 #include "camera/window.hpp"
 #include "freespace/freespace.hpp"
+#include "freespace/visibility.hpp"
 
 namespace camdir::camera {
 
@@ -31,6 +32,6 @@ struct Future {
 // falling sooner than running, and so does the turning; walls stop it. `yaw` is a yaw that the first one
 // should be near to.
 void foresee(const freespace::Freespace& freespace, const MapProfile& profile, Window window, double start,
-             double step, double horizon, float yaw, Future& future);
+             double step, double horizon, float yaw, freespace::RecentBalls& balls, Future& future);
 
 }  // namespace camdir::camera

@@ -27,11 +27,10 @@ void smooth_heading(const MapProfile& profile, const History& history, Plan& pla
     plan.smooth(pitch_share * profile.heading_smoothing, before_last.heading_pitch, last.heading_pitch,
                 plan.heading_pitch);
 
-    plan.smoother.factorise({plan.weights.data(), count},
-                            stiffness(plan.ahead ? eye_smoothing_ahead : eye_smoothing, plan.future.step));
     for (std::size_t i = 0; i < count; ++i)
         plan.eye[i] = plan.future[i].eye.cast<double>();
-    plan.smoother.solve(before_last.eye, last.eye, std::span(plan.eye.data(), count));
+    plan.smoother(plan.ahead ? eye_smoothing_ahead : eye_smoothing)
+        .solve(before_last.eye, last.eye, std::span(plan.eye.data(), count));
 
     for (std::size_t i = 0; i < count; ++i)
         plan.wanted[i] = plan.future[i].view.yaw;

@@ -22,16 +22,12 @@ constexpr float largest_round = 40.0F * radians_of_a_degree<float>;
 constexpr float least_across = 1e-3F;  // sine
 constexpr float least_slide = 0.1F;    // share of what is blocked that a slide must be to be worth it
 
-void factorise(const MapProfile& profile, Plan& plan) {
-    plan.smoother.factorise({plan.weights.data(), plan.count()},
-                            stiffness(motion_share * profile.motion_smoothing, plan.future.step));
-}
-
-void solve(const History& history, Plan& plan) {
+void solve(const MapProfile& profile, const History& history, Plan& plan) {
     const std::size_t count = plan.count();
     for (std::size_t i = 0; i < count; ++i)
         plan.position[i] = plan.weights[i] * plan.goal[i];
-    plan.smoother.solve(history[0].position, history[1].position, std::span(plan.position.data(), count));
+    plan.smoother(motion_share * profile.motion_smoothing)
+        .solve(history[0].position, history[1].position, std::span(plan.position.data(), count));
 }
 
 // Along what ends the line of sight of a sample or of one just before it.
@@ -81,7 +77,7 @@ void keep_behind(const MapProfile& profile, Plan& plan) {
     const float least_cosine = std::cos(limit);
     for (std::size_t i = 0; i < plan.count(); ++i) {
         const Vec3f arm = plan.position[i].cast<float>() - plan.future[i].eye;
-        const Vec3f behind = -direction_of(plan.future[i].view);
+        const Vec3f behind = -plan.view[i];
         const float length = arm.norm();
         const float along = arm.dot(behind);
         if (along >= least_cosine * length) continue;
@@ -97,17 +93,15 @@ void keep_behind(const MapProfile& profile, Plan& plan) {
 
 void refine_path(const MapProfile& profile, const History& history, Beams& beams, Plan& plan) {
     std::fill_n(plan.weights.begin(), plan.count(), 1.0);
-    factorise(profile, plan);
-    solve(history, plan);
+    solve(profile, history, plan);
     for (int round = 0; round < distance_rounds; ++round) {
         keep_distance(profile, plan);
         if (round == 0) keep_behind(profile, plan);
-        solve(history, plan);
+        solve(profile, history, plan);
     }
     for (int round = 0; round < (plan.ahead ? rounds_ahead : rounds); ++round) {
         if (!avoid_obstacles(profile, beams, plan)) break;
-        factorise(profile, plan);
-        solve(history, plan);
+        solve(profile, history, plan);
     }
 }
 

@@ -5,12 +5,20 @@
 #include <numbers>
 #include <utility>
 
+#include "camera/float4_angles.hpp"
+
 namespace camdir::camera {
 namespace {
 
 constexpr double steepest_view = 80.0 * radians_of_a_degree<double>;
 constexpr float side_view_begin = 50.0F * radians_of_a_degree<float>;
 constexpr double weight_in_dead_zone = 0.1;
+
+// (time constant / time step)^4: what a second difference weighs against a deviation.
+double stiffness(double time_constant, double step) {
+    const double ratio = time_constant / step;
+    return ratio * ratio * ratio * ratio;
+}
 
 }  // namespace
 
@@ -27,11 +35,37 @@ Look Plan::behind(std::size_t i, float elevation) const {
     return {static_cast<float>(heading_yaw[i] + std::numbers::pi), static_cast<float>(pitch)};
 }
 
+void Plan::find_views() {
+    for (std::size_t i = 0; i < count(); i += lane_count) {
+        const auto look = [&](std::size_t k) { return future[std::min(i + k, count() - 1)].view; };
+        const Directions four =
+            directions_of(Float4{look(0).yaw, look(1).yaw, look(2).yaw, look(3).yaw},
+                          Float4{look(0).pitch, look(1).pitch, look(2).pitch, look(3).pitch});
+        for (int k = 0; k < lane_count; ++k)
+            view[i + static_cast<std::size_t>(k)] = {four.x[k], four.y[k], four.z[k]};
+    }
+}
+
+const Smoother& Plan::smoother(double time_constant) {
+    const std::span<const double> all(weights.data(), count());
+    const double wanted_stiffness = stiffness(time_constant, future.step);
+    if (std::any_of(all.begin(), all.end(), [](double weight) { return weight != 1.0; })) {
+        smoother_.factorise(all, wanted_stiffness);
+        return smoother_;
+    }
+    for (const EvenSmoother& each : even_)
+        if (each.count == count() && each.stiffness == wanted_stiffness) return each.smoother;
+    EvenSmoother& made = even_[std::exchange(next_even_, (next_even_ + 1) % even_.size())];
+    made.count = count();
+    made.stiffness = wanted_stiffness;
+    made.smoother.factorise(all, wanted_stiffness);
+    return made.smoother;
+}
+
 void Plan::smooth(double time_constant, double before_last, double last, PerSample<double>& values) {
-    smoother.factorise({weights.data(), count()}, stiffness(time_constant, future.step));
     for (std::size_t i = 0; i < count(); ++i)
         values[i] = weights[i] * wanted[i];
-    smoother.solve(before_last, last, std::span(values.data(), count()));
+    smoother(time_constant).solve(before_last, last, std::span(values.data(), count()));
 }
 
 void Plan::smooth_with_dead_zone(double time_constant, double dead_zone, double gain, int rounds,
@@ -50,11 +84,6 @@ void Plan::smooth_with_dead_zone(double time_constant, double dead_zone, double 
         if (same) break;
         smooth(time_constant, before_last, last, values);
     }
-}
-
-double stiffness(double time_constant, double step) {
-    const double ratio = time_constant / step;
-    return ratio * ratio * ratio * ratio;
 }
 
 }  // namespace camdir::camera

@@ -4,6 +4,7 @@
 #include <array>
 #include <span>
 
+#include "base/float4.hpp"
 #include "camera/future.hpp"
 #include "camera/smoother.hpp"
 
@@ -24,13 +25,14 @@ using History = std::array<PlannedSample, 2>;
 
 struct Plan {
     static constexpr std::size_t capacity = Future::capacity;
-    static_assert(capacity <= Smoother::capacity);
+    static_assert(capacity <= Smoother::capacity && capacity % lane_count == 0);
     template <class Value>
     using PerSample = std::array<Value, capacity>;
 
     Future future;
     bool ahead = false;            // a recorded future, not only a prediction
     std::size_t knot_spacing = 1;  // samples between two knots
+    PerSample<Vec3f> view;         // direction of the player's view
     PerSample<double> heading_yaw;
     PerSample<double> heading_pitch;
     PerSample<Vec3d> eye;      // smoothed
@@ -40,7 +42,6 @@ struct Plan {
     PerSample<double> look_yaw;
     PerSample<double> look_pitch;
 
-    Smoother smoother;
     PerSample<double> weights;
     PerSample<double> weights_before;
     PerSample<double> wanted;
@@ -53,15 +54,27 @@ struct Plan {
     // Where the camera stands from the player when it is straight behind; `elevation` above that, rad.
     [[nodiscard]] Look behind(std::size_t i, float elevation) const;
 
+    // Sets `view` from the future.
+    void find_views();
+    // The smoother of the plan's weights. Valid until the next call.
+    [[nodiscard]] const Smoother& smoother(double time_constant);
     // A smoothed curve through wanted[i] with weights[i], after two values of history.
     void smooth(double time_constant, double before_last, double last, PerSample<double>& values);
     // The same; deviations within `dead_zone` weigh a tenth, and those beyond the more the further they are,
     // up to `gain` more, in `rounds` reweightings.
     void smooth_with_dead_zone(double time_constant, double dead_zone, double gain, int rounds,
                                double before_last, double last, PerSample<double>& values);
-};
 
-// (time constant / time step)^4: what a second difference weighs against a deviation.
-[[nodiscard]] double stiffness(double time_constant, double step);
+  private:
+    // A smoother of equal weights is the same from plan to plan.
+    struct EvenSmoother {
+        std::size_t count = 0;
+        double stiffness = 0.0;
+        Smoother smoother;
+    };
+    Smoother smoother_;
+    std::array<EvenSmoother, 8> even_;  // a plan uses five
+    std::size_t next_even_ = 0;         // that makes room
+};
 
 }  // namespace camdir::camera

@@ -28,12 +28,13 @@ void make_plan(const freespace::Freespace& freespace, const MapProfile& profile,
                PlanState& state, PlanScratch& scratch) {
     Plan& plan = scratch.plan;
     foresee(freespace, profile, window, time, state.step, horizon,
-            static_cast<float>(state.history[1].heading_yaw), plan.future);
+            static_cast<float>(state.history[1].heading_yaw), state.balls, plan.future);
     plan.ahead = static_cast<double>(plan.future.known) * state.step > least_ahead;
     plan.knot_spacing = plan.samples_in(plan.ahead ? knot_interval_ahead : knot_interval);
 
+    plan.find_views();
     smooth_heading(profile, state.history, plan);
-    Beams beams(freespace, profile, plan.future, state.free_beams, state.free_lengths);
+    Beams beams(freespace, profile, plan.future, state.free_beams, state.free_lengths, state.balls);
     choose_vantages(profile, state.history, beams, plan, scratch.candidates, state.vantages);
     set_goals(profile, state.vantages, beams, plan);
     refine_path(profile, state.history, beams, plan);

@@ -27,6 +27,7 @@ struct PlanState {
     Vantages vantages;
     FreeBeams free_beams;
     FreeLengths free_lengths;
+    freespace::RecentBalls balls;
 };
 
 // Memory for planning, for any number of shots one after the other; one thread at a time.

@@ -4,6 +4,8 @@
 #include <cassert>
 #include <limits>
 
+#include "base/float4.hpp"
+
 namespace camdir::camera {
 namespace {
 
@@ -11,6 +13,7 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr std::size_t grid_yaws = DirectionGrid::yaws;
 constexpr std::size_t grid_elevations = DirectionGrid::elevations;
 constexpr int yaw_reach = 2;
+static_assert(grid_yaws % lane_count == 0);
 
 float square(float value) {
     return value * value;
@@ -48,22 +51,27 @@ void Programme::bound_from_behind(std::span<const DirectionCosts> direction_cost
     for (std::size_t knot = last; knot-- > 0;) {
         for (std::size_t elevation = 0; elevation < grid_elevations; ++elevation) {
             const std::size_t first = elevation * grid_yaws;
-            std::array<float, grid_yaws + 2 * yaw_reach> row;
-            for (std::size_t i = 0; i < row.size(); ++i) {
-                const std::size_t bin = first + (i + grid_yaws - yaw_reach) % grid_yaws;
-                row[i] = direction_costs[knot + 1][bin] + rest_[knot + 1][bin];
+            std::array<float, grid_yaws + 2 * yaw_reach> row;  // and on round the circle at either end
+            for (std::size_t i = 0; i < grid_yaws; i += lane_count)
+                store(load(&direction_costs[knot + 1][first + i]) + load(&rest_[knot + 1][first + i]),
+                      &row[i + yaw_reach]);
+            for (std::size_t i = 0; i < yaw_reach; ++i) {
+                row[i] = row[i + grid_yaws];
+                row[i + grid_yaws + yaw_reach] = row[i + yaw_reach];
             }
-            for (std::size_t i = 0; i < grid_yaws; ++i) {
-                const float one = std::min(row[i + 1], row[i + 3]) + turn;
-                const float two = std::min(row[i], row[i + 4]) + 4.0F * turn;
-                turned[first + i] = std::min({row[i + 2], one, two});
+            for (std::size_t i = 0; i < grid_yaws; i += lane_count) {
+                const float* const at = &row[i];
+                const Float4 one = smaller(load(at + 1), load(at + 3)) + turn;
+                const Float4 two = smaller(load(at), load(at + 4)) + 4.0F * turn;
+                store(smaller(load(at + 2), smaller(one, two)), &turned[first + i]);
             }
         }
-        for (std::size_t bin = 0; bin < turned.size(); ++bin) {
-            float least = turned[bin];
-            if (bin >= grid_yaws) least = std::min(least, turned[bin - grid_yaws] + turn);
-            if (bin + grid_yaws < turned.size()) least = std::min(least, turned[bin + grid_yaws] + turn);
-            rest_[knot][bin] = least;
+        for (std::size_t bin = 0; bin < turned.size(); bin += lane_count) {
+            Float4 least = load(&turned[bin]);
+            if (bin >= grid_yaws) least = smaller(least, load(&turned[bin - grid_yaws]) + turn);
+            if (bin + grid_yaws < turned.size())
+                least = smaller(least, load(&turned[bin + grid_yaws]) + turn);
+            store(least, &rest_[knot][bin]);
         }
     }
 }

@@ -31,7 +31,7 @@ SlabOctree::Node SlabOctree::leaf_at(const Vec3f& point) const {
 namespace {
 
 // So many bounds are kept between the two passes over a list.
-constexpr std::uint32_t chunk_quads = 32;
+constexpr std::uint32_t chunk_quads = 64 / lane_count;
 
 // The best of the slabs that were evaluated, one a lane.
 struct BestOfLanes {
@@ -77,6 +77,15 @@ SlabPoint SlabOctree::best(const Vec3f& point, float least) const {
         std::memcpy(&slabs, quad + offsetof(Quad, slabs), sizeof slabs);
         return slabs;
     };
+    const auto slab_of = [](const std::byte* first, int number) {
+        std::uint32_t slab;
+        const auto at = static_cast<std::size_t>(number);
+        std::memcpy(
+            &slab,
+            first + at / lane_count * sizeof(Quad) + offsetof(Quad, slabs) + at % lane_count * sizeof slab,
+            sizeof slab);
+        return slab;
+    };
 
     BestOfLanes best{.value = broadcast(least)};
     for (std::uint32_t remaining = head.quads; remaining > 0;) {
@@ -96,19 +105,19 @@ SlabPoint SlabOctree::best(const Vec3f& point, float least) const {
         std::memcpy(four, &first, sizeof four);
         if (largest(highest) > largest(best.value)) best.improve(frames_.frames, four, point);
         const Float4 to_beat = broadcast(largest(best.value));
-        std::uint32_t promising[lane_count * chunk_quads + lane_count];
-        std::uint32_t promising_count = 0;
+        std::uint64_t promising = 0;  // a bit for each slab of the chunk
         for (std::uint32_t i = 0; i < count; ++i) {
             const Mask4 slabs = slabs_of(quads + i * sizeof(Quad));
-            const unsigned chosen = bits((bounds[i] > to_beat) & (slabs != first));
-            for (int k = 0; k < lane_count; ++k) {
-                promising[promising_count] = static_cast<std::uint32_t>(slabs[k]);
-                promising_count += chosen >> k & 1U;
-            }
+            const std::uint64_t chosen = bits((bounds[i] > to_beat) & (slabs != first));
+            promising |= chosen << lane_count * i;
         }
-        for (std::uint32_t i = 0; i < promising_count; i += lane_count) {
-            for (std::uint32_t k = 0; k < lane_count; ++k)
-                four[k] = promising[std::min(i + k, promising_count - 1)];
+        while (promising != 0) {
+            std::uint32_t slab = 0;
+            for (std::uint32_t& each : four) {
+                if (promising != 0) slab = slab_of(quads, std::countr_zero(promising));
+                promising &= promising - 1;
+                each = slab;
+            }
             best.improve(frames_.frames, four, point);
         }
         quads += count * sizeof(Quad);

@@ -1,6 +1,8 @@
 // Visibility along a line of sight: the paper's section 5.2.
 #pragma once
 
+#include <array>
+
 #include "freespace/freespace.hpp"
 #include "freespace/slab.hpp"
 
@@ -31,6 +33,33 @@ struct Sight {
 // where it misses.
 [[nodiscard]] Sight sight(const Freespace& freespace, const Vec3f& from, const Vec3f& to,
                           float radius = 0.0F);
+
+// The last balls that sights needed, for sights nearby. A value, which belongs to one representation.
+class RecentBalls {
+  public:
+    static constexpr std::size_t capacity = 16;
+    RecentBalls() { radius_.fill(-1.0F); }
+
+    // In place of the oldest one. `triangle`: whose slab it is of.
+    void add(const Ball& ball, std::uint32_t triangle);
+
+    [[nodiscard]] Ball ball(std::size_t i) const { return {{x_[i], y_[i], z_[i]}, radius_[i]}; }
+    [[nodiscard]] std::uint32_t triangle(std::size_t i) const { return triangle_[i]; }
+
+  private:
+    friend class BallIntervals;
+    // Within the balls that were added, in spite of rounding. A negative radius: none.
+    std::array<float, capacity> x_{}, y_{}, z_{}, radius_;
+    std::array<std::uint32_t, capacity> triangle_{};
+    std::size_t next_ = 0;
+};
+
+// The same, by a cheaper march: where recent balls carry on it goes through the one that reaches furthest,
+// and asks the octree only where none does. What it finds there becomes recent. What is reported free is as
+// surely free, but free length, clearance and triangle may be others than without recent balls. Thread-safe
+// for different `recent`.
+[[nodiscard]] Sight sight(const Freespace& freespace, const Vec3f& from, const Vec3f& to, float radius,
+                          RecentBalls& recent);
 
 // Sights of one radius from one point, which share their first ball. Needs the freespace for as long as it is
 // asked.

@@ -121,9 +121,13 @@ TEST(Beams, RememberNothingThatIsNotFree) {
         const Pose pose = runner.next(1.0F / 60.0F);
         future->samples[0] = {pose.eye, {}};
         const Vec3f back = -(pose.orientation * Vec3f::UnitX());
+        freespace::RecentBalls balls;
+        freespace::RecentBalls other_balls;
         const auto unknown = std::make_unique<FreeBeams>();
-        const auto remembered = Beams(freespace, profile, *future, *known, *lengths).end(0, back, 90.0F);
-        const auto asked = Beams(freespace, profile, *future, *unknown, *lengths).end(0, back, 90.0F);
+        const auto remembered =
+            Beams(freespace, profile, *future, *known, *lengths, balls).end(0, back, 90.0F);
+        const auto asked =
+            Beams(freespace, profile, *future, *unknown, *lengths, other_balls).end(0, back, 90.0F);
         if (remembered) {
             ASSERT_TRUE(asked);
             EXPECT_EQ(remembered->free_length, asked->free_length);

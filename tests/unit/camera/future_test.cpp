@@ -28,13 +28,14 @@ std::vector<TimedPose> motion(const Vec3f& from, const Vec3f& velocity, float ya
 class FutureOfAPlayer : public testing::Test {
   protected:
     const Future& foreseen(const std::vector<TimedPose>& poses, double start, float yaw = 0.0F) {
-        foresee(freespace_, profile_, poses, start, frame_time, 2.5, yaw, *future_);
+        foresee(freespace_, profile_, poses, start, frame_time, 2.5, yaw, balls_, *future_);
         return *future_;
     }
 
     test::Plan plan_ = test::figure_eight();
     freespace::Freespace freespace_ = plan_.freespace();
     MapProfile profile_{Profile{}, 0.0254F};
+    freespace::RecentBalls balls_;
     std::unique_ptr<Future> future_ = std::make_unique<Future>();
     Vec3f open_ = plan_.eye(6, 7);
 };

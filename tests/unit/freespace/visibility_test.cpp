@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "freespace/distance.hpp"
 #include "support/freespace_meshes.hpp"
@@ -138,6 +139,71 @@ TEST(Sight, IsAsLongAsTheTwinSays) {
         }
     }
     EXPECT_GT(compared, 30);
+}
+
+std::vector<Vec3f> centres(const RecentBalls& balls) {
+    std::vector<Vec3f> all;
+    for (std::size_t i = 0; i < RecentBalls::capacity; ++i)
+        all.push_back(balls.ball(i).centre.cast<float>());
+    return all;
+}
+
+TEST(RecentBalls, ProveTheSameSightAgainAlone) {
+    const Freespace freespace = make_freespace(square_contents());
+    RecentBalls recent;
+    const Vec3f from(-20, 50, 5);
+    EXPECT_TRUE(sight(freespace, from, {120, 50, 5}, 2.0F, recent).clear);
+    const auto found = centres(recent);
+    EXPECT_GT(recent.ball(0).radius, 0.0);
+    EXPECT_TRUE(sight(freespace, from, {120, 50, 5}, 2.0F, recent).clear);
+    EXPECT_TRUE(sight(freespace, from, {115, 51, 4}, 2.0F, recent).clear);
+    EXPECT_EQ(centres(recent), found) << "no other ball was needed";
+}
+
+TEST(RecentBalls, LeaveStrangeInputBlocked) {
+    const Freespace freespace = make_freespace(square_contents());
+    const Vec3f inside(50, 50, 0);
+    RecentBalls recent;
+    EXPECT_TRUE(sight(freespace, inside, inside, 0.0F, recent).clear);
+    for (const float strange : {NAN, INFINITY, -INFINITY}) {
+        EXPECT_FALSE(sight(freespace, inside, {50, strange, 0}, 0.0F, recent).clear);
+        EXPECT_FALSE(sight(freespace, {strange, 50, 0}, inside, 0.0F, recent).clear);
+        EXPECT_FALSE(sight(freespace, inside, inside, std::abs(strange), recent).clear);
+    }
+    EXPECT_FALSE(sight(freespace, inside, inside, -1.0F, recent).clear);
+}
+
+// Sights as a planner asks for them, from a point that moves: never wrong, and as long as the twin says.
+TEST(RecentBalls, ShortenNoSightAndAreNeverWrong) {
+    constexpr double room = 0.7;  // as above
+    int compared = 0;
+    int clear = 0;
+    for (unsigned seed = 1; seed <= 6; ++seed) {
+        SCOPED_TRACE(testing::Message() << "seed " << seed);
+        std::mt19937 random(seed);
+        const Freespace freespace = make_freespace(random_contents(random, 10, 10, 30));
+        RecentBalls recent;
+        for (int i = 0; i < 4; ++i) {
+            const Vec3f start = covered_point(random, freespace);
+            const Vec3f way = covered_point(random, freespace) - start;
+            for (int step = 0; step < 6; ++step) {
+                const Vec3f from = start + static_cast<float>(step) / 30.0F * way;
+                const Vec3f to = from + way;
+                const float radius = i % 2 == 0 ? 0.0F : 4.0F;
+                const Sight seen = sight(freespace, from, to, radius, recent);
+                expect_safe(freespace, seen, from, to, radius);
+                const double expected =
+                    test::exact_free_length(freespace, from.cast<double>(), to.cast<double>(), radius, room);
+                ASSERT_GE(seen.free_length, expected * (1.0 - 1e-6))
+                    << from.transpose() << ", " << to.transpose();
+                ASSERT_TRUE(seen.clear || expected < (to - from).norm());
+                compared += expected > 0.0 ? 1 : 0;
+                clear += seen.clear ? 1 : 0;
+            }
+        }
+    }
+    EXPECT_GT(compared, 30);
+    EXPECT_GT(clear, 10);
 }
 
 TEST(SightOrigin, OfStrangeInputSeesNothing) {
