@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cassert>
 #include <chrono>
+#include <span>
 #include <string_view>
+#include <utility>
 
 #include "dds/decode.hpp"
 
@@ -179,6 +181,7 @@ void Subscriber::take_triggered(std::size_t count) {
             (this->*source.take)(*source.match);
         }
     }
+    hand_on_poses();
     // Last, because it may remove matches whose sources are reported above.
     if (match_infos) take_match_infos();
     if (matched) notice_unmatched();
@@ -253,8 +256,16 @@ void Subscriber::take_poses(Match& match) {
         if (!info.valid_data || !is_valid(match, Topic::pose_frame, sample, pose_frame_)) return;
         if (!is_of_owner(match, info)) return drop(Topic::pose_frame, ValidationError::not_owner, match.id());
         if (match.endpoints->hear()) next_decision_ = Clock::now();
-        if (accept(match, Topic::pose_frame)) ingress_->receive(match.id(), pose_frame_);
+        if (!accept(match, Topic::pose_frame)) return;
+        if (arrived_ == arrivals_.size()) arrivals_.emplace_back();
+        director::PoseArrival& arrival = arrivals_[arrived_++];
+        arrival.match_id = match.id();
+        std::swap(arrival.frame, pose_frame_);
     });
+}
+
+void Subscriber::hand_on_poses() {
+    if (arrived_ > 0) ingress_->receive(std::span(arrivals_).first(std::exchange(arrived_, 0)));
 }
 
 // While many matches begin, which may take long: frames that wait come out of it together, and all but the
@@ -264,6 +275,7 @@ void Subscriber::take_waiting_poses() {
     if (Clock::now() - poses_taken_ < interval) return;
     for (const auto& [id, match] : matches_)
         take_poses(*match);
+    hand_on_poses();
     poses_taken_ = Clock::now();
 }
 

@@ -108,7 +108,9 @@ class Subscriber {
     [[nodiscard]] bool accept(Match& match, Topic topic);
     // A valid pose frame of the participant that owns the match, or may take it now.
     [[nodiscard]] bool is_of_owner(Match& match, const dds_sample_info_t& info);
+    // Keeps them until they are handed on together.
     void take_poses(Match& match);
+    void hand_on_poses();
     void take_waiting_poses();
     void take_events(Match& match);
     void take_requests(Match& match);
@@ -185,6 +187,8 @@ class Subscriber {
     TakeBuffer<camera_director_CameraFrame> camera_samples_;
     TakeBuffer<camera_director_DirectorSign> sign_samples_;
     director::PoseFrame pose_frame_;
+    std::vector<director::PoseArrival> arrivals_;  // the first arrived_; the rest is memory for more
+    std::size_t arrived_ = 0;
     director::MatchEvent match_event_;
     director::ObserverRequest observer_request_;
     director::CameraFrame shown_;

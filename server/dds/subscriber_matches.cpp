@@ -130,6 +130,7 @@ void Subscriber::put_into_effect(Ownership::Change change, const std::string& ma
 
 // Epochs, frame numbers and clocks of its owner before mean nothing.
 void Subscriber::begin_anew(Match& match) {
+    hand_on_poses();
     spdlog::warn("match {}: another game server continues it", match.id());
     ingress_->match_ended(match.id());
     match.forgotten = !ingress_->receive(match.ownership.info());
