@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cassert>
 #include <chrono>
+#include <span>
 #include <string_view>
+#include <utility>
 
 #include "dds/decode.hpp"
 
@@ -14,15 +16,6 @@ namespace camdir::dds {
 namespace {
 
 constexpr std::size_t samples_per_take = 32;
-
-// Tags in the waitset that are not a Source.
-const char guard_tag = 0;
-const char match_info_tag = 0;
-const char matched_tag = 0;
-
-dds_attach_t attachment(const void* tag) {
-    return reinterpret_cast<dds_attach_t>(tag);
-}
 
 }  // namespace
 
@@ -49,18 +42,6 @@ Subscriber::~Subscriber() {
 }
 
 Result<void> Subscriber::open() {
-    auto waitset = created(dds_create_waitset(participant_.handle()), "creating the waitset");
-    if (!waitset) return tl::unexpected(waitset.error());
-    waitset_ = std::move(*waitset);
-    auto guard = created(dds_create_guardcondition(participant_.handle()), "creating the guard condition");
-    if (!guard) return tl::unexpected(guard.error());
-    guard_ = std::move(*guard);
-    if (const auto code = dds_waitset_attach(waitset_.handle(), guard_.handle(), attachment(&guard_tag));
-        code < 0) {
-        return dds_failure("attaching the guard condition", code);
-    }
-    triggered_.resize(3);
-
     auto subscriber = created(
         dds_create_subscriber(participant_.handle(), partition_qos(options_.partitions).get(), nullptr),
         "creating the subscriber of MatchInfo");
@@ -71,27 +52,7 @@ Result<void> Subscriber::open() {
                           reader_qos(Topic::match_info).get(), nullptr);
     if (match_info_reader_ < 0)
         return dds_failure("creating the reader of MatchInfo in /dds/partitions", match_info_reader_);
-    if (auto watched = watch_writers(match_info_reader_, &matched_tag); !watched)
-        return tl::unexpected(watched.error());
-    if (auto watched = watch(match_info_reader_, &match_info_tag); !watched)
-        return tl::unexpected(watched.error());
-    return {};
-}
-
-// The condition is deleted and detached with its reader.
-Result<dds_entity_t> Subscriber::watch(dds_entity_t reader, const void* tag) {
-    const dds_entity_t condition = dds_create_readcondition(reader, DDS_ANY_STATE);
-    if (condition < 0) return dds_failure("creating a read condition", condition);
-    const dds_return_t attached = dds_waitset_attach(waitset_.handle(), condition, attachment(tag));
-    if (attached < 0) return dds_failure("attaching a read condition", attached);
-    return condition;
-}
-
-Result<dds_entity_t> Subscriber::watch_writers(dds_entity_t reader, const void* tag) {
-    dds_return_t code = dds_set_status_mask(reader, DDS_SUBSCRIPTION_MATCHED_STATUS);
-    if (code >= 0) code = dds_waitset_attach(waitset_.handle(), reader, attachment(tag));
-    if (code < 0) return dds_failure("attaching a reader", code);
-    return reader;
+    return ready_.watch(match_info_reader_, match_infos_, &matched_);
 }
 
 void Subscriber::start(director::Ingress& ingress) {
@@ -104,8 +65,10 @@ void Subscriber::start(director::Ingress& ingress) {
 void Subscriber::stop() {
     if (!thread_.joinable()) return;
     stopping_ = true;
-    dds_set_guardcondition(guard_.handle(), true);
+    ready_.wake();
     thread_.join();
+    for (const auto& [id, match] : matches_)
+        unwatch(*match);
     matches_.clear();
 }
 
@@ -114,7 +77,7 @@ void Subscriber::forget(const std::string& match_id) {
         const std::lock_guard lock(mutex_);
         forgotten_.push_back(match_id);
     }
-    dds_set_guardcondition(guard_.handle(), true);
+    ready_.wake();
 }
 
 void Subscriber::reshard(Shards shards) {
@@ -122,7 +85,7 @@ void Subscriber::reshard(Shards shards) {
         const std::lock_guard lock(mutex_);
         new_shards_ = std::move(shards);
     }
-    dds_set_guardcondition(guard_.handle(), true);
+    ready_.wake();
 }
 
 bool Subscriber::responsive(std::chrono::nanoseconds limit) const {
@@ -133,13 +96,9 @@ void Subscriber::run() noexcept {
     next_assertion_ = Clock::now();
     listened_ = Clock::now();
     while (!stopping_) {
-        const std::chrono::nanoseconds until =
-            std::min(next_assertion_.load(), next_decision_) - Clock::now();
-        const auto patience = std::max(until, std::chrono::nanoseconds(0));
-        const dds_return_t count =
-            dds_waitset_wait(waitset_.handle(), triggered_.data(), triggered_.size(), patience.count());
+        const auto& ready = ready_.wait(std::min(next_assertion_.load(), next_decision_));
         notice_absence();
-        if (count > 0) take_triggered(static_cast<std::size_t>(count));
+        take_ready(ready);
         remove_forgotten();
         put_new_shards_into_effect();
         if (Clock::now() >= next_assertion_.load()) {
@@ -165,23 +124,21 @@ void Subscriber::notice_absence() {
     listened_ = now;
 }
 
-void Subscriber::take_triggered(std::size_t count) {
+void Subscriber::take_ready(const std::vector<ReadyList::Source*>& ready) {
     bool match_infos = false;
     bool matched = false;
-    for (std::size_t i = 0; i < std::min(count, triggered_.size()); ++i) {
-        const dds_attach_t tag = triggered_[i];
-        if (tag == attachment(&guard_tag)) {
-            dds_set_guardcondition(guard_.handle(), false);
-        } else if (tag == attachment(&match_info_tag)) {
+    for (ReadyList::Source* source : ready) {
+        if (source == &match_infos_) {
             match_infos = true;
-        } else if (tag == attachment(&matched_tag)) {
+        } else if (source == &matched_) {
             matched = true;
         } else {
-            const Source& source = *reinterpret_cast<const Source*>(tag);
-            (this->*source.take)(*source.match);
+            const Source& of_match = static_cast<const Source&>(*source);
+            (this->*of_match.take)(of_match.match);
         }
     }
-    // Last, because it may remove matches whose sources are reported above.
+    hand_on_poses();
+    // Last, because it may remove matches whose sources are ready.
     if (match_infos) take_match_infos();
     if (matched) notice_unmatched();
 }
@@ -215,8 +172,14 @@ void Subscriber::drop(Topic topic, ValidationError error, const std::string& mat
     }
 }
 
+template <class Sample, class Visit>
+void Subscriber::take(TakeBuffer<Sample>& buffer, dds_entity_t reader, ReadyList::Source& source,
+                      Visit visit) {
+    if (buffer.take(reader, visit)) ready_.report(source);
+}
+
 void Subscriber::take_match_infos() {
-    match_info_samples_.take(match_info_reader_, [this](const auto& sample, const auto& info) {
+    take(match_info_samples_, match_info_reader_, match_infos_, [this](const auto& sample, const auto& info) {
         // The state is the instance's after the last sample.
         if (info.valid_data) match_info_found(sample, info);
         if (info.instance_state != DDS_ALIVE_INSTANCE_STATE) match_info_lost(sample, info);
@@ -251,12 +214,22 @@ bool Subscriber::is_of_owner(Match& match, const dds_sample_info_t& info) {
 }
 
 void Subscriber::take_poses(Match& match) {
-    pose_samples_.take(match.endpoints->pose_reader(), [&](const auto& sample, const auto& info) {
-        if (!info.valid_data || !is_valid(match, Topic::pose_frame, sample, pose_frame_)) return;
-        if (!is_of_owner(match, info)) return drop(Topic::pose_frame, ValidationError::not_owner, match.id());
-        if (match.endpoints->hear()) next_decision_ = Clock::now();
-        if (accept(match, Topic::pose_frame)) ingress_->receive(match.id(), pose_frame_);
-    });
+    take(pose_samples_, match.endpoints->pose_reader(), match.poses,
+         [&](const auto& sample, const auto& info) {
+             if (!info.valid_data || !is_valid(match, Topic::pose_frame, sample, pose_frame_)) return;
+             if (!is_of_owner(match, info))
+                 return drop(Topic::pose_frame, ValidationError::not_owner, match.id());
+             if (match.endpoints->hear()) next_decision_ = Clock::now();
+             if (!accept(match, Topic::pose_frame)) return;
+             if (arrived_ == arrivals_.size()) arrivals_.emplace_back();
+             director::PoseArrival& arrival = arrivals_[arrived_++];
+             arrival.match_id = match.id();
+             std::swap(arrival.frame, pose_frame_);
+         });
+}
+
+void Subscriber::hand_on_poses() {
+    if (arrived_ > 0) ingress_->receive(std::span(arrivals_).first(std::exchange(arrived_, 0)));
 }
 
 // While many matches begin, which may take long: frames that wait come out of it together, and all but the
@@ -266,27 +239,30 @@ void Subscriber::take_waiting_poses() {
     if (Clock::now() - poses_taken_ < interval) return;
     for (const auto& [id, match] : matches_)
         take_poses(*match);
+    hand_on_poses();
     poses_taken_ = Clock::now();
 }
 
 void Subscriber::take_events(Match& match) {
-    event_samples_.take(match.endpoints->event_reader(), [&](const auto& sample, const auto& info) {
-        if (!info.valid_data || !is_valid(match, Topic::match_event, sample, match_event_)) return;
-        const SenderId* sender =
-            match.event_senders.find(match.endpoints->event_reader(), info.publication_handle);
-        if (sender == nullptr || !match.ownership.owns(*sender))
-            return drop(Topic::match_event, ValidationError::not_owner, match.id());
-        if (accept(match, Topic::match_event)) ingress_->receive(match.id(), match_event_);
-    });
+    take(event_samples_, match.endpoints->event_reader(), match.events,
+         [&](const auto& sample, const auto& info) {
+             if (!info.valid_data || !is_valid(match, Topic::match_event, sample, match_event_)) return;
+             const SenderId* sender =
+                 match.event_senders.find(match.endpoints->event_reader(), info.publication_handle);
+             if (sender == nullptr || !match.ownership.owns(*sender))
+                 return drop(Topic::match_event, ValidationError::not_owner, match.id());
+             if (accept(match, Topic::match_event)) ingress_->receive(match.id(), match_event_);
+         });
 }
 
 void Subscriber::take_requests(Match& match) {
-    request_samples_.take(match.endpoints->request_reader(), [&](const auto& sample, const auto& info) {
-        if (info.valid_data && is_valid(match, Topic::observer_request, sample, observer_request_))
-            request_found(match, info.publication_handle);
-        if (info.instance_state != DDS_ALIVE_INSTANCE_STATE && sample.match_id == match.id())
-            request_lost(match, sample.observer_id, info);
-    });
+    take(request_samples_, match.endpoints->request_reader(), match.requests,
+         [&](const auto& sample, const auto& info) {
+             if (info.valid_data && is_valid(match, Topic::observer_request, sample, observer_request_))
+                 request_found(match, info.publication_handle);
+             if (info.instance_state != DDS_ALIVE_INSTANCE_STATE && sample.match_id == match.id())
+                 request_lost(match, sample.observer_id, info);
+         });
 }
 
 void Subscriber::request_found(Match& match, WriterHandle writer) {
@@ -326,34 +302,34 @@ void Subscriber::put_into_effect(const RequestOwners::Outcome& outcome, Match& m
 // DDS tells of the end of a request when all who have written it are gone.
 void Subscriber::notice_unmatched_requests(Match& match) {
     const dds_entity_t reader = match.endpoints->request_reader();
-    dds_subscription_matched_status_t status{};
-    dds_get_subscription_matched_status(reader, &status);
     for (const auto& outcome : match.request_owners.retain(matched_writers(reader)))
         put_into_effect(outcome, match);
 }
 
 void Subscriber::take_cameras(Match& match) {
-    camera_samples_.take(match.endpoints->camera_reader(), [&](const auto& sample, const auto& info) {
-        if (!info.valid_data || !is_valid(match, Topic::camera_frame, sample, shown_)) return;
-        ++counters_.of(Topic::camera_frame).accepted;
-        if (match.endpoints->see(shown_)) ingress_->follow(match.id(), shown_);
-    });
+    take(camera_samples_, match.endpoints->camera_reader(), match.cameras,
+         [&](const auto& sample, const auto& info) {
+             if (!info.valid_data || !is_valid(match, Topic::camera_frame, sample, shown_)) return;
+             ++counters_.of(Topic::camera_frame).accepted;
+             if (match.endpoints->see(shown_)) ingress_->follow(match.id(), shown_);
+         });
 }
 
 void Subscriber::take_signs(Match& match) {
     take_cameras(match);  // what a leader wrote before it left
-    sign_samples_.take(match.endpoints->sign_reader(), [&](const auto& sample, const auto& info) {
-        Sign sign;
-        // One whose writer is gone, as far as DDS knows, may be out of reach: its lease will tell.
-        if (info.instance_state == DDS_NOT_ALIVE_DISPOSED_INSTANCE_STATE) {
-            match.endpoints->leave(sample.director_id);
-        } else if (info.valid_data && is_valid(match, Topic::director_sign, sample, sign)) {
-            ++counters_.of(Topic::director_sign).accepted;
-            if (sign.director_id == options_.director_id) return warn_of_namesake(match.id());
-            match.endpoints->see(sign);
-            next_decision_ = std::min(next_decision_, match.endpoints->decide());
-        }
-    });
+    take(sign_samples_, match.endpoints->sign_reader(), match.signs,
+         [&](const auto& sample, const auto& info) {
+             Sign sign;
+             // One whose writer is gone, as far as DDS knows, may be out of reach: its lease will tell.
+             if (info.instance_state == DDS_NOT_ALIVE_DISPOSED_INSTANCE_STATE) {
+                 match.endpoints->leave(sample.director_id);
+             } else if (info.valid_data && is_valid(match, Topic::director_sign, sample, sign)) {
+                 ++counters_.of(Topic::director_sign).accepted;
+                 if (sign.director_id == options_.director_id) return warn_of_namesake(match.id());
+                 match.endpoints->see(sign);
+                 next_decision_ = std::min(next_decision_, match.endpoints->decide());
+             }
+         });
 }
 
 // The director may have taken longer to begin them than it looks for others.

@@ -20,6 +20,7 @@
 #include "dds/match_table.hpp"
 #include "dds/ownership.hpp"
 #include "dds/participant.hpp"
+#include "dds/ready_list.hpp"
 #include "dds/request_owners.hpp"
 #include "dds/sender.hpp"
 #include "dds/shards.hpp"
@@ -69,9 +70,10 @@ class Subscriber {
   private:
     using Clock = std::chrono::steady_clock;
     struct Match;
-    // What the waitset reports when a reader has samples.
-    struct Source {
-        Match* match;
+    // What is to be done when a reader of the match has reported.
+    struct Source : ReadyList::Source {
+        Source(Match& of, void (Subscriber::*with)(Match&)) : match(of), take(with) {}
+        Match& match;
         void (Subscriber::*take)(Match&);
     };
     struct Match {
@@ -84,16 +86,17 @@ class Subscriber {
         bool forgotten = false;  // by the director; reintroduced when a sample arrives
         bool is_of_shard = true;
         SenderLookup pose_senders, event_senders;
-        Source poses, events, requests, requesters, cameras, signs;
-        std::vector<dds_entity_t> watched;  // in the waitset
+        Source poses{*this, &Subscriber::take_poses};
+        Source events{*this, &Subscriber::take_events};
+        Source requests{*this, &Subscriber::take_requests};
+        Source requesters{*this, &Subscriber::notice_unmatched_requests};
+        Source cameras{*this, &Subscriber::take_cameras};
+        Source signs{*this, &Subscriber::take_signs};
     };
 
-    // Triggers when the reader has samples, and when writers come or go. Returns what is in the waitset.
-    [[nodiscard]] Result<dds_entity_t> watch(dds_entity_t reader, const void* tag);
-    [[nodiscard]] Result<dds_entity_t> watch_writers(dds_entity_t reader, const void* tag);
     void run() noexcept;
     void notice_absence();
-    void take_triggered(std::size_t count);
+    void take_ready(const std::vector<ReadyList::Source*>& ready);
     [[nodiscard]] std::chrono::milliseconds assertion_interval() const {
         return options_.leadership.lease / Succession::beats;
     }
@@ -103,6 +106,9 @@ class Subscriber {
     // Counts the sample and logs each reason at most once a second.
     void drop(Topic topic, ValidationError error, const std::string& match_id);
     void take_match_infos();
+    // Takes what has arrived. What is too much at once is ready again.
+    template <class Sample, class Visit>
+    void take(TakeBuffer<Sample>& buffer, dds_entity_t reader, ReadyList::Source& source, Visit visit);
     // Validates and decodes a sample of the match. Returns false when the sample was dropped and counted.
     template <class Sample, class Message>
     [[nodiscard]] bool is_valid(const Match& match, Topic topic, const Sample& sample, Message& message);
@@ -110,7 +116,9 @@ class Subscriber {
     [[nodiscard]] bool accept(Match& match, Topic topic);
     // A valid pose frame of the participant that owns the match, or may take it now.
     [[nodiscard]] bool is_of_owner(Match& match, const dds_sample_info_t& info);
+    // Keeps them until they are handed on together.
     void take_poses(Match& match);
+    void hand_on_poses();
     void take_waiting_poses();
     void take_events(Match& match);
     void take_requests(Match& match);
@@ -140,6 +148,7 @@ class Subscriber {
     [[nodiscard]] bool add_match(const std::string& match_id);
     [[nodiscard]] Result<void> open_match(const std::string& match_id);
     [[nodiscard]] Result<void> watch(Match& match);
+    void unwatch(Match& match);
     void remove_match(const std::string& match_id);
     void remove_forgotten();
     void put_new_shards_into_effect();
@@ -158,10 +167,10 @@ class Subscriber {
     LogLimit namesake_log_;
     director::Ingress* ingress_ = nullptr;
 
+    ReadyList ready_;
+    ReadyList::Source match_infos_, matched_;
     Entity match_info_subscriber_;
     dds_entity_t match_info_reader_ = 0;
-    Entity waitset_;
-    Entity guard_;
     std::atomic<bool> stopping_{false};
     std::mutex mutex_;  // guards the next two
     std::vector<std::string> forgotten_;
@@ -180,7 +189,6 @@ class Subscriber {
     Clock::time_point poses_taken_{};                             // of all matches, between others that begin
     Clock::time_point listened_{};                                // to all who send
     Clock::time_point next_decision_ = Clock::time_point::max();  // when matches may change hands
-    std::vector<dds_attach_t> triggered_;
     TakeBuffer<camera_director_MatchInfo> match_info_samples_;
     TakeBuffer<camera_director_PoseFrame> pose_samples_;
     TakeBuffer<camera_director_MatchEvent> event_samples_;
@@ -188,6 +196,8 @@ class Subscriber {
     TakeBuffer<camera_director_CameraFrame> camera_samples_;
     TakeBuffer<camera_director_DirectorSign> sign_samples_;
     director::PoseFrame pose_frame_;
+    std::vector<director::PoseArrival> arrivals_;  // the first arrived_; the rest is memory for more
+    std::size_t arrived_ = 0;
     director::MatchEvent match_event_;
     director::ObserverRequest observer_request_;
     director::CameraFrame shown_;

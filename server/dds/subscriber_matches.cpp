@@ -113,8 +113,6 @@ void Subscriber::match_info_lost(const camera_director_MatchInfo& key, const dds
 
 // A game server that is gone is not told of where another describes its match too.
 void Subscriber::notice_unmatched() {
-    dds_subscription_matched_status_t status{};
-    dds_get_subscription_matched_status(match_info_reader_, &status);
     const std::vector<WriterHandle> matched = matched_writers(match_info_reader_);
     waiting_.retain(matched);
     elsewhere_.retain(matched);
@@ -138,6 +136,7 @@ void Subscriber::put_into_effect(Ownership::Change change, const std::string& ma
 
 // Epochs, frame numbers and clocks of its owner before mean nothing.
 void Subscriber::begin_anew(Match& match) {
+    hand_on_poses();
     spdlog::warn("match {}: another game server continues it", match.id());
     ingress_->match_ended(match.id());
     match.forgotten = !ingress_->receive(match.ownership.info());
@@ -171,44 +170,40 @@ Result<void> Subscriber::open_match(const std::string& match_id) {
     match = std::make_unique<Match>(options_.participant_observers);
     match->endpoints = std::move(*endpoints);
     match->endpoints->set_shards(shards_.own(), shards_.home_of(match_id));
-    match->poses = {match.get(), &Subscriber::take_poses};
-    match->events = {match.get(), &Subscriber::take_events};
-    match->requests = {match.get(), &Subscriber::take_requests};
-    match->requesters = {match.get(), &Subscriber::notice_unmatched_requests};
-    match->cameras = {match.get(), &Subscriber::take_cameras};
-    match->signs = {match.get(), &Subscriber::take_signs};
     table_.add(match->endpoints);
     next_decision_ = Clock::now();
     counters_.matches = static_cast<std::uint32_t>(matches_.size());
     if (auto watched = watch(*match); !watched) return watched;
-    triggered_.resize(3 + 6 * matches_.size());
     new_matches_.push_back(match_id);
     return {};
 }
 
 Result<void> Subscriber::watch(Match& match) {
     const MatchEndpoints& endpoints = *match.endpoints;
-    for (const auto& [reader, source] : {std::pair{endpoints.pose_reader(), &match.poses},
-                                         std::pair{endpoints.event_reader(), &match.events},
-                                         std::pair{endpoints.request_reader(), &match.requests},
-                                         std::pair{endpoints.camera_reader(), &match.cameras},
-                                         std::pair{endpoints.sign_reader(), &match.signs}}) {
-        const auto watched = watch(reader, source);
-        if (!watched) return tl::unexpected(watched.error());
-        match.watched.push_back(*watched);
-    }
-    const auto watched = watch_writers(endpoints.request_reader(), &match.requesters);
-    if (!watched) return tl::unexpected(watched.error());
-    match.watched.push_back(*watched);
-    return {};
+    Result<void> watched = ready_.watch(endpoints.pose_reader(), match.poses);
+    if (watched) watched = ready_.watch(endpoints.event_reader(), match.events);
+    if (watched) watched = ready_.watch(endpoints.request_reader(), match.requests, &match.requesters);
+    if (watched) watched = ready_.watch(endpoints.camera_reader(), match.cameras);
+    if (watched) watched = ready_.watch(endpoints.sign_reader(), match.signs);
+    return watched;
+}
+
+void Subscriber::unwatch(Match& match) {
+    const MatchEndpoints& endpoints = *match.endpoints;
+    for (const dds_entity_t reader :
+         {endpoints.pose_reader(), endpoints.event_reader(), endpoints.request_reader(),
+          endpoints.camera_reader(), endpoints.sign_reader()})
+        ReadyList::unwatch(reader);
+    for (Source* source :
+         {&match.poses, &match.events, &match.requests, &match.requesters, &match.cameras, &match.signs})
+        ready_.forget(*source);
 }
 
 void Subscriber::remove_match(const std::string& match_id) {
     table_.remove(match_id);
     const auto known = matches_.find(match_id);
     if (known == matches_.end()) return;
-    for (const dds_entity_t entity : known->second->watched)
-        dds_waitset_detach(waitset_.handle(), entity);
+    unwatch(*known->second);
     removal_.add(std::move(known->second->endpoints));
     matches_.erase(known);
     counters_.matches = static_cast<std::uint32_t>(matches_.size());

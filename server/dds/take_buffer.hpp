@@ -26,15 +26,14 @@ class TakeBuffer {
     }
 
     // Takes at most `capacity` samples and calls visit(const Sample&, const dds_sample_info_t&) for each, in
-    // order. Samples left over keep the reader's condition triggered. Returns the number taken or DDS's
-    // error.
+    // order. Returns whether more may be left.
     template <class Visit>
-    dds_return_t take(dds_entity_t reader, Visit visit) {
+    [[nodiscard]] bool take(dds_entity_t reader, Visit visit) {
         const dds_return_t count = dds_take(reader, pointers_.data(), infos_.data(), samples_.size(),
                                             static_cast<std::uint32_t>(samples_.size()));
         for (dds_return_t i = 0; i < count; ++i)
             visit(samples_[i], infos_[i]);
-        return count;
+        return count == static_cast<dds_return_t>(samples_.size());
     }
 
   private:

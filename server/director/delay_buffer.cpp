@@ -178,7 +178,8 @@ DelayBuffer::Released DelayBuffer::release(std::int64_t now, Inbox& inbox) {
     for (; released_ < entries_.size() && entries_[released_].due <= now; ++released_) {
         Entry& entry = entries_[released_];
         if (const auto* frame = std::get_if<PoseFrame>(&entry.item)) {
-            released.any |= inbox.put(*frame, entry.due);
+            leaving_ = *frame;  // which is kept
+            released.any |= inbox.put(leaving_, entry.due);
             last_left_ = frame->frame_time;
         } else {
             inbox.put(std::move(std::get<Message>(entry.item)));

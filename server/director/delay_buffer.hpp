@@ -126,6 +126,7 @@ class DelayBuffer {
 
     std::deque<Entry> entries_;
     std::uint64_t first_ = 0;   // position of entries_.front()
+    PoseFrame leaving_;         // during release()
     std::size_t released_ = 0;  // entries before this one have left; kept for a second
     std::uint64_t near_ = 0;    // position of the first that is not within lead_ns of being due
     std::size_t bytes_ = 0;

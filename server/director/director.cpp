@@ -53,7 +53,7 @@ struct Director::Impl {
     void post(Match& match, Message message);
     // Of the game server: through the match's delay.
     void deliver(Match& match, Message message);
-    void deliver(Match& match, const PoseFrame& frame);
+    void deliver(Match& match, PoseFrame& frame, BriefTurns& turns);
     // Whether it passes the delay at once; `counts` where it is refused.
     bool passes(Match& match, DelayBuffer::Admission admission, bool counts);
     std::size_t count(bool has_server) const;
@@ -127,10 +127,10 @@ void Director::Impl::deliver(Match& match, Message message) {
     if (passes(match, match.delay().put(message, now_ns()), counts)) post(match, std::move(message));
 }
 
-void Director::Impl::deliver(Match& match, const PoseFrame& frame) {
+void Director::Impl::deliver(Match& match, PoseFrame& frame, BriefTurns& turns) {
     const std::int64_t now = now_ns();
     if (!passes(match, match.delay().put(frame, now), true)) return;
-    if (match.inbox().put(frame, now)) pool.schedule(match);
+    if (match.inbox().put(frame, now)) turns.schedule(match);
 }
 
 bool Director::Impl::passes(Match& match, DelayBuffer::Admission admission, bool counts) {
@@ -326,11 +326,15 @@ void Director::match_ended(const std::string& match_id) {
     if (impl_->find(match_id) != nullptr) impl_->end(impl_->matches[match_id]);
 }
 
-void Director::receive(const std::string& match_id, const PoseFrame& frame) {
+void Director::receive(std::span<PoseArrival> arrivals) {
+    BriefTurns turns(impl_->pool);  // run when the lock is released
     const std::shared_lock lock(impl_->mutex);
-    Match* match = impl_->find(match_id);
-    if (match == nullptr) return impl_->unmatched.add(Counter::drop_unknown_match);
-    impl_->deliver(*match, frame);
+    for (auto& [match_id, frame] : arrivals) {
+        if (Match* match = impl_->find(match_id))
+            impl_->deliver(*match, frame, turns);
+        else
+            impl_->unmatched.add(Counter::drop_unknown_match);
+    }
 }
 
 void Director::receive(const std::string& match_id, const MatchEvent& event) {

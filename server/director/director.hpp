@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <memory>
+#include <span>
 #include <string>
 
 #include "config/config.hpp"
@@ -27,7 +28,7 @@ class Director final : public Ingress {
     bool receive(const MatchInfo& info) override;
     void server_lost(const std::string& match_id) override;
     void match_ended(const std::string& match_id) override;
-    void receive(const std::string& match_id, const PoseFrame& frame) override;
+    void receive(std::span<PoseArrival> arrivals) override;
     void receive(const std::string& match_id, const MatchEvent& event) override;
     void receive(const ObserverRequest& request) override;
     void request_ended(const std::string& match_id, const std::string& observer_id) override;

@@ -47,19 +47,18 @@ void Inbox::put(Message message) {
     waiting_.messages.push_back(std::move(message));
 }
 
-bool Inbox::put(const PoseFrame& frame, std::int64_t received_ns) {
+bool Inbox::put(PoseFrame& frame, std::int64_t received_ns) {
     const std::lock_guard lock(mutex_);
-    if (!waiting_.has_frame) {
-        waiting_.frame = frame;
-    } else if (older(frame, waiting_.frame)) {
-        counters_.add(frame.epoch < waiting_.frame.epoch ? Counter::drop_old_epoch : Counter::drop_old_frame);
-        return false;
-    } else {
+    if (waiting_.has_frame) {
+        if (older(frame, waiting_.frame)) {
+            counters_.add(frame.epoch < waiting_.frame.epoch ? Counter::drop_old_epoch
+                                                             : Counter::drop_old_frame);
+            return false;
+        }
         counters_.add(reason_to_replace(frame, received_ns));
-        std::swap(replaced_, waiting_.frame);
-        waiting_.frame = frame;
-        if (replaced_.epoch == frame.epoch) carry_discontinuities(replaced_, waiting_.frame);
+        if (waiting_.frame.epoch == frame.epoch) carry_discontinuities(waiting_.frame, frame);
     }
+    std::swap(waiting_.frame, frame);
     if (++left_out_ >= pace_.frames_per_camera()) {
         left_out_ = 0;
         is_due_ = true;

@@ -1,4 +1,4 @@
-// The messages of one match that wait for a worker.
+// The messages of one match that wait for its turn.
 #pragma once
 
 #include <cstdint>
@@ -51,12 +51,13 @@ class Inbox {
 
     void put(Message message);
 
-    // Returns whether a frame is due, for which a worker is wanted. Replaces one that no worker has taken.
-    // Its discontinuity flags are carried over to the new frame of the same epoch, so that no respawn is
-    // lost: not every game server counts them (see Continuity).
-    bool put(const PoseFrame& frame, std::int64_t received_ns);
+    // Takes the frame and leaves other memory to its caller. Returns whether a frame is due, for which a
+    // turn is wanted. Replaces one that no turn has taken. Its discontinuity flags are carried over to the
+    // new frame of the same epoch, so that no respawn is lost: not every game server counts them (see
+    // Continuity).
+    bool put(PoseFrame& frame, std::int64_t received_ns);
 
-    // Replaces an earlier one that no worker has taken.
+    // Replaces an earlier one that no turn has taken.
     void put(const CameraFrame& shown);
 
     struct Content {
@@ -78,9 +79,8 @@ class Inbox {
 
     std::mutex mutex_;
     Content waiting_;
-    bool is_due_ = false;         // the waiting frame
-    std::uint32_t left_out_ = 0;  // frames since one was due
-    PoseFrame replaced_;
+    bool is_due_ = false;                // the waiting frame
+    std::uint32_t left_out_ = 0;         // frames since one was due
     std::size_t events_ = 0;             // in waiting_.messages
     std::size_t observer_messages_ = 0;  // in waiting_.messages
     const std::size_t max_observer_messages_;

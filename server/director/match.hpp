@@ -89,7 +89,6 @@ class Match final : public Strand {
         const ShotCamera &own, &shown;  // at the same pose
     };
     void follow(const Disagreement& disagreement);
-    void remember_own();
     [[nodiscard]] std::span<const CameraFrame> own_frames() const;
     [[nodiscard]] const CameraFrame* own_frame(const CameraFrame& shown) const;
     [[nodiscard]] bool has_cut_since(const CameraFrame& shown, std::uint32_t camera_id) const;
@@ -103,7 +102,7 @@ class Match final : public Strand {
     // Makes the steps of the next frame, whose poses wait, so that its cameras leave when it is due.
     void prepare(Turn& turn);
     void prepare_step(Shot& shot, double time, camera::Scratch& scratch);
-    void move_cameras(const PoseFrame& frame, double dt, Turn& turn);
+    void move_cameras(const PoseFrame& frame, double dt, CameraFrame& cameras, Turn& turn);
     // Calls move(i, scratch) for every i below `count`, also on workers that are idle.
     void share_shots(Turn& turn, std::size_t count,
                      const std::function<void(std::size_t, camera::Scratch&)>& move);
@@ -163,12 +162,12 @@ class Match final : public Strand {
     std::uint64_t foreseen_ = 0;  // position in the delay buffer of what follows in the timeline
     bool by_timeline_ = false;    // the cameras move over the timeline
     std::uint32_t next_camera_frame_ = 0;
-    CameraFrame cameras_;
     std::vector<Shot*> unprepared_;           // during prepare()
     CameraFrame followed_, followed_before_;  // the last two of the director that leads
     bool is_followed_ = true;                 // the last one has had its effect
-    std::array<CameraFrame, 4> own_frames_;   // the last ones, since a shot has followed
-    std::size_t own_frame_count_ = 0;         // since then
+    std::array<CameraFrame, 4> own_frames_;   // the last ones; the next takes the place of the oldest
+    std::size_t own_frame_count_ = 0;         // since a shot has followed
+    std::size_t newest_own_ = 0;
 };
 
 }  // namespace camdir::director

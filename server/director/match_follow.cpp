@@ -40,7 +40,7 @@ void Match::follow() {
     const CameraFrame* frame = own_frame(followed_);
     if (frame == nullptr) return;
     is_followed_ = true;
-    const Tolerance& tolerance = frame->pose_number == cameras_.pose_number ? in_time : late;
+    const Tolerance& tolerance = frame->pose_number == own_frames_[newest_own_].pose_number ? in_time : late;
     bool agrees = true;
     for (const ShotCamera& own : frame->cameras) {
         const ShotCamera* shown = camera_of(followed_, own.camera_id);
@@ -57,7 +57,7 @@ void Match::follow(const Disagreement& disagreement) {
     const auto& [own, shown] = disagreement;
     std::vector<Shot>& shots = requests_.shots();
     const auto shot = std::ranges::find(shots, own.camera_id, &Shot::camera_id);
-    const ShotCamera* newest = camera_of(cameras_, own.camera_id);
+    const ShotCamera* newest = camera_of(own_frames_[newest_own_], own.camera_id);
     if (shot == shots.end() || newest == nullptr || has_cut_since(followed_, own.camera_id)) return;
     if (shown.target != own.target) {
         shot->automatic = {.player = shown.target, .chosen_at = followed_.frame_time};
@@ -75,10 +75,6 @@ void Match::follow(const Disagreement& disagreement) {
     };
     if (camera::go_on_from(*freespace_, shot->profile, since(*before), since(shown), dt, shot->state))
         shot->is_prepared = false;
-}
-
-void Match::remember_own() {
-    own_frames_[own_frame_count_++ % own_frames_.size()] = cameras_;
 }
 
 std::span<const CameraFrame> Match::own_frames() const {

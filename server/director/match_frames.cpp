@@ -61,9 +61,10 @@ void Match::process(PoseFrame& frame, std::int64_t received_ns, Turn& turn) {
     if (!freespace_) return counters_.add(Counter::drop_waiting);
     if (frames_per_camera_ != pace_.frames_per_camera()) publish_info();
     if (!requests_.shots().empty()) {
-        move_cameras(frame, dt, turn);
-        publisher_.publish(match_id_, cameras_);
-        remember_own();
+        newest_own_ = own_frame_count_++ % own_frames_.size();
+        CameraFrame& cameras = own_frames_[newest_own_];
+        move_cameras(frame, dt, cameras, turn);
+        publisher_.publish(match_id_, cameras);
         counters_.latency.add(ns(Clock::now().time_since_epoch()) - received_ns);
     }
     after_silence_ = false;
@@ -133,22 +134,22 @@ bool Match::foresee(const PoseFrame& frame) {
     return true;
 }
 
-void Match::move_cameras(const PoseFrame& frame, double dt, Turn& turn) {
-    cameras_.epoch = frame.epoch;
-    cameras_.frame_number = next_camera_frame_++;
-    cameras_.pose_number = frame.frame_number;
-    cameras_.frame_time = frame.frame_time;
-    cameras_.source_time = frame.source_time;
+void Match::move_cameras(const PoseFrame& frame, double dt, CameraFrame& cameras, Turn& turn) {
+    cameras.epoch = frame.epoch;
+    cameras.frame_number = next_camera_frame_++;
+    cameras.pose_number = frame.frame_number;
+    cameras.frame_time = frame.frame_time;
+    cameras.source_time = frame.source_time;
 
     std::vector<Shot>& shots = requests_.shots();
     for (Shot& shot : shots)
         choose_target(shot, frame);
-    cameras_.cameras.resize(shots.size());
+    cameras.cameras.resize(shots.size());
     share_shots(turn, shots.size(), [&](std::size_t i, camera::Scratch& scratch) {
-        cameras_.cameras[i] = move_camera(shots[i], dt, scratch);
+        cameras.cameras[i] = move_camera(shots[i], dt, scratch);
     });
     counters_.add(Counter::camera_frames);
-    counters_.add(Counter::cameras, cameras_.cameras.size());
+    counters_.add(Counter::cameras, cameras.cameras.size());
 }
 
 void Match::share_shots(Turn& turn, std::size_t count,

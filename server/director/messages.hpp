@@ -55,6 +55,12 @@ struct PoseFrame {
     std::vector<PlayerPose> poses;
 };
 
+// A pose frame that has arrived.
+struct PoseArrival {
+    std::string match_id;
+    PoseFrame frame;
+};
+
 struct MatchEvent {
     std::uint64_t epoch = 0;
     std::int64_t frame_time = 0;

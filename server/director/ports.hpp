@@ -3,13 +3,14 @@
 #pragma once
 
 #include <chrono>
+#include <span>
 #include <string>
 
 #include "director/messages.hpp"
 
 namespace camdir::director {
 
-// All calls return at once. Thread-safe.
+// All calls return at once, but for poses. Thread-safe.
 class Ingress {
   public:
     virtual ~Ingress() = default;
@@ -25,9 +26,10 @@ class Ingress {
     virtual void server_lost(const std::string& match_id) = 0;
     // The game server ended the match: its shots end, its observers wait for another game server.
     virtual void match_ended(const std::string& match_id) = 0;
-    // Frames of unknown matches and of other epochs are dropped and counted. The frame is copied into the
-    // match's own memory, so the caller can refill the same PoseFrame.
-    virtual void receive(const std::string& match_id, const PoseFrame& frame) = 0;
+    // Of any matches, as they have arrived together. What is short work may be done before this returns, on
+    // the calling thread. Frames of unknown matches and of other epochs are dropped and counted. The frames
+    // are taken; their memory, or other, is left to the caller to be refilled.
+    virtual void receive(std::span<PoseArrival> arrivals) = 0;
     virtual void receive(const std::string& match_id, const MatchEvent& event) = 0;
     virtual void receive(const ObserverRequest& request) = 0;  // new or changed; may precede its match
     // The observer withdrew its request, or its liveliness is lost.
@@ -37,13 +39,13 @@ class Ingress {
     virtual void follow(const std::string& match_id, const CameraFrame& shown) = 0;
     // Without poses for this long the match is silent.
     [[nodiscard]] virtual std::chrono::nanoseconds silence_limit(const MatchInfo& info) const = 0;
-    // False when a worker or the housekeeping has been busy with one turn for longer than `limit`, or no
-    // worker was free for one: such a director must give way to its standby.
+    // False when a thread has been busy with one turn, or with the housekeeping, for longer than `limit`, or
+    // no worker was free for one: such a director must give way to its standby.
     [[nodiscard]] virtual bool responsive(std::chrono::milliseconds limit) const = 0;
 };
 
-// Called from the director's threads: by one thread at a time for one match, concurrently for different
-// matches. Must not throw and must not call back into the director.
+// Called from the director's threads and from those that bring it poses: by one thread at a time for one
+// match, concurrently for different matches. Must not throw and must not call back into the director.
 class Publisher {
   public:
     virtual ~Publisher() = default;

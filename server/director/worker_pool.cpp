@@ -14,6 +14,7 @@ namespace camdir::director {
 namespace {
 
 constexpr std::size_t word_bits = 64;
+constexpr std::int64_t remembered_turns = 8;
 
 }  // namespace
 
@@ -100,7 +101,7 @@ std::chrono::nanoseconds WorkerPool::busy() const {
     std::chrono::nanoseconds sum(0);
     for (const auto& worker : workers_)
         sum += worker->turn.busy();
-    return sum;
+    return sum + caller_.turn.busy();
 }
 
 bool WorkerPool::claim_call() {
@@ -113,6 +114,7 @@ bool WorkerPool::claim_call() {
 void WorkerPool::help(Worker& worker) {
     for (const auto& other : workers_)
         other->shared.help(worker.lane);
+    caller_.shared.help(worker.lane);
 }
 
 void WorkerPool::call_helpers(std::size_t count) {
@@ -131,8 +133,11 @@ void Turn::share(std::size_t count, std::size_t share, const SharedWork::Item& i
 void WorkerPool::run(Worker& worker, Strand& strand) {
     const std::size_t slot = strand.slot_;
     const std::uint32_t seen = strand.pending_.load(std::memory_order_acquire);
+    const std::int64_t begun = now_ns();
     Turn turn(*this, worker, strand);
     strand.turn(turn);
+    const std::int64_t usual = strand.usual_ns_.load(std::memory_order_relaxed);
+    strand.usual_ns_.store(usual + (now_ns() - begun - usual) / remembered_turns, std::memory_order_relaxed);
     // As soon as nothing is pending the strand may be destroyed.
     if (strand.pending_.fetch_sub(seen, std::memory_order_acq_rel) != seen) mark_ready(slot);
 }
@@ -168,7 +173,7 @@ Strand* WorkerPool::claim_in(std::size_t word, std::uint64_t mask) {
 bool WorkerPool::responsive(std::chrono::nanoseconds limit) const {
     const std::int64_t latest = now_ns() - limit.count();
     const bool starves = claimed_ns_.load(std::memory_order_relaxed) < latest && waits_since(latest);
-    return !starves &&
+    return !starves && caller_.turn.within(limit) &&
            std::ranges::all_of(workers_, [&](const auto& worker) { return worker->turn.within(limit); });
 }
 
@@ -180,6 +185,24 @@ bool WorkerPool::waits_since(std::int64_t ns) const {
             return true;
     }
     return false;
+}
+
+void BriefTurns::schedule(Strand& strand) {
+    if (strand.pending_.fetch_add(1, std::memory_order_acq_rel) != 0) return;
+    const std::int64_t usual_ns = strand.usual_ns_.load(std::memory_order_relaxed);
+    if (!lock_ || usual_ns > left_ns_) return pool_.mark_ready(strand.slot_);
+    left_ns_ -= usual_ns;
+    pool_.brief_.push_back(&strand);
+}
+
+BriefTurns::~BriefTurns() {
+    if (!lock_) return;
+    for (Strand* strand : pool_.brief_) {
+        pool_.caller_.turn.begin();
+        pool_.run(pool_.caller_, *strand);
+        pool_.caller_.turn.end();
+    }
+    pool_.brief_.clear();
 }
 
 }  // namespace camdir::director

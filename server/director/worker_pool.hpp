@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <thread>
 #include <vector>
 
@@ -18,7 +19,7 @@ namespace camdir::director {
 
 class Turn;
 
-// Work that at most one worker does at a time.
+// Work that at most one thread does at a time.
 class Strand {
   public:
     Strand() = default;
@@ -28,12 +29,15 @@ class Strand {
 
   private:
     friend class WorkerPool;
+    friend class BriefTurns;
 
     // Processes what is pending. It may leave some of it for another turn that it asks for. An exception is a
     // bug and ends the process.
     virtual void turn(Turn& turn) noexcept = 0;
 
     std::atomic<std::uint32_t> pending_{0};  // schedule() calls not yet covered by a finished turn
+    // The mean of its last turns; long before the first one.
+    std::atomic<std::int64_t> usual_ns_{1'000'000};
     std::size_t slot_ = 0;
 };
 
@@ -60,13 +64,12 @@ class WorkerPool {
     // Waits until the strand is idle.
     static void wait_idle(const Strand& strand);
 
-    // True when no worker has been busy with one turn, its own or others', for longer than `limit`, and no
+    // True when no thread has been busy with one turn, its own or others', for longer than `limit`, and no
     // turn that is due has waited so long for the next free worker. Thread-safe.
     [[nodiscard]] bool responsive(std::chrono::nanoseconds limit) const;
 
     [[nodiscard]] std::size_t workers() const { return workers_.size(); }
-    // That the workers have spent on turns and on helping, all together, without those that go on.
-    // Thread-safe.
+    // That all threads have spent on turns and on helping, together, without those that go on. Thread-safe.
     [[nodiscard]] std::chrono::nanoseconds busy() const;
 
     // Joins the workers. Strands scheduled afterwards get no turn.
@@ -74,9 +77,10 @@ class WorkerPool {
 
   private:
     friend class Turn;
+    friend class BriefTurns;
 
     struct alignas(64) Worker {
-        std::thread thread;
+        std::thread thread;    // none: whoever calls
         std::size_t lane = 0;  // when it helps others: from 1
         TurnTimer turn;        // or helping
         SharedWork shared;     // of its turn
@@ -101,6 +105,29 @@ class WorkerPool {
     sem_t work_available_;                                   // one permit per ready bit and per call
     std::atomic<bool> stopping_{false};
     std::vector<std::unique_ptr<Worker>> workers_;
+    std::mutex calling_;  // guards the next two
+    Worker caller_;
+    std::vector<Strand*> brief_;
+};
+
+// Turns that the calling thread runs itself where they are brief: waking a worker for one would cost more.
+// What is long, or more than the caller has time for, is the workers'. Of several threads that schedule at
+// the same time one runs turns, and the workers run those of the others.
+class BriefTurns {
+  public:
+    explicit BriefTurns(WorkerPool& pool) : pool_(pool), lock_(pool.calling_, std::try_to_lock) {}
+    BriefTurns(const BriefTurns&) = delete;
+    BriefTurns& operator=(const BriefTurns&) = delete;
+    // Runs them. The thread must have locked nothing that a turn may wait for.
+    ~BriefTurns();
+
+    // Gives the strand a turn that begins after this call: on a worker, or in the destructor.
+    void schedule(Strand& strand);
+
+  private:
+    WorkerPool& pool_;
+    std::unique_lock<std::mutex> lock_;
+    std::int64_t left_ns_ = 300'000;  // of the caller's time
 };
 
 // What a strand may ask of the pool during its turn.

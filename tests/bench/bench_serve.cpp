@@ -23,8 +23,8 @@ void print_heading() {
                  "the p50; "
                  "processor time of the server.\n\n"
                  "| matches x shots | frames/s | p50 | p99 | raw p50 | raw p99 | ratio | cores | raw cores "
-                 "| us a match frame | raw | cameras/s a core |\n"
-                 "|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+                 "| us a match frame | raw | waits a match frame | raw | cameras/s a core |\n"
+                 "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
 }
 
 void print(const Load& load, const Served& served, const Served& raw) {
@@ -33,7 +33,8 @@ void print(const Load& load, const Served& served, const Served& raw) {
               << raw.p50_ms << " | " << raw.p99_ms << " | " << served.p50_ms / raw.p50_ms << " | "
               << served.cores << " | " << raw.cores << std::setprecision(0) << " | "
               << served.microseconds_a_frame(load) << " | " << raw.microseconds_a_frame(load) << " | "
-              << served.cameras_a_core(load) << " |" << std::endl;
+              << std::setprecision(2) << served.waits_a_frame(load) << " | " << raw.waits_a_frame(load)
+              << " | " << std::setprecision(0) << served.cameras_a_core(load) << " |" << std::endl;
 }
 
 // The most matches of 8 shots that the server holds, to an eighth: doubled until it does not, then narrowed.

@@ -77,8 +77,10 @@ class Receiver {
                     });
             case 1:
                 return take<camera_director_PoseFrame, director::PoseFrame>(
-                    camera_director_PoseFrame_desc, fields,
-                    [&](const auto& match_id, const auto& frame) { director_.receive(match_id, frame); });
+                    camera_director_PoseFrame_desc, fields, [&](const auto& match_id, const auto& frame) {
+                        director::PoseArrival arrival{match_id, frame};
+                        director_.receive({&arrival, 1});
+                    });
             case 2:
                 return take<camera_director_MatchEvent, director::MatchEvent>(
                     camera_director_MatchEvent_desc, fields,

@@ -5,6 +5,7 @@
 #include <deque>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
@@ -30,6 +31,7 @@ constexpr std::chrono::milliseconds sampling{250};
 struct Usage {
     double at;  // of a steady clock
     double processor;
+    double waits;  // of its threads, for something to do: voluntary context switches
 };
 
 double seconds_of(clockid_t clock) {
@@ -43,6 +45,18 @@ double number_after(const std::string& text, const std::string& before) {
     const std::size_t found = text.find(before);
     if (found == std::string::npos) throw std::runtime_error("no \"" + before + "\" in: " + text);
     return std::stod(text.substr(found + before.size()));
+}
+
+// Of the threads that run now.
+double waits_of(pid_t process) {
+    double waits = 0.0;
+    for (const auto& thread :
+         std::filesystem::directory_iterator("/proc/" + std::to_string(process) + "/task")) {
+        std::ifstream file(thread.path() / "status");
+        const std::string status{std::istreambuf_iterator<char>(file), {}};
+        if (!status.empty()) waits += number_after(status, "\nvoluntary_ctxt_switches:");
+    }
+    return waits;
 }
 
 class ServerProcess {
@@ -61,7 +75,9 @@ class ServerProcess {
             throw std::runtime_error("camera-director is not ready: " + process_.errors());
     }
 
-    [[nodiscard]] Usage usage() const { return {seconds_of(CLOCK_MONOTONIC), seconds_of(clock_)}; }
+    [[nodiscard]] Usage usage() const {
+        return {seconds_of(CLOCK_MONOTONIC), seconds_of(clock_), waits_of(process_.pid())};
+    }
 
   private:
     static std::vector<std::string> command(const Bench& bench, Server server, std::uint32_t domain,
@@ -89,6 +105,7 @@ void set_cost(Served& served, const std::deque<Usage>& usages, double seconds) {
     while (first->at < last.at - seconds)
         ++first;
     served.cores = (last.processor - first->processor) / (last.at - first->at);
+    served.waits_per_s = (last.waits - first->waits) / (last.at - first->at);
 }
 
 }  // namespace

@@ -23,9 +23,13 @@ struct Served {
     double frames_per_s = 0.0;          // that an observer receives
     double p50_ms = 0.0, p99_ms = 0.0;  // from the poses' sending to the cameras' arrival
     double cores = 0.0;                 // of the server
+    double waits_per_s = 0.0;           // of its threads
 
     [[nodiscard]] double microseconds_a_frame(const Load& load) const {
         return 1e6 * cores / (load.matches * load.rate_hz);
+    }
+    [[nodiscard]] double waits_a_frame(const Load& load) const {
+        return waits_per_s / (load.matches * load.rate_hz);
     }
     [[nodiscard]] double cameras_a_core(const Load& load) const {
         return load.matches * load.shots * frames_per_s / cores;

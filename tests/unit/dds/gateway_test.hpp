@@ -8,6 +8,7 @@
 #include <chrono>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -41,8 +42,9 @@ class Recorder final : public director::Ingress {
     }
     void server_lost(const std::string& match_id) override { note("silent " + match_id); }
     void match_ended(const std::string& match_id) override { note("over " + match_id); }
-    void receive(const std::string& match_id, const director::PoseFrame& frame) override {
-        note("pose " + match_id + " " + std::to_string(frame.frame_number));
+    void receive(std::span<director::PoseArrival> arrivals) override {
+        for (const auto& [match_id, frame] : arrivals)
+            note("pose " + match_id + " " + std::to_string(frame.frame_number));
     }
     void receive(const std::string& match_id, const director::MatchEvent& event) override {
         note("event " + match_id + " " + std::to_string(event.kind) + " " + event.detail);

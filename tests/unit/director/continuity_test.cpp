@@ -144,7 +144,7 @@ TEST(LostFrames, ATeleportCutsInADelayedMatch) {
     stage.start(info);
     stage.ask(Stage::request("a"));
     for (std::uint32_t number = 0; number < 20; ++number)
-        if (number != 10) stage.director.receive("m", teleported(number, 10));
+        if (number != 10) receive(stage.director, "m", teleported(number, 10));
     ASSERT_TRUE(eventually([&] {
         const auto shown = stage.publisher.frames();
         return !shown.empty() && shown.back().pose_number == 19;

@@ -185,7 +185,7 @@ std::vector<CameraFrame> shown_by(std::int64_t workers) {
     for (const std::uint32_t target : {1U, 2U, 3U})
         stage.ask(Stage::request("observer " + std::to_string(target), target));
     for (std::uint32_t number = 0; number < recorded; ++number) {
-        stage.director.receive("m", Stage::poses(number));
+        receive(stage.director, "m", Stage::poses(number));
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
     EXPECT_TRUE(eventually([&] {

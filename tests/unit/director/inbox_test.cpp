@@ -23,6 +23,8 @@ class InboxTest : public testing::Test {
         return sum[counter];
     }
 
+    bool put(PoseFrame frame, std::int64_t received_ns) { return inbox_.put(frame, received_ns); }
+
     MatchCounters counters_;
     Pace pace_;
     Inbox inbox_{10, pace_, counters_};
@@ -43,9 +45,9 @@ TEST_F(InboxTest, MessagesKeepTheirOrder) {
 }
 
 TEST_F(InboxTest, TheNewestFrameWins) {
-    inbox_.put(frame(1, 1), 10);
-    inbox_.put(frame(1, 3), 30);
-    inbox_.put(frame(1, 2), 20);
+    put(frame(1, 1), 10);
+    put(frame(1, 3), 30);
+    put(frame(1, 2), 20);
     inbox_.take(content_);
     EXPECT_TRUE(content_.has_frame);
     EXPECT_EQ(content_.frame.frame_number, 3U);
@@ -56,6 +58,19 @@ TEST_F(InboxTest, TheNewestFrameWins) {
     EXPECT_FALSE(content_.has_frame);
 }
 
+TEST_F(InboxTest, AFrameIsTakenAndMemoryLeftInItsPlace) {
+    PoseFrame taken = frame(1, 1);
+    const PlayerPose* poses = taken.poses.data();
+    inbox_.put(taken, 10);
+    inbox_.take(content_);
+    EXPECT_EQ(content_.frame.poses.data(), poses);
+    PoseFrame next = frame(1, 2);
+    inbox_.put(next, 20);
+    inbox_.take(content_);
+    inbox_.put(taken = frame(1, 3), 30);
+    EXPECT_EQ(taken.poses.data(), poses) << "comes back when the frame was processed";
+}
+
 TEST_F(InboxTest, FramesThatCameTogetherAreNoSignOfBusyWorkers) {
     constexpr std::int64_t ms = 1'000'000;
     const auto sent_at = [](std::uint32_t number, std::int64_t time) {
@@ -63,12 +78,12 @@ TEST_F(InboxTest, FramesThatCameTogetherAreNoSignOfBusyWorkers) {
         sent.source_time = time;
         return sent;
     };
-    inbox_.put(sent_at(1, 0), 100 * ms);
-    inbox_.put(sent_at(2, 33 * ms), 101 * ms);  // both were held up
+    put(sent_at(1, 0), 100 * ms);
+    put(sent_at(2, 33 * ms), 101 * ms);  // both were held up
     EXPECT_EQ(counted(Counter::drop_burst), 1U);
-    inbox_.put(sent_at(3, 66 * ms), 134 * ms);  // nobody has taken the one before
+    put(sent_at(3, 66 * ms), 134 * ms);  // nobody has taken the one before
     EXPECT_EQ(counted(Counter::drop_superseded), 1U);
-    inbox_.put(sent_at(4, 66 * ms), 134 * ms);
+    put(sent_at(4, 66 * ms), 134 * ms);
     EXPECT_EQ(counted(Counter::drop_superseded), 2U) << "a sender whose clock stands";
     inbox_.take(content_);
     EXPECT_EQ(content_.frame.frame_number, 4U);
@@ -77,9 +92,9 @@ TEST_F(InboxTest, FramesThatCameTogetherAreNoSignOfBusyWorkers) {
 
 TEST_F(InboxTest, AFrameKeepsItsPlaceAmongTheMessages) {
     inbox_.put(MatchInfo{});
-    inbox_.put(frame(1, 1), 10);
+    put(frame(1, 1), 10);
     inbox_.put(MatchEvent{});
-    inbox_.put(frame(1, 2), 20);
+    put(frame(1, 2), 20);
     inbox_.put(MatchEnded{});
     inbox_.take(content_);
     EXPECT_EQ(content_.messages.size(), 3U);
@@ -87,25 +102,25 @@ TEST_F(InboxTest, AFrameKeepsItsPlaceAmongTheMessages) {
 }
 
 TEST_F(InboxTest, ANewEpochWinsWhateverItsNumber) {
-    inbox_.put(frame(1, 900), 1);
-    inbox_.put(frame(2, 1), 2);
-    inbox_.put(frame(1, 901), 3);
+    put(frame(1, 900), 1);
+    put(frame(2, 1), 2);
+    put(frame(1, 901), 3);
     inbox_.take(content_);
     EXPECT_EQ(content_.frame.epoch, 2U);
     EXPECT_EQ(counted(Counter::drop_old_epoch), 1U);
 }
 
 TEST_F(InboxTest, ARespawnIsNotLostWithItsFrame) {
-    inbox_.put(frame(1, 1, pose_alive | pose_discontinuity), 1);
-    inbox_.put(frame(1, 2), 2);
-    inbox_.put(frame(1, 3), 3);
+    put(frame(1, 1, pose_alive | pose_discontinuity), 1);
+    put(frame(1, 2), 2);
+    put(frame(1, 3), 3);
     inbox_.take(content_);
     EXPECT_EQ(content_.frame.poses.at(0).flags, pose_alive | pose_discontinuity);
-    inbox_.put(frame(1, 4), 4);
+    put(frame(1, 4), 4);
     inbox_.take(content_);
     EXPECT_EQ(content_.frame.poses.at(0).flags, pose_alive);
-    inbox_.put(frame(1, 5, pose_discontinuity), 5);
-    inbox_.put(frame(2, 1), 6);
+    put(frame(1, 5, pose_discontinuity), 5);
+    put(frame(2, 1), 6);
     inbox_.take(content_);
     EXPECT_EQ(content_.frame.poses.at(0).flags, pose_alive) << "another epoch's";
 }
@@ -117,7 +132,7 @@ TEST_F(InboxTest, AtASlowerPaceSomeFramesAreLeftOutEvenly) {
     std::vector<std::uint32_t> taken;
     for (std::uint32_t number = 1; number <= 9; ++number) {
         inbox_.put(RequestEnded{"a"});
-        const bool due = inbox_.put(frame(1, number, number == 4 ? pose_discontinuity : 0U), 10 * number);
+        const bool due = put(frame(1, number, number == 4 ? pose_discontinuity : 0U), 10 * number);
         inbox_.take(content_);
         EXPECT_EQ(content_.has_frame, due);
         EXPECT_EQ(content_.messages.size(), 1U) << "messages do not wait";

@@ -278,12 +278,12 @@ TEST(MatchLife, NothingIsPublishedAfterTheDrain) {
     Stage stage;
     stage.start();
     stage.ask(Stage::request("a"));
-    stage.director.receive("m", Stage::poses(1));
+    receive(stage.director, "m", Stage::poses(1));
     stage.director.drain();
     const std::size_t frames = stage.publisher.frames().size();
     EXPECT_EQ(frames, 1U) << "queued frames are processed";
     EXPECT_FALSE(stage.director.receive(Stage::info("other")));
-    stage.director.receive("m", Stage::poses(2));
+    receive(stage.director, "m", Stage::poses(2));
     stage.director.receive(Stage::request("b"));
     stage.director.maps_changed();
     stage.director.drain();

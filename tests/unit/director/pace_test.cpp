@@ -114,7 +114,7 @@ TEST(PaceTest, AnOverloadedDirectorDeclaresALowerRateAndSpeedsUpAgain) {
             PoseFrame frame = Stage::poses(++number);
             frame.source_time =
                 std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch()).count();
-            director.receive("m", frame);
+            receive(director, "m", frame);
             return condition();
         });
     };

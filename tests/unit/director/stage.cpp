@@ -72,6 +72,11 @@ bool MemoryPublisher::forgotten(const std::string& match_id) const {
     return forgotten_.contains(match_id);
 }
 
+void receive(Director& director, const std::string& match_id, const PoseFrame& frame) {
+    PoseArrival arrival{match_id, frame};
+    director.receive({&arrival, 1});
+}
+
 Stage::Stage(const config::Config& config) : director(config, maps, publisher) {
     maps.add("square", false);
     maps.set_ready("square", square());
@@ -141,7 +146,7 @@ void Stage::ask(const ObserverRequest& wanted) {
 }
 
 void Stage::send(const PoseFrame& frame, const std::string& match_id) {
-    director.receive(match_id, frame);
+    receive(director, match_id, frame);
     director.flush();
 }
 

@@ -44,6 +44,9 @@ class MemoryPublisher : public Publisher {
     std::set<std::string> forgotten_;
 };
 
+// The director receives this frame alone.
+void receive(Director& director, const std::string& match_id, const PoseFrame& frame);
+
 // A director with the map "square", in state ready; players walk around its middle.
 struct Stage {
     explicit Stage(const config::Config& config = default_config());

@@ -41,7 +41,7 @@ TEST(WorkerPool, AScheduledStrandGetsATurnThatBeginsLater) {
     pool.detach(strand);
 }
 
-TEST(WorkerPool, OneWorkerAtATimeRunsAStrand) {
+TEST(WorkerPool, OneThreadAtATimeRunsAStrand) {
     constexpr std::size_t strands = 130;  // more than two words of bits
     WorkerPool pool(8, strands);
     struct Counted {
@@ -60,11 +60,19 @@ TEST(WorkerPool, OneWorkerAtATimeRunsAStrand) {
         ASSERT_TRUE(pool.attach(*one.strand));
     }
     std::vector<std::thread> threads;
-    for (int t = 0; t < 4; ++t)
+    for (int t = 0; t < 2; ++t)
         threads.emplace_back([&] {
             for (int i = 0; i < 300; ++i)
                 for (Counted& one : counted)
                     pool.schedule(*one.strand);
+        });
+    for (int t = 0; t < 2; ++t)
+        threads.emplace_back([&] {
+            for (int i = 0; i < 300; ++i) {
+                BriefTurns turns(pool);
+                for (Counted& one : counted)
+                    turns.schedule(*one.strand);
+            }
         });
     for (std::thread& thread : threads)
         thread.join();
@@ -222,6 +230,210 @@ TEST(WorkerPool, HoldsNoMoreThanItsCapacity) {
     WorkerPool::wait_idle(c);
     pool.detach(b);
     pool.detach(c);
+}
+
+// Strands that count on which threads they have turns.
+class BriefTurnsTest : public testing::Test {
+  protected:
+    struct Turns {
+        std::atomic<int> here{0}, elsewhere{0};
+    };
+
+    std::unique_ptr<FunctionStrand> strand(
+        Turns& turns, std::function<void()> work = [] {}) {
+        auto strand = std::make_unique<FunctionStrand>([&turns, here = here_, work] {
+            work();
+            ++(std::this_thread::get_id() == here ? turns.here : turns.elsewhere);
+        });
+        EXPECT_TRUE(pool_.attach(*strand));
+        return strand;
+    }
+    void schedule(std::initializer_list<FunctionStrand*> strands) {
+        BriefTurns turns(pool_);
+        for (FunctionStrand* one : strands)
+            turns.schedule(*one);
+    }
+    // Schedules these until the calling thread runs the turn that is counted: what is known of it is that of
+    // its last turns, and a busy machine may make any of them long.
+    void schedule_until_here(std::initializer_list<FunctionStrand*> strands, const Turns& turns) {
+        const int before = turns.here;
+        ASSERT_TRUE(test::eventually([&] {
+            schedule(strands);
+            return turns.here > before;
+        }));
+    }
+
+    const std::thread::id here_ = std::this_thread::get_id();
+    WorkerPool pool_{2, 8};
+};
+
+TEST_F(BriefTurnsTest, AreRunOnTheCallingThreadOnceKnown) {
+    Turns turns;
+    const auto brief = strand(turns);
+    schedule({brief.get()});
+    WorkerPool::wait_idle(*brief);
+    EXPECT_EQ(turns.elsewhere, 1) << "nothing is known of it yet";
+    ASSERT_TRUE(test::eventually([&] {
+        WorkerPool::wait_idle(*brief);
+        const int elsewhere = turns.elsewhere;
+        schedule({brief.get(), brief.get()});
+        if (turns.here == 0) return false;
+        EXPECT_TRUE(WorkerPool::idle(*brief));
+        EXPECT_EQ(turns.elsewhere, elsewhere) << "one turn covers what was scheduled before it";
+        return true;
+    }));
+    EXPECT_EQ(turns.here, 1);
+}
+
+TEST_F(BriefTurnsTest, LongOnesAreTheWorkers) {
+    Turns turns;
+    const auto slow = strand(turns, [] { std::this_thread::sleep_for(std::chrono::milliseconds(5)); });
+    for (int i = 0; i < 20; ++i) {
+        schedule({slow.get()});
+        WorkerPool::wait_idle(*slow);
+    }
+    EXPECT_EQ(turns.here, 0);
+    EXPECT_EQ(turns.elsewhere, 20);
+}
+
+TEST_F(BriefTurnsTest, DoNotWaitForLongOnes) {
+    Turns turns, slow_turns;
+    std::promise<void> release;
+    const std::shared_future<void> released = release.get_future().share();
+    const auto slow = strand(slow_turns, [released] { released.wait(); });
+    const auto brief = strand(turns);
+    schedule_until_here({slow.get(), brief.get()}, turns);
+    EXPECT_FALSE(WorkerPool::idle(*slow));
+    EXPECT_EQ(slow_turns.here, 0);
+    release.set_value();
+    WorkerPool::wait_idle(*slow);
+    EXPECT_GE(slow_turns.elsewhere, 1);
+}
+
+TEST_F(BriefTurnsTest, WhatTheCallerHasNoTimeForIsTheWorkers) {
+    constexpr std::size_t count = 40;
+    WorkerPool pool(2, count);
+    std::atomic<int> faults{0};
+    std::vector<std::atomic<int>> here(count), turns(count);
+    std::vector<std::unique_ptr<FunctionStrand>> strands;
+    for (std::size_t i = 0; i < count; ++i) {
+        strands.push_back(std::make_unique<FunctionStrand>([&, i] {
+            const auto end = std::chrono::steady_clock::now() + std::chrono::microseconds(100);
+            while (std::chrono::steady_clock::now() < end) {
+            }
+            ++turns[i];
+            if (std::this_thread::get_id() == here_) ++here[i];
+        }));
+        ASSERT_TRUE(pool.attach(*strands[i]));
+    }
+    int most = 0;
+    for (int round = 1; round <= 50; ++round) {
+        {
+            BriefTurns brief(pool);
+            for (const auto& one : strands)
+                brief.schedule(*one);
+        }
+        int together = 0;
+        for (std::size_t i = 0; i < count; ++i) {
+            WorkerPool::wait_idle(*strands[i]);
+            faults += turns[i] == round ? 0 : 1;
+            together += here[i].exchange(0);
+        }
+        most = std::max(most, together);
+    }
+    EXPECT_EQ(faults, 0) << "each has one turn each time";
+    EXPECT_LE(most, 3) << "0.3 ms of the caller's time";
+}
+
+TEST_F(BriefTurnsTest, AreCoveredByATurnThatGoesOnElsewhere) {
+    Turns turns;
+    std::atomic<bool> goes_on{false};
+    std::atomic<bool> holds{false};
+    const auto one = strand(turns, [&] {
+        goes_on = true;
+        while (holds)
+            std::this_thread::yield();
+    });
+    schedule_until_here({one.get()}, turns);
+    WorkerPool::wait_idle(*one);
+    const int here = turns.here;
+    const int elsewhere = turns.elsewhere;
+    goes_on = false;
+    holds = true;
+    pool_.schedule(*one);
+    while (!goes_on)
+        std::this_thread::yield();
+    schedule({one.get()});
+    holds = false;
+    WorkerPool::wait_idle(*one);
+    EXPECT_EQ(turns.here, here);
+    EXPECT_EQ(turns.elsewhere, elsewhere + 2) << "its next turn begins after the call";
+}
+
+TEST_F(BriefTurnsTest, AreDetectedWhereTheyHang) {
+    Turns turns;
+    std::atomic<bool> hangs{false};
+    const auto one = strand(turns, [&] {
+        while (hangs)
+            std::this_thread::yield();
+    });
+    const auto hang = [&] {
+        hangs = true;
+        std::thread watch([&] {
+            while (pool_.responsive(std::chrono::milliseconds(1)))
+                std::this_thread::yield();
+            EXPECT_TRUE(pool_.responsive(std::chrono::hours(1)));
+            hangs = false;
+        });
+        schedule({one.get()});
+        watch.join();
+        WorkerPool::wait_idle(*one);
+    };
+    schedule_until_here({one.get()}, turns);
+    ASSERT_TRUE(test::eventually([&] {
+        WorkerPool::wait_idle(*one);
+        const int before = turns.here;
+        hang();
+        if (turns.here > before) return true;
+        schedule_until_here({one.get()}, turns);  // it has become long for what is known
+        return false;
+    }));
+    EXPECT_TRUE(test::eventually([&] { return pool_.responsive(std::chrono::milliseconds(100)); }));
+}
+
+TEST_F(BriefTurnsTest, HaveTheHelpOfIdleWorkers) {
+    WorkerPool pool(2, 1);
+    std::atomic<int> together{0};
+    std::atomic<int> missed{0};
+    std::atomic<bool> shares{false};
+    std::atomic<int> here{0};
+    FunctionStrand one([&](Turn& turn) {
+        if (std::this_thread::get_id() != here_) return;
+        ++here;
+        if (!shares) return;
+        turn.share(2, 1, [&](std::size_t /*lane*/, std::size_t /*item*/) {
+            ++together;
+            if (!test::eventually([&] { return together == 2; })) ++missed;
+        });
+    });
+    ASSERT_TRUE(pool.attach(one));
+    const auto schedule = [&] {
+        BriefTurns turns(pool);
+        turns.schedule(one);
+    };
+    ASSERT_TRUE(test::eventually([&] {
+        schedule();
+        WorkerPool::wait_idle(one);
+        return here > 0;
+    }));
+    shares = true;
+    ASSERT_TRUE(test::eventually([&] {
+        schedule();
+        WorkerPool::wait_idle(one);
+        return together > 0;
+    }));
+    EXPECT_EQ(together, 2);
+    EXPECT_EQ(missed, 0);
 }
 
 }  // namespace
