@@ -78,7 +78,10 @@ class DelayedTimes {
     const std::int64_t start_ = ms;
     MapLibrary maps_;
     Pace pace_;
-    Match match_{"m", std::make_shared<config::Config>(Stage::default_config()), maps_, pace_, publisher};
+    const Audiences no_audiences_;
+    Match match_{"m",       std::make_shared<config::Config>(Stage::default_config()),
+                 maps_,     pace_,
+                 publisher, no_audiences_};
     WorkerPool pool_{2, 1};
 };
 
