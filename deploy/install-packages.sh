@@ -46,9 +46,11 @@ if [ "$(id -u)" -ne 0 ]; then
 fi
 
 echo "Installing ${#missing[@]} packages: ${missing[*]}"
-# Debian would start Prometheus, which listens on all interfaces, as soon as it is installed.
-if [[ " ${missing[*]} " = *" prometheus "* ]] && command -v systemctl >/dev/null; then
-    "${as_root[@]}" systemctl mask prometheus.service
-fi
+# Debian would start these, which listen on all interfaces, as soon as they are installed.
+for package in prometheus nginx-light; do
+    if [[ " ${missing[*]} " = *" $package "* ]] && command -v systemctl >/dev/null; then
+        "${as_root[@]}" systemctl mask "${package%-light}.service"
+    fi
+done
 "${as_root[@]}" apt-get update -q
 "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends "${missing[@]}"

@@ -29,6 +29,7 @@ void add_verify(CLI::App& root, Run& run);
 void add_export(CLI::App& root, Run& run);
 void add_evaluate(CLI::App& root, Run& run);
 void add_direct(CLI::App& root, Run& run);
+void add_play(CLI::App& root, Run& run);
 void add_render(CLI::App& root, Run& run);
 
 // Prints the error to standard error as `camera-director: message`; returns the exit code that it stands for.

@@ -10,6 +10,7 @@
 #include "app/direct_match.hpp"
 #include "app/evaluate_inputs.hpp"
 #include "app/progress.hpp"
+#include "app/recorded_match.hpp"
 #include "base/file.hpp"
 #include "config/config.hpp"
 #include "direction/baselines.hpp"
@@ -49,7 +50,7 @@ Result<Inputs> read_inputs(const DirectOptions& options, ProgressLine& line) {
     auto config = options.config.empty() ? config::parse("{}", "", "") : config::load(options.config);
     if (!config) return tl::unexpected(config.error());
     line.show("reading " + options.trace, 0, 0);
-    auto trace = evaluation::read_trace(options.trace);
+    auto trace = read_trace(options.trace);
     if (!trace) return tl::unexpected(trace.error());
     if (auto fits = check_length(*trace); !fits) return fail(options.trace + ": " + fits.error().message);
     auto events = evaluation::read_events(options.events, *trace);
@@ -275,7 +276,9 @@ void add_direct(CLI::App& root, Run& run) {
     command->add_option("FILE.vfs", options->freespace, "The map's baked freespace")->required();
     command->add_option("--map", options->map, "The source map: a file, or archive.pk3:maps/name.bsp")
         ->required();
-    command->add_option("--trace", options->trace, "The recorded match, CSV or CSV.gz")->required();
+    command
+        ->add_option("--trace", options->trace, "The recorded match, CSV or CSV.gz, or a recording's folder")
+        ->required();
     command->add_option("--events", options->events, "The match's events, CSV or CSV.gz")->required();
     command->add_option("--config", options->config,
                         "Configuration that has the rules and lengths of shots; default: those that ship");

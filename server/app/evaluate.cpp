@@ -188,7 +188,9 @@ void add_evaluate(CLI::App& root, Run& run) {
     command->add_option("FILE.vfs", options->freespace, "The map's baked freespace; what the tracker sees");
     command->add_option("--map", options->map, "The source map: a file, or archive.pk3:maps/name.bsp")
         ->required();
-    command->add_option("--trace", options->trace, "The recorded match, CSV or CSV.gz")->required();
+    command
+        ->add_option("--trace", options->trace, "The recorded match, CSV or CSV.gz, or a recording's folder")
+        ->required();
     command->add_option("--events", options->events, "The match's events, CSV or CSV.gz: kills in view");
     command->add_option("--config", options->config,
                         "Configuration that has the profile; default: those that ship");

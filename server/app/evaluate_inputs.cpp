@@ -2,6 +2,7 @@
 
 #include <iostream>
 
+#include "app/recorded_match.hpp"
 #include "evaluation/resample.hpp"
 #include "maps/source.hpp"
 #include "scene/load.hpp"
@@ -9,7 +10,7 @@
 namespace camdir::app {
 
 Result<Match> read_match(const EvaluateOptions& options) {
-    auto trace = evaluation::read_trace(options.trace);
+    auto trace = read_trace(options.trace);
     if (!trace) return tl::unexpected(trace.error());
     Match match;
     if (!options.events.empty()) {

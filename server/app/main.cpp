@@ -21,6 +21,7 @@ int run_command(int argc, char** argv) {
     add_direct(root, run);
     add_render(root, run);
     add_serve(root, run);
+    add_play(root, run);
     try {
         root.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

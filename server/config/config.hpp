@@ -41,6 +41,12 @@ struct Http {
     std::int64_t match_metrics = 0;
 };
 
+struct Recording {
+    std::string folder;  // empty: nothing is recorded
+    std::int64_t disk_mib = 10'240;
+    std::int64_t match_mib = 2'048;
+};
+
 // The ranges of these two keys of a map, besides 0 for their default, and of the options of `bake`.
 inline constexpr double min_d0 = 2.0;
 inline constexpr double max_d0 = 256.0;
@@ -108,6 +114,7 @@ struct Log {
 struct Config {
     Dds dds;
     Http http;
+    Recording recording;
     std::vector<Map> maps;                            // names are distinct
     std::map<std::string, camera::Profile> profiles;  // always has those that ship (camera/profile.hpp)
     std::optional<OverrideRanges> overrides;          // none: every key, within its own range

@@ -130,7 +130,7 @@ void add_http(std::vector<Key>& table) {
     const std::string section = "/http";
     const auto slot = [](auto member) { return in(&Config::http, member); };
     table.push_back({section, "enabled", slot(&Http::enabled),
-                     "Serves /-/healthy, /-/ready, /metrics, /status, /hand-over."});
+                     "Serves /-/healthy, /-/ready, /metrics, /status, /broadcast, /hand-over."});
     table.push_back({section, "address", slot(&Http::address),
                      "Address to listen on. One that other hosts reach needs a `token_file`.", "", 1, 255});
     table.push_back(
@@ -144,6 +144,22 @@ void add_http(std::vector<Key>& table) {
                      "Matches that have metrics of their own, with the label `match`: as many of those that "
                      "began first. 0: none.",
                      "", 0, 4096});
+}
+
+void add_recording(std::vector<Key>& table) {
+    const std::string section = "/recording";
+    const auto slot = [](auto member) { return in(&Config::recording, member); };
+    table.push_back({section, "folder", slot(&Recording::folder),
+                     "Folder for the recordings, each in a folder of its own; only one director may use it. "
+                     "Empty: nothing is recorded. Relative paths start at the configuration's folder.",
+                     "", 0, 4095});
+    table.push_back({section, "disk_mib", slot(&Recording::disk_mib),
+                     "Disk for all recordings. Beyond it the oldest that have ended are removed, then the "
+                     "oldest parts of the others.",
+                     "MiB", 16, 1'000'000'000});
+    table.push_back({section, "match_mib", slot(&Recording::match_mib),
+                     "Disk for each recording. Beyond it its oldest parts are removed.", "MiB", 1,
+                     1'000'000'000});
 }
 
 void add_maps(std::vector<Key>& table) {
@@ -571,6 +587,7 @@ const std::vector<Section>& sections() {
     static const std::vector<Section> list = {
         {"/dds", "The network. Takes effect at a restart; `shards` and `shard` are reloaded by SIGHUP."},
         {"/http", "Health, readiness, metrics and status. Takes effect at a restart."},
+        {"/recording", "Recordings of all matches, as observers see them. Takes effect at a restart."},
         {"/maps", "The list of maps that are served. Reloaded by SIGHUP."},
         {"/profiles",
          "Camera profiles by name; observers request a profile by its name and may override its keys. " +
@@ -606,6 +623,7 @@ const std::vector<Key>& keys() {
         std::vector<Key> all;
         add_dds(all);
         add_http(all);
+        add_recording(all);
         add_maps(all);
         add_profiles(all);
         add_matches(all);

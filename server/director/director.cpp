@@ -46,7 +46,8 @@ struct Director::Impl {
         std::uint64_t place = 0;  // among the matches that have begun
     };
 
-    Impl(const config::Config& configuration, const MapLibrary& library, Publisher& results);
+    Impl(const config::Config& configuration, const MapLibrary& library, Publisher& results,
+         Audiences spectators);
 
     // With the mutex held, shared or exclusively.
     Match* find(const std::string& match_id) const;
@@ -80,6 +81,7 @@ struct Director::Impl {
 
     const MapLibrary& maps;
     Publisher& publisher;
+    const Audiences audiences;
     Pace pace;
     // At the beginning of the interval: used by the housekeeper only.
     std::int64_t observed_ns = now_ns();
@@ -104,9 +106,11 @@ struct Director::Impl {
     std::jthread housekeeper;
 };
 
-Director::Impl::Impl(const config::Config& configuration, const MapLibrary& library, Publisher& results)
+Director::Impl::Impl(const config::Config& configuration, const MapLibrary& library, Publisher& results,
+                     Audiences spectators)
     : maps(library),
       publisher(results),
+      audiences(std::move(spectators)),
       config(std::make_shared<const config::Config>(configuration)),
       pool(worker_count(config->limits), max_matches(config->limits)),
       housekeeper([this](const std::stop_token& stop) { run_housekeeping(stop); }) {}
@@ -155,7 +159,7 @@ std::size_t Director::Impl::count(bool has_server) const {
 
 Director::Impl::Entry* Director::Impl::find_or_add(const std::string& match_id) {
     if (const auto found = matches.find(match_id); found != matches.end()) return &found->second;
-    auto match = std::make_unique<Match>(match_id, config, maps, pace, publisher);
+    auto match = std::make_unique<Match>(match_id, config, maps, pace, publisher, audiences);
     if (!pool.attach(*match)) return nullptr;
     Entry& entry = matches[match_id];
     entry.match = std::move(match);
@@ -281,8 +285,9 @@ bool Director::Impl::remove_abandoned(const std::string& match_id, Match& match)
     return true;
 }
 
-Director::Director(const config::Config& config, const MapLibrary& maps, Publisher& publisher)
-    : impl_(std::make_unique<Impl>(config, maps, publisher)) {}
+Director::Director(const config::Config& config, const MapLibrary& maps, Publisher& publisher,
+                   Audiences audiences)
+    : impl_(std::make_unique<Impl>(config, maps, publisher, std::move(audiences))) {}
 
 Director::~Director() {
     drain();

@@ -51,11 +51,12 @@ std::int64_t silence_limit_ns(const MatchInfo& info, const config::Matches& rule
 }
 
 Match::Match(std::string match_id, std::shared_ptr<const config::Config> config, const MapLibrary& maps,
-             const Pace& pace, Publisher& publisher)
+             const Pace& pace, Publisher& publisher, const Audiences& audiences)
     : match_id_(std::move(match_id)),
       maps_(maps),
       pace_(pace),
       publisher_(publisher),
+      audiences_(audiences),
       inbox_(2 * static_cast<std::size_t>(config->limits.observers) + max_view_requests, pace, counters_),
       delay_(static_cast<std::size_t>(config->limits.delay_mib) << 20U),
       config_(std::move(config)),
@@ -104,6 +105,8 @@ void Match::publish_info() {
     MatchInfo shown = *info_;
     shown.rate_hz /= static_cast<float>(frames_per_camera_);
     publisher_.publish(shown);
+    for (Audience* audience : audiences_)
+        audience->show(shown);
 }
 
 void Match::begin_epoch() {
@@ -147,6 +150,8 @@ void Match::handle(const MatchEnded& /*ended*/) {
     if (info_) {
         spdlog::info("match {}: ended", match_id_);
         publisher_.end(match_id_);
+        for (Audience* audience : audiences_)
+            audience->end(match_id_);
     }
     info_.reset();
     last_event_.reset();
@@ -172,16 +177,22 @@ void Match::handle(const MatchEvent& event) {
     if (has_last_frame_) clamped.frame_time = std::min(clamped.frame_time, latest_event_time(last_time_));
     attention_.record(clamped, config_->matches.automatic_half_life_s);
     last_event_ = event;
+    for (Audience* audience : audiences_)
+        audience->show(match_id_, event);
 }
 
 void Match::handle(const ObserverRequest& request) {
     counters_.add(Counter::requests);
     requests_.put(request, *config_, epoch());
+    for (Audience* audience : audiences_)
+        audience->request(request);
     reconcile_needed_ = true;
 }
 
 void Match::handle(const RequestEnded& ended) {
     requests_.remove(ended.observer_id, *config_);
+    for (Audience* audience : audiences_)
+        audience->request_ended(match_id_, ended.observer_id);
     reconcile_needed_ = true;
 }
 

@@ -31,7 +31,7 @@ namespace camdir::director {
 class Match final : public Strand {
   public:
     Match(std::string match_id, std::shared_ptr<const config::Config> config, const MapLibrary& maps,
-          const Pace& pace, Publisher& publisher);
+          const Pace& pace, Publisher& publisher, const Audiences& audiences);
 
     [[nodiscard]] Inbox& inbox() { return inbox_; }
     // Of what the game server sends; it leaves to the inbox.
@@ -94,6 +94,7 @@ class Match final : public Strand {
     [[nodiscard]] bool has_cut_since(const CameraFrame& shown, std::uint32_t camera_id) const;
 
     void process(PoseFrame& frame, std::int64_t received_ns, Turn& turn);
+    void show(const PoseFrame& frame, const CameraFrame& cameras);
     [[nodiscard]] bool accept(const PoseFrame& frame);
     void mark_discontinuities(PoseFrame& frame);
     void record(const PoseFrame& frame);
@@ -122,6 +123,7 @@ class Match final : public Strand {
     const MapLibrary& maps_;
     const Pace& pace_;
     Publisher& publisher_;
+    const Audiences& audiences_;
     MatchCounters counters_;
     Inbox inbox_;
     DelayBuffer delay_;

@@ -46,6 +46,10 @@ std::span<const PlayerPose> tracked(const PoseFrame& frame, const config::Limits
         .first(std::min(frame.poses.size(), static_cast<std::size_t>(limits.players)));
 }
 
+CameraFrame no_cameras(const PoseFrame& frame) {
+    return {frame.epoch, 0, frame.frame_number, frame.frame_time, frame.source_time, {}};
+}
+
 }  // namespace
 
 void Match::process(PoseFrame& frame, std::int64_t received_ns, Turn& turn) {
@@ -58,16 +62,27 @@ void Match::process(PoseFrame& frame, std::int64_t received_ns, Turn& turn) {
         by_timeline_ = !by_timeline_;
         requests_.restart_shots();
     }
-    if (!freespace_) return counters_.add(Counter::drop_waiting);
+    if (!freespace_) {
+        counters_.add(Counter::drop_waiting);
+        return show(frame, no_cameras(frame));
+    }
     if (frames_per_camera_ != pace_.frames_per_camera()) publish_info();
-    if (!requests_.shots().empty()) {
+    if (requests_.shots().empty()) {
+        show(frame, no_cameras(frame));
+    } else {
         newest_own_ = own_frame_count_++ % own_frames_.size();
         CameraFrame& cameras = own_frames_[newest_own_];
         move_cameras(frame, dt, cameras, turn);
         publisher_.publish(match_id_, cameras);
+        show(frame, cameras);
         counters_.latency.add(ns(Clock::now().time_since_epoch()) - received_ns);
     }
     after_silence_ = false;
+}
+
+void Match::show(const PoseFrame& frame, const CameraFrame& cameras) {
+    for (Audience* audience : audiences_)
+        audience->show(match_id_, frame, cameras);
 }
 
 bool Match::accept(const PoseFrame& frame) {

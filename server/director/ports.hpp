@@ -1,10 +1,11 @@
 // What connects the director with the outside: the ingress that takes messages in, the publisher that takes
-// results out. DDS implements the publisher and calls the ingress; tests use memory.
+// results out, audiences that look on. DDS implements the publisher and calls the ingress; tests use memory.
 #pragma once
 
 #include <chrono>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "director/messages.hpp"
 
@@ -62,5 +63,31 @@ class Publisher {
     // returns after this call takes precedence. Must not wait for such a call: it waits for this one.
     virtual void forget(const std::string& match_id) = 0;
 };
+
+// Sees of every match what its observers may know, and nothing earlier: game servers' messages after the
+// match's delay, in the order in which they take effect. The same matches in a new director with the same
+// maps and configuration give the same cameras.
+//
+// A director that stands by shows its matches as well: its state is the leader's. Called as a Publisher; a
+// call must also return at once, for cameras wait for it.
+class Audience {
+  public:
+    virtual ~Audience() = default;
+    // The match as Publisher::publish has it: new, changed, or of another epoch.
+    virtual void show(const MatchInfo& shown) = 0;
+    // Of every pose frame that is processed. Players that came back or were moved while no frame was
+    // processed have pose_discontinuity. `cameras` are those of this frame: none where nobody has asked for
+    // one, or the map is missing.
+    virtual void show(const std::string& match_id, const PoseFrame& poses, const CameraFrame& cameras) = 0;
+    virtual void show(const std::string& match_id, const MatchEvent& event) = 0;
+    // A request is new or has changed, be it refused or not. Requests may precede their match and outlive it:
+    // each ends by itself.
+    virtual void request(const ObserverRequest& request) = 0;
+    virtual void request_ended(const std::string& match_id, const std::string& observer_id) = 0;
+    // The match has been shown to its end.
+    virtual void end(const std::string& match_id) = 0;
+};
+
+using Audiences = std::vector<Audience*>;
 
 }  // namespace camdir::director

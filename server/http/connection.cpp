@@ -100,7 +100,7 @@ void Connection::note_time(ErrorCode error, Bound bound) {
 void Connection::serve(Request request) {
     const Page* page = find_page(request);
     if (auto refused = check(request, page, site_.access)) return send(std::move(*refused));
-    if (page->prompt) return send(answer(request, page->make(site_.sources)));
+    if (page->prompt) return send(answer(request, page->make(site_.sources, below(*page, request))));
     if (site_.slow_pages >= site_.limits.slow_pages) {
         site_.bounds_reached->add(Bound::slow_pages);
         return send(refusal(request, Status::service_unavailable));
@@ -112,7 +112,7 @@ void Connection::make(const Page& page, Request request) {
     ++site_.slow_pages;
     has_slow_page_ = true;
     asio::post(site_.makers, [self = shared_from_this(), &page, request = std::move(request)]() mutable {
-        Response response = answer(request, page.make(self->site_.sources));
+        Response response = answer(request, page.make(self->site_.sources, below(page, request)));
         auto& io = self->site_.io;
         asio::post(io, [self = std::move(self), response = std::move(response)]() mutable {
             self->send(std::move(response));

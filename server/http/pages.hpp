@@ -5,6 +5,7 @@
 #include <boost/beast/http/string_body.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "http/access.hpp"
 #include "http/server.hpp"
@@ -19,20 +20,27 @@ struct Content {
     Status status;
     std::string type;
     std::string text;
+    std::string cache_control = "no-store";
+    std::string tag = {};  // empty: none
 };
 
 struct Page {
     const char* path;
-    bool acts;    // is asked for by POST and changes the server, instead of GET or HEAD
-    bool open;    // for everyone, also from other hosts
-    bool prompt;  // waits for nothing and is small
-    Content (*make)(const Sources& sources);
+    bool has_parts;  // it also answers for the paths below
+    bool acts;       // is asked for by POST and changes the server, instead of GET or HEAD
+    bool open;       // for everyone, also from other hosts
+    bool prompt;     // waits for nothing and is small
+    // `below`: what of the path follows the page's own.
+    Content (*make)(const Sources& sources, std::string_view below);
 };
 
 // The page that a request names; null: there is none.
 [[nodiscard]] const Page* find_page(const Request& request);
 
-// The answer that carries `content`; to HEAD, its header.
+// What follows the page's own path in the request's.
+[[nodiscard]] std::string_view below(const Page& page, const Request& request);
+
+// The answer that carries `content`, or 304 when the client has what bears its tag; to HEAD, its header.
 [[nodiscard]] Response answer(const Request& request, Content content);
 
 // The answer to a request that is not served for the reason of `status`.

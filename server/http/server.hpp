@@ -1,4 +1,5 @@
-// The operator's pages: GET /-/healthy, /-/ready, /metrics, /status; POST /hand-over.
+// The operator's pages: GET /-/healthy, /-/ready, /metrics, /status; POST /hand-over. What viewers fetch:
+// GET /broadcast and below.
 #pragma once
 
 #include <prometheus/metric_family.h>
@@ -7,7 +8,9 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/error.hpp"
@@ -20,6 +23,13 @@ struct HandOver {
     std::size_t kept = 0;  // of these, for want of another that could serve them
 };
 
+// A resource that caches may keep.
+struct Resource {
+    std::string type;
+    std::string tag;  // like that of no other; empty: it changes within a second or so
+    std::string content;
+};
+
 // What the pages show and do. Called from the server's threads.
 struct Sources {
     // Wait for nothing: they are called between the reads and writes of all connections.
@@ -29,6 +39,8 @@ struct Sources {
     std::function<std::vector<prometheus::MetricFamily>()> metrics;  // to which the server adds its own
     std::function<std::string()> status;                             // JSON
     std::function<HandOver()> hand_over;
+    // Of a path below /broadcast, which is "" or begins with /; nullopt: there is none.
+    std::function<std::optional<Resource>(std::string_view path)> broadcast;
 };
 
 // Connections that exceed a time are closed.

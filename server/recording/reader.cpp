@@ -27,13 +27,19 @@ Result<std::vector<Record>> Reader::delta(std::uint32_t fragment) const {
     return records(fragment, ResourceKind::delta);
 }
 
+Result<std::int64_t> Reader::begin_time(std::uint32_t fragment) const {
+    const auto full = resource(fragment, ResourceKind::full);
+    if (!full) return tl::unexpected(full.error());
+    return full->begin_time;
+}
+
 Result<std::uint32_t> Reader::fragment_at(std::int64_t time) const {
     std::uint32_t found = sync_.first;
     for (std::uint32_t after = sync_.last; found < after;) {
         const std::uint32_t middle = after - (after - found) / 2;
-        const auto at = resource(middle, ResourceKind::full);
-        if (!at) return tl::unexpected(at.error());
-        if (at->begin_time <= time)
+        const auto begin = begin_time(middle);
+        if (!begin) return tl::unexpected(begin.error());
+        if (*begin <= time)
             found = middle;
         else
             after = middle - 1;

@@ -23,6 +23,8 @@ class Reader {
     [[nodiscard]] Result<State> full(std::uint32_t fragment) const;
     [[nodiscard]] Result<std::vector<Record>> delta(std::uint32_t fragment) const;
 
+    [[nodiscard]] Result<std::int64_t> begin_time(std::uint32_t fragment) const;  // ns
+
     // The last fragment that begins at or before the time, in ns; the first one where none does.
     [[nodiscard]] Result<std::uint32_t> fragment_at(std::int64_t time) const;
 

@@ -13,6 +13,14 @@ namespace {
 
 constexpr std::size_t max_delta = max_content / 2;  // a record fits into the other half
 
+constexpr std::uint64_t folder_bytes = 4096;
+
+// Disks give whole blocks.
+std::uint64_t on_disk(const Bytes& bytes) {
+    constexpr std::uint64_t block = 4096;
+    return (bytes.size() + block - 1) / block * block;
+}
+
 // The names must be on the disk before `sync` tells them.
 Result<void> sync_folder(const std::filesystem::path& folder) {
     const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -39,6 +47,7 @@ Result<Writer> Writer::create(const std::filesystem::path& folder, const Start& 
         return fail(folder.string() + ": has a recording already, expected a new folder");
     Result<void> done = make_folder(folder);
     if (done) done = write_file(folder / "start", encode_start(start));
+    if (!done) std::filesystem::remove(folder, ignored);  // when it is empty
     if (!done) return tl::unexpected(done.error());
     return Writer(folder, start.fragment_duration, max_bytes);
 }
@@ -48,13 +57,17 @@ Result<void> Writer::append(const Record& record) {
     if (pending_ && record.time < time_)
         return fail(folder_.string() + ": a record at " + std::to_string(record.time) +
                     " ns, expected not before " + std::to_string(time_));
-    if (pending_ && is_full(*pending_, record.time))
-        if (auto done = complete_fragment(); !done) return done;
+    if (auto done = advance(record.time); !done) return done;
     if (!pending_) pending_.emplace(Pending{record.time, state_, RecordEncoder(record.time)});
     time_ = record.time;
     pending_->records.add(record.time, record.message);
     state_.apply(record.message);
     return {};
+}
+
+Result<void> Writer::advance(std::int64_t time) {
+    if (error_) return tl::unexpected(*error_);
+    return pending_ && is_full(*pending_, time) ? complete_fragment() : Result<void>{};
 }
 
 // The time is not before the fragment's: a difference beyond 64 bits is one of more than any duration.
@@ -95,29 +108,39 @@ Result<void> Writer::write_fragment() {
     if (done) done = sync_folder(folder_);
     if (!done) return done;
 
-    written_.push_back({next_, full_bytes.size() + delta_bytes.size()});
-    std::uint64_t total = 0;
-    std::uint32_t first = next_;
-    for (auto it = written_.rbegin(); it != written_.rend(); ++it) {
-        total += it->bytes;
-        if (it->fragment < first_ || (total > max_bytes_ && it != written_.rbegin())) break;
-        first = it->fragment;
-    }
-    done = write_file(folder_ / "sync", encode(Sync{first, next_}));
-    if (!done) return done;
-    first_ = first;
-    remove_before(first);
+    written_.push_back(
+        {next_, pending_->begin_time, folder_bytes + on_disk(full_bytes) + on_disk(delta_bytes)});
     ++next_;
-    return {};
+    return tell(first_within_bound());
 }
 
-void Writer::remove_before(std::uint32_t first) {
-    std::erase_if(written_, [&](const Written& old) {
-        if (old.fragment >= first) return false;
+std::uint32_t Writer::first_within_bound() const {
+    std::uint64_t total = 0;
+    std::uint32_t first = written_.back().fragment;
+    for (auto it = written_.rbegin(); it != written_.rend() && (total += it->bytes) <= max_bytes_; ++it)
+        first = it->fragment;
+    return first;
+}
+
+Result<void> Writer::remove_oldest() {
+    if (error_) return tl::unexpected(*error_);
+    auto done = tell(written_[1].fragment);
+    if (!done) error_ = done.error();
+    return done;
+}
+
+// Which fragments there are; the others are removed once nobody is told of them.
+Result<void> Writer::tell(std::uint32_t first) {
+    auto done = write_file(folder_ / "sync", encode(Sync{first, written_.back().fragment}));
+    if (!done) return done;
+    while (written_.front().fragment < first) {
+        const std::filesystem::path old = folder_ / std::to_string(written_.front().fragment);
         std::error_code error;
-        std::filesystem::remove_all(folder_ / std::to_string(old.fragment), error);
-        return !error;  // else it is tried again with the next fragment
-    });
+        std::filesystem::remove_all(old, error);
+        if (error) return fail(old.string() + ": cannot remove: " + error.message());
+        written_.erase(written_.begin());
+    }
+    return {};
 }
 
 }  // namespace camdir::recording

@@ -11,8 +11,8 @@ namespace camdir::recording {
 // Not thread-safe. Whole up to the last complete fragment when the process is killed.
 class Writer {
   public:
-    // Creates the folder; one that has a `start` is refused. max_bytes bounds the fragments on disk, of
-    // which the newest always stays.
+    // Creates the folder; one that has a `start` is refused. max_bytes bounds what the fragments take of the
+    // disk, of which the newest always stays.
     [[nodiscard]] static Result<Writer> create(const std::filesystem::path& folder, const Start& start,
                                                std::uint64_t max_bytes);
 
@@ -21,14 +21,27 @@ class Writer {
     // last complete fragment: every later call returns the same error.
     [[nodiscard]] Result<void> append(const Record& record);
 
+    // Ends the fragment that is as old as a fragment lasts, where no record has come to do it. Blocks and
+    // fails as append().
+    [[nodiscard]] Result<void> advance(std::int64_t time);
+
     // Writes what the last fragment has. Nothing may be appended after it.
     [[nodiscard]] Result<void> finish();
 
-  private:
+    // Whole fragments, oldest first.
     struct Written {
         std::uint32_t fragment;
-        std::uint64_t bytes;
+        std::int64_t begin_time;
+        std::uint64_t bytes;  // of the disk
     };
+    [[nodiscard]] const std::vector<Written>& written() const { return written_; }
+
+    [[nodiscard]] std::uint32_t fragments() const { return next_; }  // also removed ones
+
+    // Removes the oldest fragment, as if max_bytes had asked for it. There must be two.
+    [[nodiscard]] Result<void> remove_oldest();
+
+  private:
     struct Pending {
         std::int64_t begin_time;
         State state;  // at the beginning
@@ -40,7 +53,8 @@ class Writer {
     [[nodiscard]] bool is_full(const Pending& pending, std::int64_t time) const;
     Result<void> complete_fragment();
     Result<void> write_fragment();
-    void remove_before(std::uint32_t first);
+    [[nodiscard]] std::uint32_t first_within_bound() const;
+    Result<void> tell(std::uint32_t first);
 
     std::filesystem::path folder_;
     std::int64_t duration_;
@@ -49,8 +63,7 @@ class Writer {
     std::int64_t time_ = 0;
     std::uint32_t next_ = 0;
     std::optional<Pending> pending_;
-    std::uint32_t first_ = 0;       // that `sync` names
-    std::vector<Written> written_;  // ascending; those before first_ could not be removed yet
+    std::vector<Written> written_;
     std::optional<Error> error_;
 };
 

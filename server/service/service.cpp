@@ -9,7 +9,9 @@
 #include "http/status.hpp"
 #include "service/heap.hpp"
 #include "service/logging.hpp"
+#include "service/recording_metrics.hpp"
 #include "service/supervisor.hpp"
+#include "service/viewers.hpp"
 #include "service/wire_metrics.hpp"
 
 namespace camdir::service {
@@ -25,6 +27,20 @@ void log_lines(spdlog::level::level_enum level, const std::string& text) {
     std::istringstream lines(text);
     for (std::string line; std::getline(lines, line);)
         spdlog::log(level, "{}", line);
+}
+
+std::unique_ptr<recording::Recorder> make_recorder(const config::Recording& config) {
+    if (config.folder.empty()) return nullptr;
+    recording::RecorderOptions options;
+    options.folder = config.folder;
+    options.max_bytes = static_cast<std::uint64_t>(config.disk_mib) << 20U;
+    options.max_match_bytes = static_cast<std::uint64_t>(config.match_mib) << 20U;
+    options.director_version = CAMERA_DIRECTOR_VERSION;
+    return std::make_unique<recording::Recorder>(std::move(options));
+}
+
+director::Audiences audiences(recording::Recorder* recorder) {
+    return recorder == nullptr ? director::Audiences{} : director::Audiences{recorder};
 }
 
 }  // namespace
@@ -51,7 +67,8 @@ Service::Service(std::filesystem::path file, std::string shard, config::Config c
       shard_(std::move(shard)),
       config_(std::move(config)),
       gateway_(std::move(gateway)),
-      director_(config_, maps_, *gateway_),
+      recorder_(make_recorder(config_.recording)),
+      director_(config_, maps_, *gateway_, audiences(recorder_.get())),
       loader_(map_sink()) {
     for (const config::Map& map : config_.maps)
         maps_.add(map.name, map.strict);
@@ -90,7 +107,8 @@ http::Sources Service::sources() {
         const auto most = static_cast<std::size_t>(config_.http.match_metrics);
         for (auto& more :
              {http::match_metrics(director_.match_statistics(most)), http::map_metrics(maps_.entries()),
-              wire_metrics(gateway_->counters(), gateway_->identity())})
+              wire_metrics(gateway_->counters(), gateway_->identity()),
+              recording_metrics(recorder_ ? recorder_->statistics() : recording::RecorderStatistics{})})
             families.insert(families.end(), more.begin(), more.end());
         return families;
     };
@@ -98,6 +116,9 @@ http::Sources Service::sources() {
         const auto [led, kept] = gateway_->hand_over();
         spdlog::info("http: handed over {} of {} matches", led - kept, led);
         return http::HandOver{led, kept};
+    };
+    sources.broadcast = [this](std::string_view path) {
+        return recorder_ ? viewers_resource(recorder_->broadcast(), path) : std::nullopt;
     };
     sources.status = [this] { return http::status_page(director_.view(view_timeout), maps_.entries()); };
     return sources;
@@ -194,6 +215,7 @@ void Service::drain() {
     director_.drain();
     gateway_->close();
     http_.reset();
+    recorder_.reset();
     spdlog::info("stopped");
 }
 

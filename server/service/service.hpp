@@ -12,6 +12,7 @@
 #include "director/director.hpp"
 #include "http/server.hpp"
 #include "maps/loader.hpp"
+#include "recording/recorder.hpp"
 #include "service/signals.hpp"
 
 namespace camdir::service {
@@ -47,6 +48,7 @@ class Service {
     std::atomic<bool> draining_{false};
     std::unique_ptr<dds::Gateway> gateway_;
     director::MapLibrary maps_;
+    std::unique_ptr<recording::Recorder> recorder_;  // null when off
     director::Director director_;
     maps::Loader loader_;
     std::unique_ptr<http::Server> http_;  // null when off

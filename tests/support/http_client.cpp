@@ -84,7 +84,7 @@ HttpAnswer HttpClient::receive(bool to_head) {
         read_more();
     HttpAnswer answer = parse_header(received_.substr(0, end + 4));
     received_.erase(0, end + 4);
-    if (to_head) return answer;
+    if (to_head || answer.status == 304) return answer;
     const std::size_t size = std::stoul(answer.header.at("content-length"));
     while (received_.size() < size)
         read_more();

@@ -26,7 +26,7 @@ class HttpClient {
     void connect(int port) const;
     // False when the server has closed the connection.
     [[nodiscard]] bool send(const std::string& bytes) const;
-    // Waits for the next answer. One to HEAD has no body.
+    // Waits for the next answer. One to HEAD has no body, and neither has 304.
     [[nodiscard]] HttpAnswer receive(bool to_head = false);
     // Sends a request with these lines in its header, and waits for the answer.
     [[nodiscard]] HttpAnswer ask(const std::string& method, const std::string& path,

@@ -51,7 +51,8 @@ void Server::write_config(const Options& options) const {
         << R"(, "lease_ms": 2500, "shard": ")" << options.shard << R"(", "shards": )" << options.shards
         << R"(, "peers": [")" << director_address(domain_, 1 - options.participant_index)
         << R"("], "security": ")" << options.security << R"("},
-        "http": {"enabled": false},
+        "http": {"enabled": false}, "recording": {"folder": ")"
+        << options.recording << R"("},
         "matches": {"minimum_delay_s": )"
         << options.minimum_delay_s << R"(},
         "maps": [{"name": "hall", "file": "hall.vfs"}, {"name": "yard", "file": "yard.vfs"}]})";

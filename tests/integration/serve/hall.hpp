@@ -32,8 +32,9 @@ class Server {
         double minimum_delay_s = 0.0;
         bool has_yard = true;
         std::string shard = {};
-        std::string shards = "[]";  // JSON
-        std::string security = {};  // folder of its identity; empty: plain DDS
+        std::string shards = "[]";   // JSON
+        std::string security = {};   // folder of its identity; empty: plain DDS
+        std::string recording = {};  // folder; empty: nothing is recorded
     };
     Server(std::uint32_t domain, const Options& options);
     explicit Server(std::uint32_t domain) : Server(domain, Options{}) {}

@@ -1,6 +1,7 @@
 // A standby that goes on from the cameras of the director that leads.
 #include <gtest/gtest.h>
 
+#include "camera/camera.hpp"
 #include "stage.hpp"
 
 namespace camdir::director {

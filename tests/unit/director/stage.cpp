@@ -1,6 +1,7 @@
 #include "stage.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "support/freespace_meshes.hpp"
 
@@ -77,7 +78,8 @@ void receive(Director& director, const std::string& match_id, const PoseFrame& f
     director.receive({&arrival, 1});
 }
 
-Stage::Stage(const config::Config& config) : director(config, maps, publisher) {
+Stage::Stage(const config::Config& config, Audiences audiences)
+    : director(config, maps, publisher, std::move(audiences)) {
     maps.add("square", false);
     maps.set_ready("square", square());
 }

@@ -49,7 +49,7 @@ void receive(Director& director, const std::string& match_id, const PoseFrame& f
 
 // A director with the map "square", in state ready; players walk around its middle.
 struct Stage {
-    explicit Stage(const config::Config& config = default_config());
+    explicit Stage(const config::Config& config = default_config(), Audiences audiences = {});
 
     [[nodiscard]] static config::Config default_config();
     [[nodiscard]] static freespace::Freespace square();

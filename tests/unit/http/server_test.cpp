@@ -56,10 +56,41 @@ TEST(Server, ServesNothingElse) {
     }
 }
 
+TEST(Server, PassesOnThePathBelowBroadcast) {
+    const TestServer server;
+    const HttpAnswer list = server.ask("GET", "/broadcast");
+    EXPECT_EQ(list.body, "");
+    EXPECT_EQ(list.header.at("cache-control"), "public, max-age=1");
+    EXPECT_FALSE(list.header.contains("etag"));
+    EXPECT_EQ(server.ask("GET", "/broadcast/a%2Fb/c?x=/y").body, "/a%2Fb/c");
+    EXPECT_EQ(server.ask("GET", "/broadcast/../../x").body, "/../../x") << "of the source, no file's";
+    EXPECT_EQ(server.status_of("GET", "/broadcast/gone"), 404);
+    EXPECT_EQ(server.ask("GET", "/broadcast/gone").header.at("cache-control"), "public, max-age=1");
+    EXPECT_EQ(server.status_of("GET", "/broadcasts"), 404);
+    EXPECT_EQ(server.status_of("GET", "/metrics/x"), 404);
+    EXPECT_EQ(server.status_of("POST", "/broadcast/x"), 405);
+}
+
+TEST(Server, LetsCachesKeepWhatNeverChanges) {
+    const TestServer server;
+    HttpClient client(server.port());
+    const HttpAnswer answer = client.ask("GET", "/broadcast/x");
+    EXPECT_EQ(answer.header.at("content-type"), "text/x-path");
+    EXPECT_EQ(answer.header.at("cache-control"), "public, max-age=31536000, immutable");
+    EXPECT_EQ(answer.header.at("etag"), "\"r/x\"");
+    for (const char* tags : {"\"r/x\"", "\"other\", W/\"r/x\"", "*"}) {
+        const HttpAnswer known =
+            client.ask("GET", "/broadcast/x", "If-None-Match: " + std::string(tags) + "\r\n");
+        EXPECT_EQ(known.status, 304) << tags;
+        EXPECT_EQ(known.header.at("etag"), "\"r/x\"");
+    }
+    EXPECT_EQ(client.ask("GET", "/broadcast/x", "If-None-Match: \"r/xx\"\r\n").body, "/x");
+}
+
 TEST(Server, AnswersHeadWithTheHeaderAlone) {
     const TestServer server;
     HttpClient client(server.port());
-    for (const char* path : {"/-/healthy", "/metrics", "/nothing"}) {
+    for (const char* path : {"/-/healthy", "/metrics", "/broadcast/x", "/nothing"}) {
         const HttpAnswer head = client.ask("HEAD", path);
         const HttpAnswer whole = client.ask("GET", path);
         EXPECT_EQ(head.status, whole.status) << path;

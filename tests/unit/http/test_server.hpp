@@ -76,6 +76,11 @@ class TestServer {
             return std::vector{family};
         };
         sources.hand_over = [this] { return HandOver{3, kept.load()}; };
+        sources.broadcast = [](std::string_view path) -> std::optional<Resource> {
+            if (path == "/gone") return std::nullopt;
+            const bool changes = path.empty();
+            return Resource{"text/x-path", changes ? "" : "r" + std::string(path), std::string(path)};
+        };
         sources.status = [this] {
             ++status_begun;
             status_held_.wait(true);

@@ -119,19 +119,60 @@ TEST(Recording, ATimeIsFoundInItsFragment) {
     EXPECT_EQ(*reader->fragment_at(0), 0U);
 }
 
+// Whole blocks, and one for the folder.
+std::uint64_t disk_of_fragments(const std::filesystem::path& folder, const Reader& reader) {
+    std::uint64_t bytes = 0;
+    for (std::uint32_t n = reader.first_fragment(); n <= reader.last_fragment(); ++n) {
+        bytes += 4096;
+        for (const char* name : {"full", "delta"})
+            bytes += (std::filesystem::file_size(folder / std::to_string(n) / name) + 4095) / 4096 * 4096;
+    }
+    return bytes;
+}
+
 TEST(Recording, RotationRemovesTheOldestFragments) {
     const test::TemporaryFolder folder;
-    write_random(folder / "r", 400, 8000);
+    write_random(folder / "r", 400, 50'000);
     const auto reader = Reader::open(folder / "r");
     ASSERT_TRUE(reader);
     EXPECT_GT(reader->first_fragment(), 0U);
+    EXPECT_GT(reader->last_fragment(), reader->first_fragment());
     EXPECT_FALSE(std::filesystem::exists(folder / "r" / "0"));
-    std::uint64_t bytes = 0;
-    for (std::uint32_t n = reader->first_fragment(); n <= reader->last_fragment(); ++n)
-        for (const char* name : {"full", "delta"})
-            bytes += std::filesystem::file_size(folder / "r" / std::to_string(n) / name);
-    EXPECT_LE(bytes, 8000U);
+    EXPECT_LE(disk_of_fragments(folder / "r", *reader), 50'000U);
     EXPECT_TRUE(reader->replay(0, [](const Record&) {}));
+}
+
+TEST(Recording, TheOldestFragmentCanBeRemoved) {
+    const test::TemporaryFolder folder;
+    auto writer = Writer::create(folder / "r", start_of_match(), unlimited);
+    for (std::int64_t time = 0; time < 4; ++time)
+        ASSERT_TRUE(writer->append({time * 3'000'000'000, Withdrawal{"x"}}));
+    ASSERT_EQ(writer->written().size(), 3U);
+    EXPECT_EQ(writer->written()[1].begin_time, 3'000'000'000);
+    ASSERT_TRUE(writer->remove_oldest());
+    const auto reader = Reader::open(folder / "r");
+    EXPECT_EQ(reader->first_fragment(), 1U);
+    EXPECT_EQ(reader->last_fragment(), 2U);
+    std::uint64_t bytes = 0;
+    for (const Writer::Written& fragment : writer->written())
+        bytes += fragment.bytes;
+    EXPECT_EQ(bytes, disk_of_fragments(folder / "r", *reader));
+}
+
+TEST(Recording, AFragmentEndsWithoutTheNextRecord) {
+    const test::TemporaryFolder folder;
+    auto writer = Writer::create(folder / "r", start_of_match(), unlimited);
+    ASSERT_TRUE(writer->append({5, Withdrawal{"x"}}));
+    ASSERT_TRUE(writer->advance(3'000'000'004));
+    EXPECT_TRUE(writer->written().empty());
+    ASSERT_TRUE(writer->advance(3'000'000'005));
+    ASSERT_TRUE(writer->advance(9'000'000'005));
+    EXPECT_EQ(writer->written().size(), 1U);
+    ASSERT_TRUE(writer->append({9'000'000'005, Withdrawal{"x"}}));
+    ASSERT_TRUE(writer->finish());
+    const auto reader = Reader::open(folder / "r");
+    EXPECT_EQ(reader->last_fragment(), 1U);
+    EXPECT_EQ(reader->delta(1)->front().time, 9'000'000'005);
 }
 
 TEST(Recording, WhatAKilledWriterLeftIsIgnored) {

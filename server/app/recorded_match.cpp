@@ -1,0 +1,105 @@
+#include "app/recorded_match.hpp"
+
+#include <map>
+#include <optional>
+
+#include "director/roster.hpp"
+#include "recording/reader.hpp"
+
+namespace camdir::app {
+namespace {
+
+constexpr std::size_t max_players = 256;  // of a trace
+constexpr float view_height = 26.0F;      // units of 0.0254 m; of a standing player of Quake's
+
+// Takes the records in their order.
+class Assembly {
+  public:
+    void add(const director::MatchInfo& info) {
+        teams_.clear();
+        for (const director::Player& player : info.players)
+            teams_[player.id] = player.team;
+        const bool has_scale = info.metres_per_unit > 0.0F;
+        view_height_ = view_height * (has_scale ? 0.0254F / info.metres_per_unit : 1.0F);
+    }
+
+    // Nothing of an epoch remains when the next one begins.
+    void add(const director::PoseFrame& frame) {
+        if (frame.epoch != epoch_) {
+            trace_ = {};
+            last_seen_.clear();
+            epoch_ = frame.epoch;
+        }
+        if (!trace_.frames.empty() && frame.frame_time <= trace_.frames.back().time) return;
+        std::map<std::uint32_t, const director::PlayerPose*> poses;  // by player
+        for (const director::PlayerPose& pose : frame.poses)
+            if ((pose.flags & director::pose_spectator) == 0) poses.emplace(pose.player_id, &pose);
+        if (poses.empty() || poses.size() > max_players) return;
+        trace_.frames.push_back({frame.frame_time, static_cast<std::uint32_t>(trace_.poses.size()),
+                                 static_cast<std::uint32_t>(poses.size())});
+        for (const auto& [player, pose] : poses)
+            add(*pose);
+    }
+
+    Result<evaluation::Trace> finish(const std::string& name) {
+        if (trace_.frames.empty()) return fail(name + ": has no poses, expected at least one frame");
+        if (last_seen_.size() > max_players)
+            return fail(name + ": has " + std::to_string(last_seen_.size()) + " players, expected at most " +
+                        std::to_string(max_players));
+        for (const auto& [player, seen] : last_seen_)
+            trace_.players.push_back(player);
+        return std::move(trace_);
+    }
+
+  private:
+    struct LastSeen {
+        std::size_t frame;  // counted from 1
+        bool alive;
+    };
+
+    void add(const director::PlayerPose& pose) {
+        evaluation::TracePose& added = trace_.poses.emplace_back();
+        added.player = pose.player_id;
+        added.eye = pose.eye.cast<double>();
+        added.orientation = pose.orientation.cast<double>().normalized();
+        added.velocity = pose.velocity.cast<double>();
+        added.view_height = view_height_;
+        const auto team = teams_.find(pose.player_id);
+        added.team = team == teams_.end() ? std::uint8_t{0} : team->second;
+        added.alive = (pose.flags & director::pose_alive) != 0;
+        const LastSeen now{trace_.frames.size(), added.alive};
+        const auto [seen, is_first] = last_seen_.try_emplace(pose.player_id, now);
+        added.discontinuity = is_first || (pose.flags & director::pose_discontinuity) != 0 ||
+                              seen->second.frame + 1 != now.frame || (now.alive && !seen->second.alive);
+        seen->second = now;
+    }
+
+    evaluation::Trace trace_;
+    std::optional<std::uint64_t> epoch_;
+    float view_height_ = view_height;
+    std::map<std::uint32_t, std::uint8_t> teams_;
+    std::map<std::uint32_t, LastSeen> last_seen_;
+};
+
+}  // namespace
+
+Result<evaluation::Trace> trace_of_recording(const std::filesystem::path& folder) {
+    const auto reader = recording::Reader::open(folder);
+    if (!reader) return tl::unexpected(reader.error());
+    const auto begin = reader->begin_time(reader->first_fragment());
+    if (!begin) return tl::unexpected(begin.error());
+    Assembly assembly;
+    assembly.add(reader->start().match);
+    const auto read = reader->replay(*begin, [&](const recording::Record& record) {
+        if (const auto* info = std::get_if<director::MatchInfo>(&record.message)) assembly.add(*info);
+        if (const auto* frame = std::get_if<director::PoseFrame>(&record.message)) assembly.add(*frame);
+    });
+    if (!read) return tl::unexpected(read.error());
+    return assembly.finish(folder.string());
+}
+
+Result<evaluation::Trace> read_trace(const std::filesystem::path& path) {
+    return std::filesystem::is_directory(path) ? trace_of_recording(path) : evaluation::read_trace(path);
+}
+
+}  // namespace camdir::app

@@ -1,0 +1,118 @@
+#include "recording/broadcast.hpp"
+
+#include <charconv>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "base/file.hpp"
+#include "recording/percent.hpp"
+#include "recording/resource.hpp"
+
+namespace camdir::recording {
+namespace {
+
+using json = nlohmann::ordered_json;
+
+constexpr std::chrono::minutes ended_for{10};
+
+std::string dump(const json& object) {
+    return object.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
+}
+
+// "/a/b" has the parts a and b.
+std::vector<std::string_view> parts_of(std::string_view path) {
+    std::vector<std::string_view> parts;
+    while (path.starts_with('/')) {
+        path.remove_prefix(1);
+        parts.push_back(path.substr(0, path.find('/')));
+        path.remove_prefix(parts.back().size());
+    }
+    return parts;
+}
+
+// In the one way in which it is written: caches keep each resource once.
+std::optional<std::uint32_t> fragment_number(std::string_view text) {
+    std::uint32_t number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc() || std::to_string(number) != text) return std::nullopt;
+    return number;
+}
+
+std::string sync_of(const Channel& channel) {
+    const std::chrono::duration<double> age = Channel::Clock::now() - channel.complete_at;
+    return dump({{"version", major_version},
+                 {"recording", channel.recording_id},
+                 {"first_fragment", channel.sync.first},
+                 {"last_fragment", channel.sync.last},
+                 {"fragment_duration_s", channel.fragment_duration_s},
+                 {"age_s", age.count()},
+                 {"delay_s", channel.delay_s},
+                 {"live", channel.is_live}});
+}
+
+// Of the parts that follow the recording's id: start, or a number and the name of a file.
+std::optional<std::string> file_of(const Channel& channel, const std::vector<std::string_view>& parts) {
+    if (parts.size() == 3 && parts[2] == "start") return "start";
+    if (parts.size() != 4 || (parts[3] != "full" && parts[3] != "delta")) return std::nullopt;
+    const auto number = fragment_number(parts[2]);
+    if (!number || *number < channel.sync.first || *number > channel.sync.last) return std::nullopt;
+    return std::to_string(*number) + "/" + std::string(parts[3]);
+}
+
+}  // namespace
+
+void Broadcast::set(const std::string& match_id, Channel channel) {
+    const std::lock_guard lock(mutex_);
+    ended_at_.erase(match_id);
+    channels_[match_id] = std::move(channel);
+    drop_ended(Channel::Clock::now());
+}
+
+void Broadcast::end(const std::string& match_id) {
+    const std::lock_guard lock(mutex_);
+    const auto now = Channel::Clock::now();
+    if (const auto channel = channels_.find(match_id); channel != channels_.end()) {
+        channel->second.is_live = false;
+        ended_at_[match_id] = now;
+    }
+    drop_ended(now);
+}
+
+void Broadcast::drop_ended(Time now) {
+    std::erase_if(ended_at_, [&](const auto& ended) {
+        return now - ended.second > ended_for && channels_.erase(ended.first) > 0;
+    });
+}
+
+std::optional<Broadcast::Answer> Broadcast::get(std::string_view path) const {
+    if (path.empty()) return Answer{true, "", list()};
+    const auto parts = parts_of(path);
+    const auto match_id = parts.empty() ? std::nullopt : percent_decoded(parts[0]);
+    const auto channel = match_id ? find(*match_id) : std::nullopt;
+    if (!channel || parts.size() < 2) return std::nullopt;
+    if (parts.size() == 2 && parts[1] == "sync") return Answer{true, "", sync_of(*channel)};
+    const auto file = parts[1] == channel->recording_id ? file_of(*channel, parts) : std::nullopt;
+    const auto bytes = file ? read_file(channel->folder / *file) : Result<Bytes>();
+    if (!file || !bytes) return std::nullopt;
+    return Answer{false, channel->recording_id + "/" + *file,
+                  std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size())};
+}
+
+std::optional<Channel> Broadcast::find(const std::string& match_id) const {
+    const std::lock_guard lock(mutex_);
+    const auto found = channels_.find(match_id);
+    return found == channels_.end() ? std::nullopt : std::optional(found->second);
+}
+
+std::string Broadcast::list() const {
+    const std::lock_guard lock(mutex_);
+    json matches = json::array();
+    for (const auto& [match_id, channel] : channels_)
+        matches.push_back({{"match", match_id},
+                           {"map", channel.map_name},
+                           {"live", channel.is_live},
+                           {"sync", "/broadcast/" + percent_encoded(match_id) + "/sync"}});
+    return dump({{"matches", std::move(matches)}});
+}
+
+}  // namespace camdir::recording

@@ -1,0 +1,262 @@
+#include "recording/recorder.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <utility>
+
+#include "director/clock.hpp"
+
+namespace camdir::recording {
+namespace {
+
+// Frames, events and requests of a match: some seconds. Descriptions may use as many places again.
+constexpr std::size_t max_waiting = 512;
+constexpr std::chrono::milliseconds write_period{50};
+
+std::int64_t wall_clock_ns() {
+    return std::chrono::duration_cast<std::chrono::nanoseconds>(
+               std::chrono::system_clock::now().time_since_epoch())
+        .count();
+}
+
+}  // namespace
+
+Recorder::Recorder(RecorderOptions options)
+    : options_(std::move(options)),
+      clock_offset_(wall_clock_ns() - director::now_ns()),
+      thread_([this](const std::stop_token& stop) { run(stop); }) {}
+
+Recorder::~Recorder() {
+    thread_.request_stop();
+    thread_.join();
+}
+
+void Recorder::show(const director::MatchInfo& shown) {
+    put_bounded(shown.match_id, {shown}, 2 * max_waiting);
+}
+
+void Recorder::show(const std::string& match_id, const director::PoseFrame& poses,
+                    const director::CameraFrame& cameras) {
+    put_bounded(match_id, {poses, cameras}, max_waiting);
+}
+
+void Recorder::show(const std::string& match_id, const director::MatchEvent& event) {
+    put_bounded(match_id, {event}, max_waiting);
+}
+
+void Recorder::request(const director::ObserverRequest& request) {
+    put_bounded(request.match_id, {request}, max_waiting);
+}
+
+void Recorder::request_ended(const std::string& match_id, const std::string& observer_id) {
+    put(match_id, {Withdrawal{observer_id}});
+}
+
+void Recorder::end(const std::string& match_id) {
+    put(match_id, {}, true);
+}
+
+// Never descends, whatever happens to the system's clock.
+std::int64_t Recorder::now() const {
+    return director::now_ns() + clock_offset_;
+}
+
+void Recorder::put(const std::string& match_id, std::vector<Message> messages, bool ends) {
+    const std::lock_guard lock(mutex_);
+    waiting_.push_back({now(), match_id, std::move(messages), ends});
+}
+
+void Recorder::put_bounded(const std::string& match_id, std::vector<Message> messages, std::size_t max) {
+    const std::lock_guard lock(mutex_);
+    std::size_t& waiting = bounded_[match_id];
+    if (waiting >= max) {
+        statistics_.dropped += messages.size();
+        return;
+    }
+    ++waiting;
+    waiting_.push_back({now(), match_id, std::move(messages)});
+}
+
+RecorderStatistics Recorder::statistics() const {
+    const std::lock_guard lock(mutex_);
+    return statistics_;
+}
+
+void Recorder::wait_until_written() {
+    std::unique_lock lock(mutex_);
+    written_.wait(lock, [this] { return waiting_.empty() && !is_writing_; });
+}
+
+void Recorder::run(const std::stop_token& stop) {
+    while (!stop.stop_requested()) {
+        for (Shown& shown : take(stop))
+            write(std::move(shown));
+        end_due_fragments();
+        keep_within_bound();
+        for (auto& [match_id, match] : matches_)
+            if (match.recording) tell_viewers(match_id, match);
+        update_statistics();
+    }
+    for (Shown& shown : take(stop))
+        write(std::move(shown));
+    for (auto& [match_id, match] : matches_)
+        finish(match_id, match);
+    keep_within_bound();
+    update_statistics();
+}
+
+std::vector<Recorder::Shown> Recorder::take(const std::stop_token& stop) {
+    std::unique_lock lock(mutex_);
+    written_.wait_for(lock, stop, write_period, [] { return false; });
+    is_writing_ = true;
+    bounded_.clear();
+    return std::exchange(waiting_, {});
+}
+
+void Recorder::write(Shown shown) {
+    Match& match = matches_[shown.match_id];
+    for (Message& message : shown.messages)
+        write(shown.match_id, match, {shown.time, std::move(message)});
+    if (shown.ends) {
+        finish(shown.match_id, match);
+        match.failed = false;
+    }
+    if (!match.recording && !match.failed && match.requests.empty()) matches_.erase(shown.match_id);
+}
+
+void Recorder::write(const std::string& match_id, Match& match, const Record& record) {
+    Result<void> done;
+    if (const auto* info = std::get_if<director::MatchInfo>(&record.message)) {
+        const bool begins = !match.recording && (!match.failed || info->epoch != match.info.epoch);
+        match.info = *info;
+        if (begins) done = begin(match_id, match, record.time);
+    }
+    if (const auto* request = std::get_if<director::ObserverRequest>(&record.message))
+        match.requests[request->observer_id] = *request;
+    if (const auto* withdrawal = std::get_if<Withdrawal>(&record.message))
+        match.requests.erase(withdrawal->observer_id);
+    if (done && match.recording) done = match.recording->writer.append(record);
+    if (!done) fail(match_id, match, done.error());
+}
+
+Result<void> Recorder::begin(const std::string& match_id, Match& match, std::int64_t time) {
+    if (!archive_) {
+        auto archive = Archive::open(options_.folder);
+        if (!archive) return tl::unexpected(archive.error());
+        archive_.emplace(std::move(*archive));
+    }
+    const std::string id = new_recording_id(time);
+    const std::string name = folder_name(id, match_id);
+    auto writer = Writer::create(archive_->path_of(name),
+                                 {match.info, options_.director_version, options_.fragment_duration},
+                                 options_.max_match_bytes);
+    if (!writer) return tl::unexpected(writer.error());
+    match.recording.emplace(Recording{id, name, std::move(*writer)});
+    match.failed = false;
+    Result<void> done;
+    for (auto request = match.requests.begin(); done && request != match.requests.end(); ++request)
+        done = match.recording->writer.append({time, request->second});
+    return done;
+}
+
+void Recorder::finish(const std::string& match_id, Match& match) {
+    if (!match.recording) return;
+    const auto done = match.recording->writer.finish();
+    if (!done) return fail(match_id, match, done.error());
+    end_recording(match_id, match);
+}
+
+void Recorder::fail(const std::string& match_id, Match& match, const Error& error) {
+    ++failures_;
+    match.failed = true;
+    end_recording(match_id, match);
+    if (const auto times = failure_lines_.due())
+        spdlog::error("match {}: no longer recorded: {} ({} since the last such line)", match_id,
+                      error.message, *times);
+}
+
+void Recorder::end_recording(const std::string& match_id, Match& match) {
+    if (!match.recording) return;
+    tell_viewers(match_id, match);
+    broadcast_.end(match_id);
+    ended_fragments_ += match.recording->writer.fragments();
+    archive_->add_ended(match.recording->name);
+    match.recording.reset();
+}
+
+void Recorder::tell_viewers(const std::string& match_id, Match& match) {
+    Recording& recording = *match.recording;
+    const auto& written = recording.writer.written();
+    if (written.empty()) return;
+    const std::uint32_t first = written.front().fragment;
+    const std::uint32_t end = recording.writer.fragments();
+    if (first == recording.first && end == recording.end) return;
+    if (end != recording.end) recording.complete_at = Channel::Clock::now();
+    recording.first = first;
+    recording.end = end;
+    broadcast_.set(match_id, {recording.id,
+                              archive_->path_of(recording.name),
+                              match.info.map_name,
+                              1e-9 * static_cast<double>(options_.fragment_duration),
+                              match.info.spectator_delay_s,
+                              {first, end - 1},
+                              recording.complete_at});
+}
+
+void Recorder::end_due_fragments() {
+    const std::int64_t time = now();
+    for (auto& [match_id, match] : matches_) {
+        if (!match.recording) continue;
+        if (const auto done = match.recording->writer.advance(time); !done)
+            fail(match_id, match, done.error());
+    }
+}
+
+void Recorder::keep_within_bound() {
+    while (disk_bytes() > options_.max_bytes && (archive_->remove_oldest() || remove_oldest_fragment())) {
+    }
+}
+
+bool Recorder::remove_oldest_fragment() {
+    std::pair<const std::string, Match>* oldest = nullptr;
+    const auto begin_time = [](const auto& match) {
+        return match.second.recording->writer.written().front().begin_time;
+    };
+    for (auto& match : matches_) {
+        const bool can = match.second.recording && match.second.recording->writer.written().size() > 1;
+        if (can && (oldest == nullptr || begin_time(match) < begin_time(*oldest))) oldest = &match;
+    }
+    if (oldest == nullptr) return false;
+    auto& [match_id, match] = *oldest;
+    if (const auto done = match.recording->writer.remove_oldest(); !done) fail(match_id, match, done.error());
+    return true;
+}
+
+std::uint64_t Recorder::disk_bytes() const {
+    std::uint64_t bytes = archive_ ? archive_->ended_bytes() : 0;
+    for (const auto& [match_id, match] : matches_)
+        if (match.recording)
+            for (const Writer::Written& fragment : match.recording->writer.written())
+                bytes += fragment.bytes;
+    return bytes;
+}
+
+void Recorder::update_statistics() {
+    RecorderStatistics sum;
+    sum.bytes = disk_bytes();
+    sum.fragments = ended_fragments_;
+    sum.failures = failures_;
+    for (const auto& [match_id, match] : matches_) {
+        if (!match.recording) continue;
+        ++sum.running;
+        sum.fragments += match.recording->writer.fragments();
+    }
+    const std::lock_guard lock(mutex_);
+    sum.dropped = statistics_.dropped;
+    statistics_ = sum;
+    is_writing_ = false;
+    written_.notify_all();
+}
+
+}  // namespace camdir::recording

@@ -1,0 +1,136 @@
+// Records every match that a director shows.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <unordered_map>
+#include <vector>
+
+#include "base/log_limit.hpp"
+#include "director/ports.hpp"
+#include "recording/archive.hpp"
+#include "recording/broadcast.hpp"
+#include "recording/writer.hpp"
+
+namespace camdir::recording {
+
+struct RecorderOptions {
+    std::filesystem::path folder;
+    std::uint64_t max_bytes = 0;        // of the disk, for all recordings; at most one fragment a match more
+    std::uint64_t max_match_bytes = 0;  // for each
+    std::int64_t fragment_duration = 3'000'000'000;  // ns
+    std::string director_version;
+};
+
+struct RecorderStatistics {
+    std::uint64_t running = 0;    // recordings
+    std::uint64_t bytes = 0;      // of the disk, for all recordings
+    std::uint64_t fragments = 0;  // completed since the start
+    std::uint64_t dropped = 0;    // messages for which the disk was too slow
+    std::uint64_t failures = 0;   // matches whose recording could not begin or go on
+};
+
+// A match is recorded from its first MatchInfo to its end, across epochs, in a folder of its own. The
+// audience's calls copy what they are shown; one thread encodes and writes. What waits for it is bounded for
+// each match: frames, events and requests are dropped first, then descriptions; ends never are.
+//
+// An error of the disk ends the recording of its match: it is logged and counted, and the match's next epoch
+// begins a new one. When all recordings take more than max_bytes, the oldest that have ended are removed,
+// then the oldest fragments of the others. statistics() and wait_until_written() are thread-safe.
+class Recorder final : public director::Audience {
+  public:
+    // Does not fail: a folder that cannot be used fails each match's recording.
+    explicit Recorder(RecorderOptions options);
+    Recorder(const Recorder&) = delete;
+    Recorder& operator=(const Recorder&) = delete;
+    ~Recorder() override;  // ends all recordings; nothing may be shown any more
+
+    void show(const director::MatchInfo& shown) override;
+    void show(const std::string& match_id, const director::PoseFrame& poses,
+              const director::CameraFrame& cameras) override;
+    void show(const std::string& match_id, const director::MatchEvent& event) override;
+    void request(const director::ObserverRequest& request) override;
+    void request_ended(const std::string& match_id, const std::string& observer_id) override;
+    void end(const std::string& match_id) override;
+
+    [[nodiscard]] RecorderStatistics statistics() const;
+    // What there is of the matches that are recorded.
+    [[nodiscard]] const Broadcast& broadcast() const { return broadcast_; }
+    // Until everything shown before has been encoded, and written as far as its fragments are complete.
+    void wait_until_written();
+
+  private:
+    struct Shown {
+        std::int64_t time;
+        std::string match_id;
+        std::vector<Message> messages;
+        bool ends = false;  // the match, after the messages
+    };
+    struct Recording {
+        std::string id;
+        std::string name;  // of its folder
+        Writer writer;
+        // What viewers were told of.
+        std::uint32_t first = 0;
+        std::uint32_t end = 0;  // one after the last
+        Channel::Clock::time_point complete_at{};
+    };
+    struct Match {
+        std::map<std::string, director::ObserverRequest> requests;  // by observer; they may precede it
+        director::MatchInfo info;                                   // the last one
+        std::optional<Recording> recording;
+        bool failed = false;  // in this epoch
+    };
+
+    [[nodiscard]] std::int64_t now() const;
+    void put(const std::string& match_id, std::vector<Message> messages, bool ends = false);
+    // Dropped where `max` bounded messages of the match wait.
+    void put_bounded(const std::string& match_id, std::vector<Message> messages, std::size_t max);
+
+    // On the thread.
+    void run(const std::stop_token& stop);
+    [[nodiscard]] std::vector<Shown> take(const std::stop_token& stop);
+    void write(Shown shown);
+    void write(const std::string& match_id, Match& match, const Record& record);
+    // Also appends the requests that preceded the match.
+    [[nodiscard]] Result<void> begin(const std::string& match_id, Match& match, std::int64_t time);
+    void finish(const std::string& match_id, Match& match);
+    void end_recording(const std::string& match_id, Match& match);
+    void tell_viewers(const std::string& match_id, Match& match);
+    void fail(const std::string& match_id, Match& match, const Error& error);
+    void end_due_fragments();
+    void keep_within_bound();
+    // False when there is none that may be removed.
+    bool remove_oldest_fragment();
+    [[nodiscard]] std::uint64_t disk_bytes() const;
+    void update_statistics();
+
+    const RecorderOptions options_;
+    const std::int64_t clock_offset_;  // of the records' times, ns since 1970, from the steady clock
+    LogLimit failure_lines_;
+
+    mutable std::mutex mutex_;  // guards the next five
+    std::condition_variable_any written_;
+    std::vector<Shown> waiting_;
+    std::unordered_map<std::string, std::size_t> bounded_;  // how many of those wait, by match
+    bool is_writing_ = false;
+    RecorderStatistics statistics_;
+
+    Broadcast broadcast_;
+
+    // Used by the thread only.
+    std::optional<Archive> archive_;  // none until a match has needed it
+    std::map<std::string, Match> matches_;
+    std::uint64_t ended_fragments_ = 0;
+    std::uint64_t failures_ = 0;
+
+    std::jthread thread_;
+};
+
+}  // namespace camdir::recording

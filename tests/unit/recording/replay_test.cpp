@@ -1,0 +1,155 @@
+// What is recorded of a match, given to a new director, makes the same cameras again.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "recording/reader.hpp"
+#include "recording/recorder.hpp"
+#include "support/temporary_folder.hpp"
+#include "unit/director/delayed_times.hpp"
+
+namespace camdir::recording {
+namespace {
+
+using namespace director;
+using Delayed = director::DelayedTimes;
+
+class Recorded {
+  public:
+    Recorded() {
+        RecorderOptions options;
+        options.folder = folder_.path();
+        options.max_bytes = options.max_match_bytes = 1ULL << 40;
+        options.fragment_duration = 20 * ms;
+        recorder_ = std::make_unique<Recorder>(options);
+    }
+    [[nodiscard]] Audiences audiences() const { return {recorder_.get()}; }
+
+    // Ends the recording.
+    [[nodiscard]] std::vector<Record> records() {
+        recorder_.reset();
+        std::vector<Record> records;
+        for (const auto& entry : std::filesystem::directory_iterator(folder_.path())) {
+            const auto reader = Reader::open(entry.path());
+            EXPECT_TRUE(reader) << reader.error().message;
+            EXPECT_GT(reader->last_fragment(), 0U);
+            EXPECT_TRUE(reader->replay(0, [&](const Record& record) { records.push_back(record); }));
+        }
+        return records;
+    }
+
+  private:
+    const test::TemporaryFolder folder_;
+    std::unique_ptr<Recorder> recorder_;
+};
+
+// With a respawn that is only counted.
+PoseFrame walk(std::uint32_t number) {
+    PoseFrame frame = Stage::poses(number);
+    for (PlayerPose& pose : frame.poses)
+        pose.discontinuities = pose.player_id == 2 && number > 40 ? 1U : 0U;
+    return frame;
+}
+
+MatchEvent kill(std::uint32_t number) {
+    return {1, walk(number).frame_time, 1, number % 3 + 1, number % 2 + 1, 1.0F, "rocket"};
+}
+
+// Of `number`, before its frame; nothing for most.
+std::optional<ObserverRequest> asked_at(std::uint32_t number) {
+    if (number % 12 != 3) return std::nullopt;
+    ObserverRequest request = Stage::request("b", number % 24 == 3 ? no_player : 2);
+    request.group = {1, 3};
+    request.overrides = R"({"distance": )" + std::to_string(40 + number) + "}";
+    return request;
+}
+
+std::vector<CameraFrame> cameras_in(const std::vector<Record>& records) {
+    std::vector<CameraFrame> cameras;
+    for (const Record& record : records)
+        if (const auto* frame = std::get_if<CameraFrame>(&record.message); frame && !frame->cameras.empty())
+            cameras.push_back(*frame);
+    return cameras;
+}
+
+// Every bit of them.
+Bytes bits_of(const std::vector<CameraFrame>& frames) {
+    RecordEncoder encoder(0);
+    for (const CameraFrame& frame : frames)
+        encoder.add(0, frame);
+    return encoder.content();
+}
+
+void expect_same(const std::vector<CameraFrame>& a, const std::vector<CameraFrame>& b, std::size_t count) {
+    EXPECT_EQ(a.size(), count);
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t i = 0; i < a.size(); ++i)
+        ASSERT_EQ(bits_of({a[i]}), bits_of({b[i]})) << "frame " << i;
+}
+
+void give(Director& director, const Message& message) {
+    if (const auto* info = std::get_if<MatchInfo>(&message)) director.receive(*info);
+    if (const auto* frame = std::get_if<PoseFrame>(&message)) receive(director, "m", *frame);
+    if (const auto* event = std::get_if<MatchEvent>(&message)) director.receive("m", *event);
+    if (const auto* request = std::get_if<ObserverRequest>(&message)) director.receive(*request);
+    if (const auto* gone = std::get_if<Withdrawal>(&message)) director.request_ended("m", gone->observer_id);
+    director.flush();
+}
+
+TEST(Replay, MakesTheCamerasOfALiveMatch) {
+    Recorded recorded;
+    Stage stage(Stage::default_config(), recorded.audiences());
+    stage.ask(Stage::request("automatic", no_player));
+    stage.start();
+    stage.ask(Stage::request("a"));
+    for (std::uint32_t number = 0; number < 120; ++number) {
+        if (number % 7 == 0) give(stage.director, kill(number));
+        if (const auto request = asked_at(number)) stage.ask(*request);
+        if (number == 70) give(stage.director, Withdrawal{"a"});
+        stage.send(walk(number));
+    }
+    const auto records = recorded.records();
+    expect_same(cameras_in(records), stage.publisher.frames(), 120);
+    Stage again;
+    for (const Record& record : records)
+        give(again.director, record.message);
+    expect_same(again.publisher.frames(), stage.publisher.frames(), 120);
+}
+
+TEST(Replay, MakesTheCamerasOfADelayedMatch) {
+    Recorded recorded;
+    Delayed match(recorded.audiences());
+    match.tell(Stage::request("automatic", no_player));
+    for (std::uint32_t number = 0; number < 120; ++number) {
+        if (number % 7 == 0) match.put(kill(number), received(number));
+        match.put_frame(walk(number));
+    }
+    for (std::uint32_t number = 0; number < 120; ++number) {
+        if (const auto request = asked_at(number)) match.tell(*request);
+        match.at(due(number) - lead_ns);
+        match.at(due(number));
+    }
+    const auto records = recorded.records();
+    expect_same(cameras_in(records), match.publisher.frames(), 120);
+
+    Delayed again;  // has the description and the request of "a"
+    std::uint32_t next = 0;
+    for (const Record& record : records) {
+        if (const auto* event = std::get_if<MatchEvent>(&record.message)) again.put(*event, received(next));
+        if (const auto* frame = std::get_if<PoseFrame>(&record.message)) {
+            again.put_frame(*frame);
+            next = frame->frame_number + 1;
+        }
+    }
+    for (const Record& record : records) {
+        if (const auto* request = std::get_if<ObserverRequest>(&record.message)) again.tell(*request);
+        if (const auto* frame = std::get_if<PoseFrame>(&record.message)) again.at(due(frame->frame_number));
+    }
+    expect_same(again.publisher.frames(), match.publisher.frames(), 120);
+}
+
+}  // namespace
+}  // namespace camdir::recording
