@@ -59,6 +59,8 @@ Result<std::vector<TraceEvent>> parse_events(std::span<const std::byte> bytes, c
         if (!event) return tl::unexpected(event.error());
         if (!events.empty() && event->time < events.back().time)
             return fail("column \"t_ms\" is before the last row's, expected rows ordered by time");
+        if (events.size() == max_events)
+            return fail("more than " + std::to_string(max_events) + " events, expected those of one match");
         events.push_back(std::move(*event));
         return {};
     });

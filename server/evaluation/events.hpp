@@ -14,6 +14,8 @@
 
 namespace camdir::evaluation {
 
+inline constexpr std::size_t max_events = 1'000'000;
+
 struct TraceEvent {
     std::int64_t time = 0;  // ns, the trace's clock
     std::string kind;       // as the table names it: kill, damage, item, ...
@@ -26,7 +28,7 @@ struct TraceEvent {
 // or their other names t_ms, kind, actor, subject, value; rows of one time in the table's order. An empty
 // player is nobody, as is 1022, the world, where no player has this number. Errors name the file, the line,
 // the column and what was expected; a player whom the trace does not know and a time before the last row's
-// are errors. Memory: at most 300 bytes for each row, and a detail's own. Thread-safe.
+// are errors, and so are more than max_events rows, each of which may take 300 bytes. Thread-safe.
 [[nodiscard]] Result<std::vector<TraceEvent>> read_events(const std::filesystem::path& path,
                                                           const Trace& trace);
 

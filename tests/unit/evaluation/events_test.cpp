@@ -38,6 +38,18 @@ TEST(Events, NeedNoDetail) {
     EXPECT_EQ((*events)[0].detail, "");
 }
 
+TEST(Events, AreThoseOfOneMatchAtMost) {
+    std::string text = "t_ms,event,player,other\n";
+    for (std::size_t i = 0; i < max_events; ++i)
+        text += "1,a,,\n";
+    const auto events = parse_rows(text);
+    ASSERT_TRUE(events) << events.error().message;
+    EXPECT_EQ(events->size(), max_events);
+    const auto more = parse_rows(text + "1,a,,\n");
+    ASSERT_FALSE(more);
+    EXPECT_THAT(more.error().message, testing::HasSubstr("events.csv:1000002: more than 1000000 events"));
+}
+
 TEST(Events, ErrorsNameTheLineAndTheReason) {
     const auto error_of = [](std::string_view text) {
         const auto events = parse_rows(text);
