@@ -31,7 +31,7 @@ inline constexpr double longest_absence_s = 1.0;
 inline constexpr double max_growth = 0.05;  // of resident memory
 inline constexpr double slack_mib = 4.0;    // which an allocator keeps
 // What Cyclone DDS 0.10.2 keeps of the nine endpoints of each match, with the gaps between.
-inline constexpr double kept_bytes_a_match = 5000.0;
+inline constexpr double kept_bytes_a_match = 5500.0;
 
 [[nodiscard]] ActFindings findings_of(const ActRecord& act, const Timeline& timeline);
 

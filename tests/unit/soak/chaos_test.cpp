@@ -141,9 +141,9 @@ TEST(Verdict, GrowthFailsBeyondWhatDdsKeepsOfMatches) {
     };
     EXPECT_THAT(failures(grown_to(56.0)), testing::IsEmpty());  // 5 % and 4 MiB are 6.5
     expect_failure(grown_to(57.0), "memory");
-    timeline.acts[0].act.kind = ActKind::flood_matches;  // 10,000 x 5,000 bytes are 47.7 MiB
-    EXPECT_THAT(failures(grown_to(104.0)), testing::IsEmpty());
-    expect_failure(grown_to(105.0), "memory");
+    timeline.acts[0].act.kind = ActKind::flood_matches;  // 10,000 x 5,500 bytes are 52.5 MiB
+    EXPECT_THAT(failures(grown_to(108.0)), testing::IsEmpty());
+    expect_failure(grown_to(110.0), "memory");
 }
 
 TEST(Verdict, DescriptorsAndThreadsThatStayFail) {
