@@ -34,16 +34,16 @@ void FreeLengths::use(float longest, float radius) {
 }
 
 float& FreeLengths::at(const Vec3f& eye, std::size_t bin, float cell) {
-    std::uint64_t hash = 0;
+    std::uint64_t hash = 1;
     const auto mix = [&hash](std::uint64_t value) {
         hash = (hash ^ value) * 0x9e3779b97f4a7c15U;
         hash ^= hash >> 32U;
     };
-    mix(bin + 1);
     for (const float coordinate : eye)
         mix(static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(coordinate / cell))));
-    Entry& entry = entries_[hash % entries_.size()];
-    const auto tag = static_cast<std::uint32_t>(hash >> 32U);
+    // Directions beside each other are asked for together: they lie beside each other.
+    Entry& entry = entries_[(hash + bin) % entries_.size()];
+    const auto tag = static_cast<std::uint32_t>((hash >> 32U) + bin);
     if (entry.tag != tag) entry = {tag, -1.0F};
     return entry.length;
 }

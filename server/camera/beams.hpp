@@ -73,6 +73,12 @@ class Beams {
     Beams(const freespace::Freespace& freespace, const MapProfile& profile, const Future& future,
           FreeBeams& known, FreeLengths& lengths, freespace::RecentBalls& balls);
 
+    // The clearance of a place near the eyes. Spares looking it up.
+    void set_clearance(const Vec3f& place, float clearance) {
+        clear_eye_ = place;
+        clearance_ = clearance;
+    }
+
     // How far the beam from the eye of sample i is free in a direction (unit), at most `length`.
     [[nodiscard]] float free_length(std::size_t i, const Vec3f& direction, float length);
     // The same for the profile's distance in a direction of the grid, from the eye of sample i or one nearby.
@@ -97,7 +103,7 @@ class Beams {
     FreeLengths& lengths_;
     freespace::RecentBalls& balls_;
     std::array<float, Future::capacity> radius_;  // of each sample; negative: not asked yet
-    Vec3f clear_eye_ = Vec3f::Zero();             // the last eye whose clearance was looked up
+    Vec3f clear_eye_ = Vec3f::Zero();             // the last place whose clearance is known
     float clearance_ = -1.0F;
 };
 

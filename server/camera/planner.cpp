@@ -24,8 +24,8 @@ std::size_t samples_to_keep(const Plan& plan) {
     return std::min({wanted, plan.count(), PlanState::capacity});
 }
 
-void make_plan(const freespace::Freespace& freespace, const MapProfile& profile, Window window, double time,
-               PlanState& state, PlanScratch& scratch) {
+void make_plan(const freespace::Freespace& freespace, const MapProfile& profile, const PlayerTrack& track,
+               Window window, double time, PlanState& state, PlanScratch& scratch) {
     Plan& plan = scratch.plan;
     foresee(freespace, profile, window, time, state.step, horizon,
             static_cast<float>(state.history[1].heading_yaw), state.balls, plan.future);
@@ -35,6 +35,7 @@ void make_plan(const freespace::Freespace& freespace, const MapProfile& profile,
     plan.find_views();
     smooth_heading(profile, state.history, plan);
     Beams beams(freespace, profile, plan.future, state.free_beams, state.free_lengths, state.balls);
+    beams.set_clearance(track.anchor, track.clearance);
     choose_vantages(profile, state.history, beams, plan, scratch.candidates, state.vantages);
     set_goals(profile, state.vantages, beams, plan);
     refine_path(profile, state.history, beams, plan);
@@ -114,8 +115,8 @@ void deviate(PlanState& state, const Vec3f& position, const Vec3f& velocity, con
 }
 
 const PlannedSample& next_sample(const freespace::Freespace& freespace, const MapProfile& profile,
-                                 Window window, double time, double dt, PlanState& state,
-                                 PlanScratch& scratch) {
+                                 const PlayerTrack& track, Window window, double time, double dt,
+                                 PlanState& state, PlanScratch& scratch) {
     const double tolerance = state.next < state.count ? same_step_while_planned : same_step;
     if (std::abs(dt - state.step) > tolerance * dt) {
         resample(state.history, dt / state.step);
@@ -126,7 +127,7 @@ const PlannedSample& next_sample(const freespace::Freespace& freespace, const Ma
     if (state.next == state.count) {
         discard(state);
         unwind(state.history);
-        make_plan(freespace, profile, window, time, state, scratch);
+        make_plan(freespace, profile, track, window, time, state, scratch);
     }
     state.history[0] = state.history[1];
     state.history[1] = state.samples[state.next++];

@@ -51,9 +51,10 @@ void restart_plan(PlanState& state, const CameraMotion& camera, const PlayerTrac
 void deviate(PlanState& state, const Vec3f& position, const Vec3f& velocity, const Look& look);
 
 // The next sample of the plan, `dt` after the last one, at `time`, at which the window has a usable pose of a
-// living player. The planned positions are wishes: see guard.hpp. Does not allocate.
+// living player, `track`. The planned positions are wishes: see guard.hpp. Does not allocate.
 [[nodiscard]] const PlannedSample& next_sample(const freespace::Freespace& freespace,
-                                               const MapProfile& profile, Window window, double time,
-                                               double dt, PlanState& state, PlanScratch& scratch);
+                                               const MapProfile& profile, const PlayerTrack& track,
+                                               Window window, double time, double dt, PlanState& state,
+                                               PlanScratch& scratch);
 
 }  // namespace camdir::camera

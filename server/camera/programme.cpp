@@ -106,6 +106,7 @@ std::span<const Programme::Choice> Programme::solve(std::span<const DirectionCos
     const std::size_t count = direction_costs.size();
     for (std::size_t knot = 0; knot < count; ++knot) {
         length_[knot].fill(-1.0F);
+        own_[knot].fill(0.0F);
         cost_[knot].fill(infinity);
     }
     std::fill_n(place_.begin(), count * DirectionGrid::size, unset);
@@ -118,9 +119,11 @@ std::span<const Programme::Choice> Programme::solve(std::span<const DirectionCos
         const std::size_t knot = state / DirectionGrid::size;
         const std::size_t bin = state % DirectionGrid::size;
         const float promised = estimate_[knot][bin];
-        if (length_[knot][bin] < 0.0F) length_[knot][bin] = lengths(knot, bin);
-        const float cost =
-            best_arrival(knot, bin) + direction_costs[knot][bin] + own_cost(length_[knot][bin]);
+        if (length_[knot][bin] < 0.0F) {
+            length_[knot][bin] = lengths(knot, bin);
+            own_[knot][bin] = own_cost(length_[knot][bin]);
+        }
+        const float cost = best_arrival(knot, bin) + direction_costs[knot][bin] + own_[knot][bin];
         if (cost + rest_[knot][bin] > promised + 1e-5F) {
             arrive(knot, bin, cost + rest_[knot][bin]);
             continue;
@@ -136,9 +139,9 @@ std::span<const Programme::Choice> Programme::solve(std::span<const DirectionCos
         }
         for_each_neighbour(bin, [&](std::size_t to, float turned) {
             if (direction_costs[knot + 1][to] >= forbidden || cost_[knot + 1][to] != infinity) return;
-            const float own = length_[knot + 1][to] < 0.0F ? 0.0F : own_cost(length_[knot + 1][to]);
             arrive(knot + 1, to,
-                   cost + costs_.turn * turned + direction_costs[knot + 1][to] + own + rest_[knot + 1][to]);
+                   cost + costs_.turn * turned + direction_costs[knot + 1][to] + own_[knot + 1][to] +
+                       rest_[knot + 1][to]);
         });
     }
     return {};

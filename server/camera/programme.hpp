@@ -56,6 +56,7 @@ class Programme {
     ProgrammeCosts costs_;
     std::array<Row, knots> rest_;      // lower bound of what comes after a choice
     std::array<Row, knots> length_;    // negative: not asked yet
+    std::array<Row, knots> own_;       // cost of the length; 0 while it is not known
     std::array<Row, knots> cost_;      // up to and with a choice, once it is closed; else infinity
     std::array<Row, knots> estimate_;  // of the whole path, of what is open
     std::array<std::array<std::uint8_t, DirectionGrid::size>, knots> parent_;

@@ -67,7 +67,7 @@ class Step {
     // The planner's step.
     Camera follow_plan() {
         const PlannedSample& planned =
-            next_sample(freespace_, profile_, window_, time_, dt_, state_.plan, scratch_.plan);
+            next_sample(freespace_, profile_, player_, window_, time_, dt_, state_.plan, scratch_.plan);
         const Vec3f wanted = planned.position.cast<float>();
         const Look look{wrapped(static_cast<float>(planned.look_yaw)),
                         static_cast<float>(planned.look_pitch)};

@@ -41,6 +41,7 @@ Look turned(const Look& from, const Look& to, float share, float limit) {
 }
 
 float wrapped(float angle) {
+    if (angle > -pi && angle <= pi) return angle;
     const float turn = std::remainder(angle, 2.0F * pi);
     return turn <= -pi ? pi : turn;
 }
