@@ -345,10 +345,12 @@ void MatchEndpoints::assert_liveliness() {
     if (now < next_slow_assertion_) return;
     next_slow_assertion_ = now + slow_assertion_interval;
     dds_assert_liveliness(status_writer_);
-    dds_assert_liveliness(shown_writer_);
     // A take-over writes everything that is kept. It comes again.
     const std::unique_lock lock(writing_, std::try_to_lock);
-    if (lock && shown_ && leads()) dds_write(shown_writer_, &shown_encoder_.encode(*shown_));
+    if (lock && shown_ && leads())
+        dds_write(shown_writer_, &shown_encoder_.encode(*shown_));  // which asserts it too
+    else
+        dds_assert_liveliness(shown_writer_);
 }
 
 void MatchEndpoints::resign() {

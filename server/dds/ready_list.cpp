@@ -18,12 +18,12 @@ using Listener = std::unique_ptr<dds_listener_t, ListenerDeleter>;
 Result<void> ReadyList::watch(dds_entity_t reader, Source& samples, Source* writers) {
     const auto on_samples = [](dds_entity_t /*reader*/, void* source) {
         Source& ready = *static_cast<Source*>(source);
-        ready.list_->report(ready);
+        ready.list_.load()->report(ready);
     };
     const auto on_writers = [](dds_entity_t /*reader*/, dds_subscription_matched_status_t /*status*/,
                                void* source) {
         Source& ready = *static_cast<Source*>(source);
-        ready.list_->report(ready);
+        ready.list_.load()->report(ready);
     };
     const Listener listener(dds_create_listener(nullptr));
     add(samples);
@@ -38,8 +38,10 @@ Result<void> ReadyList::watch(dds_entity_t reader, Source& samples, Source* writ
     return {};
 }
 
-void ReadyList::unwatch(dds_entity_t reader) {
+void ReadyList::unwatch(dds_entity_t reader, Source& samples, Source* writers) {
     dds_set_listener(reader, nullptr);  // waits for calls that go on
+    remove(samples);
+    if (writers != nullptr) remove(*writers);
 }
 
 void ReadyList::add(Source& source) {
@@ -48,7 +50,7 @@ void ReadyList::add(Source& source) {
     ready_.reserve(++sources_);
 }
 
-void ReadyList::forget(Source& source) {
+void ReadyList::remove(Source& source) {
     const std::lock_guard lock(mutex_);
     if (source.list_ == nullptr) return;
     source.list_ = nullptr;
@@ -58,20 +60,16 @@ void ReadyList::forget(Source& source) {
 }
 
 void ReadyList::report(Source& source) {
-    {
-        const std::lock_guard lock(mutex_);
-        if (source.is_ready_) return;
-        source.is_ready_ = true;
-        ready_.push_back(&source);
-    }
+    const std::lock_guard lock(mutex_);
+    if (source.is_ready_) return;
+    source.is_ready_ = true;
+    ready_.push_back(&source);
     reported_.notify_one();
 }
 
 void ReadyList::wake() {
-    {
-        const std::lock_guard lock(mutex_);
-        is_woken_ = true;
-    }
+    const std::lock_guard lock(mutex_);
+    is_woken_ = true;
     reported_.notify_one();
 }
 

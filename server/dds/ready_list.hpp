@@ -3,6 +3,7 @@
 
 #include <dds/dds.h>
 
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <cstddef>
@@ -19,11 +20,11 @@ class ReadyList {
   public:
     using Clock = std::chrono::steady_clock;
 
-    // What a reader reports. It must be forgotten before it is destroyed.
+    // What a reader reports. It lives for as long as the reader is watched.
     class Source {
       private:
         friend class ReadyList;
-        ReadyList* list_ = nullptr;
+        std::atomic<ReadyList*> list_{nullptr};
         bool is_ready_ = false;
     };
 
@@ -32,12 +33,10 @@ class ReadyList {
     ReadyList& operator=(const ReadyList&) = delete;
 
     // `samples` becomes ready now and whenever samples arrive, and `writers`, if any, when writers come or
-    // go. One thread at a time watches, forgets and waits.
+    // go. One thread at a time watches, unwatches and waits.
     [[nodiscard]] Result<void> watch(dds_entity_t reader, Source& samples, Source* writers = nullptr);
-    // The reader reports no more when this returns.
-    static void unwatch(dds_entity_t reader);
-    // It is ready no more. Precondition: no reader reports it.
-    void forget(Source& source);
+    // When this returns the reader reports no more, and its sources are not ready. It need not be watched.
+    void unwatch(dds_entity_t reader, Source& samples, Source* writers = nullptr);
 
     // Thread-safe; does not allocate.
     void report(Source& source);
@@ -50,6 +49,7 @@ class ReadyList {
 
   private:
     void add(Source& source);
+    void remove(Source& source);
 
     std::mutex mutex_;
     std::condition_variable reported_;

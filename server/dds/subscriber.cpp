@@ -39,6 +39,7 @@ Subscriber::Subscriber(const Participant& participant, Options options, MatchTab
 
 Subscriber::~Subscriber() {
     stop();
+    ready_.unwatch(match_info_reader_, match_infos_, &matched_);
 }
 
 Result<void> Subscriber::open() {

@@ -190,13 +190,11 @@ Result<void> Subscriber::watch(Match& match) {
 
 void Subscriber::unwatch(Match& match) {
     const MatchEndpoints& endpoints = *match.endpoints;
-    for (const dds_entity_t reader :
-         {endpoints.pose_reader(), endpoints.event_reader(), endpoints.request_reader(),
-          endpoints.camera_reader(), endpoints.sign_reader()})
-        ReadyList::unwatch(reader);
-    for (Source* source :
-         {&match.poses, &match.events, &match.requests, &match.requesters, &match.cameras, &match.signs})
-        ready_.forget(*source);
+    ready_.unwatch(endpoints.pose_reader(), match.poses);
+    ready_.unwatch(endpoints.event_reader(), match.events);
+    ready_.unwatch(endpoints.request_reader(), match.requests, &match.requesters);
+    ready_.unwatch(endpoints.camera_reader(), match.cameras);
+    ready_.unwatch(endpoints.sign_reader(), match.signs);
 }
 
 void Subscriber::remove_match(const std::string& match_id) {

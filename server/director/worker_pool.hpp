@@ -127,7 +127,7 @@ class BriefTurns {
   private:
     WorkerPool& pool_;
     std::unique_lock<std::mutex> lock_;
-    std::int64_t left_ns_ = 300'000;  // of the caller's time
+    std::int64_t left_ns_ = 150'000;  // of the caller's time
 };
 
 // What a strand may ask of the pool during its turn.

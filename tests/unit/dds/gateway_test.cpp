@@ -62,6 +62,36 @@ TEST_F(GatewayTest, HandsOnTheSamplesOfAMatch) {
     EXPECT_EQ(gateway_->counters().matches, 1U);
 }
 
+TEST_F(GatewayTest, PosesThatArriveTogetherAreHandedOnInTheirOrder) {
+    struct Game {
+        std::string id;
+        RawPeer& raw;
+    };
+    const Game games[] = {{"a", game("a")}, {"b", game("b")}};
+    for (const auto& [id, raw] : games) {
+        RawPoseFrame first(id, 1, 1, 8);
+        ASSERT_TRUE(arrives(raw, first, "pose " + id + " 1"));
+    }
+    recorder_.hangs = true;
+    games[0].raw.write(test::raw_match_info("a", 2));
+    ASSERT_TRUE(eventually([&] { return recorder_.has("info a 2"); }));
+    for (std::uint32_t number = 2; number <= 7; ++number)
+        for (const auto& [id, raw] : games)
+            raw.write(RawPoseFrame(id, 1, number, 8).sample());
+    recorder_.hangs = false;
+    ASSERT_TRUE(eventually([&] { return recorder_.has("pose a 7") && recorder_.has("pose b 7"); }));
+    const auto lines = recorder_.lines();
+    for (const auto& [id, raw] : games) {
+        const auto place = [&, &match_id = id](std::uint32_t number) {
+            return std::ranges::find(lines, "pose " + match_id + " " + std::to_string(number));
+        };
+        for (std::uint32_t number = 2; number <= 7; ++number) {
+            EXPECT_EQ(recorder_.count("pose " + id + " " + std::to_string(number)), 1) << "of " << id;
+            EXPECT_LT(place(number - 1), place(number)) << "of " << id;
+        }
+    }
+}
+
 TEST_F(GatewayTest, WritesCamerasAndStatuses) {
     RawPeer& raw = led_game("cup");
     gateway_->publish("cup", one_camera(0));

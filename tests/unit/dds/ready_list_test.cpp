@@ -37,6 +37,7 @@ class ReadyListTest : public testing::Test {
         writer_ = create_writer();
         ASSERT_GT(writer_.handle(), 0);
     }
+    void TearDown() override { list_.unwatch(reader_.handle(), samples_, &writers_); }
 
     [[nodiscard]] Entity create_writer() const {
         const Qos qos = wire::topic_qos(Topic::match_info, DDS_MSECS(100));
@@ -112,16 +113,13 @@ TEST_F(ReadyListTest, ReportsThatWritersComeAndGo) {
     EXPECT_TRUE(reports(writers_));
 }
 
-TEST_F(ReadyListTest, AForgottenSourceIsNotReported) {
+TEST_F(ReadyListTest, AnUnwatchedReaderReportsNothing) {
     ASSERT_TRUE(list_.watch(reader_.handle(), samples_, &writers_));
     write(1);
-    ReadyList::unwatch(reader_.handle());
-    list_.forget(samples_);
-    list_.forget(writers_);
+    list_.unwatch(reader_.handle(), samples_, &writers_);
     write(2);
     EXPECT_TRUE(list_.wait(Clock::now()).empty());
-    ReadyList::Source unknown;
-    list_.forget(unknown);
+    list_.unwatch(reader_.handle(), samples_, &writers_);
     ASSERT_TRUE(list_.watch(reader_.handle(), samples_)) << "again";
     EXPECT_TRUE(reports(samples_));
 }

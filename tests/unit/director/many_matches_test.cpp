@@ -1,10 +1,12 @@
 // Many matches at once: the same cameras for any number of workers, and every frame is accounted for.
 #include <gtest/gtest.h>
 
+#include <future>
 #include <random>
 #include <thread>
 
 #include "stage.hpp"
+#include "support/eventually.hpp"
 #include "support/freespace_meshes.hpp"
 
 namespace camdir::director {
@@ -153,6 +155,44 @@ TEST(ManyMatches, EveryFrameIsProcessedOrCounted) {
             ASSERT_GT(published[i].pose_number, before);
         }
     }
+}
+
+// Holds the cameras of one match until it is released.
+class HoldingPublisher final : public MemoryPublisher {
+  public:
+    using MemoryPublisher::publish;
+    void publish(const std::string& match_id, const CameraFrame& frame) override {
+        if (match_id == name_of(0)) released_.wait();
+        MemoryPublisher::publish(match_id, frame);
+    }
+    void release() { release_.set_value(); }
+
+  private:
+    std::promise<void> release_;
+    std::shared_future<void> released_ = release_.get_future();
+};
+
+TEST(ManyMatches, AMatchThatTakesLongDelaysNoOther) {
+    HoldingPublisher publisher;
+    MapLibrary maps;
+    maps.set_ready("square", Stage::square());
+    Director director(Stage::default_config(), maps, publisher);
+    for (int match = 0; match < 2; ++match) {
+        director.receive(Stage::info(name_of(match)));
+        director.receive(Stage::request("a", 1, name_of(match)));
+    }
+    std::uint32_t number = 0;
+    EXPECT_TRUE(test::eventually([&] {
+        ++number;
+        std::vector<PoseArrival> arrivals = {{name_of(0), Stage::poses(number)},
+                                             {name_of(1), Stage::poses(number)}};
+        director.receive(arrivals);
+        return publisher.frames(name_of(1)).size() >= 30;
+    }));
+    EXPECT_TRUE(publisher.frames(name_of(0)).empty());
+    publisher.release();
+    director.flush();
+    EXPECT_FALSE(publisher.frames(name_of(0)).empty());
 }
 
 }  // namespace

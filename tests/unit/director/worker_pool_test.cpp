@@ -342,7 +342,7 @@ TEST_F(BriefTurnsTest, WhatTheCallerHasNoTimeForIsTheWorkers) {
         most = std::max(most, together);
     }
     EXPECT_EQ(faults, 0) << "each has one turn each time";
-    EXPECT_LE(most, 3) << "0.3 ms of the caller's time";
+    EXPECT_LE(most, 1) << "0.15 ms of the caller's time";
 }
 
 TEST_F(BriefTurnsTest, AreCoveredByATurnThatGoesOnElsewhere) {
