@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # The whole system on a real map: bakes oa_dm1 (and keeps the result for the next run), starts the director, replays
-# 30 s of a recorded match of 8 players over DDS in a loop, and shows what 8 observers receive.
+# 30 s of a recorded match of 8 players over DDS in a loop, and shows what 8 observers receive. Anyone on this machine
+# can watch in a browser: it prints the link.
 #
 #     demo.sh [--seconds N] [--json FILE]
 #     demo.sh --openarena [--seconds N] [--video FILE.mp4]
@@ -85,6 +86,11 @@ step "Bake oa_dm1 (only when $work/oa_dm1.vfs is missing or out of date)"
 foreground "$bin/camera-director" bake --config "$work/demo.json"
 
 run "$work/director.log" "$bin/camera-director" serve --config "$work/demo.json"
+
+# Of the page that shows the match. Empty while the director does not listen yet.
+link() { sed -n 's|.*http: listening on \(.*\) port \(.*\)|http://\1:\2/|p' "$work/director.log"; }
+for ((i = 0; i < 100; ++i)); do [ -z "$(link)" ] || break; sleep 0.1; done
+step "Watch the match in a browser: $(link)"
 
 if $openarena; then
     work=$work/openarena

@@ -14,6 +14,7 @@ build_packages=(
     openssl libssl-dev                       # identities for DDS Security
     libspdlog-dev nlohmann-json3-dev libcli11-dev  # logging, JSON, command line
     libboost-dev prometheus-cpp-dev libsystemd-dev  # HTTP, metrics, service notification
+    libjs-three                              # the page that shows matches: the server serves it
     libgtest-dev libgmock-dev librapidcheck-dev  # tests
     libqhull-dev                             # benchmarks: the paper's Voronoi engine
     libbullet-dev                            # benchmarks: sweeps beside the project's queries
@@ -25,8 +26,11 @@ game_packages=(openarena-server openarena xvfb libgl1-mesa-dri)
 # Videos of it.
 film_packages=(ffmpeg)
 # What test.sh needs in addition. Of prometheus it is promtool, which checks the alerts; nginx checks its configuration;
-# iproute2 makes networks that can be cut, libfaketime clocks that can be stepped.
-test_packages=(clang-format-14 openarena-088-data prometheus nginx-light iproute2 libfaketime)
+# iproute2 makes networks that can be cut, libfaketime clocks that can be stepped; nodejs and chromium (400 MB) run the
+# page that shows matches.
+test_packages=(
+    clang-format-14 openarena-088-data prometheus nginx-light iproute2 libfaketime nodejs chromium
+)
 # kubectl builds the files for Kubernetes. Where it is another vendor's, Debian's package cannot be installed.
 command -v kubectl >/dev/null || test_packages+=(kubernetes-client)
 # What test.sh --all needs in addition.

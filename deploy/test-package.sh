@@ -63,6 +63,8 @@ serve() {
     [ -n "$port" ] && [ "$(curl -s "http://127.0.0.1:$port/-/ready")" = ready ] || { cat "$1" >&2; fail "not ready"; }
     curl -s "http://127.0.0.1:$port/metrics" >"$work/metrics"
     grep -q '^camera_director_map_loaded{map="room"} 1$' "$work/metrics" || { cat "$1" >&2; fail "the map is not loaded"; }
+    curl -sf "http://127.0.0.1:$port/" | grep -q '<canvas' || fail "no page to watch matches"
+    curl -sf -o "$work/three.js" "http://127.0.0.1:$port/three.js" || fail "the page has no three.js"
     kill -HUP $!
     for ((i = 0; i < 100; ++i)); do ! grep -q ': reloaded' "$1" || break; sleep 0.1; done
     grep -q ': reloaded' "$1" || fail "no reload after SIGHUP"

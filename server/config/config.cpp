@@ -274,6 +274,7 @@ void check_references(const Config& config, ValidationErrors& errors) {
 void resolve_paths(Config& config, const fs::path& folder) {
     if (!config.dds.security.empty()) config.dds.security = (folder / config.dds.security).string();
     if (!config.http.token_file.empty()) config.http.token_file = (folder / config.http.token_file).string();
+    if (!config.http.page.empty()) config.http.page = (folder / config.http.page).string();
     if (!config.recording.folder.empty())
         config.recording.folder = (folder / config.recording.folder).string();
     for (Map& map : config.maps) {

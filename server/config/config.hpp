@@ -39,6 +39,8 @@ struct Http {
     std::int64_t port = 9464;  // 0 = any free one, which the log names
     std::string token_file;    // needed off loopback
     std::int64_t match_metrics = 0;
+    std::int64_t viewers = 256;  // who watch matches in a browser, at most
+    std::string page;            // folder of the page's files; empty: beside the program
 };
 
 struct Recording {

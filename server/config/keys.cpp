@@ -129,8 +129,9 @@ void add_dds(std::vector<Key>& table) {
 void add_http(std::vector<Key>& table) {
     const std::string section = "/http";
     const auto slot = [](auto member) { return in(&Config::http, member); };
-    table.push_back({section, "enabled", slot(&Http::enabled),
-                     "Serves /-/healthy, /-/ready, /metrics, /status, /broadcast, /hand-over."});
+    table.push_back(
+        {section, "enabled", slot(&Http::enabled),
+         "Serves /-/healthy, /-/ready, /metrics, /status, /broadcast, /hand-over, and the page at /."});
     table.push_back({section, "address", slot(&Http::address),
                      "Address to listen on. One that other hosts reach needs a `token_file`.", "", 1, 255});
     table.push_back(
@@ -144,6 +145,14 @@ void add_http(std::vector<Key>& table) {
                      "Matches that have metrics of their own, with the label `match`: as many of those that "
                      "began first. 0: none.",
                      "", 0, 4096});
+    table.push_back({section, "viewers", slot(&Http::viewers),
+                     "Viewers of the page at `/`, at most; one more is told to come back later.", "", 0,
+                     4096});
+    table.push_back(
+        {section, "page", slot(&Http::page),
+         "Folder of the page's files; empty: `../share/camera-director/page` from the program's folder. "
+         "Relative paths start at the configuration's folder.",
+         "", 0, 4095});
 }
 
 void add_recording(std::vector<Key>& table) {
@@ -586,7 +595,8 @@ std::string shipped() {
 const std::vector<Section>& sections() {
     static const std::vector<Section> list = {
         {"/dds", "The network. Takes effect at a restart; `shards` and `shard` are reloaded by SIGHUP."},
-        {"/http", "Health, readiness, metrics and status. Takes effect at a restart."},
+        {"/http",
+         "Health, readiness, metrics, status and the page to watch matches. Takes effect at a restart."},
         {"/recording", "Recordings of all matches, as observers see them. Takes effect at a restart."},
         {"/maps", "The list of maps that are served. Reloaded by SIGHUP."},
         {"/profiles",

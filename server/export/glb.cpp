@@ -26,6 +26,7 @@ static_assert(std::endian::native == std::endian::little, "glTF is written in th
 constexpr int type_float = 5126;
 constexpr int type_uint = 5125;
 constexpr int type_ubyte = 5121;
+constexpr int type_ushort = 5123;
 constexpr int array_buffer = 34962;
 constexpr int element_array_buffer = 34963;
 constexpr int mode_lines = 1;
@@ -33,6 +34,7 @@ constexpr int mode_triangles = 4;
 constexpr std::uint32_t magic = 0x46546c67;
 constexpr std::uint32_t json_chunk = 0x4e4f534a;
 constexpr std::uint32_t binary_chunk = 0x004e4942;
+constexpr double max_ushort = 65535.0;
 constexpr double half_root = 0.70710678118654752;
 
 void append(Bytes& bytes, std::uint32_t value) {
@@ -179,6 +181,52 @@ std::size_t add_spawn_point(Document& document, const freespace::SpawnPoint& spa
                               {"rotation", {0.0, 0.0, std::sin(half), std::cos(half)}}});
 }
 
+// The scene's one root, in map units with z up.
+void add_root(Document& document, const std::string& name, double metres,
+              const std::vector<std::size_t>& children) {
+    // From z up to y up: (x, y, z) becomes (x, z, -y).
+    ordered_json root{
+        {"name", name}, {"rotation", {-half_root, 0.0, 0.0, half_root}}, {"scale", {metres, metres, metres}}};
+    if (!children.empty()) root["children"] = children;
+    const std::size_t root_number = document.add_node(std::move(root));
+    document.json()["scenes"] = {{{"nodes", {root_number}}}};
+    document.json()["scene"] = 0;
+}
+
+Box3d vertex_bounds(const scene::Scene& scene) {
+    Box3d box;
+    for (const Vec3d& vertex : scene.vertices)
+        box.extend(vertex);
+    return box;
+}
+
+// A scale of 0 would make the node's matrix singular.
+Vec3d quantisation_step(const Box3d& box) {
+    return (box.sizes() / max_ushort).cwiseMax(1e-9);
+}
+
+std::size_t add_quantised_positions(Document& document, const scene::Scene& scene, const Box3d& box) {
+    // Four, for vertices have a multiple of 4 bytes.
+    using Position = std::array<std::uint16_t, 4>;
+    const Vec3d step = quantisation_step(box);
+    std::vector<Position> positions;
+    Position max{};
+    for (const Vec3d& vertex : scene.vertices) {
+        const Vec3d steps = (vertex - box.min()).cwiseQuotient(step);
+        Position position{};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            position[axis] = static_cast<std::uint16_t>(std::lround(steps[static_cast<Eigen::Index>(axis)]));
+            max[axis] = std::max(max[axis], position[axis]);
+        }
+        positions.push_back(position);
+    }
+    const std::size_t accessor = document.add_accessor(positions, type_ushort, "VEC3", array_buffer);
+    document.json()["bufferViews"].back()["byteStride"] = sizeof(Position);
+    document.accessor(accessor)["min"] = {0, 0, 0};
+    document.accessor(accessor)["max"] = {max[0], max[1], max[2]};
+    return accessor;
+}
+
 }  // namespace
 
 Result<Bytes> to_glb(const Freespace& freespace) {
@@ -187,15 +235,26 @@ Result<Bytes> to_glb(const Freespace& freespace) {
     std::size_t number = 0;
     for (const freespace::SpawnPoint& spawn : freespace.spawn_points())
         children.push_back(add_spawn_point(document, spawn, number++));
-    const float metres = freespace.metadata().metres_per_unit;
-    // From z up to y up: (x, y, z) becomes (x, z, -y).
-    ordered_json root{{"name", freespace.metadata().map_name},
-                      {"rotation", {-half_root, 0.0, 0.0, half_root}},
-                      {"scale", {metres, metres, metres}}};
-    if (!children.empty()) root["children"] = children;
-    const std::size_t root_number = document.add_node(std::move(root));
-    document.json()["scenes"] = {{{"nodes", {root_number}}}};
-    document.json()["scene"] = 0;
+    add_root(document, freespace.metadata().map_name, freespace.metadata().metres_per_unit, children);
+    return std::move(document).file();
+}
+
+Result<Bytes> to_glb(const scene::Scene& scene) {
+    if (scene.triangles.empty()) return fail(scene.name + ": no triangles to export");
+    Document document;
+    document.json()["extensionsUsed"] = {"KHR_mesh_quantization"};
+    document.json()["extensionsRequired"] = {"KHR_mesh_quantization"};
+    document.json()["materials"] = {{{"name", "obstacles"}}};
+    const Box3d box = vertex_bounds(scene);
+    const ordered_json attributes{{"POSITION", add_quantised_positions(document, scene, box)}};
+    std::vector<std::uint32_t> corners;
+    for (const auto& triangle : scene.triangles)
+        corners.insert(corners.end(), triangle.begin(), triangle.end());
+    const std::size_t node = add_indexed(document, "obstacles", attributes, corners, mode_triangles);
+    const Vec3d step = quantisation_step(box);
+    document.json()["nodes"][node]["translation"] = {box.min().x(), box.min().y(), box.min().z()};
+    document.json()["nodes"][node]["scale"] = {step.x(), step.y(), step.z()};
+    add_root(document, scene.name, scene.metres_per_unit, {node});
     return std::move(document).file();
 }
 

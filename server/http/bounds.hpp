@@ -16,12 +16,14 @@ enum class Bound : std::size_t {
     answer_time,   // Limits::answer
     header_size,
     body_size,
-    slow_pages,  // Limits::slow_pages
+    slow_pages,       // Limits::slow_pages
+    viewers,          // the broadcast's
+    viewer_messages,  // a viewer sent something
     count
 };
 inline constexpr std::array<const char*, static_cast<std::size_t>(Bound::count)> bound_names = {
-    "connections", "files",       "idle_time", "request_time",
-    "answer_time", "header_size", "body_size", "slow_pages"};
+    "connections", "files",     "idle_time",  "request_time", "answer_time",
+    "header_size", "body_size", "slow_pages", "viewers",      "viewer_messages"};
 
 // Counts since the start. Thread-safe.
 class BoundCounters {

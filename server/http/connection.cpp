@@ -5,6 +5,9 @@
 #include <boost/beast/http/write.hpp>
 #include <utility>
 
+#include "http/live_connection.hpp"
+#include "recording/percent.hpp"
+
 namespace camdir::http {
 namespace {
 
@@ -38,7 +41,7 @@ std::optional<Status> status_of(const beast::error_code& unread) {
 
 }  // namespace
 
-std::uint64_t Connections::move_to_end(std::uint64_t place, Connection& connection) {
+std::uint64_t Connections::move_to_end(std::uint64_t place, beast::tcp_stream& connection) {
     by_place_.erase(place);
     by_place_.emplace(++last_place_, &connection);
     return last_place_;
@@ -60,7 +63,7 @@ Connection::~Connection() {
 }
 
 void Connection::wait_for_request() {
-    place_ = site_.connections.move_to_end(place_, *this);
+    place_ = site_.connections.move_to_end(place_, stream_);
     if (buffer_.size() > 0) return read_request();
     stream_.expires_after(site_.limits.idle);
     stream_.async_read_some(buffer_.prepare(chunk),
@@ -82,7 +85,7 @@ void Connection::read_request() {
 }
 
 void Connection::handle(ErrorCode error) {
-    place_ = site_.connections.move_to_end(place_, *this);
+    place_ = site_.connections.move_to_end(place_, stream_);
     if (!error) return serve(parser_->release());
     note_time(error, Bound::request_time);
     const auto status = status_of(error);
@@ -98,14 +101,34 @@ void Connection::note_time(ErrorCode error, Bound bound) {
 }
 
 void Connection::serve(Request request) {
-    const Page* page = find_page(request);
+    const File* file = site_.files.find(path_of(request));
+    const Page* page = file != nullptr ? &file_page : find_page(request);
     if (auto refused = check(request, page, site_.access)) return send(std::move(*refused));
+    if (file != nullptr) return send(answer(request, content_of(*file, request)));
+    if (page->make == nullptr) return watch(*page, std::move(request));
     if (page->prompt) return send(answer(request, page->make(site_.sources, below(*page, request))));
     if (site_.slow_pages >= site_.limits.slow_pages) {
         site_.bounds_reached->add(Bound::slow_pages);
         return send(refusal(request, Status::service_unavailable));
     }
     make(*page, std::move(request));
+}
+
+void Connection::watch(const Page& page, Request request) {
+    if (const auto status = LiveConnection::refusal_of(request)) return send(refusal(request, *status));
+    const auto live = std::make_shared<LiveConnection>(site_);
+    const std::string_view name = below(page, request).substr(1);
+    switch (site_.sources.join(recording::percent_decoded(name).value_or(""), live->viewer())) {
+        case live::Broadcast::Admission::no_match:
+            return send(refusal(request, Status::not_found));
+        case live::Broadcast::Admission::full:
+            site_.bounds_reached->add(Bound::viewers);
+            return send(refusal(request, Status::service_unavailable));
+        case live::Broadcast::Admission::joined:
+            break;
+    }
+    site_.connections.leave(place_);
+    live->accept(std::move(stream_), request);
 }
 
 void Connection::make(const Page& page, Request request) {

@@ -11,24 +11,23 @@
 #include <optional>
 
 #include "http/bounds.hpp"
+#include "http/files.hpp"
 #include "http/pages.hpp"
 
 namespace camdir::http {
-
-class Connection;
 
 // The connections in the order in which they began what they do: wait, read or answer.
 class Connections {
   public:
     [[nodiscard]] std::size_t size() const { return by_place_.size(); }
     // Moves a connection from its place, 0 when it has none yet, to the last one, which is returned.
-    [[nodiscard]] std::uint64_t move_to_end(std::uint64_t place, Connection& connection);
+    [[nodiscard]] std::uint64_t move_to_end(std::uint64_t place, boost::beast::tcp_stream& connection);
     void leave(std::uint64_t place) { by_place_.erase(place); }
     // False when there is none.
     bool close_oldest();
 
   private:
-    std::map<std::uint64_t, Connection*> by_place_;
+    std::map<std::uint64_t, boost::beast::tcp_stream*> by_place_;
     std::uint64_t last_place_ = 0;
 };
 
@@ -36,6 +35,7 @@ class Connections {
 struct Site {
     const Sources sources;
     const Limits limits;
+    const Files files;
     Access access;
     const std::shared_ptr<BoundCounters> bounds_reached;
     Connections connections{};
@@ -53,7 +53,6 @@ class Connection final : public std::enable_shared_from_this<Connection> {
     ~Connection();
 
     void wait_for_request();
-    void close() { stream_.close(); }
 
   private:
     using ErrorCode = boost::beast::error_code;
@@ -63,6 +62,8 @@ class Connection final : public std::enable_shared_from_this<Connection> {
     // Counts what has ended for want of time.
     void note_time(ErrorCode error, Bound bound);
     void serve(Request request);
+    // Goes on as a stream of a match's messages.
+    void watch(const Page& page, Request request);
     void make(const Page& page, Request request);
     void send(Response response);
     void sent();

@@ -164,6 +164,20 @@ std::vector<MetricFamily> map_metrics(const std::map<std::string, director::MapE
     return {loaded, bake};
 }
 
+std::vector<MetricFamily> live_metrics(const live::BroadcastStatistics& statistics) {
+    MetricFamily viewers = gauge_family("live_viewers", "Browsers that watch a match.");
+    MetricFamily frames = counter_family("live_frames_total", "Frames put before viewers.");
+    MetricFamily dropped =
+        counter_family("live_dropped_frames_total", "Of these, those that a viewer was too slow for.");
+    MetricFamily lost = counter_family("live_lost_viewers_total",
+                                       "Viewers whose connection was closed because they were too slow.");
+    add_metric(viewers, static_cast<double>(statistics.viewers));
+    add_metric(frames, static_cast<double>(statistics.frames));
+    add_metric(dropped, static_cast<double>(statistics.dropped_frames));
+    add_metric(lost, static_cast<double>(statistics.lost_viewers));
+    return {viewers, frames, dropped, lost};
+}
+
 MetricFamily bound_metrics(const BoundCounters& bounds_reached) {
     MetricFamily result = counter_family(
         "http_bounds_total", "HTTP connections closed and requests refused at a bound, by its name.");

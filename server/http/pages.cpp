@@ -3,8 +3,12 @@
 #include <prometheus/text_serializer.h>
 
 #include <algorithm>
+#include <boost/beast/websocket/rfc6455.hpp>
 #include <cstring>
+#include <memory>
 #include <string_view>
+
+#include "recording/percent.hpp"
 
 namespace camdir::http {
 namespace {
@@ -12,8 +16,11 @@ namespace {
 using boost::beast::http::field;
 using boost::beast::http::verb;
 
+// May be kept, and is asked for again each time.
+constexpr const char* kept = "private, no-cache";
+
 Content plain(Status status, std::string text) {
-    return {status, "text/plain; charset=utf-8", std::move(text)};
+    return {status, "text/plain; charset=utf-8", share(std::move(text))};
 }
 
 Content health(const Sources& sources, std::string_view /*below*/) {
@@ -33,21 +40,39 @@ Content readiness(const Sources& sources, std::string_view /*below*/) {
 
 Content metrics(const Sources& sources, std::string_view /*below*/) {
     return {Status::ok, "text/plain; version=0.0.4; charset=utf-8",
-            prometheus::TextSerializer().Serialize(sources.metrics())};
+            share(prometheus::TextSerializer().Serialize(sources.metrics()))};
 }
 
 Content status(const Sources& sources, std::string_view /*below*/) {
-    return {Status::ok, "application/json", sources.status()};
+    return {Status::ok, "application/json", share(sources.status())};
 }
 
-Content hand_over(const Sources& sources, std::string_view /*below*/) {
-    const HandOver done = sources.hand_over();
-    const std::string count = std::to_string(done.led - done.kept) + " of " + std::to_string(done.led) +
-                              " matches that this director led";
-    if (done.kept == 0) return plain(Status::ok, "handed over: " + count + "\n");
-    return plain(Status::conflict, "handed over: " + count +
-                                       "; for the others no standby has cameras: start one with the same "
-                                       "maps, or wait until it has loaded them\n");
+Content live(const Sources& sources, std::string_view /*below*/) {
+    return {Status::ok, "application/json", share(sources.live())};
+}
+
+Content model(const Sources& sources, std::string_view below) {
+    using live::ModelKind;
+    using live::Models;
+    const std::size_t slash = below.rfind('/');
+    const std::string_view file = below.substr(std::min(slash + 1, below.size()));
+    const auto map = recording::percent_decoded(slash == 0 ? "" : below.substr(1, slash - 1));
+    if (!map || (file != "obstacles.glb" && file != "mesh.glb"))
+        return plain(Status::not_found, "expected /map/NAME/obstacles.glb or /map/NAME/mesh.glb\n");
+    const auto answer = sources.model(*map, file == "mesh.glb" ? ModelKind::mesh : ModelKind::obstacles);
+    if (answer.model)
+        // Shares the model's memory.
+        return {Status::ok, "model/gltf-binary", Text(answer.model, &answer.model->gzip),
+                kept,       answer.model->tag,   "gzip"};
+    switch (answer.failure) {
+        case Models::Failure::busy:
+            return plain(Status::service_unavailable, "another model is being made: ask again\n");
+        case Models::Failure::no_source:
+            return plain(Status::not_found, answer.reason + "\n");
+        case Models::Failure::no_map:
+            break;
+    }
+    return plain(Status::not_found, "no map of this name is loaded\n");
 }
 
 Content broadcast(const Sources& sources, std::string_view below) {
@@ -56,23 +81,39 @@ Content broadcast(const Sources& sources, std::string_view below) {
     content.cache_control = "public, max-age=1";  // it may come to be
     if (!resource) return content;
     if (!resource->tag.empty()) content.cache_control = "public, max-age=31536000, immutable";
-    return {Status::ok, resource->type, resource->content, content.cache_control, resource->tag};
+    return {Status::ok, resource->type, share(resource->content), content.cache_control, resource->tag};
 }
 
-constexpr Page pages[] = {{"/-/healthy", false, false, true, true, health},
-                          {"/-/ready", false, false, true, true, readiness},
-                          {"/metrics", false, false, false, false, metrics},
-                          {"/status", false, false, false, false, status},
-                          {"/broadcast", true, false, false, false, broadcast},
-                          {"/hand-over", false, true, false, false, hand_over}};
+constexpr Page pages[] = {
+    {"/-/healthy", false, false, true, true, health},  {"/-/ready", false, false, true, true, readiness},
+    {"/metrics", false, false, false, false, metrics}, {"/status", false, false, false, false, status},
+    {"/live", false, false, false, false, live},       {"/live", true, false, false, true, nullptr},
+    {"/map", true, false, false, false, model},        {"/hand-over", false, true, false, false, hand_over}};
+
+// Everything that the pages use is the server's own.
+constexpr const char* content_security_policy =
+    "default-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'; object-src 'none'";
 
 std::string_view view(boost::beast::string_view text) {
     return {text.data(), text.size()};
 }
 
-std::string_view path_of(const Request& request) {
-    const std::string_view target = view(request.target());
-    return target.substr(0, target.find('?'));
+// A browser cannot set the header of a WebSocket. It offers the token as a subprotocol instead.
+std::string authorization_of(const Request& request) {
+    const std::string_view given = view(request[field::authorization]);
+    if (!given.empty() || !boost::beast::websocket::is_upgrade(request)) return std::string(given);
+    static constexpr std::string_view mark = "bearer.";
+    std::string_view offers = view(request[field::sec_websocket_protocol]);
+    while (!offers.empty()) {
+        const std::size_t end = std::min(offers.find(','), offers.size());
+        std::string_view offer = offers.substr(0, end);
+        offers.remove_prefix(std::min(end + 1, offers.size()));
+        while (offer.starts_with(' '))
+            offer.remove_prefix(1);
+        if (!offer.starts_with(mark)) continue;
+        return "Bearer " + recording::percent_decoded(offer.substr(mark.size())).value_or("");
+    }
+    return {};
 }
 
 // The client may name several tags, or * for any.
@@ -82,6 +123,13 @@ bool client_has(const Request& request, const std::string& tag) {
 }
 
 }  // namespace
+
+const Page file_page = {"/", true, false, true, true, nullptr};
+
+std::string_view path_of(const Request& request) {
+    const std::string_view target = view(request.target());
+    return target.substr(0, target.find('?'));
+}
 
 const Page* find_page(const Request& request) {
     const std::string_view path = path_of(request);
@@ -97,20 +145,32 @@ std::string_view below(const Page& page, const Request& request) {
     return path_of(request).substr(std::strlen(page.path));
 }
 
-Response answer(const Request& request, Content content) {
+Content content_of(const File& file, const Request& request) {
+    const bool compressed = view(request[field::accept_encoding]).find("gzip") != std::string_view::npos;
+    return {Status::ok, file.type, compressed ? file.gzip : file.text,
+            kept,       file.tag,  compressed ? "gzip" : ""};
+}
+
+Response answer(const Request& request, const Content& content) {
     Response response(content.status, request.version());
     response.set(field::content_type, content.type);
     response.set(field::cache_control, content.cache_control);
     response.set("X-Content-Type-Options", "nosniff");
+    response.set("Content-Security-Policy", content_security_policy);
+    response.set("Referrer-Policy", "no-referrer");
+    if (!content.encoding.empty()) {
+        response.set(field::content_encoding, content.encoding);
+        response.set(field::vary, "Accept-Encoding");
+    }
     response.keep_alive(request.keep_alive());
     if (!content.tag.empty()) {
         const std::string tag = '"' + content.tag + '"';
         response.set(field::etag, tag);
         if (client_has(request, tag)) response.result(Status::not_modified);
     }
-    if (response.result() != Status::not_modified) response.body() = std::move(content.text);
+    if (response.result() != Status::not_modified) response.body() = content.text;
     response.prepare_payload();
-    if (request.method() == verb::head) response.body().clear();
+    if (request.method() == verb::head) response.body() = nullptr;
     return response;
 }
 
@@ -123,7 +183,7 @@ std::optional<Response> check(const Request& request, const Page* page, const Ac
     const bool reads = request.method() == verb::get || request.method() == verb::head;
     if (request.version() >= 11 && request.count(field::host) != 1)
         return refusal(request, Status::bad_request);
-    if (!access.allows(reads, page != nullptr && page->open, view(request[field::authorization]))) {
+    if (!access.allows(reads, page != nullptr && page->open, authorization_of(request))) {
         Response response = refusal(request, Status::unauthorized);
         response.set(field::www_authenticate, "Bearer");
         return response;

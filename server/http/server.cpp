@@ -1,5 +1,6 @@
 #include "http/server.hpp"
 
+#include <spdlog/spdlog.h>
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -7,6 +8,7 @@
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
+#include <filesystem>
 #include <thread>
 #include <utility>
 
@@ -42,6 +44,23 @@ Result<tcp::endpoint> resolve(const config::Http& config) {
         tcp::resolver(io).resolve(config.address, std::to_string(config.port), tcp::resolver::passive, error);
     if (error) return fail("http: /http/address: \"" + config.address + "\": " + error.message());
     return found.begin()->endpoint();
+}
+
+// A program that was copied without its files serves all but the page.
+Result<Files> read_files(const config::Http& config) {
+    if (config.page.empty() && !std::filesystem::exists(default_page_folder())) return Files();
+    auto files = Files::read(config.page.empty() ? default_page_folder() : std::filesystem::path(config.page),
+                             three_of_debian());
+    if (!files) return fail("http: /http/page: " + files.error().message);
+    return files;
+}
+
+void warn_of_missing(const Files& files) {
+    if (files.find("/") == nullptr)
+        spdlog::warn("http: there is no page at /: {} is missing", default_page_folder().string());
+    else if (files.three_missing())
+        spdlog::warn("http: the page at / draws nothing: {} is missing: install libjs-three",
+                     three_of_debian().string());
 }
 
 }  // namespace
@@ -95,14 +114,18 @@ Result<std::unique_ptr<Server>> Server::start(const config::Http& config, Source
     if (!endpoint) return tl::unexpected(endpoint.error());
     auto access = Access::load(config, endpoint->address().is_loopback());
     if (!access) return tl::unexpected(access.error());
+    auto files = read_files(config);
+    if (!files) return tl::unexpected(files.error());
+    warn_of_missing(*files);
     const auto bounds_reached = std::make_shared<BoundCounters>();
     sources.metrics = [others = std::move(sources.metrics), bounds_reached] {
         auto families = others();
         families.push_back(bound_metrics(*bounds_reached));
         return families;
     };
-    std::unique_ptr<Listener> listener(new Listener{
-        config, {std::move(sources), within_open_files(limits), std::move(*access), bounds_reached}});
+    std::unique_ptr<Listener> listener(new Listener{config,
+                                                    {std::move(sources), within_open_files(limits),
+                                                     std::move(*files), std::move(*access), bounds_reached}});
     try {
         tcp::acceptor& acceptor = listener->acceptor;
         acceptor.open(endpoint->protocol());
@@ -125,6 +148,8 @@ Result<void> Server::check(const config::Http& config) {
     if (!endpoint) return tl::unexpected(endpoint.error());
     const auto access = Access::load(config, endpoint->address().is_loopback());
     if (!access) return tl::unexpected(access.error());
+    const auto files = read_files(config);
+    if (!files) return tl::unexpected(files.error());
     return {};
 }
 

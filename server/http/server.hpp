@@ -1,5 +1,5 @@
 // The operator's pages: GET /-/healthy, /-/ready, /metrics, /status; POST /hand-over. What viewers fetch:
-// GET /broadcast and below.
+// GET /broadcast and below; the window: /, /live, /map.
 #pragma once
 
 #include <prometheus/metric_family.h>
@@ -15,6 +15,8 @@
 
 #include "base/error.hpp"
 #include "config/config.hpp"
+#include "live/broadcast.hpp"
+#include "live/models.hpp"
 
 namespace camdir::http {
 
@@ -41,6 +43,12 @@ struct Sources {
     std::function<HandOver()> hand_over;
     // Of a path below /broadcast, which is "" or begins with /; nullopt: there is none.
     std::function<std::optional<Resource>(std::string_view path)> broadcast;
+    std::function<std::string()> live;  // JSON: what there is to watch
+    std::function<live::Models::Answer(const std::string& map, live::ModelKind kind)> model;
+    // Waits for nothing. Messages reach the viewer from then on.
+    std::function<live::Broadcast::Admission(const std::string& match_id,
+                                             const std::shared_ptr<live::Viewer>& viewer)>
+        join;
 };
 
 // Connections that exceed a time are closed.
@@ -59,7 +67,7 @@ struct Limits {
 // make the others. A header above 16 kB is answered with 431, a body above 4 kB with 413.
 class Server {
   public:
-    // Fails when the address cannot be listened on, or as Access::load.
+    // Fails when the address cannot be listened on, or as Access::load or Files::read.
     [[nodiscard]] static Result<std::unique_ptr<Server>> start(const config::Http& config, Sources sources,
                                                                const Limits& limits = {});
     // What of start can be checked without listening.

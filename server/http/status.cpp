@@ -6,6 +6,7 @@
 #include <array>
 
 #include "config/json_text.hpp"
+#include "live/notes.hpp"
 
 namespace camdir::http {
 namespace {
@@ -91,6 +92,18 @@ std::string status_page(const director::View& view, const std::map<std::string, 
         page["maps"].push_back(page_of(name, map));
     for (const auto& match : view.matches)
         page["matches"].push_back(page_of(match));
+    return config::format_json(page);
+}
+
+std::string live_page(const director::View& view) {
+    json page = {{"version", live::protocol_version}, {"matches", json::array()}};
+    for (const auto& match : view.matches) {
+        if (!match.answered || match.map_name.empty()) continue;
+        json entry = page_of(match);
+        for (const char* key : {"observers", "last_event", "last_pose_number"})
+            entry.erase(key);
+        page["matches"].push_back(std::move(entry));
+    }
     return config::format_json(page);
 }
 

@@ -1,4 +1,4 @@
-// The status page: what runs, as JSON.
+// What runs, as JSON: for operators, and for viewers.
 #pragma once
 
 #include <map>
@@ -11,5 +11,8 @@ namespace camdir::http {
 
 [[nodiscard]] std::string status_page(const director::View& view,
                                       const std::map<std::string, director::MapEntry>& maps);
+
+// What there is to watch: what observers know, and nothing of them.
+[[nodiscard]] std::string live_page(const director::View& view);
 
 }  // namespace camdir::http

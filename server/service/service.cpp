@@ -39,10 +39,6 @@ std::unique_ptr<recording::Recorder> make_recorder(const config::Recording& conf
     return std::make_unique<recording::Recorder>(std::move(options));
 }
 
-director::Audiences audiences(recording::Recorder* recorder) {
-    return recorder == nullptr ? director::Audiences{} : director::Audiences{recorder};
-}
-
 }  // namespace
 
 Result<std::unique_ptr<Service>> Service::open(std::filesystem::path file, std::string shard,
@@ -68,19 +64,30 @@ Service::Service(std::filesystem::path file, std::string shard, config::Config c
       config_(std::move(config)),
       gateway_(std::move(gateway)),
       recorder_(make_recorder(config_.recording)),
-      director_(config_, maps_, *gateway_, audiences(recorder_.get())),
+      models_(maps_),
+      broadcast_(static_cast<std::size_t>(config_.http.viewers)),
+      director_(config_, maps_, *gateway_, audiences()),
       loader_(map_sink()) {
     for (const config::Map& map : config_.maps)
         maps_.add(map.name, map.strict);
+}
+
+director::Audiences Service::audiences() {
+    director::Audiences audiences;
+    if (recorder_) audiences.push_back(recorder_.get());
+    if (config_.http.enabled) audiences.push_back(&broadcast_);
+    return audiences;
 }
 
 maps::LoaderSink Service::map_sink() {
     maps::LoaderSink sink;
     sink.added = [this](const config::Map& map) {
         maps_.add(map.name, map.strict);
+        models_.set_source(map);
         director_.maps_changed();
     };
     sink.removed = [this](const std::string& name) {
+        models_.remove_source(name);
         maps_.remove(name);
         director_.maps_changed();
     };
@@ -108,7 +115,8 @@ http::Sources Service::sources() {
         for (auto& more :
              {http::match_metrics(director_.match_statistics(most)), http::map_metrics(maps_.entries()),
               wire_metrics(gateway_->counters(), gateway_->identity()),
-              recording_metrics(recorder_ ? recorder_->statistics() : recording::RecorderStatistics{})})
+              recording_metrics(recorder_ ? recorder_->statistics() : recording::RecorderStatistics{}),
+              http::live_metrics(broadcast_.statistics())})
             families.insert(families.end(), more.begin(), more.end());
         return families;
     };
@@ -121,6 +129,11 @@ http::Sources Service::sources() {
         return recorder_ ? viewers_resource(recorder_->broadcast(), path) : std::nullopt;
     };
     sources.status = [this] { return http::status_page(director_.view(view_timeout), maps_.entries()); };
+    sources.live = [this] { return http::live_page(director_.view(view_timeout)); };
+    sources.model = [this](const std::string& map, live::ModelKind kind) { return models_.find(map, kind); };
+    sources.join = [this](const std::string& match_id, const std::shared_ptr<live::Viewer>& viewer) {
+        return broadcast_.join(match_id, viewer);
+    };
     return sources;
 }
 

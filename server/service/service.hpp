@@ -11,6 +11,8 @@
 #include "dds/gateway.hpp"
 #include "director/director.hpp"
 #include "http/server.hpp"
+#include "live/broadcast.hpp"
+#include "live/models.hpp"
 #include "maps/loader.hpp"
 #include "recording/recorder.hpp"
 #include "service/signals.hpp"
@@ -32,6 +34,7 @@ class Service {
             std::unique_ptr<dds::Gateway> gateway);
 
     [[nodiscard]] maps::LoaderSink map_sink();
+    [[nodiscard]] director::Audiences audiences();
     [[nodiscard]] http::Sources sources();
     // False: a thread has hung, and a restart would help. Of HTTP's it is not known here: they ask.
     [[nodiscard]] bool healthy() const;
@@ -49,6 +52,8 @@ class Service {
     std::unique_ptr<dds::Gateway> gateway_;
     director::MapLibrary maps_;
     std::unique_ptr<recording::Recorder> recorder_;  // null when off
+    live::Models models_;
+    live::Broadcast broadcast_;
     director::Director director_;
     maps::Loader loader_;
     std::unique_ptr<http::Server> http_;  // null when off

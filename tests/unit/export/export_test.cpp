@@ -85,5 +85,32 @@ TEST(Glb, OfAMapWithoutTrianglesIsValid) {
     EXPECT_FALSE(document.contains("buffers"));
 }
 
+TEST(Glb, OfAScenePlacesItsVerticesWithinHalfAStep) {
+    scene::Scene scene;
+    scene.name = "room";
+    scene.metres_per_unit = 0.5;
+    scene.vertices = {{-100.0, 7.0, 3.0}, {500.5, 7.0, 3.0}, {33.25, 1234.5, 3.0}, {-1.0, 8.0, 3.0}};
+    scene.triangles = {{0, 1, 2}, {2, 1, 3}};
+    const Bytes file = to_glb(scene).value();
+    const json document = document_of(file);
+    const std::size_t binary = 20 + value_at<std::uint32_t>(file, 12) + 8;
+    const json& primitive = document["meshes"][0]["primitives"][0];
+    const json& node = document["nodes"][0];
+    ASSERT_EQ(node["name"], "obstacles");
+    for (std::size_t i = 0; i < scene.vertices.size(); ++i)
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const double step = node["scale"][axis];
+            const double value = value_at<std::uint16_t>(file, binary + 8 * i + 2 * axis) * step +
+                                 node["translation"][axis].get<double>();
+            EXPECT_NEAR(value, scene.vertices[i][static_cast<Eigen::Index>(axis)], 0.5 * step + 1e-9);
+        }
+    const json& corners = document["accessors"][primitive["indices"].get<std::size_t>()];
+    EXPECT_EQ(corners["count"], 6);
+    const std::size_t offset =
+        document["bufferViews"][corners["bufferView"].get<std::size_t>()]["byteOffset"];
+    EXPECT_EQ(value_at<std::uint32_t>(file, binary + offset + 4 * 5), 3U);
+    EXPECT_FALSE(to_glb(scene::Scene())) << "no triangles";
+}
+
 }  // namespace
 }  // namespace camdir::exports

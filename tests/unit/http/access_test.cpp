@@ -113,7 +113,7 @@ TEST_F(AccessTest, OffLoopbackAllButHealthAndReadinessNeedsTheToken) {
     const TestServer server(config_);
     for (const char* path : {"/-/healthy", "/-/ready"})
         EXPECT_EQ(server.status_of("GET", path), 200) << path;
-    for (const char* path : {"/metrics", "/status", "/", "/nothing"}) {
+    for (const char* path : {"/metrics", "/status", "/live", "/live/a", "/map/a/mesh.glb", "/nothing"}) {
         EXPECT_EQ(server.status_of("GET", path), 401) << path;
         EXPECT_EQ(server.status_of("HEAD", path), 401) << path;
     }

@@ -114,8 +114,9 @@ TEST(Bounds, OneConnectionMoreClosesTheOldest) {
     const TestServer server({}, limits);
     Clients clients;
     for (int i = 0; i < 4; ++i)
-        EXPECT_EQ(clients.emplace_back(std::make_unique<HttpClient>(server.port()))->ask("GET", "/").status,
-                  404);
+        EXPECT_EQ(
+            clients.emplace_back(std::make_unique<HttpClient>(server.port()))->ask("GET", "/nothing").status,
+            404);
     EXPECT_EQ(clients[0]->ask("GET", "/-/healthy").status, 200);
     EXPECT_EQ(server.status_of("GET", "/-/healthy"), 200);
     EXPECT_TRUE(eventually([&] { return clients[1]->closed(); }));

@@ -47,7 +47,8 @@ TEST(Server, ServesNothingElse) {
     EXPECT_EQ(status.status, 200);
     EXPECT_EQ(status.header.at("content-type"), "application/json");
     EXPECT_EQ(status.header.at("cache-control"), "no-store");
-    for (const char* path : {"/", "/-/healthy/", "/../../etc/passwd", "/%2e%2e/etc/passwd", "*"})
+    for (const char* path :
+         {"/nothing", "/index", "/-/healthy/", "/../../etc/passwd", "/%2e%2e/etc/passwd", "*"})
         EXPECT_EQ(server.status_of("GET", path), 404) << path;
     for (const char* method : {"POST", "PUT", "DELETE", "OPTIONS", "BREW"}) {
         const HttpAnswer answer = server.ask(method, "/-/healthy");
@@ -102,7 +103,8 @@ TEST(Server, AnswersEveryRequestOfAConnectionInOrder) {
     const TestServer server;
     HttpClient client(server.port());
     ASSERT_TRUE(client.send(http_request("GET", "/metrics") + http_request("GET", "/-/healthy") +
-                            http_request("POST", "/-/ready", "", "ignored") + http_request("GET", "/") +
+                            http_request("POST", "/-/ready", "", "ignored") +
+                            http_request("GET", "/nothing") +
                             http_request("GET", "/status", "Connection: close\r\n")));
     for (const int status : {200, 200, 405, 404, 200})
         EXPECT_EQ(client.receive().status, status);

@@ -59,6 +59,8 @@ class TestServer {
     }
     std::atomic<std::size_t> status_size{2};  // in bytes
 
+    live::Broadcast broadcast{2};  // two viewers at most
+
   private:
     Sources sources() {
         Sources sources;
@@ -85,6 +87,17 @@ class TestServer {
             ++status_begun;
             status_held_.wait(true);
             return "{" + std::string(status_size - 2, ' ') + "}";
+        };
+        sources.live = [] { return "{}"; };
+        sources.model = [](const std::string& map, live::ModelKind kind) -> live::Models::Answer {
+            if (map == "no source") return {nullptr, live::Models::Failure::no_source, "no source"};
+            if (map == "busy") return {nullptr, live::Models::Failure::busy, ""};
+            if (map != "a map/2") return {};
+            const bool mesh = kind == live::ModelKind::mesh;
+            return {std::make_shared<live::Model>(live::Model{mesh ? "mesh" : "obstacles", "1"}), {}, ""};
+        };
+        sources.join = [this](const std::string& match_id, const std::shared_ptr<live::Viewer>& viewer) {
+            return broadcast.join(match_id, viewer);
         };
         return sources;
     }

@@ -1,0 +1,223 @@
+#include "live/broadcast.hpp"
+
+#include <algorithm>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "live/frame.hpp"
+#include "live/history.hpp"
+#include "live/notes.hpp"
+
+namespace camdir::live {
+
+// One match. Its messages come from one thread at a time, its viewers from others.
+class Broadcast::Channel {
+  public:
+    explicit Channel(Broadcast& broadcast) : broadcast_(broadcast) {}
+
+    void show(const director::MatchInfo& shown);
+    void show(const director::PoseFrame& poses, const director::CameraFrame& cameras);
+    void show(const director::MatchEvent& event);
+    void end();
+    void join(const std::shared_ptr<Viewer>& viewer);
+    [[nodiscard]] std::size_t viewers();
+
+  private:
+    // With the mutex held.
+    [[nodiscard]] std::uint8_t slot_of(std::uint32_t player) const;
+    [[nodiscard]] SlotOf slots() const {
+        return [this](std::uint32_t player) { return slot_of(player); };
+    }
+    void give_slots();
+    void give_slot(const Place& place);
+    void add_unlisted(const director::PoseFrame& poses);
+    void forget_left();
+    [[nodiscard]] SharedMessage encode_last() const;
+    void put(const SharedMessage& message);
+
+    Broadcast& broadcast_;
+    std::mutex mutex_;
+    director::MatchInfo match_;
+    Roster roster_;
+    std::map<std::uint32_t, std::uint8_t> slots_;  // by player
+    std::optional<History> history_;               // of this epoch
+    director::PoseFrame poses_;                    // the last ones
+    director::CameraFrame cameras_;
+    std::vector<std::shared_ptr<Viewer>> viewers_;
+};
+
+void Broadcast::Channel::show(const director::MatchInfo& shown) {
+    const std::lock_guard lock(mutex_);
+    if (!history_ || match_.epoch != shown.epoch) {
+        history_.emplace();
+        poses_ = {};
+        cameras_ = {};
+    }
+    match_ = shown;
+    give_slots();
+    put(match_note(match_, roster_));
+}
+
+void Broadcast::Channel::show(const director::PoseFrame& poses, const director::CameraFrame& cameras) {
+    const std::lock_guard lock(mutex_);
+    poses_ = poses;
+    cameras_ = cameras;
+    add_unlisted(poses);
+    for (const Cut& cut : history_->add(poses, cameras)) {
+        const SharedMessage note = cut_note(cut, slots());
+        history_->keep(note);
+        put(note);
+    }
+    forget_left();
+    if (!viewers_.empty()) put(encode_last());
+}
+
+void Broadcast::Channel::show(const director::MatchEvent& event) {
+    const std::lock_guard lock(mutex_);
+    const SharedMessage note = event_note(event, slots());
+    history_->keep(note);
+    put(note);
+}
+
+void Broadcast::Channel::end() {
+    const std::lock_guard lock(mutex_);
+    put(end_note());
+    for (const auto& viewer : viewers_)
+        viewer->finish();
+    viewers_.clear();
+}
+
+void Broadcast::Channel::join(const std::shared_ptr<Viewer>& viewer) {
+    const std::lock_guard lock(mutex_);
+    viewer->put(match_note(match_, roster_));
+    viewer->put(history_note(*history_, slots()));
+    if (!poses_.poses.empty()) viewer->put(encode_last());
+    viewers_.push_back(viewer);
+}
+
+std::size_t Broadcast::Channel::viewers() {
+    const std::lock_guard lock(mutex_);
+    forget_left();
+    return viewers_.size();
+}
+
+std::uint8_t Broadcast::Channel::slot_of(std::uint32_t player) const {
+    const auto found = slots_.find(player);
+    return found == slots_.end() ? no_slot : found->second;
+}
+
+// Who has a slot keeps it, so that frames which viewers have kept stay readable; slots of players that are
+// gone are given away when there is no other.
+void Broadcast::Channel::give_slots() {
+    for (auto& [slot, place] : roster_)
+        place.listed = false;
+    for (const director::Player& player : match_.players)
+        give_slot({player, true});
+}
+
+void Broadcast::Channel::give_slot(const Place& place) {
+    std::uint8_t slot = slot_of(place.player.id);
+    if (slot == no_slot) {
+        for (slot = 0; slot < no_slot && roster_.contains(slot);)
+            ++slot;
+        if (slot == no_slot) {
+            const auto gone = std::ranges::find_if(roster_, [&](const auto& taken) {
+                return !taken.second.listed &&
+                       std::ranges::find(poses_.poses, taken.second.player.id,
+                                         &director::PlayerPose::player_id) == poses_.poses.end();
+            });
+            if (gone == roster_.end()) return;  // more players than slots: these are not shown
+            slot = gone->first;
+            slots_.erase(gone->second.player.id);
+        }
+        slots_[place.player.id] = slot;
+    }
+    roster_[slot] = place;
+}
+
+void Broadcast::Channel::add_unlisted(const director::PoseFrame& poses) {
+    const std::size_t before = slots_.size();
+    for (const director::PlayerPose& pose : poses.poses)
+        if (slot_of(pose.player_id) == no_slot) {
+            director::Player player;
+            player.id = pose.player_id;
+            give_slot({player, false});
+        }
+    if (slots_.size() != before) put(match_note(match_, roster_));
+}
+
+void Broadcast::Channel::forget_left() {
+    std::erase_if(viewers_, [this](const std::shared_ptr<Viewer>& viewer) {
+        if (viewer->lost()) ++broadcast_.lost_viewers_;
+        return viewer->lost() || viewer->left();
+    });
+}
+
+SharedMessage Broadcast::Channel::encode_last() const {
+    return std::make_shared<Message>(
+        Message{Message::Kind::frame,
+                encode_frame(poses_, cameras_, position_step(match_.metres_per_unit), slots())});
+}
+
+void Broadcast::Channel::put(const SharedMessage& message) {
+    for (const auto& viewer : viewers_) {
+        broadcast_.dropped_frames_ += viewer->put(message);
+        if (message->kind == Message::Kind::frame) ++broadcast_.frames_;
+    }
+}
+
+Broadcast::~Broadcast() = default;
+
+void Broadcast::show(const director::MatchInfo& shown) {
+    const std::unique_lock lock(mutex_);
+    auto& channel = channels_[shown.match_id];
+    if (!channel) channel = std::make_shared<Channel>(*this);
+    channel->show(shown);  // before anybody can find it, it knows its match
+}
+
+void Broadcast::show(const std::string& match_id, const director::PoseFrame& poses,
+                     const director::CameraFrame& cameras) {
+    if (const auto channel = find(match_id)) channel->show(poses, cameras);
+}
+
+void Broadcast::show(const std::string& match_id, const director::MatchEvent& event) {
+    if (const auto channel = find(match_id)) channel->show(event);
+}
+
+void Broadcast::end(const std::string& match_id) {
+    std::shared_ptr<Channel> channel;
+    {
+        const std::unique_lock lock(mutex_);
+        const auto found = channels_.find(match_id);
+        if (found == channels_.end()) return;
+        channel = found->second;
+        channels_.erase(found);
+    }
+    channel->end();
+}
+
+Broadcast::Admission Broadcast::join(const std::string& match_id, const std::shared_ptr<Viewer>& viewer) {
+    if (statistics().viewers >= max_viewers_) return Admission::full;
+    const auto channel = find(match_id);
+    if (!channel) return Admission::no_match;
+    channel->join(viewer);
+    return Admission::joined;
+}
+
+BroadcastStatistics Broadcast::statistics() const {
+    BroadcastStatistics result{0, frames_, dropped_frames_, lost_viewers_};
+    const std::shared_lock lock(mutex_);
+    for (const auto& [match_id, channel] : channels_)
+        result.viewers += channel->viewers();
+    return result;
+}
+
+std::shared_ptr<Broadcast::Channel> Broadcast::find(const std::string& match_id) const {
+    const std::shared_lock lock(mutex_);
+    const auto found = channels_.find(match_id);
+    return found == channels_.end() ? nullptr : found->second;
+}
+
+}  // namespace camdir::live

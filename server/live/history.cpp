@@ -1,0 +1,59 @@
+#include "live/history.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "camera/camera.hpp"
+#include "director/roster.hpp"
+
+namespace camdir::live {
+namespace {
+
+bool was_moved(const director::PoseFrame& poses, std::uint32_t player) {
+    const auto pose = std::ranges::find(poses.poses, player, &director::PlayerPose::player_id);
+    return pose != poses.poses.end() && (pose->flags & director::pose_discontinuity) != 0;
+}
+
+CutReason reason_of(const ShotState* before, const ShotState& now, const director::PoseFrame& poses) {
+    if (before == nullptr) return CutReason::begin;
+    if (before->target != now.target) return CutReason::target;
+    if (was_moved(poses, now.target)) return CutReason::moved;
+    if ((before->flags & camera::target_visible) == 0) return CutReason::hidden;
+    return CutReason::viewpoint;
+}
+
+}  // namespace
+
+std::vector<Cut> History::add(const director::PoseFrame& poses, const director::CameraFrame& cameras) {
+    std::vector<Cut> cuts;
+    std::map<std::uint32_t, ShotState> before = std::exchange(shots_, {});
+    for (const director::ShotCamera& camera : cameras.cameras) {
+        const ShotState now{cameras.frame_time, camera.camera_id, camera.target,
+                            camera.flags & ~std::uint32_t{camera::cut}};
+        const auto found = before.find(camera.camera_id);
+        const ShotState* last = found == before.end() ? nullptr : &found->second;
+        if ((camera.flags & camera::cut) != 0 || last == nullptr)
+            cuts.push_back({now.frame_time, now.camera_id, now.target, reason_of(last, now, poses)});
+        if (last == nullptr || last->target != now.target || last->flags != now.flags) add_state(now);
+        shots_.emplace(now.camera_id, now);
+        if (last != nullptr) before.erase(found);
+    }
+    for (auto& [id, gone] : before) {
+        gone.frame_time = cameras.frame_time;
+        gone.present = false;
+        add_state(gone);
+    }
+    return cuts;
+}
+
+void History::add_state(const ShotState& state) {
+    states_.push_back(state);
+    if (states_.size() > max_states) states_.pop_front();
+}
+
+void History::keep(SharedMessage note) {
+    notes_.push_back(std::move(note));
+    if (notes_.size() > max_notes) notes_.pop_front();
+}
+
+}  // namespace camdir::live

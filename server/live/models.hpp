@@ -1,0 +1,76 @@
+// The maps as a browser draws them: glTF, compressed.
+#pragma once
+
+#include <cstdint>
+#include <list>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "base/error.hpp"
+#include "config/config.hpp"
+#include "director/map_library.hpp"
+
+namespace camdir::live {
+
+enum class ModelKind {
+    obstacles,  // the source's surfaces
+    mesh,       // the medial mesh, coloured by free distance
+};
+
+struct Model {
+    std::string gzip;  // of a binary glTF
+    std::string tag;   // of these bytes
+};
+
+// Models are made when they are first asked for, one at a time, and the latest asked for are kept.
+// Thread-safe.
+class Models {
+  public:
+    static constexpr std::size_t max_bytes = 64U << 20U;     // of all that are kept
+    static constexpr std::size_t max_triangles = 2'000'000;  // of one
+
+    explicit Models(const director::MapLibrary& maps) : maps_(maps) {}
+
+    // The map's entry in the configuration: new or changed.
+    void set_source(const config::Map& map);
+    void remove_source(const std::string& map);
+
+    enum class Failure {
+        no_map,     // none of this name is loaded
+        no_source,  // the obstacles cannot be shown: `reason` says why
+        busy,       // another is being made
+    };
+    struct Answer {
+        std::shared_ptr<const Model> model;  // null: there is none
+        Failure failure = Failure::no_map;
+        std::string reason;
+    };
+    [[nodiscard]] Answer find(const std::string& map, ModelKind kind);
+
+  private:
+    struct Key {
+        std::string map;
+        std::uint64_t generation;  // of the map: a new one makes new models
+        ModelKind kind;
+        bool operator==(const Key&) const = default;
+    };
+    struct Kept {
+        Key key;
+        Answer answer;
+    };
+
+    [[nodiscard]] std::optional<Answer> look_up(const Key& key);
+    void keep(const Key& key, const Answer& answer);
+    [[nodiscard]] Answer make_obstacles(const director::MapEntry& map, const std::string& name);
+
+    const director::MapLibrary& maps_;
+    std::mutex making_;
+    std::mutex mutex_;
+    std::map<std::string, config::Map> sources_;
+    std::list<Kept> kept_;  // the latest first
+};
+
+}  // namespace camdir::live

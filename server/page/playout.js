@@ -1,0 +1,173 @@
+// The last minutes of a match, and the clock that plays them.
+import {cameraFlag, decodeFrame, frameTime, playerFlag} from './protocol.js';
+
+const keptMs = 5 * 60e3;
+const keptBytes = 64e6;
+// How far live playing stays behind the fastest arrivals: as much as the others were late, and a frame.
+const frameMs = 40;
+const maxJitterMs = 400;
+const offsetWindowMs = 4e3;
+const farMs = 600;         // a clock that is farther from where it should be jumps
+const maxGapMs = 300;      // frames farther apart are not interpolated
+const maxDecoded = 16;
+
+function mix(a, b, part) {
+    return a.map((value, i) => value + (b[i] - value) * part);
+}
+
+function mixRotations(a, b, part) {
+    const dot = a.reduce((sum, value, i) => sum + value * b[i], 0);
+    const q = mix(a, dot < 0 ? b.map(value => -value) : b, part);
+    const length = Math.hypot(...q);
+    return q.map(value => value / length);
+}
+
+// Frames in the order of their time, bounded.
+export class FrameBuffer {
+    constructor() {
+        this.clear();
+    }
+
+    clear() {
+        this.frames = [];
+        this.bytes = 0;
+        this.decoded = new Map();
+    }
+
+    // Returns whether it was kept: it is a frame, and newer than the last.
+    add(buffer) {
+        const t = frameTime(buffer);
+        if (t === null || (this.frames.length > 0 && t <= this.last)) return false;
+        this.frames.push({t, buffer});
+        this.bytes += buffer.byteLength;
+        let old = 0;
+        while (old < this.frames.length - 1 && (t - this.frames[old].t > keptMs || this.bytes > keptBytes)) {
+            this.bytes -= this.frames[old++].buffer.byteLength;
+        }
+        if (old > 0) this.frames.splice(0, old);
+        return true;
+    }
+
+    get first() { return this.frames[0]?.t ?? null; }
+    get last() { return this.frames[this.frames.length - 1]?.t ?? null; }
+
+    // The index of the last frame at or before t; 0 where none is.
+    indexAt(t) {
+        let low = 0;
+        let high = this.frames.length - 1;
+        while (low < high) {
+            const middle = (low + high + 1) >> 1;
+            if (this.frames[middle].t <= t) low = middle; else high = middle - 1;
+        }
+        return low;
+    }
+
+    decode(index, step) {
+        const {t, buffer} = this.frames[index];
+        let frame = this.decoded.get(t);
+        if (!frame) {
+            frame = decodeFrame(buffer, step);
+            this.decoded.set(t, frame);
+            if (this.decoded.size > maxDecoded) this.decoded.delete(this.decoded.keys().next().value);
+        }
+        return frame;
+    }
+
+    // What is seen at t: between two frames, interpolated, but never over a cut or a jump.
+    // `cutBetween(camera, from, to)`: whether a cut is known of that no frame shows.
+    sample(t, step, cutBetween = () => false) {
+        if (this.frames.length === 0) return null;
+        const index = this.indexAt(t);
+        const a = this.decode(index, step);
+        if (a === null || index + 1 >= this.frames.length || t <= a.t) return a;
+        const b = this.decode(index + 1, step);
+        if (b === null || b.t - a.t > maxGapMs) return a;
+        const part = (t - a.t) / (b.t - a.t);
+        const players = new Map();
+        for (const [slot, before] of a.players) {
+            const after = b.players.get(slot);
+            players.set(slot, !after || after.flags & playerFlag.discontinuity ? before : {
+                ...before,
+                position: mix(before.position, after.position, part),
+                rotation: mixRotations(before.rotation, after.rotation, part),
+            });
+        }
+        const cameras = new Map();
+        for (const [id, before] of a.cameras) {
+            const after = b.cameras.get(id);
+            const jumps = !after || after.flags & cameraFlag.cut || after.target !== before.target ||
+                cutBetween(id, a.t, b.t);
+            cameras.set(id, jumps ? before : {
+                ...before,
+                position: mix(before.position, after.position, part),
+                rotation: mixRotations(before.rotation, after.rotation, part),
+                fov: before.fov + (after.fov - before.fov) * part,
+            });
+        }
+        return {...a, t, players, cameras};
+    }
+}
+
+// Which time of the match is shown. Live, it runs evenly whatever the jitter of arrivals, a little behind the
+// newest frame; else it was moved by the viewer.
+export class PlayoutClock {
+    constructor() {
+        this.reset();
+    }
+
+    reset() {
+        this.t = null;
+        this.live = true;
+        this.paused = false;
+        this.arrivals = [];
+    }
+
+    // A frame of time t has arrived `now` (ms of any clock that runs evenly).
+    arrived(t, now) {
+        this.arrivals.push({now, offset: now - t});
+        while (this.arrivals[0].now < now - offsetWindowMs) this.arrivals.shift();
+    }
+
+    // Moves on to `now`, within what is kept, first to last.
+    advance(now, first, last) {
+        const elapsed = this.now === undefined ? 0 : Math.min(now - this.now, 1000);
+        this.now = now;
+        if (first === null) return;
+        if (this.t === null) this.t = last;
+        if (!this.paused) this.t += elapsed * (this.live ? this.pace(now) : 1);
+        if (this.live && this.arrivals.length > 0) {
+            const target = this.target(now);
+            if (Math.abs(target - this.t) > farMs) this.t = target;
+        }
+        if (this.t >= last && !this.live && !this.paused) this.live = true;
+        this.t = Math.min(Math.max(this.t, first), last);
+    }
+
+    // Where live playing should be.
+    target(now) {
+        const offsets = this.arrivals.map(arrival => arrival.offset);
+        const fastest = Math.min(...offsets);
+        return now - fastest - Math.min(Math.max(...offsets) - fastest, maxJitterMs) - frameMs;
+    }
+
+    pace(now) {
+        if (this.arrivals.length === 0) return 1;
+        return 1 + Math.min(Math.max((this.target(now) - this.t) / 1000, -0.1), 0.1);
+    }
+
+    seek(t) {
+        this.t = t;
+        this.live = false;
+    }
+
+    goLive() {
+        this.live = true;
+        this.paused = false;
+        if (this.arrivals.length > 0 && this.now !== undefined) this.t = this.target(this.now);
+    }
+
+    setPaused(paused) {
+        this.paused = paused;
+        if (paused) this.live = false;
+    }
+}

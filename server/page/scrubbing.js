@@ -1,0 +1,36 @@
+// Moves through the match on the timeline, by pointer, touch and keys.
+
+const keySteps = {ArrowLeft: -1000, ArrowDown: -1000, ArrowRight: 1000, ArrowUp: 1000, PageDown: -30e3, PageUp: 30e3};
+
+// `match`: range() [first, last] of what is kept or null, now() what is shown, timeAt(clientX), describe(t),
+// seek(t), goLive().
+export function attachScrubbing(element, tip, match) {
+    element.addEventListener('keydown', event => {
+        if (match.range() === null) return;
+        if (event.key in keySteps) match.seek(match.now() + keySteps[event.key]);
+        else if (event.key === 'Home') match.seek(match.range()[0]);
+        else if (event.key === 'End') match.goLive();
+        else return;
+        event.preventDefault();
+    });
+    element.addEventListener('pointerdown', event => {
+        if (match.range() === null) return;
+        element.setPointerCapture(event.pointerId);
+        match.seek(match.timeAt(event.clientX));
+    });
+    element.addEventListener('pointermove', event => {
+        if (match.range() === null) return;
+        const t = match.timeAt(event.clientX);
+        if (event.buttons & 1) match.seek(t);
+        showTip(event.clientX, match.describe(t));
+    });
+    element.addEventListener('pointerleave', () => { tip.hidden = true; });
+
+    function showTip(clientX, text) {
+        const {left, width} = element.getBoundingClientRect();
+        tip.textContent = text;
+        tip.hidden = false;
+        const half = tip.offsetWidth / 2;
+        tip.style.left = `${Math.min(Math.max(clientX - left, half), width - half)}px`;
+    }
+}

@@ -1,0 +1,132 @@
+// Draws the timeline: the shown camera's shot above, the others below it, cuts and events as marks.
+import {cameraFlag} from './protocol.js';
+
+const colours = {visible: '#7cc4ff', hidden: '#ffc857', searching: '#ffc857', held: '#55606e', absent: '#3a434f'};
+const spanMs = 5 * 60e3;
+
+const reasons = {
+    begin: 'the shot begins',
+    target: 'another player is followed',
+    moved: 'the player respawned or was moved',
+    hidden: 'the player was out of sight',
+    viewpoint: 'a better viewpoint',
+};
+
+export function reasonText(cut) {
+    return reasons[cut.reason] ?? cut.reason;
+}
+
+// What a shot does: visible, hidden, searching, held, absent.
+export function modeOf(flags) {
+    if (flags & cameraFlag.absent) return 'absent';
+    if (flags & cameraFlag.searching) return 'searching';
+    if (flags & cameraFlag.held) return 'held';
+    return flags & cameraFlag.visible ? 'visible' : 'hidden';
+}
+
+export const modeText = {visible: 'In view', hidden: 'Out of sight', searching: 'Searching', held: 'Held', absent: 'Absent'};
+
+export class TimelineView {
+    constructor(element) {
+        this.element = element;
+        this.canvas = element.querySelector('canvas');
+        this.context = this.canvas.getContext('2d');
+    }
+
+    // The times at both ends.
+    range(first, last) {
+        const span = Math.min(Math.max(last - first, 30e3), spanMs);
+        return [last - span, last];
+    }
+
+    timeAt(clientX, first, last) {
+        const {left, width} = this.element.getBoundingClientRect();
+        const [from, to] = this.range(first, last);
+        return from + Math.min(Math.max((clientX - left) / width, 0), 1) * (to - from);
+    }
+
+    draw({timeline, camera, t, first, last, colourOfSlot}) {
+        const ratio = devicePixelRatio;
+        const width = this.element.clientWidth;
+        const height = this.element.clientHeight;
+        if (this.canvas.width !== Math.round(width * ratio) || this.canvas.height !== Math.round(height * ratio)) {
+            this.canvas.width = Math.round(width * ratio);
+            this.canvas.height = Math.round(height * ratio);
+        }
+        const c = this.context;
+        c.setTransform(ratio, 0, 0, ratio, 0, 0);
+        c.clearRect(0, 0, width, height);
+        const [from, to] = this.range(first, last);
+        const x = time => (time - from) / (to - from) * width;
+        const middle = height * 0.42;
+        c.fillStyle = '#ffffff10';
+        c.fillRect(0, middle - 6, width, 12);
+        for (const span of timeline.spans(camera, from, to)) this.drawSpan(c, span, x, middle, colourOfSlot);
+        this.drawOthers(c, timeline, camera, from, to, x, middle + 13, height - 12, colourOfSlot);
+        c.fillStyle = '#ffffff';
+        for (const cut of timeline.cuts)
+            if (cut.camera === camera && cut.t >= from) c.fillRect(Math.round(x(cut.t)) - 1, middle - 11, 2, 22);
+        for (const event of timeline.events) this.drawEvent(c, event, x, middle - 13, colourOfSlot);
+        this.drawTimes(c, from, to, last, x, height);
+        const unseen = x(Math.max(first, from));
+        c.fillStyle = '#0d1014aa';
+        c.fillRect(0, 0, unseen, height - 12);
+        c.fillStyle = '#ffffff';
+        c.fillRect(Math.min(Math.round(x(t)), width - 2) - 1, 2, 3, height - 14);
+    }
+
+    drawSpan(c, {from, to, target, flags}, x, middle, colourOfSlot) {
+        const mode = modeOf(flags);
+        const left = x(from);
+        const width = Math.max(x(to) - left, 0.5);
+        c.fillStyle = mode === 'visible' ? colourOfSlot(target) : colours[mode];
+        if (mode === 'hidden') {
+            c.globalAlpha = 0.35;
+            c.fillRect(left, middle - 6, width, 12);
+            c.globalAlpha = 1;
+            for (let at = Math.ceil(left / 4) * 4; at < left + width; at += 4) c.fillRect(at, middle - 6, 1.5, 12);
+            return;
+        }
+        const half = mode === 'held' || mode === 'absent' ? 2 : 6;
+        c.fillRect(left, middle - half, width, 2 * half);
+    }
+
+    drawOthers(c, timeline, camera, from, to, x, top, bottom, colourOfSlot) {
+        const others = [...timeline.shots.keys()].filter(id => id !== camera).sort((a, b) => a - b);
+        const each = Math.min((bottom - top) / Math.max(others.length, 1), 4);
+        if (each < 1) return;
+        c.globalAlpha = 0.65;
+        others.forEach((id, row) => {
+            for (const span of timeline.spans(id, from, to)) {
+                const mode = modeOf(span.flags);
+                c.fillStyle = mode === 'visible' ? colourOfSlot(span.target) : colours[mode];
+                c.fillRect(x(span.from), top + row * each, Math.max(x(span.to) - x(span.from), 0.5), Math.max(each - 1, 1));
+            }
+        });
+        c.globalAlpha = 1;
+    }
+
+    drawEvent(c, event, x, y, colourOfSlot) {
+        if (event.event !== 'kill') return;
+        c.fillStyle = event.actor === null ? '#9aa6b5' : colourOfSlot(event.actor);
+        c.beginPath();
+        c.moveTo(x(event.t), y + 1);
+        c.lineTo(x(event.t) - 3.5, y - 6);
+        c.lineTo(x(event.t) + 3.5, y - 6);
+        c.fill();
+    }
+
+    drawTimes(c, from, to, last, x, height) {
+        c.fillStyle = '#9aa6b5';
+        c.font = '10.5px system-ui, sans-serif';
+        const step = to - from > 120e3 ? 60e3 : 10e3;
+        for (let back = step; back < to - from; back += step) {
+            const at = x(last - back);
+            if (at < 18) continue;
+            const text = back % 60e3 === 0 ? `−${back / 60e3} min` : `−${back / 1e3} s`;
+            c.textAlign = 'center';
+            c.fillText(text, at, height - 1);
+            c.fillRect(Math.round(at), height - 13, 1, 3);
+        }
+    }
+}

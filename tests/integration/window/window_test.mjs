@@ -1,0 +1,233 @@
+// What a browser shows of a real match of players that walk through a hall: window_test.mjs BIN_DIR FOLDER DOMAIN.
+import assert from 'node:assert/strict';
+import {spawn, spawnSync} from 'node:child_process';
+import {once} from 'node:events';
+import {writeFileSync} from 'node:fs';
+import {Browser} from './browser.mjs';
+
+const [bin, folder, domain] = process.argv.slice(2);
+const port = 20000 + Number(domain) * 100;  // a domain is this test's alone
+const url = `http://127.0.0.1:${port}`;
+const children = [];
+const players = 3;
+const patienceMs = 90e3;
+const secret = 'a/b+c==';
+
+function start(name, ...args) {
+    const child = spawn(`${bin}/${name}`, args, {stdio: ['ignore', 'ignore', 'pipe']});
+    child.log = '';
+    child.stderr.setEncoding('utf8').on('data', text => { child.log = (child.log + text).slice(-1e5); });
+    children.push(child);
+    return child;
+}
+
+async function stop(child) {
+    if (child.exitCode !== null || child.signalCode !== null) return;
+    child.kill('SIGTERM');
+    await once(child, 'exit');
+}
+
+async function eventually(what, condition) {
+    for (const end = Date.now() + patienceMs;;) {
+        const value = await condition().catch(() => null);
+        if (value) return value;
+        if (Date.now() > end) throw new Error(`never: ${what}`);
+        await new Promise(resolve => setTimeout(resolve, 100));
+    }
+}
+
+const json = path => fetch(url + path).then(answer => answer.json());
+
+// A hall with two pillars, in metres.
+function hall() {
+    const vertices = [];
+    const faces = [];
+    const box = ([x0, y0, z0], [x1, y1, z1], inward) => {
+        const first = vertices.length + 1;
+        for (const z of [z0, z1]) vertices.push([x0, y0, z], [x1, y0, z], [x1, y1, z], [x0, y1, z]);
+        for (const face of [[0, 1, 2, 3], [4, 7, 6, 5], [0, 4, 5, 1], [1, 5, 6, 2], [2, 6, 7, 3], [3, 7, 4, 0]])
+            faces.push((inward ? face : face.slice().reverse()).map(corner => corner + first));
+    };
+    box([0, 0, 0], [16, 10, 5], true);
+    box([4, 4, 0], [5.5, 6, 5], false);
+    box([10, 3, 0], [11.5, 6, 5], false);
+    return vertices.map(v => `v ${v.join(' ')}\n`).join('') + faces.map(f => `f ${f.join(' ')}\n`).join('');
+}
+
+function serve({source = true, token = false} = {}) {
+    const map = {name: 'hall', file: 'hall.vfs', ...(source ? {source: 'hall.obj', up: 'z'} : {})};
+    const http = {port, ...(token ? {address: '0.0.0.0', token_file: 'token'} : {})};
+    writeFileSync(`${folder}/token`, `${secret}\n`, {mode: 0o600});
+    writeFileSync(`${folder}/config.json`, JSON.stringify({dds: {domain: Number(domain)}, http, maps: [map]}));
+    return start('camera-director', 'serve', '--config', `${folder}/config.json`);
+}
+
+const tests = {
+    async 'the page draws what /live and /status say'(browser) {
+        await browser.until(`cameraDirector.state().cameras.length === ${players}`);
+        const state = await browser.until('cameraDirector.state().obstacles && cameraDirector.state()');
+        const [live, status] = await Promise.all([json('/live'), json('/status')]);
+        const [match] = live.matches;
+        assert.equal(state.match, match.match_id);
+        assert.equal(state.map, 'hall');
+        assert.deepEqual(state.players.map(player => player.id).sort(), match.players.map(player => player.id).sort());
+        assert.deepEqual(state.cameras.map(({id, target}) => [id, target]).sort(),
+            status.matches[0].shots.map(shot => [shot.camera_id, shot.target.id]).sort());
+        for (const {position: [x, y, z]} of [...state.players, ...state.cameras])
+            assert.ok(x > 0 && x < 16 && y > 0 && y < 10 && z > 0 && z < 5, `${x} ${y} ${z} is not in the hall`);
+        assert.equal(await browser.evaluate('document.querySelectorAll("#shots button").length'), players);
+        assert.equal(await browser.evaluate('document.querySelectorAll("#matches button").length'), 1);
+        const metrics = await fetch(`${url}/metrics`).then(answer => answer.text());
+        assert.match(metrics, /^camera_director_live_viewers 1$/m);
+    },
+    async 'the picture is not empty'(browser) {
+        for (const view of ['orbit', 'plan', 'camera']) {
+            await browser.evaluate(`document.querySelector('[data-view=${view}]').click()`);
+            await browser.until(`cameraDirector.state().view === '${view}'`);
+            const colours = await browser.evaluate(`new Promise(resolve => requestAnimationFrame(() => requestAnimationFrame(() => {
+                const copy = document.createElement('canvas');
+                copy.width = copy.height = 64;
+                const context = copy.getContext('2d');
+                cameraDirector.redraw();
+                context.drawImage(document.getElementById('canvas'), 0, 0, 64, 64);
+                resolve(new Set(new Uint32Array(context.getImageData(0, 0, 64, 64).data.buffer)).size);
+            })))`);
+            assert.ok(colours > 20, `${view} has ${colours} colours`);
+        }
+    },
+    async 'it moves with the match, pauses, goes back and comes back'(browser) {
+        const time = () => browser.evaluate('cameraDirector.state().time');
+        const before = await time();
+        await browser.until(`cameraDirector.state().time > ${before + 2000}`);
+        await browser.press(' ', {code: 'Space'});
+        await browser.until('cameraDirector.state().paused');
+        const paused = await time();
+        await browser.press('j');
+        await browser.until(`cameraDirector.state().time < ${paused}`);
+        assert.equal(await browser.evaluate('document.getElementById("state").dataset.state'), 'paused');
+        await browser.press('l');
+        await browser.until(`cameraDirector.state().live && cameraDirector.state().time > ${paused}`);
+        await browser.press(' ', {code: 'Space'});
+        await browser.evaluate('document.getElementById("timeline").focus()');
+        await browser.press('Home');
+        await browser.until('cameraDirector.state().time === cameraDirector.state().first');
+        await browser.press('End');
+        await browser.until('cameraDirector.state().live');
+    },
+    async 'keys choose views and cameras'(browser) {
+        for (const [key, view] of [['2', 'orbit'], ['3', 'plan'], ['1', 'camera']]) {
+            await browser.press(key);
+            await browser.until(`cameraDirector.state().view === '${view}'`);
+        }
+        const first = await browser.evaluate('cameraDirector.state().camera');
+        await browser.press('n');
+        await browser.until(`cameraDirector.state().camera !== ${first}`);
+        await browser.press('p');
+        await browser.until(`cameraDirector.state().camera === ${first}`);
+        await browser.press('?', {shift: true});
+        await browser.until('document.getElementById("help").open');
+        await browser.press('Escape');
+        await browser.until('!document.getElementById("help").open');
+    },
+    async 'the tabulator reaches every control, and the focus is seen'(browser) {
+        await browser.evaluate('document.querySelector("[data-view=plan]").click(); document.activeElement.blur()');
+        const mark = `[...document.querySelectorAll('button, input, [tabindex="0"], a')]
+            .filter(e => e.checkVisibility() && e.tabIndex >= 0 && !e.closest('dialog'))`;
+        const wanted = await browser.evaluate(`${mark}.map((e, i) => e.dataset.probe = String(i))`);
+        const reached = new Set();
+        for (let i = 0; i < 3 * wanted.length && reached.size < wanted.length; ++i) {
+            await browser.press('Tab');
+            const [probe, outline] = await browser.evaluate(
+                '[document.activeElement.dataset.probe ?? "", getComputedStyle(document.activeElement).outlineStyle]');
+            if (probe === '') continue;
+            reached.add(probe);
+            assert.notEqual(outline, 'none', `the focus of control ${probe} is not seen`);
+        }
+        assert.deepEqual([...reached].sort(), wanted.slice().sort());
+        await browser.evaluate('document.querySelector("[data-view=camera]").click()');
+    },
+    async 'nothing is wider than a small phone'(browser) {
+        await browser.resize({width: 360, height: 740, scale: 2, mobile: true});
+        await browser.until('innerWidth === 360');
+        assert.ok(await browser.evaluate('document.documentElement.scrollWidth') <= 360);
+        await browser.resize({width: 1280, height: 800});
+    },
+    async 'it comes back when the director does, and says when the map has no source'(browser, stage) {
+        await stop(stage.director);
+        await browser.until(`document.getElementById('state').dataset.state === 'waiting'`);
+        stage.director = serve({source: false});
+        await eventually('ready', () => fetch(`${url}/-/ready`).then(answer => answer.ok));
+        const before = await browser.evaluate('cameraDirector.state().last');
+        await browser.until(`cameraDirector.state().connection === 'open' && cameraDirector.state().last !== ${before} &&
+            cameraDirector.state().cameras.length === ${players}`);
+        await browser.open(`${url}/#match=walk-0`);
+        await browser.send('Page.reload');
+        await browser.until('window.cameraDirector?.state().mesh');
+        assert.match(await browser.until('cameraDirector.state().note'), /names no source/);
+        assert.equal(await browser.evaluate('document.getElementById("map-note").hidden'), false);
+    },
+    async 'where a token is wanted the page asks for it, and takes it from the link'(browser, stage) {
+        await stop(stage.director);
+        stage.director = serve({token: true});
+        await eventually('ready', () => fetch(`${url}/-/ready`).then(answer => answer.ok));
+        await browser.until('!document.getElementById("token-form").hidden');
+        await browser.evaluate(`document.getElementById('token').value = ${JSON.stringify(secret)};
+            document.querySelector('#token-form button').click()`);
+        await browser.until(`cameraDirector.state().connection === 'open'`);
+        await browser.evaluate('sessionStorage.clear()');
+        await browser.open('about:blank');
+        await browser.open(`${url}/#token=${encodeURIComponent(secret)}&match=walk-0`);
+        await browser.until(`window.cameraDirector?.state().cameras.length === ${players}`);
+        assert.equal(await browser.evaluate('location.hash'), '#match=walk-0');
+    },
+    async 'the page complained of nothing, and is small'(browser) {
+        const complaints = browser.complaints().filter(text => !/ERR_CONNECTION|401|404|WebSocket/.test(text));
+        assert.deepEqual(complaints, []);
+        const bytes = browser.events.filter(({method}) => method === 'Network.loadingFinished')
+            .reduce((sum, {params}) => sum + params.encodedDataLength, 0);
+        assert.ok(bytes < 2e6, `${bytes} bytes were loaded`);
+        console.log(`${bytes} bytes loaded, ${(await browser.evaluate('cameraDirector.state().drawRate')).toFixed(1)} frames/s`);
+    },
+};
+
+async function main() {
+    writeFileSync(`${folder}/hall.obj`, hall());
+    const baked = spawnSync(`${bin}/camera-director`,
+        ['bake', `${folder}/hall.obj`, '-o', `${folder}/hall.vfs`, '--up', 'z', '--quiet'], {encoding: 'utf8'});
+    assert.equal(baked.status, 0, baked.stderr);
+    const stage = {director: serve()};
+    start('synthetic-players', `${folder}/hall.vfs`, '--map-name', 'hall', '--players', String(players), '--match-prefix', 'walk',
+        '--rate', '30', '--domain', domain);
+    start('observer-probe', '--domain', domain, '--match-prefix', 'walk', '--observers', String(players), '--grace', '600',
+        '--max-gaps', '1000000', '--max-violations', '1000000');
+    await eventually('cameras', () => json('/live').then(live => live.matches[0]?.shots.length === players));
+    const browser = await Browser.start();
+    let failed = 0;
+    try {
+        await browser.open(`${url}/`);
+        await browser.until('window.cameraDirector?.state().frames > 10');
+        for (const [name, test] of Object.entries(tests)) {
+            try {
+                await test(browser, stage);
+                console.log(`ok: ${name}`);
+            } catch (error) {
+                ++failed;
+                console.log(`FAILED: ${name}\n${error.stack}`);
+                console.log(await browser.evaluate('JSON.stringify(window.cameraDirector?.state())').catch(String));
+            }
+        }
+    } finally {
+        browser.close();
+    }
+    if (failed > 0) console.log(children.map(child => child.log).join('\n---\n'));
+    process.exitCode = failed > 0 ? 1 : 0;
+}
+
+try {
+    await main();
+} catch (error) {
+    console.log(error.stack, children.map(child => child.log).join('\n---\n'));
+    process.exitCode = 1;
+} finally {
+    for (const child of children) child.kill('SIGKILL');
+}

@@ -1,0 +1,219 @@
+#include "live/broadcast.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "live/history.hpp"
+
+namespace camdir::live {
+namespace {
+
+using nlohmann::json;
+
+director::MatchInfo match_info(const std::string& match_id, std::vector<director::Player> players,
+                               std::uint64_t epoch = 1) {
+    director::MatchInfo info;
+    info.match_id = match_id;
+    info.epoch = epoch;
+    info.map_name = "hall";
+    info.metres_per_unit = 0.0254F;
+    info.rate_hz = 60.0F;
+    info.players = std::move(players);
+    return info;
+}
+
+director::PoseFrame poses_of(const std::vector<std::uint32_t>& players, std::uint32_t number,
+                             std::uint32_t flags = 1) {
+    director::PoseFrame poses{1, number, number * 16'000'000LL, 0, {}};
+    for (const std::uint32_t player : players) {
+        director::PlayerPose pose;
+        pose.player_id = player;
+        pose.flags = flags;
+        poses.poses.push_back(pose);
+    }
+    return poses;
+}
+
+director::CameraFrame cameras_of(const director::PoseFrame& poses, std::uint32_t target,
+                                 std::uint32_t flags) {
+    director::CameraFrame frame{poses.epoch, 0, poses.frame_number, poses.frame_time, poses.source_time, {}};
+    director::ShotCamera camera;
+    camera.camera_id = 5;
+    camera.target = target;
+    camera.flags = flags;
+    frame.cameras = {camera};
+    return frame;
+}
+
+std::shared_ptr<Viewer> viewer() {
+    return std::make_shared<Viewer>([] {});
+}
+
+// Notes as JSON, frames as the number of their bytes.
+std::vector<json> take_all(Viewer& viewer) {
+    std::vector<json> taken;
+    while (const SharedMessage message = viewer.take())
+        taken.push_back(message->kind == Message::Kind::note ? json::parse(message->content)
+                                                             : json(message->content.size()));
+    return taken;
+}
+
+constexpr std::size_t frame_bytes = 28 + 14 + 22;
+
+TEST(Broadcast, TellsALateJoinerTheMatchItsHistoryAndTheLastFrame) {
+    Broadcast broadcast(10);
+    broadcast.show(match_info("cup", {{7, "Ann", "medic", 2}}));
+    const auto first = poses_of({7}, 1);
+    broadcast.show("cup", first, cameras_of(first, 7, 1 | 2));
+    const auto second = poses_of({7}, 2);
+    broadcast.show("cup", second, cameras_of(second, 7, 4));
+    broadcast.show("cup", director::MatchEvent{1, 30'000'000, 1, 7, director::no_player, 1.0F, "MOD\xff"});
+
+    const auto late = viewer();
+    ASSERT_EQ(broadcast.join("cup", late), Broadcast::Admission::joined);
+    const auto told = take_all(*late);
+    ASSERT_EQ(told.size(), 3U);
+    EXPECT_EQ(told[0]["kind"], "match");
+    EXPECT_EQ(told[0]["version"], 1);
+    EXPECT_EQ(told[0]["map"], "hall");
+    EXPECT_EQ(told[0]["players"],
+              json::parse(R"([{"slot":0,"id":7,"listed":true,"name":"Ann","class":"medic","team":2}])"));
+    EXPECT_EQ(told[1]["kind"], "history");
+    EXPECT_EQ(told[1]["states"], json::parse("[[16.0,5,0,2],[32.0,5,0,4]]"));
+    ASSERT_EQ(told[1]["notes"].size(), 2U);
+    EXPECT_EQ(told[1]["notes"][0],
+              json::parse(R"({"kind":"cut","t":16.0,"camera":5,"target":0,"reason":"begin"})"));
+    EXPECT_EQ(told[1]["notes"][1]["event"], "kill");
+    EXPECT_EQ(told[1]["notes"][1]["subject"], nullptr);
+    EXPECT_EQ(told[2], frame_bytes);
+}
+
+TEST(Broadcast, SaysWhyAShotWasCut) {
+    Broadcast broadcast(10);
+    broadcast.show(match_info("cup", {{1, "", "", 0}, {2, "", "", 0}}));
+    const auto watcher = viewer();
+    ASSERT_EQ(broadcast.join("cup", watcher), Broadcast::Admission::joined);
+    const auto show = [&](std::uint32_t number, std::uint32_t target, std::uint32_t flags,
+                          std::uint32_t pose_flags = 1) {
+        const auto poses = poses_of({1, 2}, number, pose_flags);
+        broadcast.show("cup", poses, cameras_of(poses, target, flags));
+    };
+    show(1, 1, 1 | 2);     // begins
+    show(2, 2, 1 | 2);     // another player
+    show(3, 2, 1 | 2, 3);  // respawned
+    show(4, 2, 0);         // no cut
+    show(5, 2, 1 | 2);     // was hidden
+    show(6, 2, 1 | 2);     // was visible
+    std::vector<std::string> reasons;
+    for (const json& note : take_all(*watcher))
+        if (note.is_object() && note["kind"] == "cut") reasons.push_back(note["reason"]);
+    EXPECT_EQ(reasons, (std::vector<std::string>{"begin", "target", "moved", "hidden", "viewpoint"}));
+}
+
+TEST(Broadcast, KeepsThePlayersSlots) {
+    Broadcast broadcast(10);
+    broadcast.show(match_info("cup", {{7, "Ann", "", 0}, {8, "Bob", "", 0}}));
+    const auto watcher = viewer();
+    ASSERT_EQ(broadcast.join("cup", watcher), Broadcast::Admission::joined);
+    const auto poses = poses_of({8, 9}, 1);  // 9 is not listed
+    broadcast.show("cup", poses, cameras_of(poses, 8, 2));
+    broadcast.show(match_info("cup", {{8, "Bob", "", 0}, {9, "Cem", "", 0}}));
+    json last;
+    for (const json& message : take_all(*watcher))
+        if (message.is_object() && message["kind"] == "match") last = message["players"];
+    ASSERT_EQ(last.size(), 3U);
+    EXPECT_EQ(last[0], json::parse(R"({"slot":0,"id":7,"listed":false})"));
+    EXPECT_EQ(last[1]["name"], "Bob");
+    EXPECT_EQ(last[2]["slot"], 2);
+    EXPECT_EQ(last[2]["name"], "Cem");
+}
+
+TEST(Broadcast, GivesSlotsOfThoseWhoHaveGoneAwayWhenAllAreTaken) {
+    Broadcast broadcast(10);
+    for (std::uint32_t player = 0; player < 600; ++player)
+        broadcast.show(match_info("cup", {{player, "", "", 0}}));
+    const auto watcher = viewer();
+    ASSERT_EQ(broadcast.join("cup", watcher), Broadcast::Admission::joined);
+    const json players = take_all(*watcher).front()["players"];
+    EXPECT_EQ(players.size(), 255U);
+    EXPECT_EQ(
+        std::count_if(players.begin(), players.end(),
+                      [](const json& player) { return player["listed"] == true && player["id"] == 599; }),
+        1);
+}
+
+TEST(Broadcast, ForgetsTheHistoryOfAnEpochThatIsOver) {
+    Broadcast broadcast(10);
+    broadcast.show(match_info("cup", {{1, "", "", 0}}));
+    const auto poses = poses_of({1}, 1);
+    broadcast.show("cup", poses, cameras_of(poses, 1, 3));
+    broadcast.show(match_info("cup", {{1, "", "", 0}}, 2));
+    const auto late = viewer();
+    ASSERT_EQ(broadcast.join("cup", late), Broadcast::Admission::joined);
+    const auto told = take_all(*late);
+    ASSERT_EQ(told.size(), 2U) << "no frame";
+    EXPECT_TRUE(told[1]["states"].empty());
+    EXPECT_TRUE(told[1]["notes"].empty());
+}
+
+TEST(Broadcast, BoundsHistory) {
+    Broadcast broadcast(10);
+    broadcast.show(match_info("cup", {{1, "", "", 0}}));
+    for (std::uint32_t number = 1; number < 5000; ++number) {
+        const auto poses = poses_of({1}, number);
+        broadcast.show("cup", poses, cameras_of(poses, 1, 1 | (number % 2) << 1));
+    }
+    const auto late = viewer();
+    ASSERT_EQ(broadcast.join("cup", late), Broadcast::Admission::joined);
+    const auto told = take_all(*late);
+    EXPECT_EQ(told[1]["states"].size(), History::max_states);
+    EXPECT_EQ(told[1]["notes"].size(), History::max_notes);
+}
+
+TEST(Broadcast, LetsInSoManyViewersAndNoMore) {
+    Broadcast broadcast(2);
+    broadcast.show(match_info("cup", {}));
+    const auto a = viewer();
+    const auto b = viewer();
+    const auto c = viewer();
+    EXPECT_EQ(broadcast.join("nothing", a), Broadcast::Admission::no_match);
+    EXPECT_EQ(broadcast.join("cup", a), Broadcast::Admission::joined);
+    EXPECT_EQ(broadcast.join("cup", b), Broadcast::Admission::joined);
+    EXPECT_EQ(broadcast.join("cup", c), Broadcast::Admission::full);
+    a->leave();
+    EXPECT_EQ(broadcast.join("cup", c), Broadcast::Admission::joined);
+    EXPECT_EQ(broadcast.statistics().viewers, 2U);
+}
+
+TEST(Broadcast, CountsWhatSlowViewersLose) {
+    Broadcast broadcast(10);
+    broadcast.show(match_info("cup", {{1, "", "", 0}}));
+    const auto slow = std::make_shared<Viewer>([] {}, ViewerLimits{4, 10});
+    ASSERT_EQ(broadcast.join("cup", slow), Broadcast::Admission::joined);
+    for (std::uint32_t number = 1; number <= 10; ++number)
+        broadcast.show("cup", poses_of({1}, number), {});
+    EXPECT_EQ(broadcast.statistics().frames, 10U);
+    EXPECT_EQ(broadcast.statistics().dropped_frames, 6U);
+    for (std::uint32_t number = 0; number < 20; ++number)
+        broadcast.show("cup", director::MatchEvent{});
+    EXPECT_EQ(broadcast.statistics().viewers, 0U);
+    EXPECT_EQ(broadcast.statistics().lost_viewers, 1U);
+}
+
+TEST(Broadcast, EndsWithTheMatch) {
+    Broadcast broadcast(10);
+    broadcast.show(match_info("cup", {}));
+    const auto watcher = viewer();
+    ASSERT_EQ(broadcast.join("cup", watcher), Broadcast::Admission::joined);
+    broadcast.end("cup");
+    EXPECT_EQ(take_all(*watcher).back(), json::parse(R"({"kind":"end"})"));
+    EXPECT_TRUE(watcher->finished());
+    EXPECT_EQ(broadcast.join("cup", viewer()), Broadcast::Admission::no_match);
+}
+
+}  // namespace
+}  // namespace camdir::live

@@ -1,0 +1,90 @@
+#include "live/models.hpp"
+
+#include <gtest/gtest.h>
+
+#include "base/file.hpp"
+#include "scene/load.hpp"
+#include "support/freespace_meshes.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace camdir::live {
+namespace {
+
+// A tetrahedron that is the source of a baked square.
+class Library {
+  public:
+    Library() {
+        const std::string text = "v 0 0 0\nv 9 0 0\nv 0 9 0\nv 0 0 9\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+        EXPECT_TRUE(write_file(folder_ / "room.obj", text));
+        source.name = "room";
+        source.source = (folder_ / "room.obj").string();
+        load(scene::hash_source(source.source).value());
+    }
+
+    void load(std::uint64_t source_hash) {
+        auto contents = test::square_contents();
+        contents.metadata.source_hash = source_hash;
+        maps.set_ready("room", test::make_freespace(contents));
+    }
+
+    director::MapLibrary maps;
+    config::Map source;
+
+  private:
+    test::TemporaryFolder folder_;
+};
+
+TEST(Models, ShowsTheObstaclesOfAMapWhoseSourceIsThere) {
+    Library library;
+    Models models(library.maps);
+    models.set_source(library.source);
+    const auto answer = models.find("room", ModelKind::obstacles);
+    ASSERT_TRUE(answer.model) << answer.reason;
+    EXPECT_EQ(answer.model->gzip.substr(0, 2), "\x1f\x8b");
+    EXPECT_EQ(models.find("room", ModelKind::obstacles).model, answer.model) << "made once";
+}
+
+TEST(Models, ShowsTheMeshWithoutASource) {
+    const Library library;
+    Models models(library.maps);
+    EXPECT_TRUE(models.find("room", ModelKind::mesh).model);
+    const auto answer = models.find("room", ModelKind::obstacles);
+    EXPECT_FALSE(answer.model);
+    EXPECT_EQ(answer.failure, Models::Failure::no_source);
+}
+
+TEST(Models, NamesNoFileToViewers) {
+    Library library;
+    Models models(library.maps);
+    library.source.source += ".gone";
+    models.set_source(library.source);
+    const auto answer = models.find("room", ModelKind::obstacles);
+    EXPECT_EQ(answer.failure, Models::Failure::no_source);
+    EXPECT_EQ(answer.reason.find('/'), std::string::npos) << answer.reason;
+}
+
+TEST(Models, DoesNotShowObstaclesThatTheMapWasNotBakedFrom) {
+    Library library;
+    Models models(library.maps);
+    models.set_source(library.source);
+    library.load(1234);
+    EXPECT_EQ(models.find("room", ModelKind::obstacles).failure, Models::Failure::no_source);
+}
+
+TEST(Models, AreNewWhenTheMapIs) {
+    Library library;
+    Models models(library.maps);
+    const auto before = models.find("room", ModelKind::mesh).model;
+    library.load(7);
+    EXPECT_NE(models.find("room", ModelKind::mesh).model, before);
+}
+
+TEST(Models, OfUnknownMapsThereAreNone) {
+    const Library library;
+    Models models(library.maps);
+    EXPECT_EQ(models.find("hall", ModelKind::mesh).failure, Models::Failure::no_map);
+    EXPECT_EQ(models.find("../../etc/passwd", ModelKind::obstacles).failure, Models::Failure::no_map);
+}
+
+}  // namespace
+}  // namespace camdir::live
