@@ -24,6 +24,8 @@ constexpr double longest_foresight_s = 10.0;
 // What is not here so long before it is shown may come any time later.
 constexpr double arrival_s = 0.3;
 constexpr direction::Beat catches_up = 3;  // beats in one
+// That are looked at before they are known to decisions, so that no decision waits for them.
+constexpr direction::Beat scouted_ahead = cut_every;
 constexpr double longest_step_back_s = 1.0;
 constexpr double longest_gap_s = 30.0;
 constexpr double slowest_rate_hz = 10.0;
@@ -158,7 +160,7 @@ bool Edit::take(const PoseFrame& frame, const Setting& setting) {
     if (time <= newest_) return true;
     const direction::Beat number = beat_of(time);
     if (!beats_.empty() && number > beats_.back().number) beats_.back().ended = true;
-    if (number >= end_ && number > shown_beat_) return false;
+    if (number >= end_ + scouted_ahead && number > shown_beat_) return false;
     newest_ = time;
     const auto poses = std::span(frame.poses).first(std::min(frame.poses.size(), setting.max_players));
     const bool known = beats_.empty() ? number < material_.footage().beats() : number <= beats_.back().number;
@@ -226,7 +228,9 @@ Index Edit::place_of(std::uint32_t player) const {
 
 void Edit::look(const Setting& setting) {
     const double frames_per_beat = std::max(setting.rate_hz, slowest_rate_hz) * beat_s;
-    const double share = static_cast<double>(catches_up) / frames_per_beat;
+    const auto waiting =
+        std::ranges::count_if(beats_, [](const PendingBeat& beat) { return !beat.scout.finished(); });
+    const double share = static_cast<double>(std::min(waiting, std::ptrdiff_t{catches_up})) / frames_per_beat;
     auto most = static_cast<std::size_t>(std::ceil(share * static_cast<double>(players_.size())));
     const auto unit = static_cast<float>(unit_of(setting.freespace));
     for (PendingBeat& beat : beats_)
@@ -238,7 +242,7 @@ void Edit::look(const Setting& setting) {
 void Edit::finish(const Setting& setting) {
     const auto unit = static_cast<float>(unit_of(setting.freespace));
     for (PendingBeat& beat : beats_)
-        while (beat.ended && !beat.scout.finished())
+        while (beat.number < end_ && beat.ended && !beat.scout.finished())
             beat.scout.look(setting.freespace, unit);
     append_finished();
 }
@@ -246,7 +250,10 @@ void Edit::finish(const Setting& setting) {
 // A beat without a frame is as the one before.
 void Edit::append_finished() {
     const direction::Footage& footage = material_.footage();
-    for (; !beats_.empty() && beats_.front().ended && beats_.front().scout.finished(); beats_.pop_front()) {
+    const auto is_known = [&](const PendingBeat& beat) {
+        return beat.number < end_ && beat.ended && beat.scout.finished();
+    };
+    for (; !beats_.empty() && is_known(beats_.front()); beats_.pop_front()) {
         const PendingBeat& beat = beats_.front();
         while (footage.beats() < beat.number) {
             const direction::Beat last = footage.beats() - 1;
