@@ -25,7 +25,7 @@ constexpr double longest_foresight_s = 10.0;
 constexpr double arrival_s = 0.3;
 constexpr direction::Beat catches_up = 3;  // beats in one
 // That are looked at before they are known to decisions, so that no decision waits for them.
-constexpr direction::Beat scouted_ahead = cut_every;
+constexpr direction::Beat scouted_ahead = catches_up;
 constexpr double longest_step_back_s = 1.0;
 constexpr double longest_gap_s = 30.0;
 constexpr double slowest_rate_hz = 10.0;

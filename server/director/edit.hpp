@@ -45,6 +45,8 @@ class Edit {
     void clear();
 
     void set_players(std::span<const Player> players);
+    // The rules have changed: what was found by the old ones is of no use.
+    void forget_moments() { moments_.clear(); }
     // As it is shown; ignored where it was foreseen.
     void record(const MatchEvent& event);
 

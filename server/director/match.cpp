@@ -201,6 +201,7 @@ void Match::handle(const DelayChanged& /*changed*/) {
 
 void Match::handle(const Reconfigured& changed) {
     config_ = changed.config;
+    edit_.forget_moments();
     if (info_) silence_limit_ns_ = silence_limit_ns(*info_, config_->matches);
     requests_.resolve_again(*config_);
     reconcile_needed_ = true;

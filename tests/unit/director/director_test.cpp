@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "camera/camera.hpp"
@@ -249,6 +250,29 @@ TEST(Director, AnAutomaticTargetThatLeavesIsReplacedAtOnce) {
     EXPECT_NE(camera.flags & camera::cut, 0U);
     stage.send(Stage::poses(3, 1, {}));
     EXPECT_EQ(stage.publisher.frames().back().cameras.at(0).target, camera.target) << "it waits";
+}
+
+// The address sanitizer watches.
+TEST(Director, RulesMayChangeAtAnyTime) {
+    Stage stage;
+    stage.start();
+    stage.ask(Stage::request("a", no_player));
+    std::uint32_t number = 1;
+    for (; number < 42; ++number) {
+        stage.director.receive("m", MatchEvent{1, Stage::poses(number).frame_time, 1, 1, 3, 0.0F});
+        stage.send(Stage::poses(number));
+    }
+    config::Config config = Stage::default_config();
+    config.direction.moments.clear();
+    stage.director.reconfigure(config);
+    ObserverRequest wanted = Stage::request("b", no_player);
+    wanted.group = {2, 3};
+    stage.ask(wanted);
+    stage.send(Stage::poses(number));
+    ASSERT_EQ(stage.publisher.frames().back().cameras.size(), 2U);
+    const auto reasons = stage.publisher.frames().back().reasons;
+    EXPECT_TRUE(
+        std::ranges::all_of(reasons, [](const ShotReason& told) { return !told.reason.why.empty(); }));
 }
 
 TEST(Director, AnAutomaticTargetIsOfTheGroup) {
