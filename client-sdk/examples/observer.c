@@ -23,20 +23,21 @@ static void report_status(cdir_observer observer, uint32_t* last_state) {
     *last_state = status.state;
 }
 
-/* Says who is shown when that has changed. */
-static void report_target(cdir_observer observer, uint32_t target, uint32_t* last_target) {
+/* Says who is shown, and why, when that has changed. */
+static void report_target(cdir_observer observer, const cdir_camera* camera, uint32_t* last_target) {
     static cdir_player players[CDIR_MAX_PLAYERS];
     cdir_match_info info = cdir_match_info_default();
     uint32_t count = 0;
-    if (target == *last_target) return;
+    if (camera->target == *last_target) return;
     players[0] = cdir_player_default();
     const cdir_status status = cdir_observer_match_info(observer, &info, players, CDIR_MAX_PLAYERS, &count);
     check("reading the match", status);
     if (status == CDIR_NO_DATA) return;
     for (uint32_t i = 0; i < count; ++i) {
-        if (players[i].id == target) fprintf(stderr, "target: %s\n", players[i].name);
+        if (players[i].id != camera->target) continue;
+        fprintf(stderr, "target: %s%s%s\n", players[i].name, camera->reason[0] ? ": " : "", camera->reason);
     }
-    *last_target = target;
+    *last_target = camera->target;
 }
 
 static void print_camera(const cdir_camera* camera, const cdir_view* view) {
@@ -70,7 +71,7 @@ static void watch(cdir_observer observer, double rate, double seconds, double pa
         if (cdir_observer_display_time(observer, &display_time) == CDIR_OK &&
             cdir_observer_camera_at(observer, display_time, &camera, &view) == CDIR_OK) {
             print_camera(&camera, &view);
-            report_target(observer, camera.target, &last_target);
+            report_target(observer, &camera, &last_target);
             seen = true;
         }
         if (fflush(stdout) != 0) {

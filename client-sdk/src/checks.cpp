@@ -116,8 +116,7 @@ bool all_unit(const float* quaternions, std::size_t count) {
 }
 
 void check(const cdir_match_event& event) {
-    require(event.kind >= CDIR_EVENT_KILL && event.kind <= CDIR_EVENT_ROUND,
-            "an event's kind must be one of CDIR_EVENT_");
+    require(event.kind >= CDIR_EVENT_KILL, "an event's kind must be one of CDIR_EVENT_, or greater");
     require(std::isfinite(event.value), "an event's value is not finite");
     check_frame_time(event.frame_time);
     require(event.reserved == 0, "event.reserved is not 0");
@@ -140,7 +139,7 @@ bool is_valid(const camera_director_CameraFrame& frame, const std::string& match
     const bool lengths = n <= CDIR_MAX_CAMERAS && frame.target._length == n &&
                          frame.position._length == 3 * n && frame.orientation._length == 4 * n &&
                          frame.vertical_fov._length == n && frame.clearance._length == n &&
-                         frame.flags._length == n;
+                         frame.flags._length == n && frame.reasons._length <= CDIR_MAX_CAMERAS;
     return lengths && frame.match_id == match_id && is_time(frame.frame_time) && finite(frame.position) &&
            all_unit(frame.orientation._buffer, n) && finite(frame.clearance) &&
            std::all_of(frame.vertical_fov._buffer, frame.vertical_fov._buffer + n,

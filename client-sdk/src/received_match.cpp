@@ -38,6 +38,13 @@ ReceivedMatch::Info info_from(const camera_director_ShownMatch& sample) {
     return info;
 }
 
+// The director tells it when it changes.
+void copy_reason(const cdir_camera& from, cdir_camera& to) {
+    to.reason_actor = from.reason_actor;
+    to.reason_subject = from.reason_subject;
+    copy_string(to.reason, from.reason);
+}
+
 }  // namespace
 
 cdir_camera camera_at(const camera_director_CameraFrame& frame, std::uint32_t index) {
@@ -49,6 +56,14 @@ cdir_camera camera_at(const camera_director_CameraFrame& frame, std::uint32_t in
     camera.vertical_fov = frame.vertical_fov._buffer[index];
     camera.clearance = frame.clearance._buffer[index];
     camera.flags = frame.flags._buffer[index];
+    camera.reason_actor = camera.reason_subject = CDIR_NO_PLAYER;
+    for (std::uint32_t i = 0; i < frame.reasons._length; ++i) {
+        const camera_director_ShotReason& reason = frame.reasons._buffer[i];
+        if (reason.camera_id != camera.camera_id) continue;
+        camera.reason_actor = reason.actor;
+        camera.reason_subject = reason.subject;
+        copy_string(camera.reason, reason.why);
+    }
     return camera;
 }
 
@@ -204,7 +219,12 @@ std::optional<cdir_camera> ReceivedMatch::camera_of_shot(const camera_director_C
     const std::uint32_t count = frame.camera_id._length;
     const auto index = static_cast<std::uint32_t>(std::find(ids, ids + count, status_->camera_id) - ids);
     if (index == count) return std::nullopt;
-    return camera_at(frame, index);
+    cdir_camera camera = camera_at(frame, index);
+    const std::optional<View> before = track_.newest();
+    if (camera.reason[0] == '\0' && before && before->camera.camera_id == camera.camera_id &&
+        before->camera.target == camera.target)
+        copy_reason(before->camera, camera);
+    return camera;
 }
 
 void ReceivedMatch::set_requested(bool requested) {

@@ -54,6 +54,8 @@ cdir_camera default_of<cdir_camera>() {
     camera.target = CDIR_CHOOSE_TARGET;
     camera.orientation[3] = 1.0F;
     camera.vertical_fov = 1.0471976F;
+    camera.reason_actor = CDIR_NO_PLAYER;
+    camera.reason_subject = CDIR_NO_PLAYER;
     return camera;
 }
 

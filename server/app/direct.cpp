@@ -17,6 +17,7 @@
 #include "direction/figures.hpp"
 #include "direction/moments.hpp"
 #include "direction/programme.hpp"
+#include "director/edit.hpp"
 #include "evaluation/figures.hpp"
 #include "evaluation/recording.hpp"
 #include "freespace/visibility.hpp"
@@ -67,6 +68,7 @@ Result<Inputs> read_inputs(const DirectOptions& options, ProgressLine& line) {
 struct Rushes {
     evaluation::CameraPath cameras;
     direction::Footage edited;
+    direction::Footage scouted;  // as the running director knows them
     direction::Footage judged;
 };
 
@@ -86,16 +88,19 @@ Result<Rushes> shoot(const DirectOptions& options, const Inputs& inputs, double 
     };
     auto edited = footage_of(inputs.trace, recording->cameras, unit, proved, stop);
     if (!edited) return tl::unexpected(edited.error());
+    auto scouted = scouted_footage_of(inputs.trace, *inputs.map.freespace, unit, stop);
+    if (!scouted) return tl::unexpected(scouted.error());
     auto judged = footage_of(inputs.trace, recording->cameras, unit, exact, stop);
     if (!judged) return tl::unexpected(judged.error());
-    return Rushes{std::move(recording->cameras), std::move(*edited), std::move(*judged)};
+    return Rushes{std::move(recording->cameras), std::move(*edited), std::move(*scouted), std::move(*judged)};
 }
 
 using Judged = report::JudgedProgramme;
 
-// The direction's own figures first, then the others', then the bound's.
+// The direction's own figures first, then the running director's, the others' and the bound's.
 Result<std::vector<Judged>> judge(const Rushes& rushes, std::span<const direction::Event> events,
-                                  std::span<const direction::Shot> shots, const direction::Rules& rules,
+                                  std::span<const direction::Shot> shots,
+                                  std::span<const direction::Shot> running, const direction::Rules& rules,
                                   double unit, double delay, const std::stop_token& stop) {
     constexpr std::uint64_t seeds = 64;
     const auto figures = [&](std::span<const direction::Shot> programme) {
@@ -107,6 +112,7 @@ Result<std::vector<Judged>> judge(const Rushes& rushes, std::span<const directio
     if (stop.stop_requested()) return fail("interrupted", ErrorCode::interrupted);
     return std::vector<Judged>{
         {"direction", figures(shots)},
+        {"running", figures(running)},
         {"random", direction::mean_of(switches)},
         {"hltv", figures(direction::hltv(rushes.judged, events, unit, delay))},
         {"quakeworld", figures(direction::quakeworld(rushes.judged, events))},
@@ -248,8 +254,11 @@ Result<void> direct(const DirectOptions& options) {
     const auto shots = direction::direct(rushes->edited, events, rules, unit, options.delay, stop);
     if (!shots) return tl::unexpected(shots.error());
     const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
+    const auto running = direction::direct(rushes->scouted, events, rules, unit,
+                                           director::Edit::foresight_s(options.delay), stop);
+    if (!running) return tl::unexpected(running.error());
     line.show("judging", 0, 0);
-    const auto judged = judge(*rushes, events, *shots, rules, unit, options.delay, stop);
+    const auto judged = judge(*rushes, events, *shots, *running, rules, unit, options.delay, stop);
     if (!judged) return tl::unexpected(judged.error());
     line.clear();
     print_table(*judged);

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "base/parallel.hpp"
+#include "director/scout.hpp"
 #include "evaluation/picture.hpp"
 
 namespace camdir::app {
@@ -33,6 +34,48 @@ double seconds_from_start(const Trace& trace, std::int64_t time) {
     return static_cast<double>(time - trace.frames.front().time) * 1e-9;
 }
 
+void read_players(const Trace& trace, std::span<const TracePose> poses, std::vector<PlayerState>& players) {
+    for (const TracePose& pose : poses) {
+        PlayerState& state = players[index_of(trace, pose.player)];
+        state.eye = pose.eye.cast<float>();
+        state.facing = (pose.orientation * Vec3d::UnitX()).cast<float>();
+        state.speed = static_cast<float>(pose.velocity.norm());
+        state.team = pose.team;
+        state.present = true;
+        state.alive = pose.alive;
+    }
+}
+
+// Calls read(frames, players, takes) for each beat, from several threads. A beat without a frame repeats the
+// one before, without its cuts.
+template <class Read>
+Result<direction::Footage> read_beats(const Trace& trace, const std::stop_token& stop, const Read& read) {
+    std::vector<std::vector<TraceFrame>> beats;
+    for (const TraceFrame& frame : trace.frames) {
+        const auto beat = static_cast<std::size_t>(direction::beat_of(seconds_from_start(trace, frame.time)));
+        beats.resize(std::max(beats.size(), beat + 1));
+        beats[beat].push_back(frame);
+    }
+    std::vector<std::vector<PlayerState>> players(beats.size());
+    std::vector<std::vector<Take>> takes(beats.size());
+    parallel_for(std::size_t{0}, beats.size(), [&](std::size_t beat) {
+        if (!stop.stop_requested()) read(beats[beat], players[beat], takes[beat]);
+    });
+    if (stop.stop_requested()) return fail("interrupted", ErrorCode::interrupted);
+    std::vector<Index> subjects(trace.players.size());
+    for (std::size_t player = 0; player < subjects.size(); ++player)
+        subjects[player] = static_cast<Index>(player);
+    direction::Footage footage(trace.players.size(), std::move(subjects));
+    std::size_t filled = 0;
+    for (std::size_t beat = 0; beat < beats.size(); ++beat) {
+        if (!beats[beat].empty()) filled = beat;
+        footage.append(players[filled], takes[filled]);
+        for (Take& take : takes[filled])
+            take.cut = false;  // of the beats that repeat this one
+    }
+    return footage;
+}
+
 // One beat, from its frames.
 class BeatReader {
   public:
@@ -51,7 +94,7 @@ class BeatReader {
     void read_frame(const TraceFrame& frame, bool first, std::vector<PlayerState>& players,
                     std::vector<Take>& takes) const {
         const auto poses = trace_.poses_of(frame);
-        if (first) read_players(poses, players);
+        if (first) see_each_other(poses, players);
         std::vector<bool> present(takes.size());
         for (std::uint32_t i = 0; i < frame.pose_count; ++i) {
             const evaluation::CameraSample& camera = cameras_[frame.first_pose + i];
@@ -67,16 +110,8 @@ class BeatReader {
             if (!present[rush]) takes[rush].shown.reset();
     }
 
-    void read_players(std::span<const TracePose> poses, std::vector<PlayerState>& players) const {
-        for (const TracePose& pose : poses) {
-            PlayerState& state = players[index_of(trace_, pose.player)];
-            state.eye = pose.eye.cast<float>();
-            state.facing = (pose.orientation * Vec3d::UnitX()).cast<float>();
-            state.speed = static_cast<float>(pose.velocity.norm());
-            state.team = pose.team;
-            state.present = true;
-            state.alive = pose.alive;
-        }
+    void see_each_other(std::span<const TracePose> poses, std::vector<PlayerState>& players) const {
+        read_players(trace_, poses, players);
         for (std::size_t i = 0; i < poses.size(); ++i)
             for (std::size_t j = i + 1; j < poses.size(); ++j) {
                 if (!clear_(poses[i].eye, poses[j].eye)) continue;
@@ -144,31 +179,29 @@ Result<void> check_length(const Trace& trace) {
 Result<direction::Footage> footage_of(const Trace& trace, const CameraPath& cameras, double unit,
                                       const ClearLine& clear, const std::stop_token& stop) {
     assert(cameras.size() == trace.poses.size() && trace.players.size() <= direction::max_players);
-    std::vector<std::vector<TraceFrame>> beats;
-    for (const TraceFrame& frame : trace.frames) {
-        const auto beat = static_cast<std::size_t>(direction::beat_of(seconds_from_start(trace, frame.time)));
-        beats.resize(std::max(beats.size(), beat + 1));
-        beats[beat].push_back(frame);
-    }
-    std::vector<std::vector<PlayerState>> players(beats.size());
-    std::vector<std::vector<Take>> takes(beats.size());
     const BeatReader reader(trace, cameras, unit, clear);
-    parallel_for(std::size_t{0}, beats.size(), [&](std::size_t beat) {
-        if (!stop.stop_requested()) reader.read(beats[beat], players[beat], takes[beat]);
+    return read_beats(trace, stop, [&](std::span<const TraceFrame> frames, auto& players, auto& takes) {
+        reader.read(frames, players, takes);
     });
-    if (stop.stop_requested()) return fail("interrupted", ErrorCode::interrupted);
-    std::vector<Index> subjects(trace.players.size());
-    for (std::size_t player = 0; player < subjects.size(); ++player)
-        subjects[player] = static_cast<Index>(player);
-    direction::Footage footage(trace.players.size(), std::move(subjects));
-    std::size_t filled = 0;
-    for (std::size_t beat = 0; beat < beats.size(); ++beat) {
-        if (!beats[beat].empty()) filled = beat;
-        footage.append(players[filled], takes[filled]);
-        for (Take& take : takes[filled])
-            take.cut = false;  // of the beats that repeat this one
-    }
-    return footage;
+}
+
+Result<direction::Footage> scouted_footage_of(const Trace& trace, const freespace::Freespace& freespace,
+                                              double unit, const std::stop_token& stop) {
+    return read_beats(trace, stop, [&](std::span<const TraceFrame> frames, auto& players, auto& takes) {
+        director::Scout scout;
+        scout.players.resize(trace.players.size());
+        scout.takes.resize(trace.players.size());
+        if (!frames.empty()) read_players(trace, trace.poses_of(frames.front()), scout.players);
+        for (Index player = 0; player < scout.players.size(); ++player)
+            if (scout.players[player].present) scout.present.push_back(player);
+        while (!scout.finished())
+            scout.look(freespace, static_cast<float>(unit));
+        for (const TraceFrame& frame : frames)
+            for (const TracePose& pose : trace.poses_of(frame))
+                if (pose.discontinuity) scout.takes[index_of(trace, pose.player)].cut = true;
+        players = std::move(scout.players);
+        takes = std::move(scout.takes);
+    });
 }
 
 std::vector<direction::Event> events_of(const Trace& trace,

@@ -10,6 +10,7 @@
 #include "direction/rules.hpp"
 #include "evaluation/camera_path.hpp"
 #include "evaluation/events.hpp"
+#include "freespace/freespace.hpp"
 
 namespace camdir::app {
 
@@ -27,6 +28,12 @@ using ClearLine = std::function<bool(const Vec3d&, const Vec3d&)>;
 [[nodiscard]] Result<direction::Footage> footage_of(const evaluation::Trace& trace,
                                                     const evaluation::CameraPath& cameras, double unit,
                                                     const ClearLine& clear, const std::stop_token& stop);
+
+// The same as the running director knows it: beats of their first frames, seen by the cameras of its scout.
+// Likewise.
+[[nodiscard]] Result<direction::Footage> scouted_footage_of(const evaluation::Trace& trace,
+                                                            const freespace::Freespace& freespace,
+                                                            double unit, const std::stop_token& stop);
 
 // The events that the direction knows, times from the trace's first frame; events before it are left out.
 [[nodiscard]] std::vector<direction::Event> events_of(const evaluation::Trace& trace,

@@ -1,6 +1,7 @@
 #include "config/config.hpp"
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "base/file.hpp"
@@ -74,13 +75,26 @@ std::string unknown(const std::string& name, const std::vector<std::string>& kno
     return "unknown key" + (near.empty() ? std::string() : ", did you mean \"" + near + "\"?");
 }
 
+// What took the place of a key of earlier versions; empty where there was none.
+std::string successor(const std::string& place) {
+    static const std::map<std::string, std::string> successors = {
+        {"/matches/automatic_hold_s", "/direction/minimum_shot_s"},
+        {"/matches/automatic_lead", "/direction/cut"},
+        {"/matches/automatic_half_life_s", "/direction/half_life_s"},
+    };
+    const auto found = successors.find(place);
+    return found == successors.end() ? "" : found->second;
+}
+
 void read_object(const std::string& section, const std::string& pointer, const json& object,
                  const Target& target, ValidationErrors& errors) {
     if (!object.is_object()) return errors.add(pointer, object, "an object");
     for (const auto& [name, value] : object.items()) {
         const std::string place = pointer + "/" + escaped(name);
         const Key* key = find_key(section, name);
-        if (key == nullptr)
+        if (const std::string use = successor(place); !use.empty())
+            errors.add(place + ": no longer a key: use " + use);
+        else if (key == nullptr)
             errors.add(place + ": " + unknown(name, names_in(section)));
         else if (!assign(*key, value, target))
             errors.add(place, value, expected(*key));

@@ -91,9 +91,6 @@ struct Matches {
     std::int64_t silence_frames = 30;  // a match without poses for silence_frames / rate_hz is silent
     double forget_s = 300.0;           // a match whose server disappeared ends after this
     double minimum_delay_s = 0.0;      // observers see every match at least so late
-    double automatic_hold_s = 5.0;
-    double automatic_lead = 1.0;
-    double automatic_half_life_s = 10.0;
 };
 
 struct Limits {

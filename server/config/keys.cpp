@@ -456,36 +456,6 @@ void add_matches(std::vector<Key>& table) {
          {},
          false,
          true});
-    table.push_back({section,
-                     "automatic_hold_s",
-                     slot(&Matches::automatic_hold_s),
-                     "An automatic target is kept at least this long while the player is alive.",
-                     "s",
-                     0,
-                     600,
-                     {},
-                     false,
-                     true});
-    table.push_back({section,
-                     "automatic_lead",
-                     slot(&Matches::automatic_lead),
-                     "Lead in recent events that another player needs before the automatic target changes.",
-                     "kills",
-                     0,
-                     100,
-                     {},
-                     false,
-                     true});
-    table.push_back({section,
-                     "automatic_half_life_s",
-                     slot(&Matches::automatic_half_life_s),
-                     "Time after which an event counts half in the choice of the automatic target.",
-                     "s",
-                     0.1,
-                     600,
-                     {},
-                     false,
-                     true});
 }
 
 void add_limits(std::vector<Key>& table) {
@@ -608,17 +578,14 @@ const std::vector<Section>& sections() {
          "How far observers may override a profile: by key `[min, max]`, of `solver` the choices. Keys that "
          "are not named cannot be overridden. Without this section, all can, within their ranges: "
          "`\"overrides\": {\"distance\": [80, 200], \"vertical_fov\": [40, 90]}`. Reloaded by SIGHUP."},
-        {"/matches",
-         "Lifetime and delay of matches, and the choice of automatic targets. Reloaded by SIGHUP."},
+        {"/matches", "Lifetime and delay of matches. Reloaded by SIGHUP."},
         {"/direction",
-         "How shots follow each other in the programme of a recorded match (`direct --config`); not used by "
-         "`serve`. "
-         "Costs are counted in kills."},
+         "How shots follow each other where the director chooses the target, in `serve` and in `direct "
+         "--config`. Costs are counted in kills. Reloaded by SIGHUP."},
         {"/moments",
          "What is worth seeing there: rules by name. What a file says of those that ship changes single keys "
-         "of them; a "
-         "rule of another name is a new one and needs a `trigger`. A `worth` and `worth_both` of 0 switch a "
-         "rule off."},
+         "of them; a rule of another name is a new one and needs a `trigger`. A `worth` and `worth_both` of "
+         "0 switch a rule off. Reloaded by SIGHUP."},
         {"/limits",
          "Whatever exceeds a limit is refused. Matches beyond `matches`, `participant_matches` and "
          "`participant_match_rate`, and observers beyond `observers`, wait for room in the order in which "

@@ -76,7 +76,8 @@ std::optional<ValidationError> check(const camera_director_MatchInfo& sample) {
 
 std::optional<ValidationError> check(const camera_director_CameraFrame& sample) {
     const std::size_t count = sample.camera_id._length;
-    if (count > director::max_cameras) return ValidationError::too_many;
+    if (count > director::max_cameras || sample.reasons._length > director::max_cameras)
+        return ValidationError::too_many;
     if (sample.target._length != count || sample.position._length != 3 * count ||
         sample.orientation._length != 4 * count || sample.vertical_fov._length != count ||
         sample.clearance._length != count || sample.flags._length != count) {
@@ -184,6 +185,9 @@ std::optional<ValidationError> decode(const camera_director_CameraFrame& sample,
                               .clearance = sample.clearance._buffer[i],
                               .flags = sample.flags._buffer[i]};
     }
+    message.reasons.clear();
+    for (const camera_director_ShotReason& reason : elements(sample.reasons))
+        message.reasons.push_back({reason.camera_id, {reason.actor, reason.subject, reason.why}});
     return std::nullopt;
 }
 

@@ -40,11 +40,12 @@ CameraFrameEncoder::CameraFrameEncoder(const std::string& match_id, std::uint64_
     borrow(sample_.vertical_fov, vertical_fov_);
     borrow(sample_.clearance, clearance_);
     borrow(sample_.flags, flags_);
+    borrow(sample_.reasons, reasons_);
 }
 
 const camera_director_CameraFrame& CameraFrameEncoder::encode(const director::CameraFrame& frame,
                                                               std::int64_t write_time, std::uint32_t offset) {
-    assert(frame.cameras.size() <= director::max_cameras);
+    assert(frame.cameras.size() <= director::max_cameras && frame.reasons.size() <= director::max_cameras);
     sample_.epoch = frame.epoch;
     sample_.frame_number = frame.frame_number + offset;
     sample_.pose_number = frame.pose_number;
@@ -61,11 +62,19 @@ const camera_director_CameraFrame& CameraFrameEncoder::encode(const director::Ca
         clearance_[i] = camera.clearance;
         flags_[i] = camera.flags;
     }
+    for (std::size_t i = 0; i < frame.reasons.size(); ++i) {
+        const auto& [camera_id, reason] = frame.reasons[i];
+        reasons_[i].camera_id = camera_id;
+        reasons_[i].actor = reason.actor;
+        reasons_[i].subject = reason.subject;
+        copy_string(reasons_[i].why, reason.why);
+    }
     const auto count = static_cast<std::uint32_t>(frame.cameras.size());
     sample_.camera_id._length = sample_.target._length = count;
     sample_.position._length = 3 * count;
     sample_.orientation._length = 4 * count;
     sample_.vertical_fov._length = sample_.clearance._length = sample_.flags._length = count;
+    sample_.reasons._length = static_cast<std::uint32_t>(frame.reasons.size());
     return sample_;
 }
 

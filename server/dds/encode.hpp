@@ -23,7 +23,7 @@ class CameraFrameEncoder {
     CameraFrameEncoder& operator=(const CameraFrameEncoder&) = delete;
 
     // The sample points into the encoder and is valid until the next call. `write_time` is CLOCK_REALTIME in
-    // ns; `offset` is added to the frame's number. Precondition: at most 256 cameras. Does not allocate.
+    // ns; `offset` is added to the frame's number. Precondition: at most 256 cameras and as many reasons. Does not allocate.
     [[nodiscard]] const camera_director_CameraFrame& encode(const director::CameraFrame& frame,
                                                             std::int64_t write_time,
                                                             std::uint32_t offset = 0);
@@ -36,6 +36,7 @@ class CameraFrameEncoder {
     std::array<float, director::max_cameras> vertical_fov_{};
     std::array<float, director::max_cameras> clearance_{};
     std::array<std::uint32_t, director::max_cameras> flags_{};
+    std::array<camera_director_ShotReason, director::max_cameras> reasons_{};
     camera_director_CameraFrame sample_{};
 };
 

@@ -67,7 +67,7 @@ class CreditSum {
 class Plan {
   public:
     Plan(const Footage& footage, std::span<const Moment> moments, const Rules& rules, double unit,
-         const OnAir& on_air, Beat now)
+         const OnAir& on_air, Beat now, std::span<const std::size_t> choice)
         : footage_(footage),
           moments_(moments),
           rules_(rules),
@@ -80,8 +80,11 @@ class Plan {
           cuts_(shots_.size()),
           after_end_(shots_.size()),
           whole_(rushes_),
-          order_(rushes_) {
-        std::iota(order_.begin(), order_.end(), std::size_t{0});
+          order_(choice.begin(), choice.end()) {
+        if (order_.empty()) {
+            order_.resize(rushes_);
+            std::iota(order_.begin(), order_.end(), std::size_t{0});
+        }
         collect_whole_moments();
         const Beat longest = horizon_ - now + beat_of(rules.grammar.maximum_shot_s);
         for (Beat length = 0; length <= longest; ++length)
@@ -101,7 +104,7 @@ class Plan {
     // Of each rush, by their ends.
     void collect_whole_moments() {
         for (const Credit& credit : value_.credits())
-            for (std::size_t rush = 0; rush < rushes_; ++rush)
+            for (const std::size_t rush : order_)
                 if (credit.until[rush] == credit.end)
                     whole_[rush].push_back({credit.begin, credit.end,
                                             credit.worth + static_cast<double>(credit.worth_both[rush])});
@@ -116,7 +119,7 @@ class Plan {
 
     // Of shots that begin at `begin`.
     void choose_ends(Beat begin) {
-        for (std::size_t rush = 0; rush < rushes_; ++rush)
+        for (const std::size_t rush : order_)
             shots_[at(begin, rush)] =
                 begin == horizon_ ? Choice{0.0, horizon_, rush} : best_end(begin, begin, rush);
     }
@@ -159,7 +162,7 @@ class Plan {
             const double other = shots_[at(beat, b)].worth;
             return one != other ? one > other : a < b;
         });
-        for (std::size_t from = 0; from < rushes_; ++from) {
+        for (const std::size_t from : order_) {
             Choice& best = cuts_[at(beat, from)];
             best = {worst, beat, from};
             for (const std::size_t to : order_) {
@@ -236,9 +239,11 @@ class Plan {
             if (going_on.end > now_) return going_on;
             return shots_[at(now_, cuts_[at(now_, on_air_.shot->rush)].rush)];
         }
-        std::size_t best = 0;
-        for (std::size_t rush = 1; rush < rushes_; ++rush)
-            if (shots_[at(now_, rush)].worth > shots_[at(now_, best)].worth) best = rush;
+        const std::size_t best = *std::ranges::min_element(order_, [&](std::size_t a, std::size_t b) {
+            const double one = shots_[at(now_, a)].worth;
+            const double other = shots_[at(now_, b)].worth;
+            return one != other ? one > other : a < b;
+        });
         return shots_[at(now_, best)];
     }
 
@@ -254,7 +259,7 @@ class Plan {
             reason = {Reason::Why::moment, moment.rule, moment.actor, moment.subject};
         }
         const Beat last = std::min(from, footage_.beats()) - 1;
-        if (before >= rushes_ || last < 0 || most >= 1.0) return reason;
+        if (before >= rushes_ || last < footage_.first() || most >= 1.0) return reason;
         const Index subject = footage_.subject(before);
         if (!footage_.player(last, subject).alive) return {Reason::Why::death, 0, subject, nobody};
         if (!footage_.take(last, before).shown[subject]) return {Reason::Why::hidden, 0, subject, nobody};
@@ -291,9 +296,26 @@ class Plan {
 }  // namespace
 
 std::vector<Shot> plan_shots(const Footage& footage, std::span<const Moment> moments, const Rules& rules,
-                             double unit, const OnAir& on_air, Beat now) {
+                             double unit, const OnAir& on_air, Beat now,
+                             std::span<const std::size_t> choice) {
     assert(footage.rushes() > 0 && on_air.last_shown.size() == footage.rushes());
-    return Plan(footage, moments, rules, unit, on_air, now).make();
+    return Plan(footage, moments, rules, unit, on_air, now, choice).make();
+}
+
+std::string_view name_of(const Reason& reason, const Rules& rules) {
+    switch (reason.why) {
+        case Reason::Why::opening:
+            return "opening";
+        case Reason::Why::death:
+            return "death";
+        case Reason::Why::hidden:
+            return "lost sight";
+        case Reason::Why::length:
+            return "length";
+        case Reason::Why::moment:
+            break;
+    }
+    return rules.moments[reason.rule].name;
 }
 
 }  // namespace camdir::direction

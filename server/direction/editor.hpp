@@ -7,7 +7,7 @@
 
 #include <optional>
 #include <span>
-#include <string>
+#include <string_view>
 #include <vector>
 
 #include "direction/moments.hpp"
@@ -37,10 +37,12 @@ struct Shot {
     Reason reason;
 };
 
+inline constexpr Beat never_shown = -1'000'000;
+
 // What was shown so far.
 struct OnAir {
     std::optional<Shot> shot;      // whose end is not known
-    std::vector<Beat> last_shown;  // of each rush; far in the past where it never was
+    std::vector<Beat> last_shown;  // of each rush
 };
 
 // Cuts are made at beats that are multiples of this.
@@ -48,9 +50,14 @@ inline constexpr Beat cut_every = 2;
 
 // The shots from `now` on, the first of which goes on with the shot on the air or replaces it at once. They
 // cover the beats to the end of the plan, which is the grammar's foresight behind what is known. `moments`:
-// find_moments() of the footage. `unit`: 0.0254 m in map units. Preconditions: a rush; `now`, where nothing
-// is on the air or a cut is to be made, is a multiple of cut_every. Thread-safe.
+// find_moments() of the footage. `unit`: 0.0254 m in map units. `choice`: the rushes that may be on the air;
+// empty: all. Preconditions: a rush; what is on the air is of the choice; `now`, where nothing is on the air
+// or a cut is to be made, is a multiple of cut_every. Thread-safe.
 [[nodiscard]] std::vector<Shot> plan_shots(const Footage& footage, std::span<const Moment> moments,
-                                           const Rules& rules, double unit, const OnAir& on_air, Beat now);
+                                           const Rules& rules, double unit, const OnAir& on_air, Beat now,
+                                           std::span<const std::size_t> choice = {});
+
+// "opening", "death", "lost sight" or "length"; of a moment the name of its rule.
+[[nodiscard]] std::string_view name_of(const Reason& reason, const Rules& rules);
 
 }  // namespace camdir::direction

@@ -41,7 +41,7 @@ struct Take {
     bool cut = false;                // the camera itself jumps: its player respawned or was teleported
 };
 
-// Beats are appended as they become known. What is known at a beat ends at `beats()`.
+// Beats are appended as they become known, and may be forgotten. What is known at a beat ends at `beats()`.
 class Footage {
   public:
     // `subjects[r]`: the player whom rush r follows. At most max_players players.
@@ -49,32 +49,40 @@ class Footage {
 
     // Of every player, and of every rush.
     void append(std::span<const PlayerState> players, std::span<const Take> takes);
+    // One more, who was absent so far, and the rush that follows them. Precondition: fewer than max_players.
+    void add_player();
+    // Those before `beat`, sooner or later.
+    void forget_before(Beat beat);
 
     [[nodiscard]] std::size_t players() const { return players_; }
     [[nodiscard]] std::size_t rushes() const { return subjects_.size(); }
     [[nodiscard]] Index subject(std::size_t rush) const { return subjects_[rush]; }
     [[nodiscard]] Beat beats() const { return beats_; }
+    [[nodiscard]] Beat first() const { return first_; }  // that is not forgotten
 
-    // Preconditions: 0 <= beat < beats().
+    // Preconditions: first() <= beat < beats().
     [[nodiscard]] const PlayerState& player(Beat beat, std::size_t player) const {
-        return states_[static_cast<std::size_t>(beat) * players_ + player];
+        return states_[row(beat) * players_ + player];
     }
     [[nodiscard]] const Take& take(Beat beat, std::size_t rush) const {
-        return takes_[static_cast<std::size_t>(beat) * subjects_.size() + rush];
+        return takes_[row(beat) * subjects_.size() + rush];
     }
     [[nodiscard]] std::span<const PlayerState> players_at(Beat beat) const {
-        return std::span(states_).subspan(static_cast<std::size_t>(beat) * players_, players_);
+        return std::span(states_).subspan(row(beat) * players_, players_);
     }
     [[nodiscard]] std::span<const Take> takes_at(Beat beat) const {
-        return std::span(takes_).subspan(static_cast<std::size_t>(beat) * subjects_.size(), subjects_.size());
+        return std::span(takes_).subspan(row(beat) * subjects_.size(), subjects_.size());
     }
     [[nodiscard]] const std::vector<Index>& subjects() const { return subjects_; }
 
   private:
+    [[nodiscard]] std::size_t row(Beat beat) const { return static_cast<std::size_t>(beat - first_); }
+
     std::size_t players_;
     std::vector<Index> subjects_;
+    Beat first_ = 0;
     Beat beats_ = 0;
-    std::vector<PlayerState> states_;  // of beat 0, of beat 1, ...
+    std::vector<PlayerState> states_;  // of the first beat, of the next one, ...
     std::vector<Take> takes_;
 };
 

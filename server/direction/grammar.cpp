@@ -61,7 +61,8 @@ bool crosses_line(const Footage& footage, Beat beat, std::size_t from, std::size
 
 bool leaves_fragment(const Footage& footage, Beat beat, std::size_t from, std::size_t to) {
     for (Beat away = 1; away < shortest_piece; ++away) {
-        if (beat - away >= 0 && beat - away < footage.beats() && footage.take(beat - away, from).cut)
+        if (beat - away >= footage.first() && beat - away < footage.beats() &&
+            footage.take(beat - away, from).cut)
             return true;
         if (beat + away < footage.beats() && footage.take(beat + away, to).cut) return true;
     }
@@ -70,7 +71,7 @@ bool leaves_fragment(const Footage& footage, Beat beat, std::size_t from, std::s
 
 bool stands_idle(const Footage& footage, Beat beat, std::size_t player, double slow) {
     if (!footage.player(beat, player).alive) return false;
-    const Beat first = std::max<Beat>(0, beat - beat_of(idle_after_s) + 1);
+    const Beat first = std::max(footage.first(), beat - beat_of(idle_after_s) + 1);
     if (beat - first + 1 < beat_of(idle_after_s)) return false;
     for (Beat b = first; b <= beat; ++b)
         if (footage.player(b, player).speed > static_cast<float>(slow)) return false;

@@ -4,15 +4,16 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "direction/grammar.hpp"
 
 namespace camdir::direction {
 namespace {
 
-constexpr double memory_s = 30.0;  // the longest exchange or multi-kill that is seen whole
-constexpr double chain_s = 3.0;    // between two kills of a multi-kill
+constexpr double chain_s = 3.0;  // between two kills of a multi-kill
 constexpr std::size_t streak_kills = 3;
+constexpr auto none = static_cast<std::size_t>(-1);
 
 bool between_players(const Event& event) {
     return event.actor != nobody && event.subject != nobody && event.actor != event.subject;
@@ -44,8 +45,9 @@ bool faces(const PlayerState& a, const PlayerState& b, float cosine) {
 
 class Finder {
   public:
-    Finder(const Footage& footage, std::span<const Event> events, const Rules& rules, double unit, Beat from)
-        : footage_(footage), events_(events), rules_(rules), unit_(unit), from_(from) {
+    Finder(const Footage& footage, std::span<const Event> events, const Rules& rules, double unit, Beat from,
+           const Tally& tally)
+        : footage_(footage), events_(events), rules_(rules), unit_(unit), from_(from), tally_(tally) {
         const double first = static_cast<double>(from) * beat_s - memory_s;
         recent_ = {std::ranges::lower_bound(events, first, {}, &Event::time), events.end()};
     }
@@ -77,7 +79,7 @@ class Finder {
 
     void add(Index rule, double first, double last, Index actor, Index subject) {
         const Rule& sentence = rules_.moments[rule];
-        const Beat begin = std::max<Beat>(0, beat_of(first - sentence.before_s));
+        const Beat begin = std::max(footage_.first(), beat_of(first - sentence.before_s));
         const Beat end = std::min(footage_.beats(), beat_of(last + sentence.after_s) + 1);
         if (begin < end && end > from_) moments_.push_back({rule, begin, end, beat_of(last), actor, subject});
     }
@@ -97,37 +99,20 @@ class Finder {
     }
 
     void find_streaks(Index rule) {
-        struct Life {
-            std::size_t kills = 0;
-            double since = 0.0;  // of the kill that makes it a streak
-        };
-        std::vector<Life> lives(footage_.players());
-        for (const Event& event : events_) {
-            if (event.kind != EventKind::kill) continue;
-            if (between_players(event) && ++lives[event.actor].kills == streak_kills)
-                lives[event.actor].since = event.time;
-            if (event.subject == nobody) continue;
-            if (lives[event.subject].kills >= streak_kills)
-                add(rule, lives[event.subject].since, event.time, event.subject, nobody);
-            lives[event.subject] = {};
-        }
-        for (Index player = 0; player < lives.size(); ++player)
-            if (lives[player].kills >= streak_kills) add(rule, lives[player].since, end_s(), player, nobody);
+        Tally tally = tally_;
+        for (const Event& event : events_)
+            if (const auto [streak, lead] = tally.count(event); streak)
+                add(rule, streak->since, event.time, streak->player, nobody);
+        for (const Tally::Run& streak : tally.streaks())
+            add(rule, streak.since, end_s(), streak.player, nobody);
     }
 
     void find_lead(Index rule) {
-        std::vector<std::size_t> kills(footage_.players());
-        Index leader = nobody;
-        double since = 0.0;
-        for (const Event& event : events_) {
-            if (event.kind != EventKind::kill || !between_players(event)) continue;
-            ++kills[event.actor];
-            if (leader != nobody && kills[event.actor] <= kills[leader]) continue;
-            if (leader != nobody) add(rule, since, event.time, leader, nobody);
-            since = event.time;
-            leader = event.actor;
-        }
-        if (leader != nobody) add(rule, since, end_s(), leader, nobody);
+        Tally tally = tally_;
+        for (const Event& event : events_)
+            if (const auto [streak, lead] = tally.count(event); lead)
+                add(rule, lead->since, event.time, lead->player, nobody);
+        if (const auto lead = tally.lead()) add(rule, lead->since, end_s(), lead->player, nobody);
     }
 
     [[nodiscard]] double end_s() const { return static_cast<double>(footage_.beats()) * beat_s; }
@@ -142,6 +127,7 @@ class Finder {
             Index b;
         };
         std::vector<Exchange> open;
+        std::vector<std::size_t> places(footage_.players() * footage_.players(), none);  // in `open`
         const auto close = [&](const Exchange& exchange) {
             add(rule, exchange.first, exchange.last, exchange.a, exchange.b);
         };
@@ -149,16 +135,15 @@ class Finder {
             if (event.kind != EventKind::damage || event.actor == nobody || event.subject == nobody) continue;
             const auto [a, b] = std::minmax(event.actor, event.subject);
             if (a == b) continue;
-            const auto found = std::ranges::find_if(open, [&, a = a, b = b](const Exchange& exchange) {
-                return exchange.a == a && exchange.b == b;
-            });
-            if (found == open.end()) {
+            std::size_t& place = places[a * footage_.players() + b];
+            if (place == none) {
+                place = open.size();
                 open.push_back({event.time, event.time, a, b});
-            } else if (event.time - found->last <= after) {
-                found->last = event.time;
+            } else if (event.time - open[place].last <= after) {
+                open[place].last = event.time;
             } else {
-                close(*found);
-                *found = {event.time, event.time, a, b};
+                close(open[place]);
+                open[place] = {event.time, event.time, a, b};
             }
         }
         std::ranges::for_each(open, close);
@@ -209,14 +194,44 @@ class Finder {
     const Rules& rules_;
     double unit_;
     Beat from_;
+    const Tally& tally_;
     std::vector<Moment> moments_;
 };
 
 }  // namespace
 
 std::vector<Moment> find_moments(const Footage& footage, std::span<const Event> events, const Rules& rules,
-                                 double unit, Beat from) {
-    return Finder(footage, events, rules, unit, from).find();
+                                 double unit, Beat from, const Tally& tally) {
+    return Finder(footage, events, rules, unit, from, tally).find();
+}
+
+Tally::Ended Tally::count(const Event& event) {
+    Ended ended;
+    if (event.kind != EventKind::kill) return ended;
+    if (between_players(event)) {
+        Player& killer = player(event.actor);
+        if (++killer.kills_of_this_life == streak_kills) killer.streak_since = event.time;
+        ++killer.kills;
+        if (!lead_ || killer.kills > player(lead_->player).kills)
+            ended.lead = std::exchange(lead_, Run{event.actor, event.time});
+    }
+    if (event.subject == nobody) return ended;
+    Player& victim = player(event.subject);
+    if (std::exchange(victim.kills_of_this_life, 0) >= streak_kills)
+        ended.streak = Run{event.subject, victim.streak_since};
+    return ended;
+}
+
+std::vector<Tally::Run> Tally::streaks() const {
+    std::vector<Run> streaks;
+    for (Index i = 0; i < players_.size(); ++i)
+        if (players_[i].kills_of_this_life >= streak_kills) streaks.push_back({i, players_[i].streak_since});
+    return streaks;
+}
+
+Tally::Player& Tally::player(Index index) {
+    if (index >= players_.size()) players_.resize(static_cast<std::size_t>(index) + 1);
+    return players_[index];
 }
 
 std::vector<Kill> kills_of(std::span<const Event> events) {

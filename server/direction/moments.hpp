@@ -1,6 +1,7 @@
 // Moments: what is worth seeing, when, and of whom.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -17,12 +18,47 @@ struct Moment {
     Index subject = nobody;
 };
 
+// Who is on a streak, and who leads, by the kills so far.
+class Tally {
+  public:
+    // Of a streak from the kill that makes it one, of a lead from the one that takes it.
+    struct Run {
+        Index player = nobody;
+        double since = 0.0;
+    };
+    struct Ended {
+        std::optional<Run> streak;
+        std::optional<Run> lead;
+    };
+
+    // Events ascend by time; only kills count. Returns what ends with it.
+    Ended count(const Event& event);
+
+    [[nodiscard]] std::vector<Run> streaks() const;  // by player
+    [[nodiscard]] const std::optional<Run>& lead() const { return lead_; }
+
+  private:
+    struct Player {
+        std::size_t kills = 0;
+        std::size_t kills_of_this_life = 0;
+        double streak_since = 0.0;
+    };
+    Player& player(Index index);
+
+    std::vector<Player> players_;
+    std::optional<Run> lead_;
+};
+
+// What happened before this is not looked for: a decision needs no older events, except for the tally.
+inline constexpr double memory_s = 30.0;
+
 // The moments that reach into the beats `from` .. `footage.beats()`, by the footage from there on and the
-// events before its end, in order of their begins. `events` ascend by time and begin with the match's
-// first: streaks and leads need all, what else they begin is found up to 30 s before `from`. Moments that go
-// on at the end of what is known end there. `unit`: 0.0254 m in map units.
+// events before its end, in order of their begins. `events` ascend by time; `tally` is by those before
+// them, which were over `memory_s` before `from`. Moments that go on at the end of what is known end there.
+// `unit`: 0.0254 m in map units.
 [[nodiscard]] std::vector<Moment> find_moments(const Footage& footage, std::span<const Event> events,
-                                               const Rules& rules, double unit, Beat from);
+                                               const Rules& rules, double unit, Beat from,
+                                               const Tally& tally = {});
 
 // A kill, and how many of the same killer's kills it ends, each within 3 s of the one before.
 struct Kill {

@@ -5,28 +5,30 @@
 
 #include "direction/figures.hpp"
 
+#include "direction/cutter.hpp"
+
 namespace camdir::direction {
 namespace {
-
-constexpr Beat history = 20;  // beats whose moments may reach into a plan
-constexpr Beat never_shown = -1'000'000;
 
 // Takes what becomes known, and cuts.
 class Director {
   public:
     Director(const Footage& all, std::span<const Event> events, const Rules& rules, double unit)
-        : all_(all), events_(events), rules_(rules), unit_(unit), known_(all.players(), all.subjects()) {
-        on_air_.last_shown.assign(all.rushes(), never_shown);
-    }
+        : all_(all), events_(events), rules_(rules), unit_(unit), known_(all.players(), all.subjects()) {}
 
     void decide(Beat now, Beat end_of_known) {
-        while (known_.beats() < end_of_known)
-            known_.append(all_.players_at(known_.beats()), all_.takes_at(known_.beats()));
-        const auto moments =
-            find_moments(known_, known_events(), rules_, unit_, std::max<Beat>(0, now - history));
-        const Shot next = plan_shots(known_, moments, rules_, unit_, on_air_, now).front();
-        if (!on_air_.shot || on_air_.shot->rush != next.rush) cut_to(next, now);
-        on_air_.last_shown[next.rush] = now;
+        while (known_.footage().beats() < end_of_known) {
+            const Beat next = known_.footage().beats();
+            known_.append(all_.players_at(next), all_.takes_at(next));
+        }
+        for (; next_event_ < events_.size() && beat_of(events_[next_event_].time) < end_of_known;
+             ++next_event_)
+            known_.add(events_[next_event_]);
+        known_.forget_before(now);
+        const auto begun = cutter_.decide(known_, known_.moments(rules_, unit_, now), rules_, unit_, now);
+        if (!begun) return;
+        if (!shots_.empty()) shots_.back().end = now;
+        shots_.push_back(*begun);
     }
 
     std::vector<Shot> finish() {
@@ -35,23 +37,13 @@ class Director {
     }
 
   private:
-    void cut_to(const Shot& next, Beat now) {
-        if (!shots_.empty()) shots_.back().end = now;
-        shots_.push_back({next.rush, now, now, next.reason});
-        on_air_.shot = shots_.back();
-    }
-
-    [[nodiscard]] std::span<const Event> known_events() const {
-        const double end = static_cast<double>(known_.beats()) * beat_s;
-        return {events_.begin(), std::ranges::lower_bound(events_, end, {}, &Event::time)};
-    }
-
     const Footage& all_;
     std::span<const Event> events_;
     const Rules& rules_;
     double unit_;
-    Footage known_;
-    OnAir on_air_;
+    Material known_;
+    std::size_t next_event_ = 0;
+    Cutter cutter_;
     std::vector<Shot> shots_;
 };
 

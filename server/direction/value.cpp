@@ -33,7 +33,7 @@ Value::Value(const Footage& footage, std::span<const Moment> moments, const Rule
       now_(now),
       horizon_(horizon),
       known_(std::min(footage.beats(), horizon)),
-      first_(std::max<Beat>(0, std::min(now, known_ - recent))),
+      first_(std::max(footage.first(), std::min(now, known_ - recent))),
       rushes_(footage.rushes()),
       sums_(static_cast<std::size_t>(horizon - first_ + 1) * rushes_, 0.0) {
     rate_beats();
@@ -64,7 +64,8 @@ double Value::base_rate(Beat beat, std::size_t rush) const {
     double worth = grammar.fresh * std::min(2.0, away);
     if (!take.shown[subject]) worth -= grammar.hidden;
     const Beat mourning = beat - beat_of(grammar.beat_after_death_s);
-    if (!state.alive && (mourning < 0 || !footage_.player(mourning, subject).alive)) worth -= grammar.dead;
+    if (!state.alive && (mourning < footage_.first() || !footage_.player(mourning, subject).alive))
+        worth -= grammar.dead;
     if (stands_idle(footage_, beat, subject, idle_speed * unit_)) worth -= grammar.idle;
     return worth * beat_s;
 }

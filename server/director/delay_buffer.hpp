@@ -8,6 +8,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 
 #include "director/inbox.hpp"
@@ -68,17 +69,25 @@ class DelayBuffer {
     [[nodiscard]] std::optional<Upcoming> upcoming() const;
 
     // Calls add(frame) for the pose frames after position `next`, also those not due yet and those of the
-    // last second, in order, until one returns false. `next` becomes the position of that one. Returns false
-    // when the buffer holds nothing.
-    template <class Add>
-    bool look_ahead(std::uint64_t& next, Add&& add) const {
+    // last second, in order, until one returns false, and hear(event) for the events among them. `next`
+    // becomes the position of that frame. Returns false when the buffer holds nothing.
+    template <class Add, class Hear>
+    bool look_ahead(std::uint64_t& next, Add&& add, Hear&& hear) const {
         const std::lock_guard lock(mutex_);
         next = std::max(next, first_);
         for (; next < first_ + entries_.size(); ++next) {
-            const PoseFrame* frame = std::get_if<PoseFrame>(&entries_[next - first_].item);
-            if (frame != nullptr && !add(*frame)) break;
+            const Item& item = entries_[next - first_].item;
+            if (const auto* frame = std::get_if<PoseFrame>(&item)) {
+                if (!add(*frame)) break;
+            } else if (const auto* event = std::get_if<MatchEvent>(std::get_if<Message>(&item))) {
+                hear(*event);
+            }
         }
         return !entries_.empty();
+    }
+    template <class Add>
+    bool look_ahead(std::uint64_t& next, Add&& add) const {
+        return look_ahead(next, std::forward<Add>(add), [](const MatchEvent&) {});
     }
 
     struct State {

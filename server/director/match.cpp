@@ -7,7 +7,6 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
-#include <limits>
 #include <utility>
 #include <variant>
 
@@ -18,8 +17,6 @@ namespace {
 
 constexpr double default_rate_hz = 30.0;  // of game servers that state none
 constexpr std::size_t max_view_requests = 64;
-constexpr std::int64_t max_event_lead_ns = 10'000'000'000;  // of an event's time over the last frame's
-
 constexpr float scale_tolerance = 1e-3F;  // relative: games state rounded lengths
 
 constexpr const char* no_server = "no game server runs this match";
@@ -34,12 +31,6 @@ std::string joined(const std::vector<std::string>& names) {
 std::time_t utc_second_after(std::int64_t ns) {
     const auto then = std::chrono::system_clock::now() + std::chrono::nanoseconds(ns);
     return std::chrono::system_clock::to_time_t(std::chrono::ceil<std::chrono::seconds>(then));
-}
-
-// Saturates: game times are arbitrary.
-std::int64_t latest_event_time(std::int64_t frame_time) {
-    constexpr std::int64_t max = std::numeric_limits<std::int64_t>::max();
-    return frame_time > max - max_event_lead_ns ? max : frame_time + max_event_lead_ns;
 }
 
 }  // namespace
@@ -95,6 +86,7 @@ void Match::handle(MatchInfo& info) {
     if (new_epoch) begin_epoch();
     if (liveness_ == Liveness::lost) liveness_ = Liveness::silent;
     roster_.set_listed(info_->players);
+    edit_.set_players(info_->players);
     publish_info();
     attach_map();
 }
@@ -114,7 +106,7 @@ void Match::begin_epoch() {
                  info_->rate_hz);
     roster_.clear();
     continuity_.clear();
-    attention_.clear();
+    edit_.clear();
     last_event_.reset();
     timeline_.clear();
     foreseen_ = 0;
@@ -172,10 +164,7 @@ void Match::handle(const MatchEvent& event) {
         return counters_.add(event.epoch < info_->epoch ? Counter::drop_old_epoch
                                                         : Counter::drop_early_epoch);
     counters_.add(Counter::events);
-    // Events arrive before their frame, but the score of one dated far ahead would never decay.
-    MatchEvent clamped = event;
-    if (has_last_frame_) clamped.frame_time = std::min(clamped.frame_time, latest_event_time(last_time_));
-    attention_.record(clamped, config_->matches.automatic_half_life_s);
+    edit_.record(event);
     last_event_ = event;
     for (Audience* audience : audiences_)
         audience->show(match_id_, event);
@@ -212,6 +201,7 @@ void Match::handle(const DelayChanged& /*changed*/) {
 
 void Match::handle(const Reconfigured& changed) {
     config_ = changed.config;
+    edit_.forget_moments();
     if (info_) silence_limit_ns_ = silence_limit_ns(*info_, config_->matches);
     requests_.resolve_again(*config_);
     reconcile_needed_ = true;
@@ -233,6 +223,7 @@ void Match::attach_map() {
     freespace_ = entry->freespace;
     map_generation_ = entry->generation;
     scratch_.clear();
+    edit_.clear();
     requests_.restart_shots();
 }
 
@@ -272,6 +263,7 @@ void Match::detach_map(std::string reason) {
     missing_map_ = std::move(reason);
     freespace_.reset();
     scratch_.clear();
+    edit_.clear();
     requests_.restart_shots();
     reconcile_needed_ = true;
 }

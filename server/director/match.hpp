@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "director/attention.hpp"
 #include "director/continuity.hpp"
 #include "director/delay_buffer.hpp"
+#include "director/edit.hpp"
 #include "director/inbox.hpp"
 #include "director/map_library.hpp"
 #include "director/ports.hpp"
@@ -107,7 +107,9 @@ class Match final : public Strand {
     // Calls move(i, scratch) for every i below `count`, also on workers that are idle.
     void share_shots(Turn& turn, std::size_t count,
                      const std::function<void(std::size_t, camera::Scratch&)>& move);
-    void choose_target(Shot& shot, const PoseFrame& frame);
+    [[nodiscard]] Edit::Setting edit_setting() const;
+    void choose_targets(const PoseFrame& frame, CameraFrame& cameras);
+    void choose_automatic_target(Shot& shot, CameraFrame& cameras);
     // Shots move at the same time: it changes nothing of the match but the shot, the scratch and the
     // counters.
     [[nodiscard]] ShotCamera move_camera(Shot& shot, double dt, camera::Scratch& scratch);
@@ -150,7 +152,8 @@ class Match final : public Strand {
     std::vector<std::unique_ptr<camera::Scratch>> scratch_;  // by lane; null where no shot has moved yet
     Roster roster_;
     Continuity continuity_;
-    Attention attention_;
+    Edit edit_;
+    LogLimit cuts_logged_;
     std::optional<MatchEvent> last_event_;  // of this epoch
     Requests requests_;
     bool reconcile_needed_ = false;

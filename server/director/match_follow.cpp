@@ -27,6 +27,12 @@ const ShotCamera* camera_of(const CameraFrame& frame, std::uint32_t camera_id) {
     return found == frame.cameras.end() ? nullptr : &*found;
 }
 
+// Null where the frame does not tell.
+const Reason* reason_of(const CameraFrame& frame, std::uint32_t camera_id) {
+    const auto found = std::ranges::find(frame.reasons, camera_id, &ShotReason::camera_id);
+    return found == frame.reasons.end() ? nullptr : &found->reason;
+}
+
 }  // namespace
 
 // A frame of a pose that is not processed yet waits until it is.
@@ -60,7 +66,7 @@ void Match::follow(const Disagreement& disagreement) {
     const ShotCamera* newest = camera_of(own_frames_[newest_own_], own.camera_id);
     if (shot == shots.end() || newest == nullptr || has_cut_since(followed_, own.camera_id)) return;
     if (shown.target != own.target) {
-        shot->automatic = {.player = shown.target, .chosen_at = followed_.frame_time};
+        shot->automatic.follow(shown.target, followed_.frame_time, reason_of(followed_, own.camera_id));
         return;  // the next frame begins with its player
     }
     const ShotCamera* before = camera_of(followed_before_, own.camera_id);

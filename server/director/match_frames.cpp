@@ -47,7 +47,7 @@ std::span<const PlayerPose> tracked(const PoseFrame& frame, const config::Limits
 }
 
 CameraFrame no_cameras(const PoseFrame& frame) {
-    return {frame.epoch, 0, frame.frame_number, frame.frame_time, frame.source_time, {}};
+    return {frame.epoch, 0, frame.frame_number, frame.frame_time, frame.source_time, {}, {}};
 }
 
 }  // namespace
@@ -76,6 +76,7 @@ void Match::process(PoseFrame& frame, std::int64_t received_ns, Turn& turn) {
         publisher_.publish(match_id_, cameras);
         show(frame, cameras);
         counters_.latency.add(ns(Clock::now().time_since_epoch()) - received_ns);
+        edit_.look(edit_setting());
     }
     after_silence_ = false;
 }
@@ -156,9 +157,8 @@ void Match::move_cameras(const PoseFrame& frame, double dt, CameraFrame& cameras
     cameras.frame_time = frame.frame_time;
     cameras.source_time = frame.source_time;
 
+    choose_targets(frame, cameras);
     std::vector<Shot>& shots = requests_.shots();
-    for (Shot& shot : shots)
-        choose_target(shot, frame);
     cameras.cameras.resize(shots.size());
     share_shots(turn, shots.size(), [&](std::size_t i, camera::Scratch& scratch) {
         cameras.cameras[i] = move_camera(shots[i], dt, scratch);
@@ -204,17 +204,6 @@ void Match::prepare_step(Shot& shot, double time, camera::Scratch& scratch) {
     step.state = shot.state;
     step.camera = step_to(time, shot, step.state, scratch);
     shot.is_prepared = true;
-}
-
-void Match::choose_target(Shot& shot, const PoseFrame& frame) {
-    std::uint32_t target = shot.key.target;
-    if (target == no_player) {
-        attention_.choose(shot.automatic, shot.key.group, tracked(frame, config_->limits), roster_,
-                          config_->matches, frame.frame_time);
-        target = shot.automatic.player;
-    }
-    if (target != shot.target) shot.restart();
-    shot.target = target;
 }
 
 ShotCamera Match::move_camera(Shot& shot, double dt, camera::Scratch& scratch) {

@@ -106,6 +106,18 @@ struct ShotCamera {
     std::uint32_t flags = 0;
 };
 
+// Why an automatic shot began.
+struct Reason {
+    std::uint32_t actor = no_player;
+    std::uint32_t subject = no_player;
+    std::string why = {};  // the name of a moment's rule, or as direction::name_of; at most 31 bytes
+};
+
+struct ShotReason {
+    std::uint32_t camera_id = 0;
+    Reason reason;
+};
+
 struct CameraFrame {
     std::uint64_t epoch = 0;
     std::uint32_t frame_number = 0;  // on the wire it goes on from a leader's
@@ -113,6 +125,7 @@ struct CameraFrame {
     std::int64_t frame_time = 0;
     std::int64_t source_time = 0;
     std::vector<ShotCamera> cameras;
+    std::vector<ShotReason> reasons;  // of automatic shots that begin with this frame; of all once a second
 };
 
 }  // namespace camdir::director

@@ -258,8 +258,8 @@ void Requests::restart_shots() {
 std::vector<ShotView> Requests::shot_views() const {
     std::vector<ShotView> views;
     for (const Shot& shot : shots_)
-        views.push_back({shot.camera_id, shot.target, shot.key.target == no_player, shot.key.profile,
-                         shot.observers, shot.flags});
+        views.push_back({shot.camera_id, shot.target, shot.is_automatic(), shot.key.profile, shot.observers,
+                         shot.flags, shot.automatic.reason, shot.automatic.since});
     return views;
 }
 

@@ -11,8 +11,8 @@
 #include "base/log_limit.hpp"
 #include "camera/tracker.hpp"
 #include "config/config.hpp"
-#include "director/attention.hpp"
 #include "director/counters.hpp"
+#include "director/edit.hpp"
 #include "director/ports.hpp"
 #include "director/roster.hpp"
 
@@ -40,13 +40,15 @@ struct Shot {
     std::uint32_t camera_id = 0;
     camera::Profile profile;
     camera::ShotState state;
-    AutomaticTarget automatic;
+    AutomaticShot automatic;
     std::uint32_t target = no_player;  // the player followed now
     std::uint64_t observers = 0;
     std::uint32_t flags = 0;  // of the last camera
     // Follows from `state`, `target` and `profile` as they are; its memory is kept.
     bool is_prepared = false;
     std::unique_ptr<PreparedStep> prepared;
+
+    [[nodiscard]] bool is_automatic() const { return key.target == no_player; }
 
     // Begins again, with a cut.
     void restart() {

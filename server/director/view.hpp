@@ -80,6 +80,8 @@ struct ShotView {
     std::string profile;
     std::uint64_t observers = 0;
     std::uint32_t flags = 0;  // of the last camera
+    Reason reason;            // why the player is followed, of an automatic shot
+    std::int64_t since = 0;   // frame_time, likewise
 };
 
 struct ObserverView {

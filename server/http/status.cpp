@@ -25,8 +25,8 @@ json page_of(std::uint32_t player, const std::vector<director::Player>& players)
 }
 
 json page_of(const director::MatchEvent& event, const std::vector<director::Player>& players) {
-    static constexpr std::array kinds = {"kill",   "flag taken", "flag captured", "objective",
-                                         "damage", "award",      "item",          "round"};
+    static constexpr std::array kinds = {"kill",  "flag taken", "flag captured", "objective", "damage",
+                                         "award", "item",       "round",         "spawn",     "weapon"};
     json page = {{"kind", event.kind},
                  {"actor", page_of(event.actor, players)},
                  {"subject", page_of(event.subject, players)},
@@ -36,6 +36,12 @@ json page_of(const director::MatchEvent& event, const std::vector<director::Play
     return page;
 }
 
+json page_of(const director::Reason& reason, const std::vector<director::Player>& players) {
+    return {{"why", reason.why},
+            {"actor", page_of(reason.actor, players)},
+            {"subject", page_of(reason.subject, players)}};
+}
+
 json page_of(const director::ShotView& shot, const std::vector<director::Player>& players) {
     json page = {{"camera_id", shot.camera_id},
                  {"automatic", shot.automatic},
@@ -43,6 +49,8 @@ json page_of(const director::ShotView& shot, const std::vector<director::Player>
                  {"observers", shot.observers},
                  {"flags", shot.flags}};
     page["target"] = page_of(shot.target, players);
+    page["reason"] = shot.automatic && !shot.reason.why.empty() ? page_of(shot.reason, players) : json();
+    page["since"] = shot.automatic ? json(shot.since) : json();
     return page;
 }
 

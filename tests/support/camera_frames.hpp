@@ -28,6 +28,7 @@ struct CameraFrameArrays {
     std::vector<float> vertical_fov = {};
     std::vector<float> clearance = {};
     std::vector<std::uint32_t> flags = {};
+    std::vector<camera_director_ShotReason> reasons = {};
 
     // Adds a camera that looks along the x axis.
     void add_camera(std::uint32_t id, float x, std::uint32_t camera_flags = 0) {
@@ -38,6 +39,12 @@ struct CameraFrameArrays {
         vertical_fov.push_back(1.0F);
         clearance.push_back(8.0F);
         flags.push_back(camera_flags);
+    }
+
+    void add_reason(std::uint32_t id, std::uint32_t actor, std::uint32_t subject, const std::string& why) {
+        camera_director_ShotReason& reason = reasons.emplace_back();
+        reason = {.camera_id = id, .actor = actor, .subject = subject, .why = {}};
+        why.copy(reason.why, sizeof reason.why - 1);
     }
 
     // Points to the arrays: valid until this object changes.
@@ -58,6 +65,7 @@ struct CameraFrameArrays {
         borrow(sample.vertical_fov, vertical_fov);
         borrow(sample.clearance, clearance);
         borrow(sample.flags, flags);
+        borrow(sample.reasons, reasons);
         return sample;
     }
 

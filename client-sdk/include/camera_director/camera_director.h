@@ -358,9 +358,9 @@ CDIR_DEFAULTS(cdir_pose_frame)
  * its own. */
 CDIR_API cdir_status cdir_match_publish_poses(cdir_match match, const cdir_pose_frame* frame) CDIR_NOEXCEPT;
 
-/* What the fields of an event mean for each kind. The director chooses targets by kind, actor and subject,
- * and weighs damage by its hit points: 50, or 0 = unknown, have the usual weight, 100 and more twice that. It
- * shows the last event with value and detail to its operator, and passes none on to observers. Names are the
+/* What the fields of an event mean for each kind. The director finds by kind, actor and subject what is worth
+ * seeing. It shows the last event with value and detail to its operator, and passes none on to observers.
+ * Other kinds, greater than these, are sent and shown likewise. Names are the
  * game's own, such as "MOD_ROCKET" or "item_quad". What does not apply or is not known is CDIR_NO_PLAYER, 0
  * or "". A player who dies or is hurt through no other player is the subject alone, by their own doing also
  * the actor. */
@@ -372,7 +372,9 @@ enum {
     CDIR_EVENT_DAMAGE = 5,        /* actor hurt subject; value: hit points; detail: means */
     CDIR_EVENT_AWARD = 6,         /* for actor, at subject's cost; value: points; detail: its name */
     CDIR_EVENT_ITEM = 7,          /* picked up by actor; value: amount; detail: its name */
-    CDIR_EVENT_ROUND = 8          /* won by actor; value: number, from 1; detail: "begin" or "end" */
+    CDIR_EVENT_ROUND = 8,         /* won by actor; value: number, from 1; detail: "begin" or "end" */
+    CDIR_EVENT_SPAWN = 9,         /* actor entered the game; value: team; detail: name of the place */
+    CDIR_EVENT_WEAPON = 10        /* raised by actor; detail: its name */
 };
 
 typedef struct cdir_match_event {
@@ -476,6 +478,14 @@ typedef struct cdir_camera {
     float vertical_fov;   /* radians, greater than 0, less than pi */
     float clearance;      /* lower bound of the distance to the nearest obstacle, map units */
     uint32_t reserved;
+    /* Where the director chooses the target: why it cut to this one. "opening" (the
+     * shot's first, or the one before has left the game), "death", "lost sight" (of the one before), "length"
+     * (the one before was shown long enough), or the name of a rule of the director's configuration, such as
+     * "kill", with the players of its moment. Empty where it is not known: for up to a second after the
+     * observer has come. cdir_observer_next_frame() has it in the frame of the cut and then once a second. */
+    uint32_t reason_actor;   /* player id or CDIR_NO_PLAYER */
+    uint32_t reason_subject; /* player id or CDIR_NO_PLAYER */
+    char reason[32];
 } cdir_camera;
 
 /* At the map's origin, looking along x, with a field of view of 60 degrees. */

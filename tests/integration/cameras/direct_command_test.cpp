@@ -44,7 +44,7 @@ TEST_F(DirectCommand, WritesEveryFigureBesideOtherDirectors) {
         "jump_cuts",       "line_crossings", "idle_share",      "missed_by_cut"};
     for (const char* name : names) {
         EXPECT_TRUE(figures.at(name).is_number()) << name;
-        for (const char* other : {"random", "hltv", "quakeworld", "bound"})
+        for (const char* other : {"running", "random", "hltv", "quakeworld", "bound"})
             EXPECT_TRUE(figures.at(other).at(name).is_number()) << other << ' ' << name;
     }
     EXPECT_EQ(figures.at("kills"), 1);

@@ -65,6 +65,27 @@ TEST_F(MatchTest, EveryObserverGetsItsOwnCameraInsideTheFreespace) {
     EXPECT_GE(first.counters().value().gaps - missed, missing);
 }
 
+TEST_F(MatchTest, AnAutomaticShotSaysWhy) {
+    const Game game(context_, "cup", "hall");
+    Observer observer = Observer::open(context_, "cup", "anna").value();
+    observer.request({.target = CDIR_CHOOSE_TARGET}).value();
+    ASSERT_TRUE(sees_own_camera(observer)) << server_.log();
+    EXPECT_TRUE(eventually([&] {
+        observer.poll().value();
+        const auto view = observer.newest_camera().value();
+        return view && view->camera.reason[0] != '\0';
+    })) << server_.log();
+
+    // Who comes later is told as well.
+    Observer late = Observer::open(context_, "cup", "late").value();
+    late.request({.target = CDIR_CHOOSE_TARGET}).value();
+    EXPECT_TRUE(eventually([&] {
+        late.poll().value();
+        const auto view = late.newest_camera().value();
+        return view && view->camera.reason[0] != '\0';
+    })) << server_.log();
+}
+
 TEST_F(MatchTest, EqualRequestsShareACamera) {
     const Game game(context_, "cup", "hall");
     Observer first = Observer::open(context_, "cup", "first").value();

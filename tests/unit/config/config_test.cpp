@@ -293,6 +293,8 @@ TEST(Moments, ErrorsSayWhatARuleNeeds) {
         EXPECT_THAT(problem(R"({"moments": {")" + std::string(name) + R"(": {"trigger": "kill"}}})"),
                     HasSubstr("expected a name of 1 to 31 bytes without commas"))
             << name;
+    EXPECT_THAT(problem(R"({"matches": {"automatic_hold_s": 4}})"),
+                HasSubstr("/matches/automatic_hold_s: no longer a key: use /direction/minimum_shot_s"));
     std::string many;
     for (int i = 0; i < 60; ++i)
         many += (i > 0 ? ", \"rule " : "\"rule ") + std::to_string(i) + R"(": {"trigger": "kill"})";

@@ -205,6 +205,7 @@ TEST(EncodeCameraFrame, IsDecodedAsItWasAndCountsOn) {
     frame.pose_number = 9;
     frame.cameras.resize(2);
     frame.cameras[1] = {.camera_id = 4, .target = 5, .position = {1.0F, 2.0F, 3.0F}, .flags = 1};
+    frame.reasons = {{4, {5, 6, "multi-kill"}}, {0, {.why = std::string(40, 'x')}}};
     CameraFrameEncoder encoder("cup", 7);
     camera_director_CameraFrame sample = encoder.encode(frame, 11, 6);
     director::CameraFrame decoded;
@@ -217,6 +218,16 @@ TEST(EncodeCameraFrame, IsDecodedAsItWasAndCountsOn) {
     EXPECT_EQ(decoded.cameras[1].position, frame.cameras[1].position);
     EXPECT_EQ(decoded.cameras[1].flags, 1U);
 
+    ASSERT_EQ(decoded.reasons.size(), 2U);
+    EXPECT_EQ(decoded.reasons[0].camera_id, 4U);
+    EXPECT_EQ(decoded.reasons[0].reason.actor, 5U);
+    EXPECT_EQ(decoded.reasons[0].reason.subject, 6U);
+    EXPECT_EQ(decoded.reasons[0].reason.why, "multi-kill");
+    EXPECT_EQ(decoded.reasons[1].reason.why, std::string(31, 'x'));
+
+    sample.reasons._length = 257;
+    EXPECT_EQ(decode(sample, decoded), ValidationError::too_many);
+    sample = encoder.encode(frame, 11, 6);
     sample.flags._length = 1;
     EXPECT_EQ(decode(sample, decoded), ValidationError::array_length);
     sample = encoder.encode(frame, 11);

@@ -18,6 +18,31 @@ std::vector<Shot> directed(const Footage& footage, std::span<const Event> events
     return direct(footage, events, default_rules(), test::unit, delay_s, {}).value();
 }
 
+// The same, by an editor who keeps all that is known.
+std::vector<Shot> directed_without_forgetting(const Footage& footage, std::span<const Event> events,
+                                              double delay_s) {
+    const Rules rules = default_rules();
+    Footage known(footage.players(), footage.subjects());
+    OnAir on_air{{}, std::vector<Beat>(footage.rushes(), never_shown)};
+    std::vector<Shot> shots;
+    for (Beat now = 0; now < footage.beats(); now += cut_every) {
+        while (known.beats() < std::min(now + beat_of(delay_s), footage.beats()))
+            known.append(footage.players_at(known.beats()), footage.takes_at(known.beats()));
+        const auto after =
+            std::ranges::lower_bound(events, static_cast<double>(known.beats()) * beat_s, {}, &Event::time);
+        const auto moments =
+            find_moments(known, {events.begin(), after}, rules, test::unit, std::max<Beat>(0, now - 20));
+        const Shot next = plan_shots(known, moments, rules, test::unit, on_air, now).front();
+        on_air.last_shown[next.rush] = now;
+        if (on_air.shot && on_air.shot->rush == next.rush) continue;
+        if (!shots.empty()) shots.back().end = now;
+        shots.push_back({next.rush, now, now, next.reason});
+        on_air.shot = shots.back();
+    }
+    shots.back().end = footage.beats();
+    return shots;
+}
+
 class Programme : public testing::TestWithParam<double> {};
 
 TEST_P(Programme, CoversTheMatchWithShotsThatAreLongEnough) {
@@ -58,6 +83,25 @@ TEST_P(Programme, KnowsNoMoreThanTheDelay) {
             EXPECT_EQ(shots[i].rush, again[i].rush);
             EXPECT_EQ(shots[i].begin, again[i].begin);
         }
+    }
+}
+
+TEST_P(Programme, WhatIsForgottenIsNotNeeded) {
+    std::mt19937 random(4);
+    constexpr std::size_t long_match = 1500;
+    const Footage footage = random_script(players, long_match, random).footage();
+    const auto events = random_kills(players, 150.0, 120, random);
+    const auto shots = directed(footage, events, GetParam());
+    const auto expected = directed_without_forgetting(footage, events, GetParam());
+    ASSERT_EQ(shots.size(), expected.size());
+    for (std::size_t i = 0; i < shots.size(); ++i) {
+        EXPECT_EQ(shots[i].rush, expected[i].rush);
+        EXPECT_EQ(shots[i].begin, expected[i].begin);
+        EXPECT_EQ(shots[i].end, expected[i].end);
+        EXPECT_EQ(shots[i].reason.why, expected[i].reason.why);
+        EXPECT_EQ(shots[i].reason.rule, expected[i].reason.rule);
+        EXPECT_EQ(shots[i].reason.actor, expected[i].reason.actor);
+        EXPECT_EQ(shots[i].reason.subject, expected[i].reason.subject);
     }
 }
 

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "camera/camera.hpp"
@@ -186,23 +187,106 @@ TEST(Director, SpectatorsAreNotTracked) {
     EXPECT_EQ(stage.publisher.status("a").state, RequestState::accepted);
 }
 
-TEST(Director, AnAutomaticTargetFollowsTheEvents) {
+TEST(Director, AnAutomaticShotCutsAndSaysWhy) {
     Stage stage;
     stage.start();
     stage.ask(Stage::request("a", no_player));
+    stage.ask(Stage::request("pinned", 2));
     EXPECT_EQ(stage.publisher.status("a").state, RequestState::accepted);
+    const std::uint32_t id = stage.publisher.status("a").camera_id;
+    const auto automatic = [&] {
+        const CameraFrame frame = stage.publisher.frames().back();
+        EXPECT_EQ(frame.cameras.size(), 2U);
+        const auto& cameras = frame.cameras;
+        EXPECT_TRUE(cameras[0].target == 2U || cameras[1].target == 2U) << "a pinned camera stays";
+        return cameras[cameras[0].camera_id == id ? 0 : 1];
+    };
     stage.send(Stage::poses(1));
-    EXPECT_EQ(stage.publisher.frames().back().cameras.at(0).target, 1U) << "no events: the lowest id";
+    const std::uint32_t first = automatic().target;
+    ASSERT_EQ(stage.publisher.frames().back().reasons.size(), 1U);
+    EXPECT_EQ(stage.publisher.frames().back().reasons[0].camera_id, id);
+    EXPECT_EQ(stage.publisher.frames().back().reasons[0].reason.why, "opening");
 
-    const PoseFrame later = Stage::poses(400);
-    for (int i = 0; i < 3; ++i)
-        stage.director.receive("m", MatchEvent{1, later.frame_time, 1, 3, 2, 0.0F});
-    stage.send(later);
+    // No shot is longer than 14 s.
+    std::uint32_t number = 2;
+    for (; number < 400 && automatic().target == first; ++number) {
+        if (number % 9 == 0)
+            stage.director.receive("m", MatchEvent{1, Stage::poses(number).frame_time, 1, 3, first, 0.0F});
+        stage.send(Stage::poses(number));
+    }
+    EXPECT_NE(automatic().target, first);
+    EXPECT_NE(automatic().flags & camera::cut, 0U);
+    ASSERT_EQ(stage.publisher.frames().back().reasons.size(), 1U);
+    const Reason reason = stage.publisher.frames().back().reasons[0].reason;
+    EXPECT_FALSE(reason.why.empty());
+    EXPECT_NE(reason.why, "opening");
+
+    const View view = stage.director.view(std::chrono::seconds(30));
+    const auto& shots = view.matches.at(0).shots;
+    const auto& shot = shots.at(shots.at(0).automatic ? 0 : 1);
+    EXPECT_EQ(shot.reason.why, reason.why);
+    EXPECT_EQ(shot.since, stage.publisher.frames().back().frame_time);
+
+    // Those who come later are told within a second.
+    std::size_t told = 0;
+    for (const std::uint32_t end = number + 20; number < end; ++number) {
+        stage.send(Stage::poses(number));
+        told += stage.publisher.frames().back().reasons.size();
+    }
+    EXPECT_GE(told, 1U);
+}
+
+TEST(Director, AnAutomaticTargetThatLeavesIsReplacedAtOnce) {
+    Stage stage;
+    stage.start();
+    stage.ask(Stage::request("a", no_player));
+    stage.send(Stage::poses(1));
+    const std::uint32_t first = stage.publisher.frames().back().cameras.at(0).target;
+    std::vector<std::uint32_t> others{1, 2, 3};
+    std::erase(others, first);
+    stage.send(Stage::poses(2, 1, others));
     const ShotCamera camera = stage.publisher.frames().back().cameras.at(0);
-    EXPECT_EQ(camera.target, 3U);
+    EXPECT_NE(camera.target, first);
     EXPECT_NE(camera.flags & camera::cut, 0U);
-    EXPECT_EQ(camera.camera_id, stage.publisher.status("a").camera_id);
-    EXPECT_EQ(stage.director.statistics()[Counter::events], 3U);
+    stage.send(Stage::poses(3, 1, {}));
+    EXPECT_EQ(stage.publisher.frames().back().cameras.at(0).target, camera.target) << "it waits";
+}
+
+// The address sanitizer watches.
+TEST(Director, RulesMayChangeAtAnyTime) {
+    Stage stage;
+    stage.start();
+    stage.ask(Stage::request("a", no_player));
+    std::uint32_t number = 1;
+    for (; number < 42; ++number) {
+        stage.director.receive("m", MatchEvent{1, Stage::poses(number).frame_time, 1, 1, 3, 0.0F});
+        stage.send(Stage::poses(number));
+    }
+    config::Config config = Stage::default_config();
+    config.direction.moments.clear();
+    stage.director.reconfigure(config);
+    ObserverRequest wanted = Stage::request("b", no_player);
+    wanted.group = {2, 3};
+    stage.ask(wanted);
+    stage.send(Stage::poses(number));
+    ASSERT_EQ(stage.publisher.frames().back().cameras.size(), 2U);
+    const auto reasons = stage.publisher.frames().back().reasons;
+    EXPECT_TRUE(
+        std::ranges::all_of(reasons, [](const ShotReason& told) { return !told.reason.why.empty(); }));
+}
+
+TEST(Director, AnAutomaticTargetIsOfTheGroup) {
+    Stage stage;
+    stage.start();
+    ObserverRequest wanted = Stage::request("a", no_player);
+    wanted.group = {2, 3};
+    stage.ask(wanted);
+    for (std::uint32_t number = 1; number < 400; ++number) {
+        if (number % 10 == 0)
+            stage.director.receive("m", MatchEvent{1, Stage::poses(number).frame_time, 1, 1, 3, 0.0F});
+        stage.send(Stage::poses(number));
+        EXPECT_NE(stage.publisher.frames().back().cameras.at(0).target, 1U);
+    }
 }
 
 // The undefined-behaviour sanitizer watches.

@@ -109,17 +109,13 @@ TEST_F(FollowTest, ForeignNewsChangesNothing) {
 
 class FollowAutomatic : public FollowTest {
   protected:
-    static constexpr std::uint32_t joins = begins + 150;
+    static constexpr std::uint32_t joins = begins + 20;
 
     FollowAutomatic() {
         wanted_ = Stage::request("a", no_player);
         leader_.ask(wanted_);
-        MatchEvent kill{
-            .epoch = 1, .frame_time = begins * 50 * ms, .kind = 1, .actor = 3, .subject = 2, .value = 1};
-        for (int i = 0; i < 5; ++i)
-            leader_.director.receive("m", kill);
         for (std::uint32_t number = begins; number < joins; ++number)
-            leader_.send(Stage::poses(number));
+            leader_.send(Stage::poses(number, 1, {3}));  // nobody else plays yet
         begin(standby_, wanted_);
         begin(alone_, wanted_);
     }
@@ -132,6 +128,11 @@ TEST_F(FollowAutomatic, TheTargetIsTheLeaders) {
     EXPECT_NE(camera(alone_).target, 3U);
     EXPECT_EQ(camera(standby_).target, 3U);
     EXPECT_LT(distance(leader_, standby_), near);
+
+    // What the leader has shown goes on without it.
+    standby_.send(Stage::poses(joins + 4));
+    EXPECT_EQ(camera(standby_).target, 3U);
+    EXPECT_EQ(camera(standby_).flags & camera::cut, 0U);
 }
 
 TEST_F(FollowAutomatic, NewsThatComesAFrameLateCountsToo) {

@@ -54,6 +54,12 @@ void append(std::string& bytes, const CameraFrame& frame) {
             add(number);
         add(camera.flags);
     }
+    for (const auto& [camera_id, reason] : frame.reasons) {
+        add(camera_id);
+        add(reason.actor);
+        add(reason.subject);
+        bytes += reason.why;
+    }
 }
 
 // The bytes of all cameras of a run; runs differ only in who computes them.

@@ -18,9 +18,10 @@ TEST(Status, ShowsMapsMatchesShotsAndObservers) {
     match.players = {{2, "anarki", "scout", 1}, {4, "doom", "", 2}};
     match.last_event =
         director::MatchEvent{.kind = 1, .actor = 4, .subject = 2, .value = 1.0F, .detail = "rail"};
-    match.shots.push_back({5, 2, false, "default", 3, 2});
-    match.shots.push_back({6, director::no_player, true, "default", 1, 0});
-    match.shots.push_back({7, 9, false, "default", 1, 0});
+    match.shots.push_back({5, 2, false, "default", 3, 2, {}, 0});
+    match.shots.push_back(
+        {6, director::no_player, true, "default", 1, 0, {.actor = 4, .subject = 9, .why = "kill"}, 77});
+    match.shots.push_back({7, 9, false, "default", 1, 0, {}, 0});
     match.observers.push_back(
         {"anna", director::RequestState::waiting_for_player, 0, "player 9 is not in the match"});
     director::MatchView busy;
@@ -46,6 +47,11 @@ TEST(Status, ShowsMapsMatchesShotsAndObservers) {
     EXPECT_EQ(page["matches"][0]["shots"][0]["target"], anarki);
     EXPECT_EQ(page["matches"][0]["shots"][2]["target"], json({{"id", 9}})) << "not listed";
     EXPECT_TRUE(page["matches"][0]["shots"][1]["target"].is_null());
+    EXPECT_TRUE(page["matches"][0]["shots"][0]["reason"].is_null()) << "an observer has chosen";
+    EXPECT_EQ(page["matches"][0]["shots"][1]["reason"]["why"], "kill");
+    EXPECT_EQ(page["matches"][0]["shots"][1]["reason"]["actor"]["name"], "doom");
+    EXPECT_EQ(page["matches"][0]["shots"][1]["reason"]["subject"], json({{"id", 9}}));
+    EXPECT_EQ(page["matches"][0]["shots"][1]["since"], 77);
     EXPECT_EQ(page["matches"][0]["observers"][0]["state"], "waiting for player");
     EXPECT_EQ(page["matches"][1]["state"], "no answer");
 }

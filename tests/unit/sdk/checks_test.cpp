@@ -95,10 +95,11 @@ std::string refusal(const cdir_match_event& event) {
     }
 }
 
-TEST(Checks, KindsOfEventsAreThoseOfTheHeader) {
+TEST(Checks, KindsOfEventsAreThoseOfTheHeaderAndOfLaterOnes) {
     cdir_match_event event = cdir_match_event_default();
-    for (event.kind = CDIR_EVENT_KILL; event.kind <= CDIR_EVENT_ROUND; ++event.kind)
+    for (event.kind = CDIR_EVENT_KILL; event.kind <= CDIR_EVENT_WEAPON + 1; ++event.kind)
         EXPECT_EQ(refusal(event), "");
+    event.kind = 0;
     EXPECT_NE(refusal(event), "");
 }
 

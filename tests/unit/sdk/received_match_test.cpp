@@ -90,6 +90,37 @@ TEST_F(ReceivedMatchTest, CameraOfTheShotIsFoundByTheDirectorsAnswer) {
     EXPECT_EQ(match_.track().newest()->camera.target, 105U);
 }
 
+// The director tells it in the frame of the cut.
+TEST_F(ReceivedMatchTest, TheReasonOfAnAutomaticShotHoldsUntilItsTargetChanges) {
+    answer(1, 5);
+    EXPECT_TRUE(accept(1, 0, 10.0F));
+    EXPECT_STREQ(match_.track().newest()->camera.reason, "") << "not told yet";
+    EXPECT_EQ(match_.track().newest()->camera.reason_actor, CDIR_NO_PLAYER);
+    CameraFrameArrays told = frame_of(1, 1);
+    told.add_camera(4, -1.0F);
+    told.add_camera(5, 11.0F);
+    told.add_reason(4, 1, 2, "length");
+    told.add_reason(5, 105, 7, "kill");
+    EXPECT_TRUE(accept(told));
+    EXPECT_TRUE(accept(1, 2, 12.0F));
+    const cdir_camera camera = match_.track().newest()->camera;
+    EXPECT_STREQ(camera.reason, "kill");
+    EXPECT_EQ(camera.reason_actor, 105U);
+    EXPECT_EQ(camera.reason_subject, 7U);
+    EXPECT_EQ(camera.position[0], 12.0F);
+
+    CameraFrameArrays other = frame_of(1, 3);
+    other.add_camera(5, 13.0F);
+    other.target.back() = 3;
+    EXPECT_TRUE(accept(other));
+    EXPECT_STREQ(match_.track().newest()->camera.reason, "");
+
+    CameraFrameArrays many = frame_of(1, 4);
+    many.add_camera(5, 14.0F);
+    many.reasons.resize(257);
+    EXPECT_FALSE(accept(many)) << "malformed";
+}
+
 TEST_F(ReceivedMatchTest, AnAnswerThatOvertakesTheDescriptionOfAnEarlierEpochIsKept) {
     answer(5, 0);  // for a match that waits for its delay, as of the newest epoch
     answer(4, 7);  // now the one before is shown

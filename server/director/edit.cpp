@@ -1,0 +1,314 @@
+#include "director/edit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <iterator>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "direction/editor.hpp"
+#include "director/clock.hpp"
+
+namespace camdir::director {
+namespace {
+
+using direction::beat_of;
+using direction::beat_s;
+using direction::cut_every;
+using direction::Index;
+using direction::nobody;
+
+constexpr double longest_foresight_s = 10.0;
+// What is not here so long before it is shown may come any time later.
+constexpr double arrival_s = 0.3;
+constexpr direction::Beat catches_up = 3;  // beats in one
+// That are looked at before they are known to decisions, so that no decision waits for them.
+constexpr direction::Beat scouted_ahead = catches_up;
+constexpr double longest_step_back_s = 1.0;
+constexpr double longest_gap_s = 30.0;
+constexpr double slowest_rate_hz = 10.0;
+constexpr double nominal_unit_m = 0.0254;
+constexpr std::int64_t cut_every_ns = 200'000'000;
+
+double unit_of(const freespace::Freespace& freespace) {
+    return nominal_unit_m / static_cast<double>(freespace.metadata().metres_per_unit);
+}
+
+// A multiple of the time between cuts, at or before; without overflow.
+std::int64_t aligned(std::int64_t time) {
+    if (time < std::numeric_limits<std::int64_t>::min() + cut_every_ns) return time;
+    const std::int64_t rest = time % cut_every_ns;
+    return time - (rest < 0 ? rest + cut_every_ns : rest);
+}
+
+std::optional<direction::EventKind> kind_of(std::uint32_t kind) {
+    using direction::EventKind;
+    switch (kind) {
+        case 1:
+            return EventKind::kill;
+        case 2:
+            return EventKind::flag_taken;
+        case 3:
+            return EventKind::flag_captured;
+        case 4:
+            return EventKind::objective;
+        case 5:
+            return EventKind::damage;
+        case 6:
+            return EventKind::award;
+        case 7:
+            return EventKind::item;
+        default:
+            return {};
+    }
+}
+
+bool in_group(std::uint32_t player, std::span<const std::uint32_t> group) {
+    return group.empty() || std::ranges::binary_search(group, player);
+}
+
+// Where there are any.
+void keep_living(std::vector<std::size_t>& choice, std::span<const std::uint32_t> players,
+                 const Roster& roster) {
+    const auto lives = [&](std::size_t place) {
+        return (roster.pose(players[place])->flags & pose_alive) != 0;
+    };
+    if (std::ranges::any_of(choice, lives)) std::erase_if(choice, std::not_fn(lives));
+}
+
+}  // namespace
+
+void AutomaticShot::follow(std::uint32_t target, std::int64_t frame_time, const Reason* why) {
+    player = target;
+    since = frame_time;
+    reason = why != nullptr ? *why : Reason{};
+    edit = 0;
+}
+
+double Edit::foresight_s(double delay_s) {
+    return std::clamp(delay_s - arrival_s, 0.0, longest_foresight_s);
+}
+
+void Edit::clear() {
+    if (!begun_) return;
+    Edit next;
+    next.generation_ = generation_ + 1;
+    next.teams_ = std::move(teams_);
+    *this = std::move(next);
+}
+
+void Edit::set_players(std::span<const Player> players) {
+    teams_.clear();
+    for (const Player& player : players)
+        teams_[player.id] = player.team;
+}
+
+void Edit::record(const MatchEvent& event) {
+    if (begun_ && !foresees_) add(event);
+}
+
+double Edit::seconds(std::int64_t frame_time) const {
+    return seconds_between(start_, frame_time);
+}
+
+void Edit::begin(const PoseFrame& frame) {
+    clear();
+    begun_ = true;
+    start_ = aligned(frame.frame_time);
+    newest_ = shown_ = seconds(frame.frame_time) - beat_s;
+    shown_beat_ = beat_of(seconds(frame.frame_time));
+    end_ = shown_beat_ + catches_up;
+}
+
+void Edit::show(const PoseFrame& frame, const DelayBuffer& delay, const Setting& setting) {
+    const double time = seconds(frame.frame_time);
+    if (!begun_ || is_full_ || time < shown_ - longest_step_back_s || time > newest_ + longest_gap_s)
+        begin(frame);
+    shown_ = std::max(shown_, seconds(frame.frame_time));
+    const direction::Beat before = std::exchange(shown_beat_, beat_of(shown_));
+    const direction::Beat foresight = beat_of(foresight_s(setting.delay_s));
+    end_ = std::min(shown_beat_ + foresight, std::max(end_, before) + catches_up * (shown_beat_ - before));
+    frame_time_ = frame.frame_time;
+
+    foresees_ = delay.look_ahead(
+        position_,
+        [&](const PoseFrame& later) {
+            if (later.epoch != frame.epoch) return later.epoch < frame.epoch;
+            const bool past = static_cast<std::int32_t>(later.frame_number - frame.frame_number) < 0;
+            return past || take(later, setting);
+        },
+        [&](const MatchEvent& event) {
+            if (event.epoch == frame.epoch) add(event);
+        });
+    if (newest_ < shown_) take(frame, setting);
+
+    const direction::Beat cut = shown_beat_ - shown_beat_ % cut_every;
+    due_ = cut > decided_;
+    if (!due_) return;
+    decided_ = cut;
+    finish(setting);
+    material_.forget_before(cut);
+    moments_ = material_.moments(setting.rules, unit_of(setting.freespace), cut);
+}
+
+// Returns false for a frame that is to be known later.
+bool Edit::take(const PoseFrame& frame, const Setting& setting) {
+    const double time = seconds(frame.frame_time);
+    if (time < newest_ - longest_step_back_s || time > newest_ + longest_gap_s) return false;
+    if (time <= newest_) return true;
+    const direction::Beat number = beat_of(time);
+    if (!beats_.empty() && number > beats_.back().number) beats_.back().ended = true;
+    if (number >= end_ + scouted_ahead && number > shown_beat_) return false;
+    newest_ = time;
+    const auto poses = std::span(frame.poses).first(std::min(frame.poses.size(), setting.max_players));
+    const bool known = beats_.empty() ? number < material_.footage().beats() : number <= beats_.back().number;
+    if (!known) begin_beat(number, poses);
+    for (const PlayerPose& pose : poses) {
+        const Index place = place_of(pose.player_id);
+        if (continuity_.broken(pose) && place != nobody && !beats_.empty())
+            beats_.back().scout.takes[place].cut = true;
+    }
+    return true;
+}
+
+void Edit::begin_beat(direction::Beat number, std::span<const PlayerPose> poses) {
+    for (const PlayerPose& pose : poses) {
+        if ((pose.flags & pose_spectator) != 0 || places_.contains(pose.player_id)) continue;
+        is_full_ = players_.size() == direction::max_players;
+        if (is_full_) break;
+        places_[pose.player_id] = static_cast<Index>(players_.size());
+        players_.push_back(pose.player_id);
+        material_.add_player();
+        for (PendingBeat& beat : beats_) {
+            beat.scout.players.emplace_back();
+            beat.scout.takes.emplace_back();
+        }
+    }
+    PendingBeat& beat = beats_.emplace_back();
+    beat.number = number;
+    beat.scout.players.resize(players_.size());
+    beat.scout.takes.resize(players_.size());
+    for (const PlayerPose& pose : poses) {
+        const Index place = place_of(pose.player_id);
+        if (place == nobody || (pose.flags & pose_spectator) != 0 || beat.scout.players[place].present)
+            continue;
+        beat.scout.players[place] = state_of(pose, place);
+        beat.scout.present.push_back(place);
+    }
+}
+
+direction::PlayerState Edit::state_of(const PlayerPose& pose, Index place) const {
+    direction::PlayerState state;
+    state.eye = pose.eye;
+    state.facing = pose.orientation * Vec3f::UnitX();
+    state.speed = pose.velocity.isZero() ? speed_over_beat(pose.eye, place) : pose.velocity.norm();
+    const auto team = teams_.find(pose.player_id);
+    state.team = team == teams_.end() ? std::uint8_t{0} : team->second;
+    state.present = true;
+    state.alive = (pose.flags & pose_alive) != 0;
+    return state;
+}
+
+// Of a game that sends no velocities.
+float Edit::speed_over_beat(const Vec3f& eye, Index place) const {
+    const direction::Beat last = material_.footage().beats() - 1;
+    const bool pending = beats_.size() > 1;  // the last one is this
+    if (!pending && last < material_.footage().first()) return 0.0F;
+    const direction::PlayerState& before =
+        pending ? std::prev(beats_.end(), 2)->scout.players[place] : material_.footage().player(last, place);
+    return before.present ? (eye - before.eye).norm() / static_cast<float>(beat_s) : 0.0F;
+}
+
+Index Edit::place_of(std::uint32_t player) const {
+    const auto found = places_.find(player);
+    return found == places_.end() ? nobody : found->second;
+}
+
+void Edit::look(const Setting& setting) {
+    const double frames_per_beat = std::max(setting.rate_hz, slowest_rate_hz) * beat_s;
+    const auto waiting =
+        std::ranges::count_if(beats_, [](const PendingBeat& beat) { return !beat.scout.finished(); });
+    const double share = static_cast<double>(std::min(waiting, std::ptrdiff_t{catches_up})) / frames_per_beat;
+    auto most = static_cast<std::size_t>(std::ceil(share * static_cast<double>(players_.size())));
+    const auto unit = static_cast<float>(unit_of(setting.freespace));
+    for (PendingBeat& beat : beats_)
+        for (; most > 0 && !beat.scout.finished(); --most)
+            beat.scout.look(setting.freespace, unit);
+    append_finished();
+}
+
+void Edit::finish(const Setting& setting) {
+    const auto unit = static_cast<float>(unit_of(setting.freespace));
+    for (PendingBeat& beat : beats_)
+        while (beat.number < end_ && beat.ended && !beat.scout.finished())
+            beat.scout.look(setting.freespace, unit);
+    append_finished();
+}
+
+// A beat without a frame is as the one before.
+void Edit::append_finished() {
+    const direction::Footage& footage = material_.footage();
+    const auto is_known = [&](const PendingBeat& beat) {
+        return beat.number < end_ && beat.ended && beat.scout.finished();
+    };
+    for (; !beats_.empty() && is_known(beats_.front()); beats_.pop_front()) {
+        const PendingBeat& beat = beats_.front();
+        while (footage.beats() < beat.number) {
+            const direction::Beat last = footage.beats() - 1;
+            if (last < footage.first()) {
+                material_.append(beat.scout.players, beat.scout.takes);
+                continue;
+            }
+            const std::vector players(footage.players_at(last).begin(), footage.players_at(last).end());
+            std::vector takes(footage.takes_at(last).begin(), footage.takes_at(last).end());
+            for (direction::Take& take : takes)
+                take.cut = false;
+            material_.append(players, takes);
+        }
+        material_.append(beat.scout.players, beat.scout.takes);
+    }
+}
+
+void Edit::add(const MatchEvent& event) {
+    const auto kind = kind_of(event.kind);
+    const double time = seconds(event.frame_time);
+    if (!kind || time < 0.0 || time > newest_ + longest_gap_s) return;
+    material_.add(
+        {time, *kind, place_of(event.actor), place_of(event.subject), static_cast<double>(event.value)});
+}
+
+bool Edit::choose(AutomaticShot& shot, std::span<const std::uint32_t> group, const Roster& roster,
+                  const Setting& setting) const {
+    std::vector<std::size_t> choice;
+    bool stays = false;
+    for (std::size_t place = 0; place < players_.size(); ++place) {
+        if (!in_group(players_[place], group) || roster.pose(players_[place]) == nullptr) continue;
+        choice.push_back(place);
+        stays = stays || players_[place] == shot.player;
+    }
+    if (choice.empty() || (stays && !due_)) return false;
+    if (shot.edit != generation_) {
+        shot.cutter = {};
+        shot.edit = generation_;
+        const double begun = seconds(shot.since);  // before the material began: its length counts anew
+        const direction::Beat since = begun < 0.0 ? decided_ : std::min(beat_of(begun), decided_);
+        if (stays) shot.cutter.cut_to({place_of(shot.player), since, since, {}});
+    }
+    if (!stays) keep_living(choice, players_, roster);
+    const auto begun =
+        shot.cutter.decide(material_, moments_, setting.rules, unit_of(setting.freespace), decided_, choice);
+    if (!begun) return false;
+    shot.player = players_[begun->rush];
+    shot.since = frame_time_;
+    shot.reason = reason_of(begun->reason, setting.rules);
+    return true;
+}
+
+Reason Edit::reason_of(const direction::Reason& reason, const direction::Rules& rules) const {
+    const auto id = [&](Index place) { return place == nobody ? no_player : players_[place]; };
+    return {id(reason.actor), id(reason.subject), std::string(direction::name_of(reason, rules))};
+}
+
+}  // namespace camdir::director

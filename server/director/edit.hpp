@@ -1,0 +1,119 @@
+// The automatic shots of a match: whom they follow, and why, as the direction's editor decides.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "config/config.hpp"
+#include "direction/cutter.hpp"
+#include "direction/material.hpp"
+#include "director/continuity.hpp"
+#include "director/delay_buffer.hpp"
+#include "director/messages.hpp"
+#include "director/roster.hpp"
+#include "director/scout.hpp"
+
+namespace camdir::director {
+
+// An automatic shot's programme so far.
+struct AutomaticShot {
+    std::uint32_t player = no_player;
+    std::int64_t since = 0;  // frame_time
+    Reason reason;
+    direction::Cutter cutter;
+    std::uint64_t edit = 0;  // that `cutter` belongs to
+
+    // Goes on with what another director shows.
+    void follow(std::uint32_t target, std::int64_t frame_time, const Reason* why);
+};
+
+// Material, moments and decisions of one match (see direction/README.md). Beats are those of the game's
+// clock, so that directors of the same match decide at the same frames. What the delay lets be known is used,
+// at most 10 s of it: frames and events that have surely arrived when a frame is shown, so that the same
+// match gives the same cuts. Sight lines are looked along after the frame's cameras are published, a share of
+// a beat with every frame. One thread at a time.
+class Edit {
+  public:
+    // How far ahead of what is shown a match is known, at most.
+    [[nodiscard]] static double foresight_s(double delay_s);
+
+    // Begins anew: another epoch or map, or no automatic shot any more.
+    void clear();
+
+    void set_players(std::span<const Player> players);
+    // The rules have changed: what was found by the old ones is of no use.
+    void forget_moments() { moments_.clear(); }
+    // As it is shown; ignored where it was foreseen.
+    void record(const MatchEvent& event);
+
+    struct Setting {
+        const freespace::Freespace& freespace;
+        const direction::Rules& rules;
+        std::size_t max_players;
+        double delay_s;
+        double rate_hz;
+    };
+    // What is known when this frame is shown. Every frame, before choose().
+    void show(const PoseFrame& frame, const DelayBuffer& delay, const Setting& setting);
+
+    // Who is followed from the frame on that is shown. Candidates are the players of `group` (ascending), or
+    // all when it is empty, who have a pose. Returns whether a shot begins.
+    bool choose(AutomaticShot& shot, std::span<const std::uint32_t> group, const Roster& roster,
+                const Setting& setting) const;
+    // Reasons are to be told again, for those who have come since they were: once a second.
+    [[nodiscard]] bool repeats_reasons() const { return due_ && decided_ % reasons_every == 0; }
+
+    // Looks along sight lines for later frames; once a frame.
+    void look(const Setting& setting);
+
+    [[nodiscard]] const direction::Material& material() const { return material_; }
+    [[nodiscard]] direction::Beat decided() const { return decided_; }
+
+  private:
+    static constexpr direction::Beat reasons_every = 10;
+
+    struct PendingBeat {
+        direction::Beat number = 0;
+        bool ended = false;  // a later frame is known
+        Scout scout;
+    };
+
+    void begin(const PoseFrame& frame);
+    bool take(const PoseFrame& frame, const Setting& setting);
+    void begin_beat(direction::Beat number, std::span<const PlayerPose> poses);
+    [[nodiscard]] direction::PlayerState state_of(const PlayerPose& pose, direction::Index place) const;
+    [[nodiscard]] float speed_over_beat(const Vec3f& eye, direction::Index place) const;
+    void append_finished();
+    void finish(const Setting& setting);
+    void add(const MatchEvent& event);
+    [[nodiscard]] direction::Index place_of(std::uint32_t player) const;
+    [[nodiscard]] double seconds(std::int64_t frame_time) const;
+    [[nodiscard]] Reason reason_of(const direction::Reason& reason, const direction::Rules& rules) const;
+
+    direction::Material material_{0, {}};
+    std::uint64_t generation_ = 1;  // of the material
+    bool begun_ = false;
+    std::int64_t start_ = 0;  // frame_time of beat 0
+    double newest_ = 0.0;     // of the frames taken, seconds
+    double shown_ = 0.0;
+    direction::Beat end_ = 0;  // beats before this may be known
+    direction::Beat shown_beat_ = 0;
+    std::int64_t frame_time_ = 0;             // that is shown
+    direction::Beat decided_ = -1;            // the last beat that may have a cut
+    bool due_ = false;                        // decided_ is new with this frame
+    std::vector<direction::Moment> moments_;  // at decided_
+    std::uint64_t position_ = 0;              // in the delay buffer, of what is not taken yet
+    bool foresees_ = false;                   // frames and events come from there
+    std::deque<PendingBeat> beats_;           // that are not appended yet
+    Continuity continuity_;
+    std::map<std::uint32_t, direction::Index> places_;  // of players in the material
+    std::vector<std::uint32_t> players_;                // by place
+    bool is_full_ = false;                              // there is no place for another
+    std::map<std::uint32_t, std::uint8_t> teams_;
+};
+
+}  // namespace camdir::director

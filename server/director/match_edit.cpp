@@ -1,0 +1,52 @@
+// Match: whom its automatic shots follow.
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+
+#include "director/match.hpp"
+
+namespace camdir::director {
+namespace {
+
+std::string text_of(const Reason& reason) {
+    std::string text = reason.why;
+    if (reason.actor != no_player) text += " " + std::to_string(reason.actor);
+    if (reason.subject != no_player)
+        text += (reason.actor != no_player ? "-" : " ") + std::to_string(reason.subject);
+    return text;
+}
+
+}  // namespace
+
+Edit::Setting Match::edit_setting() const {
+    return {*freespace_, config_->direction, static_cast<std::size_t>(config_->limits.players),
+            delay_.state().delay_s, static_cast<double>(info_->rate_hz)};
+}
+
+void Match::choose_targets(const PoseFrame& frame, CameraFrame& cameras) {
+    cameras.reasons.clear();
+    std::vector<Shot>& shots = requests_.shots();
+    if (std::ranges::any_of(shots, &Shot::is_automatic))
+        edit_.show(frame, delay_, edit_setting());
+    else
+        edit_.clear();
+    for (Shot& shot : shots) {
+        if (shot.is_automatic()) choose_automatic_target(shot, cameras);
+        const std::uint32_t target = shot.is_automatic() ? shot.automatic.player : shot.key.target;
+        if (target != shot.target) shot.restart();
+        shot.target = target;
+    }
+}
+
+void Match::choose_automatic_target(Shot& shot, CameraFrame& cameras) {
+    AutomaticShot& automatic = shot.automatic;
+    const bool begins = edit_.choose(automatic, shot.key.group, roster_, edit_setting());
+    if (automatic.player == no_player) return;
+    if (begins || edit_.repeats_reasons()) cameras.reasons.push_back({shot.camera_id, automatic.reason});
+    if (!begins) return;
+    if (const auto times = cuts_logged_.due())
+        spdlog::debug("match {}: camera {} follows player {}: {} ({} cuts since the last such line)",
+                      match_id_, shot.camera_id, automatic.player, text_of(automatic.reason), *times);
+}
+
+}  // namespace camdir::director

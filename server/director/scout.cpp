@@ -1,0 +1,67 @@
+#include "director/scout.hpp"
+
+#include <cmath>
+#include <span>
+
+#include "freespace/visibility.hpp"
+
+namespace camdir::director {
+namespace {
+
+constexpr float distance = 120.0F;   // units of 0.0254 m
+constexpr float clearance = 4.5F;    // likewise, round the way to the camera
+constexpr float to_centre = -22.0F;  // from the eye to the middle of the body
+constexpr float tan_across = 1.0F;
+constexpr float tan_up = 9.0F / 16.0F;
+
+// Where the camera looks. Its horizon is level.
+class Picture {
+  public:
+    Picture(const Vec3f& position, const Vec3f& forward) : position_(position), forward_(forward) {
+        const Vec3f level = forward.cross(Vec3f::UnitZ());
+        right_ = level.norm() > 1e-6F ? level.normalized() : -Vec3f::UnitY();
+        up_ = right_.cross(forward_);
+    }
+
+    [[nodiscard]] bool has(const Vec3f& point) const {
+        const Vec3f way = point - position_;
+        const float depth = way.dot(forward_);
+        return depth > 0.0F && std::abs(way.dot(right_)) <= tan_across * depth &&
+               std::abs(way.dot(up_)) <= tan_up * depth;
+    }
+
+  private:
+    Vec3f position_;
+    Vec3f forward_;
+    Vec3f right_;
+    Vec3f up_;
+};
+
+}  // namespace
+
+void Scout::look(const freespace::Freespace& freespace, float unit) {
+    const direction::Index self = present[done++];
+    direction::PlayerState& player = players[self];
+    const freespace::SightOrigin from_eye(freespace, player.eye, 0.0F);
+    for (const direction::Index other : std::span(present).subspan(done)) {
+        if (!from_eye.to(players[other].eye).clear) continue;
+        player.sees.set(other);
+        players[other].sees.set(self);
+    }
+
+    direction::Take& take = takes[self];
+    const Vec3f behind = player.eye - distance * unit * player.facing;
+    const float free = freespace::sight(freespace, player.eye, behind, clearance * unit).free_length;
+    take.position = player.eye - free * player.facing;
+    take.shown.set(self);
+    const Picture picture(take.position, player.facing);
+    const freespace::SightOrigin from_camera(freespace, take.position, 0.0F);
+    const auto shows = [&](const Vec3f& point) { return picture.has(point) && from_camera.to(point).clear; };
+    for (const direction::Index other : present) {
+        const Vec3f& eye = players[other].eye;
+        if (other != self && (shows(eye) || shows(eye + to_centre * unit * Vec3f::UnitZ())))
+            take.shown.set(other);
+    }
+}
+
+}  // namespace camdir::director

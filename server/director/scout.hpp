@@ -1,0 +1,27 @@
+// What the cameras that follow the players would show at one instant.
+#pragma once
+
+#include <vector>
+
+#include "direction/footage.hpp"
+#include "freespace/freespace.hpp"
+
+namespace camdir::director {
+
+// A beat in the making: places, views and teams of the players are given, what they and their cameras see is
+// found out player by player. A camera stands behind its player's eye on the line of view, 120 units of
+// 0.0254 m away or as far as is free, looks along it, and shows 90 degrees across in the format 16:9. It is
+// no tracker's: one that looks ahead is not made before it is due.
+struct Scout {
+    std::vector<direction::PlayerState> players;
+    std::vector<direction::Take> takes;  // of the camera that follows each
+    std::vector<direction::Index> present;
+    std::size_t done = 0;  // of those present
+
+    [[nodiscard]] bool finished() const { return done == present.size(); }
+    // Of the next one: whom the player sees of those after, and what the camera shows. `unit`: 0.0254 m in
+    // map units. Precondition: not finished.
+    void look(const freespace::Freespace& freespace, float unit);
+};
+
+}  // namespace camdir::director

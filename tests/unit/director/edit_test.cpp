@@ -1,0 +1,206 @@
+// What an automatic shot shows, beside the programme of the pure editor.
+#include "director/edit.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "direction/programme.hpp"
+#include "stage.hpp"
+#include "support/freespace_meshes.hpp"
+
+namespace camdir::director {
+namespace {
+
+constexpr std::uint32_t frames = 400;  // of 50 ms
+constexpr std::size_t players = 5;
+
+struct Recorded {
+    std::vector<PoseFrame> frames;
+    std::vector<MatchEvent> events;  // ascending by time
+};
+
+// Players who walk, look about, die and are hurt.
+Recorded random_match(std::uint32_t seed) {
+    std::mt19937 random(seed);
+    Recorded match;
+    std::vector<bool> alive(players, true);
+    for (std::uint32_t number = 0; number < frames; ++number) {
+        PoseFrame frame = Stage::poses(number, 1, {1, 2, 3, 4, 5});
+        for (std::size_t i = 0; i < players; ++i) {
+            PlayerPose& pose = frame.poses[i];
+            const float angle = 0.01F * static_cast<float>((i + 1) * number) + static_cast<float>(i);
+            pose.orientation = Quatf(Eigen::AngleAxisf(angle, Vec3f::UnitZ()));
+            pose.velocity = Vec3f(100.0F, 0.0F, 0.0F);
+            if (number > 0 && random() % 60 == 0) alive[i] = !alive[i];
+            if (!alive[i]) pose.flags = 0;
+            if (random() % 100 == 0) pose.flags |= pose_discontinuity;
+        }
+        const auto player = [&] { return static_cast<std::uint32_t>(1 + random() % players); };
+        if (random() % 8 == 0) match.events.push_back({1, frame.frame_time, 5, player(), player(), 10.0F});
+        if (random() % 25 == 0) match.events.push_back({1, frame.frame_time, 1, player(), player(), 1.0F});
+        if (random() % 25 == 0) match.events.push_back({1, frame.frame_time, 99, player(), player(), 1.0F});
+        match.frames.push_back(std::move(frame));
+    }
+    return match;
+}
+
+struct Cut {
+    direction::Beat beat;
+    std::uint32_t player;
+    std::string why;
+
+    bool operator==(const Cut&) const = default;
+};
+
+class EditTest : public testing::TestWithParam<double> {
+  protected:
+    [[nodiscard]] Edit::Setting setting(double delay_s) const { return {space_, rules_, 256, delay_s, 20.0}; }
+    [[nodiscard]] static double unit() {
+        return 0.0254 / static_cast<double>(Stage::square().metadata().metres_per_unit);
+    }
+
+    // What is shown, with the delay; `early`: how much sooner than that everything is in the buffer.
+    [[nodiscard]] std::vector<Cut> shown(const Recorded& match, double delay_s, std::uint32_t early) const {
+        DelayBuffer buffer(std::size_t{64} << 20U);
+        buffer.announce(1, delay_s, 0);
+        const auto ahead = static_cast<std::uint32_t>(delay_s * 20.0) + early;
+        Edit edit;
+        AutomaticShot shot;
+        Roster roster;
+        std::size_t next_frame = 0;
+        std::size_t next_event = 0;
+        std::vector<Cut> cuts;
+        for (const PoseFrame& frame : match.frames) {
+            const auto receive = [&](const PoseFrame& later) {
+                for (; next_event < match.events.size() &&
+                       match.events[next_event].frame_time <= later.frame_time;
+                     ++next_event) {
+                    Message event = match.events[next_event];
+                    if (buffer.put(event, later.frame_time) == DelayBuffer::Admission::undelayed)
+                        edit.record(match.events[next_event]);
+                }
+                static_cast<void>(buffer.put(later, later.frame_time));
+            };
+            while (next_frame < match.frames.size() && next_frame <= frame.frame_number + ahead)
+                receive(match.frames[next_frame++]);
+            roster.update(frame.poses, 1000);
+            edit.show(frame, buffer, setting(delay_s));
+            if (edit.choose(shot, {}, roster, setting(delay_s)))
+                cuts.push_back({edit.decided(), shot.player, shot.reason.why});
+            edit.look(setting(delay_s));
+        }
+        return cuts;
+    }
+
+    // The same by the pure editor, from footage that is complete before it begins.
+    [[nodiscard]] std::vector<Cut> directed(const Recorded& match, double delay_s) const {
+        direction::Material known(0, {});
+        for (std::size_t i = 0; i < players; ++i)
+            known.add_player();
+        for (const MatchEvent& event : match.events)
+            if (event.kind == 1 || event.kind == 5)
+                known.add({static_cast<double>(event.frame_time) * 1e-9,
+                           event.kind == 1 ? direction::EventKind::kill : direction::EventKind::damage,
+                           static_cast<direction::Index>(event.actor - 1),
+                           static_cast<direction::Index>(event.subject - 1), 0.0});
+        const auto foresight = direction::beat_of(Edit::foresight_s(delay_s));
+        direction::Cutter cutter;
+        std::vector<Cut> cuts;
+        for (direction::Beat now = 0; now < frames / 2; now += direction::cut_every) {
+            const direction::Beat end = now == 0 ? std::min<direction::Beat>(3, foresight) : now + foresight;
+            while (known.footage().beats() < std::min<direction::Beat>(end, frames / 2 - 1))
+                append(known, match, static_cast<std::size_t>(known.footage().beats()));
+            const auto begun = cutter.decide(known, known.moments(rules_, unit(), now), rules_, unit(), now);
+            if (begun)
+                cuts.push_back({now, static_cast<std::uint32_t>(begun->rush + 1),
+                                std::string(direction::name_of(begun->reason, rules_))});
+        }
+        return cuts;
+    }
+
+    void append(direction::Material& known, const Recorded& match, std::size_t beat) const {
+        Scout scout;
+        scout.players.resize(players);
+        scout.takes.resize(players);
+        for (std::size_t i = 0; i < players; ++i) {
+            const PlayerPose& pose = match.frames[2 * beat].poses[i];
+            direction::PlayerState& state = scout.players[i];
+            state.eye = pose.eye;
+            state.facing = pose.orientation * Vec3f::UnitX();
+            state.speed = 100.0F;
+            state.present = true;
+            state.alive = (pose.flags & pose_alive) != 0;
+            scout.present.push_back(static_cast<direction::Index>(i));
+            for (std::size_t frame = 2 * beat; frame < 2 * beat + 2; ++frame)
+                if ((match.frames[frame].poses[i].flags & pose_discontinuity) != 0) scout.takes[i].cut = true;
+        }
+        while (!scout.finished())
+            scout.look(space_, static_cast<float>(unit()));
+        known.append(scout.players, scout.takes);
+    }
+
+    freespace::Freespace space_ = Stage::square();
+    direction::Rules rules_ = direction::default_rules();
+};
+
+TEST_P(EditTest, ShowsTheProgrammeOfThePureEditor) {
+    for (const std::uint32_t seed : {1U, 2U}) {
+        const Recorded match = random_match(seed);
+        const auto cuts = shown(match, GetParam(), 1);
+        EXPECT_GT(cuts.size(), 1U);
+        EXPECT_TRUE(cuts == directed(match, GetParam())) << "seed " << seed;
+    }
+}
+
+TEST_P(EditTest, WhatLiesBeyondTheDelayChangesNothing) {
+    const Recorded match = random_match(4);
+    EXPECT_TRUE(shown(match, GetParam(), 0) == shown(match, GetParam(), frames));
+}
+
+INSTANTIATE_TEST_SUITE_P(Delays, EditTest, testing::Values(0.0, 1.0, 5.0));
+
+// A game's clock that jumps makes no cut.
+TEST_F(EditTest, AJumpOfTheClockKeepsTheShot) {
+    Edit edit;
+    AutomaticShot shot;
+    Roster roster;
+    const DelayBuffer live(1U << 20U);
+    const auto show = [&](std::uint32_t number, std::int64_t offset) {
+        PoseFrame frame = Stage::poses(number);
+        frame.frame_time += offset;
+        roster.update(frame.poses, 1000);
+        edit.show(frame, live, setting(0.0));
+        const bool begins = edit.choose(shot, {}, roster, setting(0.0));
+        edit.look(setting(0.0));
+        return begins;
+    };
+    EXPECT_TRUE(show(1, 0));
+    std::uint32_t number = 2;
+    for (const std::int64_t offset : {3600'000 * ms, -3600'000 * ms}) {
+        const std::uint32_t player = shot.player;
+        for (const std::uint32_t end = number + 20; number < end; ++number)
+            EXPECT_FALSE(show(number, offset));
+        EXPECT_EQ(shot.player, player);
+    }
+}
+
+TEST_F(EditTest, ManyStrangersAreNoReasonToForgetTheShot) {
+    Edit edit;
+    AutomaticShot shot;
+    Roster roster;
+    const DelayBuffer live(1U << 20U);
+    for (std::uint32_t number = 1; number < 400; ++number) {
+        const PoseFrame frame = Stage::poses(number, 1, {1, 1000 + number});
+        roster.update(frame.poses, 1);
+        edit.show(frame, live, setting(0.0));
+        edit.choose(shot, std::vector<std::uint32_t>{1}, roster, setting(0.0));
+        edit.look(setting(0.0));
+        EXPECT_EQ(shot.player, 1U);
+        EXPECT_LE(edit.material().footage().players(), direction::max_players);
+    }
+    EXPECT_EQ(shot.reason.why, "opening");
+}
+
+}  // namespace
+}  // namespace camdir::director
