@@ -125,7 +125,8 @@ struct CameraFrame {
     std::int64_t frame_time = 0;
     std::int64_t source_time = 0;
     std::vector<ShotCamera> cameras;
-    std::vector<ShotReason> reasons;  // of automatic shots that begin with this frame; of all once a second
+    std::vector<ShotReason> reasons =
+        {};  // of automatic shots that begin with this frame; of all once a second
 };
 
 }  // namespace camdir::director
