@@ -23,7 +23,7 @@ class Recorded {
         RecorderOptions options;
         options.folder = folder_.path();
         options.max_bytes = options.max_match_bytes = 1ULL << 40;
-        options.fragment_duration = 20 * ms;
+        options.fragment_duration = ms;
         recorder_ = std::make_unique<Recorder>(options);
     }
     [[nodiscard]] Audiences audiences() const { return {recorder_.get()}; }
@@ -35,7 +35,6 @@ class Recorded {
         for (const auto& entry : std::filesystem::directory_iterator(folder_.path())) {
             const auto reader = Reader::open(entry.path());
             EXPECT_TRUE(reader) << reader.error().message;
-            EXPECT_GT(reader->last_fragment(), 0U);
             EXPECT_TRUE(reader->replay(0, [&](const Record& record) { records.push_back(record); }));
         }
         return records;
