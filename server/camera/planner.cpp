@@ -17,11 +17,22 @@ constexpr double full_turn = 2.0 * std::numbers::pi;
 constexpr double same_step = 1e-3;
 constexpr double same_step_while_planned = 0.1;
 
-// A causal plan is made anew with every sample, one with a recorded future from knot to knot: a plan that
-// begins off the grid of knots would choose other directions.
+// A plan on a prediction is followed for a second sample if the player is where they were foreseen, and looks
+// there, within so much.
+constexpr std::size_t samples_on_prediction = 2;
+constexpr float place_as_foreseen = 0.5F;  // units
+constexpr float view_as_foreseen = 0.5F * radians_of_a_degree<float>;
+
+// A plan with a recorded future is made anew from knot to knot: one that begins off the grid of knots would
+// choose other directions.
 std::size_t samples_to_keep(const Plan& plan) {
-    const std::size_t wanted = plan.ahead ? plan.knot_spacing : 1;
+    const std::size_t wanted = plan.ahead ? plan.knot_spacing : samples_on_prediction;
     return std::min({wanted, plan.count(), PlanState::capacity});
+}
+
+bool as_foreseen(const MapProfile& profile, const PlayerTrack& track, const PlanState::Foreseen& foreseen) {
+    return (track.eye - foreseen.eye).norm() <= place_as_foreseen * profile.unit &&
+           angle_between(track.view, foreseen.view) <= view_as_foreseen;
 }
 
 void make_plan(const freespace::Freespace& freespace, const MapProfile& profile, const PlayerTrack& track,
@@ -43,6 +54,8 @@ void make_plan(const freespace::Freespace& freespace, const MapProfile& profile,
 
     state.count = samples_to_keep(plan);
     if (state.count > 1 && !std::exchange(state.is_spread, true)) state.count -= state.phase % state.count;
+    state.foreseen.reset();
+    if (!plan.ahead && state.count > 1) state.foreseen = {plan.future[1].eye, plan.view[1]};
     for (std::size_t i = 0; i < state.count; ++i)
         state.samples[i] = {plan.position[i],      plan.eye[i],      plan.heading_yaw[i],
                             plan.heading_pitch[i], plan.look_yaw[i], plan.look_pitch[i]};
@@ -124,7 +137,9 @@ const PlannedSample& next_sample(const freespace::Freespace& freespace, const Ma
         state.step = dt;
         state.is_spread = false;  // a missing frame makes all shots of a match plan
     }
-    if (state.next == state.count) {
+    const bool is_left =
+        state.next == state.count || (state.foreseen && !as_foreseen(profile, track, *state.foreseen));
+    if (is_left) {
         discard(state);
         unwind(state.history);
         make_plan(freespace, profile, track, window, time, state, scratch);

@@ -3,6 +3,8 @@
 // shot without a recorded future is planned in the same way on a prediction.
 #pragma once
 
+#include <optional>
+
 #include "camera/aim.hpp"
 #include "camera/beams.hpp"
 #include "camera/candidates.hpp"
@@ -16,12 +18,17 @@ namespace camdir::camera {
 // What a shot remembers of its plan. A value.
 struct PlanState {
     static constexpr std::size_t capacity = 64;
+    struct Foreseen {
+        Vec3f eye;
+        Vec3f view;  // direction
+    };
 
     History history;
     std::array<PlannedSample, capacity> samples;  // that follow; planned anew after the last one
     std::size_t count = 0;
     std::size_t next = 0;
-    double step = 0.0;        // s, between samples
+    std::optional<Foreseen> foreseen;  // the player at the second sample, if that is predicted and kept
+    double step = 0.0;                 // s, between samples
     std::uint32_t phase = 0;  // any number: shots that planned together plan in different frames by it
     bool is_spread = false;   // `phase` has shortened a plan since
     Vantages vantages;

@@ -95,6 +95,37 @@ TEST(Planner, ShotsThatBeginTogetherPlanInDifferentFrames) {
     EXPECT_THAT(plans, testing::Each(testing::Each(1)));
 }
 
+// Frames 20 to 39 of a causal shot in which it planned.
+std::vector<int> planning_frames(const std::vector<TimedPose>& poses, std::uint32_t phase) {
+    const freespace::Freespace freespace = hall().freespace();
+    Scratch scratch(freespace);
+    ShotState state;
+    state.plan.phase = phase;
+    std::vector<int> frames;
+    for (std::size_t i = 0; i < 40; ++i) {
+        (void)step(freespace, solved_by(Solver::planner), Window(poses).first(i + 1), poses[i].time, state,
+                   scratch);
+        if (i >= 20 && state.plan.next == 1) frames.push_back(static_cast<int>(i));
+    }
+    return frames;
+}
+
+TEST(Planner, FollowsAPlanForASecondFrameWhileThePlayerDoesWhatItForesaw) {
+    std::vector<TimedPose> standing;
+    std::vector<TimedPose> flicking = {};
+    for (int i = 0; i < 40; ++i) {
+        standing.push_back({i / 60.0, pose_at(hall().eye('s'), 0.0F), true});
+        flicking.push_back({i / 60.0, pose_at(hall().eye('s'), i % 2 == 0 ? 0.0F : 0.05F), true});
+    }
+    const auto of_one = planning_frames(standing, 0);
+    const auto of_another = planning_frames(standing, 1);
+    EXPECT_EQ(of_one.size(), 10);
+    EXPECT_EQ(of_another.size(), 10);
+    for (const int frame : of_one)
+        EXPECT_THAT(of_another, testing::Not(testing::Contains(frame))) << "both plan in one frame";
+    EXPECT_EQ(planning_frames(flicking, 0).size(), 20);
+}
+
 TEST(Planner, KnowingTheFutureMovesMoreSmoothly) {
     const test::Plan plan = test::figure_eight();
     for (std::uint32_t seed = 1; seed <= 3; ++seed) {
