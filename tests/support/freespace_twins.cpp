@@ -32,11 +32,12 @@ double slab_distance_at(const freespace::Freespace& freespace, std::uint32_t tri
         return static_cast<double>(freespace.vertices()[v].free_distance);
     };
     const Vec3d a = position(ia), b = position(ib), c = position(ic);
+    const double radius_a = radius(ia), radius_b = radius(ib), radius_c = radius(ic);
     return concave_maximum([&](double along) {
         const Vec3d left = a + along * (b - a);
         const Vec3d right = a + along * (c - a);
-        const double radius_left = radius(ia) + along * (radius(ib) - radius(ia));
-        const double radius_right = radius(ia) + along * (radius(ic) - radius(ia));
+        const double radius_left = radius_a + along * (radius_b - radius_a);
+        const double radius_right = radius_a + along * (radius_c - radius_a);
         return concave_maximum([&](double across) {
             return radius_left + across * (radius_right - radius_left) -
                    (left + across * (right - left)).norm();
