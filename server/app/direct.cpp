@@ -50,18 +50,23 @@ struct Inputs {
 Result<Inputs> read_inputs(const DirectOptions& options, ProgressLine& line) {
     auto config = options.config.empty() ? config::parse("{}", "", "") : config::load(options.config);
     if (!config) return tl::unexpected(config.error());
-    line.show("reading " + options.trace, 0, 0);
-    auto trace = read_trace(options.trace);
-    if (!trace) return tl::unexpected(trace.error());
-    if (auto fits = check_length(*trace); !fits) return fail(options.trace + ": " + fits.error().message);
-    auto events = evaluation::read_events(options.events, *trace);
-    if (!events) return tl::unexpected(events.error());
+    auto match = read_match(options.trace, line);
+    if (!match) return tl::unexpected(match.error());
+    if (auto fits = check_length(match->trace); !fits)
+        return fail(options.trace + ": " + fits.error().message);
+    if (!options.events.empty()) {
+        auto events = evaluation::read_events(options.events, match->trace);
+        if (!events) return tl::unexpected(events.error());
+        match->events = std::move(*events);
+    }
+    if (!match->events) return fail(options.trace + ": holds no events; name them with --events");
     line.show("reading " + options.map, 0, 0);
     auto map = open_map(options.freespace, options.map);
     if (!map) return tl::unexpected(map.error());
     line.clear();
     warn_of_another_source(options.freespace, options.map, *map);
-    return Inputs{std::move(*trace), std::move(*events), std::move(*map), std::move(config->direction)};
+    return Inputs{std::move(match->trace), std::move(*match->events), std::move(*map),
+                  std::move(config->direction)};
 }
 
 // The rushes of a match, as the editor sees them through the freespace, and as the judge sees them.
@@ -201,7 +206,7 @@ std::vector<report::Fact> facts_of(const DirectOptions& options, const Inputs& i
         {"Map", options.map + ", " + inputs.map.scene.kind},
         {"Match", options.trace + ", " + std::to_string(inputs.trace.players.size()) + " players, " +
                       evaluation::format_value(report::duration(inputs.trace), 1) + " s"},
-        {"Events", options.events},
+        {"Events", options.events.empty() ? options.trace : options.events},
         {"Delay", options.delay == 0.0 ? "none: live" : evaluation::format_value(options.delay, 1) + " s"},
         {"Baked map", options.freespace}};
 }
@@ -286,9 +291,11 @@ void add_direct(CLI::App& root, Run& run) {
     command->add_option("--map", options->map, "The source map: a file, or archive.pk3:maps/name.bsp")
         ->required();
     command
-        ->add_option("--trace", options->trace, "The recorded match, CSV or CSV.gz, or a recording's folder")
+        ->add_option("--trace", options->trace,
+                     "The recorded match, CSV or .mvd, perhaps .gz, or a recording's folder")
         ->required();
-    command->add_option("--events", options->events, "The match's events, CSV or CSV.gz")->required();
+    command->add_option("--events", options->events,
+                        "The match's events, CSV or CSV.gz; default: those that TRACE has");
     command->add_option("--config", options->config,
                         "Configuration that has the rules and lengths of shots; default: those that ship");
     command->add_option("--delay", options->delay, "Seconds that the audience is behind the match; 0: live")

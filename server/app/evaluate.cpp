@@ -107,7 +107,7 @@ std::vector<report::Fact> facts_of(const EvaluateOptions& options, const Match& 
                       evaluation::format_value(report::duration(match.frames), 1) + " s"},
         {"Rates", "poses " + per_second(match.poses) + ", cameras " + per_second(match.frames)},
     };
-    if (!options.events.empty()) facts.push_back({"Events", options.events});
+    if (match.kills) facts.push_back({"Events", options.events.empty() ? options.trace : options.events});
     if (!options.judge.empty()) facts.push_back({"Cameras", options.judge});
     if (!options.tracks()) return facts;
     facts.push_back(
@@ -157,8 +157,7 @@ Result<void> evaluate(const EvaluateOptions& options) {
         !writable)
         return writable;
     ProgressLine line;
-    line.show("reading " + options.trace, 0, 0);
-    const auto match = read_match(options);
+    const auto match = read_match(options, line);
     if (!match) return tl::unexpected(match.error());
     line.show("reading " + options.map, 0, 0);
     const auto map = open_map(options.freespace, options.map);
@@ -189,9 +188,11 @@ void add_evaluate(CLI::App& root, Run& run) {
     command->add_option("--map", options->map, "The source map: a file, or archive.pk3:maps/name.bsp")
         ->required();
     command
-        ->add_option("--trace", options->trace, "The recorded match, CSV or CSV.gz, or a recording's folder")
+        ->add_option("--trace", options->trace,
+                     "The recorded match, CSV or .mvd, perhaps .gz, or a recording's folder")
         ->required();
-    command->add_option("--events", options->events, "The match's events, CSV or CSV.gz: kills in view");
+    command->add_option("--events", options->events,
+                        "The match's events, CSV or CSV.gz: kills in view; default: those that TRACE has");
     command->add_option("--config", options->config,
                         "Configuration that has the profile; default: those that ship");
     command->add_option("--profile", options->profile, "The tracker's profile")->capture_default_str();

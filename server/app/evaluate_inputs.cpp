@@ -9,19 +9,17 @@
 
 namespace camdir::app {
 
-Result<Match> read_match(const EvaluateOptions& options) {
-    auto trace = read_trace(options.trace);
-    if (!trace) return tl::unexpected(trace.error());
+Result<Match> read_match(const EvaluateOptions& options, ProgressLine& line) {
+    auto recorded = read_match(options.trace, line);
+    if (!recorded) return tl::unexpected(recorded.error());
     Match match;
-    if (!options.events.empty()) {
-        auto kills = evaluation::read_kills(options.events, *trace);
-        if (!kills) return tl::unexpected(kills.error());
-        match.kills = std::move(*kills);
-    }
-    auto frames = options.output_hz == 0.0 ? Result<evaluation::Trace>(*trace)
-                                           : evaluation::resample(*trace, options.output_hz);
+    auto kills = evaluation::kills_of(*recorded, options.events);
+    if (!kills) return tl::unexpected(kills.error());
+    match.kills = std::move(*kills);
+    auto frames = options.output_hz == 0.0 ? Result<evaluation::Trace>(recorded->trace)
+                                           : evaluation::resample(recorded->trace, options.output_hz);
     if (!frames) return fail(options.trace + ": " + frames.error().message);
-    match.poses = std::move(*trace);
+    match.poses = std::move(recorded->trace);
     match.frames = std::move(*frames);
     return match;
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/progress.hpp"
 #include "base/error.hpp"
 #include "evaluation/kills.hpp"
 #include "evaluation/trace.hpp"
@@ -38,11 +39,11 @@ struct EvaluateOptions {
 };
 
 struct Match {
-    evaluation::Trace poses;   // as recorded
-    evaluation::Trace frames;  // the instants of the cameras
-    std::optional<std::vector<evaluation::Kill>> kills;
+    evaluation::Trace poses;                             // as recorded
+    evaluation::Trace frames;                            // the instants of the cameras
+    std::optional<std::vector<evaluation::Kill>> kills;  // of options.events, or what the trace's file has
 };
-[[nodiscard]] Result<Match> read_match(const EvaluateOptions& options);
+[[nodiscard]] Result<Match> read_match(const EvaluateOptions& options, ProgressLine& line);
 
 struct SourceMap {
     scene::Scene scene;

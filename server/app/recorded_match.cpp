@@ -1,5 +1,6 @@
 #include "app/recorded_match.hpp"
 
+#include <iostream>
 #include <map>
 #include <optional>
 
@@ -98,8 +99,18 @@ Result<evaluation::Trace> trace_of_recording(const std::filesystem::path& folder
     return assembly.finish(folder.string());
 }
 
-Result<evaluation::Trace> read_trace(const std::filesystem::path& path) {
-    return std::filesystem::is_directory(path) ? trace_of_recording(path) : evaluation::read_trace(path);
+Result<evaluation::RecordedMatch> read_match(const std::filesystem::path& path, ProgressLine& line) {
+    line.show("reading " + path.string(), 0, 0);
+    if (std::filesystem::is_directory(path)) {
+        auto trace = trace_of_recording(path);
+        if (!trace) return tl::unexpected(trace.error());
+        return evaluation::RecordedMatch{std::move(*trace), {}, {}};
+    }
+    auto match = evaluation::read_match(path);
+    if (!match || match->warning.empty()) return match;
+    line.clear();
+    std::cerr << "camera-director: warning: " << match->warning << '\n';
+    return match;
 }
 
 }  // namespace camdir::app

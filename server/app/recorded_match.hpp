@@ -1,10 +1,11 @@
-// A director's recording as the match that `evaluate` and `direct` read.
+// The match that `evaluate` and `direct` read: a file's, or a director's recording.
 #pragma once
 
 #include <filesystem>
 
+#include "app/progress.hpp"
 #include "base/error.hpp"
-#include "evaluation/trace.hpp"
+#include "evaluation/match.hpp"
 
 namespace camdir::app {
 
@@ -12,7 +13,9 @@ namespace camdir::app {
 // are left out. Recordings do not say how high eyes are: the trace has a standing player's height.
 [[nodiscard]] Result<evaluation::Trace> trace_of_recording(const std::filesystem::path& folder);
 
-// Of a table (evaluation::read_trace) or of a recording's folder.
-[[nodiscard]] Result<evaluation::Trace> read_trace(const std::filesystem::path& path);
+// Of a file (evaluation::read_match) or of a recording's folder, which has no events. A warning of what could
+// not be read is printed, after `line` is cleared.
+[[nodiscard]] Result<evaluation::RecordedMatch> read_match(const std::filesystem::path& path,
+                                                           ProgressLine& line);
 
 }  // namespace camdir::app

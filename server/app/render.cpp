@@ -189,8 +189,9 @@ std::function<std::string(const std::string&)> checked(Parse parse) {
 }
 
 void add_track_options(CLI::App& command, RenderOptions& options) {
-    auto* trace = command.add_option("--trace", options.tracks.trace,
-                                     "Draw the players' tracks of this recorded match, CSV or CSV.gz");
+    auto* trace =
+        command.add_option("--trace", options.tracks.trace,
+                           "Draw the players' tracks of this recorded match, CSV or .mvd, perhaps .gz");
     command
         .add_option("--cameras", options.tracks.cameras, "Draw the cameras that `evaluate --cameras` wrote")
         ->needs(trace);

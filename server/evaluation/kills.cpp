@@ -4,11 +4,9 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include "base/file.hpp"
 #include "evaluation/csv.hpp"
-#include "evaluation/events.hpp"
 #include "evaluation/picture.hpp"
 #include "scene/scene.hpp"
 
@@ -22,6 +20,12 @@ enum KillField { kill_time, kill_kind, kill_killer, kill_victim };
 constexpr TextColumn kill_columns[] = {
     {"t_ms", "t_ms"}, {"event", "kind"}, {"player", "actor"}, {"other", "subject"}};
 
+std::optional<Kill> kill_between(std::int64_t time, std::optional<std::uint32_t> killer,
+                                 std::optional<std::uint32_t> victim) {
+    if (!killer || !victim || *killer == *victim) return std::nullopt;
+    return Kill{time, *killer, *victim};
+}
+
 // Nothing when the row is no kill of one player by another.
 Result<std::optional<Kill>> kill_of(std::span<const std::string_view> row, const Trace& trace) {
     const auto time = time_in(row[kill_time]);
@@ -31,8 +35,7 @@ Result<std::optional<Kill>> kill_of(std::span<const std::string_view> row, const
     if (!killer) return tl::unexpected(killer.error());
     const auto victim = player_in(row[kill_victim], kill_columns[kill_victim].name, trace);
     if (!victim) return tl::unexpected(victim.error());
-    if (!*killer || !*victim || *killer == *victim) return {};
-    return Kill{*time, **killer, **victim};
+    return kill_between(*time, *killer, *victim);
 }
 
 // The frames from 0.25 s before the kill to the kill; none when the trace does not hold all of that time.
@@ -97,6 +100,18 @@ Result<std::vector<Kill>> read_kills(const std::filesystem::path& path, const Tr
     const auto bytes = read_file(path);
     if (!bytes) return tl::unexpected(bytes.error());
     return parse_kills(*bytes, path.string(), trace);
+}
+
+Result<std::optional<std::vector<Kill>>> kills_of(const RecordedMatch& match,
+                                                  const std::filesystem::path& events) {
+    if (!events.empty()) return read_kills(events, match.trace);
+    if (!match.events) return std::optional<std::vector<Kill>>();
+    std::vector<Kill> kills;
+    for (const TraceEvent& event : *match.events) {
+        if (event.kind != "kill") continue;
+        if (const auto kill = kill_between(event.time, event.actor, event.subject)) kills.push_back(*kill);
+    }
+    return std::optional(std::move(kills));
 }
 
 double kill_in_view(const oracle::Oracle& oracle, double metres_per_unit, const Trace& trace,

@@ -4,11 +4,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "evaluation/camera_path.hpp"
+#include "evaluation/match.hpp"
 #include "oracle/oracle.hpp"
 
 namespace camdir::evaluation {
@@ -30,6 +32,11 @@ struct Kill {
 // The same from bytes in memory; `name` stands for the path in errors.
 [[nodiscard]] Result<std::vector<Kill>> parse_kills(std::span<const std::byte> bytes, const std::string& name,
                                                     const Trace& trace);
+
+// The kills of one player by another in the file `events`, or, where that is empty, among the match's own
+// events; nothing when it has none.
+[[nodiscard]] Result<std::optional<std::vector<Kill>>> kills_of(const RecordedMatch& match,
+                                                                const std::filesystem::path& events);
 
 // Metrics::kill_in_view: per cent of the kills that the killer's camera showed, which is that in every frame
 // from 0.25 s before the kill to the kill the victim's eye or the centre of their box is somewhere in the

@@ -5,8 +5,8 @@
 #include <limits>
 #include <map>
 
-#include "base/file.hpp"
 #include "evaluation/csv.hpp"
+#include "evaluation/match.hpp"
 
 namespace camdir::evaluation {
 namespace {
@@ -170,9 +170,9 @@ Result<Trace> parse_trace(std::span<const std::byte> bytes, const std::string& n
 }
 
 Result<Trace> read_trace(const std::filesystem::path& path) {
-    const auto bytes = read_file(path);
-    if (!bytes) return tl::unexpected(bytes.error());
-    return parse_trace(*bytes, path.string());
+    auto match = read_match(path);
+    if (!match) return tl::unexpected(match.error());
+    return std::move(match->trace);
 }
 
 }  // namespace camdir::evaluation

@@ -55,12 +55,12 @@ inline constexpr std::uint32_t absent = 0xffffffffU;
 // Reads a trace in Quake units and axes, CSV or CSV.gz, with at least the columns t_ms, player, x, y, z,
 // pitch, yaw, roll, vx, vy, vz, viewheight, team, teleport_bit, alive in any order: degrees, positive pitch
 // looks down, eye = (x, y, z + viewheight), teleport_bit toggles at every respawn and teleport. Rows are
-// ordered by t_ms. Errors name the file, the line, the column and what was expected. Memory: at most five
-// times the text's size; read_csv states how far compressed text may expand. Thread-safe.
-[[nodiscard]] Result<Trace> read_trace(const std::filesystem::path& path);
-
-// The same from bytes in memory; `name` stands for the path in errors.
+// ordered by t_ms. Errors name the file (`name`), the line, the column and what was expected. Memory: at most
+// five times the text's size; read_csv states how far compressed text may expand. Thread-safe.
 [[nodiscard]] Result<Trace> parse_trace(std::span<const std::byte> bytes, const std::string& name);
+
+// The trace of a recorded match in any of the formats of read_match().
+[[nodiscard]] Result<Trace> read_trace(const std::filesystem::path& path);
 
 // Quake's view angles, degrees, need not be normalised.
 [[nodiscard]] Eigen::Quaterniond quake_orientation(double pitch, double yaw, double roll);

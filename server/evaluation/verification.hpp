@@ -34,7 +34,7 @@ struct VerificationParameters {
     std::uint64_t seed = 1;
 };
 
-enum class Fault { surface_inside, centre_in_solid, centre_unreachable };
+enum class BallFault { surface_inside, centre_in_solid, centre_unreachable };
 inline constexpr std::array<const char*, 3> fault_names = {"surface_inside", "centre_in_solid",
                                                            "centre_unreachable"};
 
@@ -47,8 +47,8 @@ struct UnsafeBall {
 struct BallCounts {
     std::uint64_t tested = 0;
     std::uint64_t skipped = 0;                           // radius <= 0: they claim no free space
-    std::array<std::uint64_t, 3> unsafe{};               // by Fault; a ball counts under its first one
-    std::array<std::optional<UnsafeBall>, 3> deepest{};  // by Fault; of equals the one drawn first
+    std::array<std::uint64_t, 3> unsafe{};               // by BallFault; a ball counts under its first one
+    std::array<std::optional<UnsafeBall>, 3> deepest{};  // by BallFault; of equals the one drawn first
 
     [[nodiscard]] std::uint64_t unsafe_count() const { return unsafe[0] + unsafe[1] + unsafe[2]; }
 };

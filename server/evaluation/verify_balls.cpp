@@ -66,7 +66,7 @@ std::vector<Edge> edges_of(const freespace::Freespace& freespace) {
     return edges;
 }
 
-void count_fault(Fault fault, const UnsafeBall& ball, BallCounts& counts) {
+void count_fault(BallFault fault, const UnsafeBall& ball, BallCounts& counts) {
     const auto kind = static_cast<std::size_t>(fault);
     ++counts.unsafe[kind];
     if (!counts.deepest[kind] || ball.excess > counts.deepest[kind]->excess) counts.deepest[kind] = ball;
@@ -122,11 +122,12 @@ class BallTest {
         ++counts.tested;
         const double clearance = job_.oracle.clearance(ball.centre, ball.radius);
         if (job_.oracle.in_solid(ball.centre))
-            count_fault(Fault::centre_in_solid, {ball.centre, ball.radius, -clearance}, counts);
+            count_fault(BallFault::centre_in_solid, {ball.centre, ball.radius, -clearance}, counts);
         else if (clearance < ball.radius - job_.tolerance)
-            count_fault(Fault::surface_inside, {ball.centre, ball.radius, ball.radius - clearance}, counts);
+            count_fault(BallFault::surface_inside, {ball.centre, ball.radius, ball.radius - clearance},
+                        counts);
         else if (!job_.reachability.reachable(ball.centre))
-            count_fault(Fault::centre_unreachable, {ball.centre, ball.radius, 0.0}, counts);
+            count_fault(BallFault::centre_unreachable, {ball.centre, ball.radius, 0.0}, counts);
     }
 
     const VerificationJob& job_;

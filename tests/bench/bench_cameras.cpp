@@ -47,17 +47,18 @@ std::vector<std::string> files_of(const std::string& match) {
 struct Match {
     freespace::Freespace freespace;
     scene::Scene scene;
-    evaluation::Trace poses;   // as recorded
+    evaluation::RecordedMatch recorded;
     evaluation::Trace frames;  // the instants of the cameras
     std::optional<std::vector<evaluation::Kill>> kills;
 
     Match(const std::vector<std::string>& files, double output_hz)
         : freespace(value_of(freespace::Freespace::open(files[0]))),
           scene(value_of(maps::load_source(freespace, files[1]))),
-          poses(value_of(evaluation::read_trace(files[2]))),
-          frames(output_hz == 0.0 ? poses : value_of(evaluation::resample(poses, output_hz))) {
+          recorded(value_of(evaluation::read_match(files[2]))),
+          frames(output_hz == 0.0 ? recorded.trace
+                                  : value_of(evaluation::resample(recorded.trace, output_hz))),
+          kills(value_of(evaluation::kills_of(recorded, files[3]))) {
         if (scene.triangles.empty()) throw std::runtime_error(files[1] + ": has no triangles");
-        if (!files[3].empty()) kills = value_of(evaluation::read_kills(files[3], poses));
     }
 };
 
@@ -123,11 +124,11 @@ class MatchBench {
     }
 
     void add_own(const std::string& name, const camera::Profile& profile, double look_ahead) {
-        contenders_.push_back(
-            {name, [this, profile, look_ahead] {
-                 return value_of(evaluation::record(match_.freespace, profile, match_.poses, match_.frames,
-                                                    look_ahead, [](std::uint64_t, std::uint64_t) {}, {}));
-             }});
+        contenders_.push_back({name, [this, profile, look_ahead] {
+                                   return value_of(evaluation::record(
+                                       match_.freespace, profile, match_.recorded.trace, match_.frames,
+                                       look_ahead, [](std::uint64_t, std::uint64_t) {}, {}));
+                               }});
     }
 
     [[nodiscard]] Row judged(const Contender& contender) const {

@@ -151,7 +151,7 @@ int main(int argc, char** argv) {
                  "hand-over");
     app.add_option("map", options.stage.map, "MAP.vfs")->required();
     app.add_option("source", options.stage.source, "The map that it was baked from")->required();
-    app.add_option("trace", options.stage.trace, "Recorded match that is replayed, CSV or CSV.gz")
+    app.add_option("trace", options.stage.trace, "Recorded match that is replayed, CSV or .mvd, perhaps .gz")
         ->required();
     app.add_option("--bin", options.stage.programs, "Folder of the programs")->capture_default_str();
     app.add_option("--delay", options.stage.delay_s, "Spectator delay, s")->capture_default_str();

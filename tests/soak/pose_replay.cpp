@@ -70,7 +70,7 @@ int main(int argc, char** argv) {
     using namespace camdir;
     soak::Options options;
     CLI::App app("Plays a recorded match as any number of live ones, over and over.", "pose-replay");
-    app.add_option("trace", options.trace, "Trace, CSV or CSV.gz")->required();
+    app.add_option("trace", options.trace, "The recorded match, CSV or .mvd, perhaps .gz")->required();
     app.add_option("--map-name", options.load.map_name, "The map's name in the director's configuration")
         ->required();
     app.add_option("--copies", options.copies, "Matches")->check(CLI::Range(1, 4096))->capture_default_str();

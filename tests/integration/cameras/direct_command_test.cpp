@@ -6,6 +6,7 @@
 
 #include "hall_match.hpp"
 #include "support/child_process.hpp"
+#include "support/demo_writer.hpp"
 
 namespace camdir {
 namespace {
@@ -90,6 +91,44 @@ TEST_F(DirectCommand, TakesItsRulesFromTheConfiguration) {
     EXPECT_EQ(direct({"--config", config, "--json", file}), 1);
     EXPECT_THAT(errors_,
                 HasSubstr("director.json: /moments/kill/worth: -1: expected a number from 0 to 1000"));
+}
+
+// The hall's match as a demo of the game, whose events are in it.
+TEST_F(DirectCommand, TakesTheEventsOfADemo) {
+    using test::DemoMessages;
+    test::DemoWriter demo;
+    const auto pose = [](double x, double y, double yaw) {
+        return DemoMessages::Pose{.origin = {x, y, 3.4 - 22.0}, .angles = {0, yaw, 0}};
+    };
+    demo.to_everyone(0, DemoMessages()
+                            .begin_level({{test::fte, 0x8000}})
+                            .models({"progs/player.mdl"})
+                            .user_info(0, R"(\name\walker)")
+                            .user_info(1, R"(\name\killer)"));
+    for (int t = 0; t <= 4000; t += 16) {
+        const double angle = 1e-3 * t;
+        DemoMessages frame(true);
+        frame.player(0, pose(2.5 * std::sin(angle), -2.5 * std::cos(angle), 0)).player(1, pose(0, 0, 0));
+        if (t == 3008) frame.print(1, "walker rides killer's rocket\n");
+        demo.to_everyone(16, frame);
+    }
+    const std::string trace = folder_ / "match.mvd";
+    ASSERT_TRUE(write_file(trace, demo.bytes()));
+    const std::string file = folder_ / "figures.json";
+    const std::vector<std::string> command = {CAMERA_DIRECTOR, "direct", vfs_,     "--map", map_,
+                                              "--json",        file,     "--trace"};
+    const auto run = [&](const std::string& match) {
+        std::vector<std::string> whole = command;
+        whole.push_back(match);
+        test::ChildProcess process(whole);
+        const int code = process.wait();
+        errors_ = process.errors();
+        return code;
+    };
+    ASSERT_EQ(run(trace), 0) << errors_;
+    EXPECT_EQ(json::parse(written(file)).at("kills"), 1);
+    EXPECT_EQ(run(trace_), 1);
+    EXPECT_THAT(errors_, HasSubstr("trace.csv: holds no events; name them with --events"));
 }
 
 TEST_F(DirectCommand, RefusesEventsOfAnotherMatchAndLeavesWhatWasThere) {

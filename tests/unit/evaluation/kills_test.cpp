@@ -54,6 +54,24 @@ TEST(Kills, OfNobodyAndOfOneselfAreLeftOut) {
     EXPECT_TRUE(kills->empty());
 }
 
+TEST(Kills, AreTheMatchsOwnWhereNoFileIsNamed) {
+    RecordedMatch match;
+    match.trace.players = {0, 1};
+    EXPECT_FALSE(kills_of(match, "").value());
+    match.events = {{1, "kill", 0, 1, "rl"},
+                    {2, "death", {}, 1, "fall"},
+                    {3, "kill", 1, 1, "rl"},
+                    {4, "kill", {}, 1, "rl"},
+                    {5, "damage", 0, 1, "9"}};
+    const auto kills = kills_of(match, "").value();
+    ASSERT_TRUE(kills);
+    ASSERT_EQ(kills->size(), 1U);
+    EXPECT_EQ(kills->front().time, 1);
+    EXPECT_EQ(kills->front().killer, 0U);
+    EXPECT_EQ(kills->front().victim, 1U);
+    EXPECT_FALSE(kills_of(match, "missing.csv"));
+}
+
 TEST(Kills, ErrorsNameTheLineAndTheReason) {
     const auto error_of = [](const std::string& text) {
         const auto kills = parse(text);

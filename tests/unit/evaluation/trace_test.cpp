@@ -2,17 +2,18 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <zlib.h>
 
 #include <numbers>
 #include <random>
 
 #include "evaluation/lines.hpp"
+#include "gzip.hpp"
 #include "support/shared_files.hpp"
 
 namespace camdir::evaluation {
 namespace {
 
+using test::gzip;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -26,20 +27,6 @@ Result<Trace> parse(const std::string& text) {
 std::string error_of(const std::string& text) {
     const auto trace = parse(text);
     return trace ? "no error" : trace.error().message;
-}
-
-std::string gzip(const std::string& text) {
-    std::string packed(compressBound(text.size()) + 64, '\0');
-    z_stream stream{};
-    EXPECT_EQ(deflateInit2(&stream, 9, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY), Z_OK);
-    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));
-    stream.avail_in = static_cast<uInt>(text.size());
-    stream.next_out = reinterpret_cast<Bytef*>(packed.data());
-    stream.avail_out = static_cast<uInt>(packed.size());
-    EXPECT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
-    packed.resize(stream.total_out);
-    deflateEnd(&stream);
-    return packed;
 }
 
 TEST(Trace, ReadsAPose) {

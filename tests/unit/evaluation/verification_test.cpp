@@ -73,9 +73,9 @@ class VerificationTest : public testing::Test {
     oracle::Oracle oracle_{scene_};
 };
 
-constexpr auto inside = static_cast<std::size_t>(Fault::surface_inside);
-constexpr auto in_solid = static_cast<std::size_t>(Fault::centre_in_solid);
-constexpr auto unreachable = static_cast<std::size_t>(Fault::centre_unreachable);
+constexpr auto inside = static_cast<std::size_t>(BallFault::surface_inside);
+constexpr auto in_solid = static_cast<std::size_t>(BallFault::centre_in_solid);
+constexpr auto unreachable = static_cast<std::size_t>(BallFault::centre_unreachable);
 
 TEST_F(VerificationTest, SafeRepresentationPasses) {
     const Verification result = run(contents_with({0, 0, middle}, 100.0F, 64.0F));
