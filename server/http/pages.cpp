@@ -54,11 +54,14 @@ Content live(const Sources& sources, std::string_view /*below*/) {
 Content model(const Sources& sources, std::string_view below) {
     using live::ModelKind;
     using live::Models;
-    const std::size_t slash = below.rfind('/');
+    const auto not_found =
+        plain(Status::not_found, "expected /map/NAME/obstacles.glb or /map/NAME/mesh.glb\n");
+    if (below.empty()) return not_found;
+    below.remove_prefix(1);
+    const std::size_t slash = std::min(below.rfind('/'), below.size());
     const std::string_view file = below.substr(std::min(slash + 1, below.size()));
-    const auto map = recording::percent_decoded(slash == 0 ? "" : below.substr(1, slash - 1));
-    if (!map || (file != "obstacles.glb" && file != "mesh.glb"))
-        return plain(Status::not_found, "expected /map/NAME/obstacles.glb or /map/NAME/mesh.glb\n");
+    const auto map = recording::percent_decoded(below.substr(0, slash));
+    if (!map || (file != "obstacles.glb" && file != "mesh.glb")) return not_found;
     const auto answer = sources.model(*map, file == "mesh.glb" ? ModelKind::mesh : ModelKind::obstacles);
     if (answer.model)
         // Shares the model's memory.
@@ -84,11 +87,22 @@ Content broadcast(const Sources& sources, std::string_view below) {
     return {Status::ok, resource->type, share(resource->content), content.cache_control, resource->tag};
 }
 
+Content hand_over(const Sources& sources, std::string_view /*below*/) {
+    const HandOver done = sources.hand_over();
+    const std::string count = std::to_string(done.led - done.kept) + " of " + std::to_string(done.led) +
+                              " matches that this director led";
+    if (done.kept == 0) return plain(Status::ok, "handed over: " + count + "\n");
+    return plain(Status::conflict, "handed over: " + count +
+                                       "; for the others no standby has cameras: start one with the same "
+                                       "maps, or wait until it has loaded them\n");
+}
+
 constexpr Page pages[] = {
-    {"/-/healthy", false, false, true, true, health},  {"/-/ready", false, false, true, true, readiness},
-    {"/metrics", false, false, false, false, metrics}, {"/status", false, false, false, false, status},
-    {"/live", false, false, false, false, live},       {"/live", true, false, false, true, nullptr},
-    {"/map", true, false, false, false, model},        {"/hand-over", false, true, false, false, hand_over}};
+    {"/-/healthy", false, false, true, true, health},     {"/-/ready", false, false, true, true, readiness},
+    {"/metrics", false, false, false, false, metrics},    {"/status", false, false, false, false, status},
+    {"/broadcast", true, false, false, false, broadcast}, {"/live", false, false, false, false, live},
+    {"/live", true, false, false, true, nullptr},         {"/map", true, false, false, false, model},
+    {"/hand-over", false, true, false, false, hand_over}};
 
 // Everything that the pages use is the server's own.
 constexpr const char* content_security_policy =

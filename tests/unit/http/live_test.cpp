@@ -8,6 +8,7 @@
 #include <boost/beast/websocket/stream.hpp>
 #include <nlohmann/json.hpp>
 
+#include "base/file.hpp"
 #include "support/eventually.hpp"
 #include "support/temporary_folder.hpp"
 #include "test_server.hpp"
