@@ -164,7 +164,7 @@ TEST(ManyMatches, EveryFrameIsProcessedOrCounted) {
 }
 
 // Holds the cameras of one match until it is released.
-class HoldingPublisher final : public MemoryPublisher {
+class BlockedPublisher final : public MemoryPublisher {
   public:
     using MemoryPublisher::publish;
     void publish(const std::string& match_id, const CameraFrame& frame) override {
@@ -179,7 +179,7 @@ class HoldingPublisher final : public MemoryPublisher {
 };
 
 TEST(ManyMatches, AMatchThatTakesLongDelaysNoOther) {
-    HoldingPublisher publisher;
+    BlockedPublisher publisher;
     MapLibrary maps;
     maps.set_ready("square", Stage::square());
     Director director(Stage::default_config(), maps, publisher);
