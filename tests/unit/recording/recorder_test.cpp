@@ -5,9 +5,11 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <thread>
 #include <vector>
 
 #include "recording/reader.hpp"
@@ -50,7 +52,7 @@ void show_frame(Recorder& recorder, const std::string& match_id, std::uint32_t n
     for (std::uint32_t id = 0; id < 4; ++id)
         poses.poses.push_back(
             {id, Vec3f(1.0F, static_cast<float>(number), 2.0F), Quatf::Identity(), Vec3f::Zero(), 1, {}});
-    recorder.show(match_id, poses, CameraFrame{1, number, number, poses.frame_time, 0, {}});
+    recorder.show(match_id, poses, CameraFrame{1, number, number, poses.frame_time, 0, {}, {}});
 }
 
 // Oldest first.
@@ -197,9 +199,11 @@ TEST(Recorder, TheBoundRemovesEndedRecordingsAndThenFragments) {
 TEST(Recorder, TheBoundCountsWhatEarlierRunsLeft) {
     const test::TemporaryFolder folder;
     for (const char* id : {"old", "new"}) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));  // which the order of their names tells
         Recorder recorder(options(folder / "r"));
         recorder.show(info(id));
     }
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
     fs::create_directory(folder / "r" / "not a recording");
     RecorderOptions bounded = options(folder / "r");
     bounded.max_bytes = 60'000;  // a recording of one fragment takes 6 blocks

@@ -57,7 +57,7 @@ Message random_message(std::mt19937& random) {
         case 4:
             return Withdrawal{std::to_string(random() % 3)};
         default: {
-            director::CameraFrame frame{1, static_cast<std::uint32_t>(random()), 3, 4, 5, {}};
+            director::CameraFrame frame{1, static_cast<std::uint32_t>(random()), 3, 4, 5, {}, {}};
             frame.cameras.push_back({8, 1, vector(), direction(), 1.5F, number(), 3});
             return frame;
         }
