@@ -40,7 +40,8 @@ director::PoseFrame poses_of(const std::vector<std::uint32_t>& players, std::uin
 
 director::CameraFrame cameras_of(const director::PoseFrame& poses, std::uint32_t target,
                                  std::uint32_t flags) {
-    director::CameraFrame frame{poses.epoch, 0, poses.frame_number, poses.frame_time, poses.source_time, {}};
+    director::CameraFrame frame{poses.epoch, 0, poses.frame_number, poses.frame_time, poses.source_time,
+                                {},          {}};
     director::ShotCamera camera;
     camera.camera_id = 5;
     camera.target = target;

@@ -95,7 +95,7 @@ std::string frame_of(int players) {
         pose.flags = 1;
         poses.poses.push_back(pose);
     }
-    director::CameraFrame cameras{1, 9, 7, poses.frame_time, poses.source_time, {}};
+    director::CameraFrame cameras{1, 9, 7, poses.frame_time, poses.source_time, {}, {}};
     director::ShotCamera camera;
     camera.camera_id = 4'000'000'000U;
     camera.target = 10;
