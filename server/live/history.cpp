@@ -22,6 +22,13 @@ CutReason reason_of(const ShotState* before, const ShotState& now, const directo
     return CutReason::viewpoint;
 }
 
+// Of an automatic shot; told again once a second, so of a cut only with a new target.
+std::optional<director::Reason> moment_of(const director::CameraFrame& cameras, const Cut& cut) {
+    if (cut.reason != CutReason::begin && cut.reason != CutReason::target) return std::nullopt;
+    const auto found = std::ranges::find(cameras.reasons, cut.camera_id, &director::ShotReason::camera_id);
+    return found == cameras.reasons.end() ? std::nullopt : std::optional(found->reason);
+}
+
 }  // namespace
 
 std::vector<Cut> History::add(const director::PoseFrame& poses, const director::CameraFrame& cameras) {
@@ -32,8 +39,10 @@ std::vector<Cut> History::add(const director::PoseFrame& poses, const director::
                             camera.flags & ~std::uint32_t{camera::cut}};
         const auto found = before.find(camera.camera_id);
         const ShotState* last = found == before.end() ? nullptr : &found->second;
-        if ((camera.flags & camera::cut) != 0 || last == nullptr)
+        if ((camera.flags & camera::cut) != 0 || last == nullptr) {
             cuts.push_back({now.frame_time, now.camera_id, now.target, reason_of(last, now, poses)});
+            cuts.back().moment = moment_of(cameras, cuts.back());
+        }
         if (last == nullptr || last->target != now.target || last->flags != now.flags) add_state(now);
         shots_.emplace(now.camera_id, now);
         if (last != nullptr) before.erase(found);

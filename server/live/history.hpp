@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "director/messages.hpp"
@@ -33,6 +34,7 @@ struct Cut {
     std::uint32_t camera_id = 0;
     std::uint32_t target = director::no_player;
     CutReason reason = CutReason::viewpoint;
+    std::optional<director::Reason> moment = {};  // why an automatic shot begins
 };
 
 // Of one epoch of a match. One thread at a time.

@@ -75,8 +75,8 @@ SharedMessage history_note(const History& history, const SlotOf& slot_of) {
 }
 
 SharedMessage event_note(const director::MatchEvent& event, const SlotOf& slot_of) {
-    static constexpr std::array kinds = {"kill",   "flag taken", "flag captured", "objective",
-                                         "damage", "award",      "item",          "round"};
+    static constexpr std::array kinds = {"kill",  "flag taken", "flag captured", "objective", "damage",
+                                         "award", "item",       "round",         "spawn",     "weapon"};
     json content = {{"kind", "event"},
                     {"t", milliseconds(event.frame_time)},
                     {"event", event.kind},
@@ -90,11 +90,16 @@ SharedMessage event_note(const director::MatchEvent& event, const SlotOf& slot_o
 
 SharedMessage cut_note(const Cut& cut, const SlotOf& slot_of) {
     static constexpr std::array reasons = {"begin", "target", "moved", "hidden", "viewpoint"};
-    return note({{"kind", "cut"},
-                 {"t", milliseconds(cut.frame_time)},
-                 {"camera", cut.camera_id},
-                 {"target", slot_json(cut.target, slot_of)},
-                 {"reason", reasons[static_cast<std::size_t>(cut.reason)]}});
+    json content = {{"kind", "cut"},
+                    {"t", milliseconds(cut.frame_time)},
+                    {"camera", cut.camera_id},
+                    {"target", slot_json(cut.target, slot_of)},
+                    {"reason", reasons[static_cast<std::size_t>(cut.reason)]}};
+    if (cut.moment)
+        content["moment"] = {{"rule", cut.moment->why},
+                             {"actor", slot_json(cut.moment->actor, slot_of)},
+                             {"subject", slot_json(cut.moment->subject, slot_of)}};
+    return note(content);
 }
 
 SharedMessage dropped_note(std::size_t frames) {

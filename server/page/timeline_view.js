@@ -12,8 +12,11 @@ const reasons = {
     viewpoint: 'a better viewpoint',
 };
 
-export function reasonText(cut) {
-    return reasons[cut.reason] ?? cut.reason;
+// Of an automatic shot the moment that it shows, and of whom.
+export function reasonText(cut, nameOf) {
+    if (!cut.moment) return reasons[cut.reason] ?? cut.reason;
+    const players = [cut.moment.actor, cut.moment.subject].filter(slot => slot !== null).map(nameOf);
+    return players.length > 0 ? `${cut.moment.rule}, ${players.join(' and ')}` : cut.moment.rule;
 }
 
 // What a shot does: visible, hidden, searching, held, absent.

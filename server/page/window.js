@@ -296,7 +296,7 @@ function showCaption() {
     name.style.borderColor = colour;
     const mode = modeOf(shot.flags);
     const cut = timeline.cutBefore(camera, clock.t);
-    const fresh = cut && clock.t - cut.t < 2500 ? ` · cut: ${reasonText(cut)}` : '';
+    const fresh = cut && clock.t - cut.t < 2500 ? ` · cut: ${reasonText(cut, slot => look(slot).name)}` : '';
     state.dataset.mode = mode;
     setText('caption-state', modeText[mode] + fresh);
 }
@@ -467,7 +467,7 @@ function describeTime(t) {
         .sort((a, b) => Math.abs(a.t - t) - Math.abs(b.t - t))[0];
     const parts = [`−${seconds(buffer.last - t)}`];
     if (span) parts.push(`${look(span.target).name}: ${modeText[modeOf(span.flags)].toLowerCase()}`);
-    if (near) parts.push(`cut: ${reasonText(near)}`);
+    if (near) parts.push(`cut: ${reasonText(near, slot => look(slot).name)}`);
     return parts.join(' · ');
 }
 

@@ -115,6 +115,26 @@ TEST(Broadcast, SaysWhyAShotWasCut) {
     EXPECT_EQ(reasons, (std::vector<std::string>{"begin", "target", "moved", "hidden", "viewpoint"}));
 }
 
+TEST(Broadcast, NamesTheMomentForWhichAnAutomaticShotWasCut) {
+    Broadcast broadcast(10);
+    broadcast.show(match_info("cup", {{1, "", "", 0}, {2, "", "", 0}}));
+    const auto watcher = viewer();
+    ASSERT_EQ(broadcast.join("cup", watcher), Broadcast::Admission::joined);
+    const auto show = [&](std::uint32_t number, std::uint32_t target, std::uint32_t pose_flags) {
+        director::CameraFrame cameras = cameras_of(poses_of({1, 2}, number, pose_flags), target, 1 | 2);
+        cameras.reasons = {{cameras.cameras.at(0).camera_id, {1, 2, "duel"}}};
+        broadcast.show("cup", poses_of({1, 2}, number, pose_flags), cameras);
+    };
+    show(1, 1, 1);  // begins
+    show(2, 2, 1);  // another player
+    show(3, 2, 3);  // respawned: told again, but not why it cuts
+    std::vector<json> moments;
+    for (const json& note : take_all(*watcher))
+        if (note.is_object() && note["kind"] == "cut") moments.push_back(note.value("moment", json()));
+    const json duel = {{"rule", "duel"}, {"actor", 0}, {"subject", 1}};
+    EXPECT_EQ(moments, (std::vector<json>{duel, duel, json()}));
+}
+
 TEST(Broadcast, KeepsThePlayersSlots) {
     Broadcast broadcast(10);
     broadcast.show(match_info("cup", {{7, "Ann", "", 0}, {8, "Bob", "", 0}}));

@@ -1,0 +1,18 @@
+import assert from 'node:assert/strict';
+import {test} from 'node:test';
+import {reasonText} from '../../../server/page/timeline_view.js';
+
+const names = ['Ann', 'Bob'];
+const nameOf = slot => names[slot];
+
+test('a cut of a pinned shot says what the camera did', () => {
+    assert.equal(reasonText({reason: 'hidden'}, nameOf), 'the player was out of sight');
+    assert.equal(reasonText({reason: 'something new'}, nameOf), 'something new');
+});
+
+test('a cut of an automatic shot says which moment it shows, and of whom', () => {
+    const cut = (actor, subject) => ({reason: 'target', moment: {rule: 'duel', actor, subject}});
+    assert.equal(reasonText(cut(0, 1), nameOf), 'duel, Ann and Bob');
+    assert.equal(reasonText(cut(1, null), nameOf), 'duel, Bob');
+    assert.equal(reasonText(cut(null, null), nameOf), 'duel');
+});
