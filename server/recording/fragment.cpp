@@ -109,6 +109,16 @@ constexpr std::size_t max_poses = 2 * director::max_players;
 
 enum class RecordKind : std::uint64_t { info = 1, poses, event, request, withdrawal, cameras };
 
+void put_reasons(ByteSink& sink, const std::vector<director::ShotReason>& reasons) {
+    sink.varint(reasons.size());
+    for (const auto& [camera_id, reason] : reasons) {
+        sink.varint(camera_id);
+        sink.varint(reason.actor);
+        sink.varint(reason.subject);
+        sink.text(reason.why);
+    }
+}
+
 void put_event(ByteSink& sink, const director::MatchEvent& event) {
     sink.varint(event.epoch);
     sink.difference(event.frame_time);
@@ -197,7 +207,19 @@ class RecordDecoder {
             camera.clearance = real(values[8]);
             valid = valid && is_unit(camera.orientation);
         }
+        if (source.ok() && source.left() > 0) frame.reasons = reasons(source);  // since minor version 1
         return frame;
+    }
+
+    static std::vector<director::ShotReason> reasons(ByteSource& source) {
+        std::vector<director::ShotReason> reasons(source.count(4, director::max_cameras));
+        for (auto& [camera_id, reason] : reasons) {
+            camera_id = source.number();
+            reason.actor = source.number();
+            reason.subject = source.number();
+            reason.why = source.text();
+        }
+        return reasons;
     }
 
     static director::MatchEvent event(ByteSource& source, bool& valid) {
@@ -289,6 +311,7 @@ void RecordEncoder::add(std::int64_t time, const Message& message) {
             body.varint(camera.flags);
             put(body, floats_of(camera), cameras_[camera.camera_id]);
         }
+        put_reasons(body, frame->reasons);
     }
     sink_.varint(message.index() + 1);  // RecordKind has the variant's order
     sink_.varint(body.bytes.size());

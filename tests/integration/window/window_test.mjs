@@ -104,7 +104,7 @@ const tests = {
         const paused = await time();
         await browser.press('j');
         await browser.until(`cameraDirector.state().time < ${paused}`);
-        assert.equal(await browser.evaluate('document.getElementById("state").dataset.state'), 'paused');
+        await browser.until('document.getElementById("state").dataset.state === "paused"');
         await browser.press('l');
         await browser.until(`cameraDirector.state().live && cameraDirector.state().time > ${paused}`);
         await browser.press(' ', {code: 'Space'});
@@ -164,7 +164,7 @@ const tests = {
         await browser.send('Page.reload');
         await browser.until('window.cameraDirector?.state().mesh');
         assert.match(await browser.until('cameraDirector.state().note'), /names no source/);
-        assert.equal(await browser.evaluate('document.getElementById("map-note").hidden'), false);
+        await browser.until('!document.getElementById("map-note").hidden');
     },
     async 'where a token is wanted the page asks for it, and takes it from the link'(browser, stage) {
         await stop(stage.director);
@@ -178,7 +178,7 @@ const tests = {
         await browser.open('about:blank');
         await browser.open(`${url}/#token=${encodeURIComponent(secret)}&match=walk-0`);
         await browser.until(`window.cameraDirector?.state().cameras.length === ${players}`);
-        assert.equal(await browser.evaluate('location.hash'), '#match=walk-0');
+        await browser.until('location.hash === "#match=walk-0"');
     },
     async 'the page complained of nothing, and is small'(browser) {
         const complaints = browser.complaints().filter(text => !/ERR_CONNECTION|401|404|WebSocket/.test(text));

@@ -4,6 +4,7 @@
 #include <limits>
 #include <random>
 
+#include "recording/bytes.hpp"
 #include "recording/reader.hpp"
 #include "recording/writer.hpp"
 #include "support/temporary_folder.hpp"
@@ -59,6 +60,7 @@ Message random_message(std::mt19937& random) {
         default: {
             director::CameraFrame frame{1, static_cast<std::uint32_t>(random()), 3, 4, 5, {}, {}};
             frame.cameras.push_back({8, 1, vector(), direction(), 1.5F, number(), 3});
+            if (random() % 2 == 0) frame.reasons.push_back({8, {1, director::no_player, "duel"}});
             return frame;
         }
     }
@@ -108,6 +110,42 @@ TEST(Recording, FullFollowsFromTheFullAndDeltaBefore) {
             state.apply(record.message);
         EXPECT_EQ(bytes_of(state.messages()), bytes_of(reader->full(n + 1)->messages())) << n;
     }
+}
+
+TEST(Recording, CamerasKeepTheReasonsOfTheirCuts) {
+    director::CameraFrame frame{1, 2, 3, 4, 5, {}, {}};
+    frame.reasons = {{8, {1, 2, "duel"}}, {9, {director::no_player, director::no_player, ""}}};
+    RecordEncoder encoder(0);
+    encoder.add(0, frame);
+    const auto records = decode_records({ResourceKind::delta, 0, 0, encoder.content()}, "r");
+    ASSERT_TRUE(records) << records.error().message;
+    const auto& reasons = std::get<director::CameraFrame>(records->at(0).message).reasons;
+    ASSERT_EQ(reasons.size(), 2U);
+    EXPECT_EQ(reasons[0].camera_id, 8U);
+    EXPECT_EQ(reasons[0].reason.actor, 1U);
+    EXPECT_EQ(reasons[0].reason.subject, 2U);
+    EXPECT_EQ(reasons[0].reason.why, "duel");
+    EXPECT_EQ(reasons[1].reason.actor, director::no_player);
+}
+
+TEST(Recording, CamerasOfTheFirstVersionHaveNoReasons) {
+    ByteSink body;
+    body.difference(0);
+    for (const int number : {1, 2, 3})
+        body.varint(static_cast<std::uint64_t>(number));
+    body.difference(4);
+    body.difference(5);
+    body.varint(0);  // cameras; the record ends here
+    ByteSink content;
+    content.varint(6);
+    content.varint(body.bytes.size());
+    content.append(body.bytes);
+    const auto records = decode_records({ResourceKind::delta, 0, 0, content.bytes}, "r");
+    ASSERT_TRUE(records) << records.error().message;
+    const auto& frame = std::get<director::CameraFrame>(records->at(0).message);
+    EXPECT_EQ(frame.pose_number, 3U);
+    EXPECT_EQ(frame.source_time, 5);
+    EXPECT_TRUE(frame.reasons.empty());
 }
 
 TEST(Recording, ATimeIsFoundInItsFragment) {
