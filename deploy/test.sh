@@ -86,7 +86,7 @@ if $all; then
     run_tests asan --tests-regex '^soak\.chaos$'
 else
     # What reads the bytes of others, and what has threads or queries that must be fast.
-    rooms=(base camera config dds director evaluation freespace http scene sdk soak)
+    rooms=(base camera config dds director evaluation freespace http live recording scene sdk soak)
     cmake --build --preset asan --target fuzz-tests "${rooms[@]/#/unit-}"
     run_tests asan --tests-regex "^(fuzz|unit\.($(IFS='|'; echo "${rooms[*]}")))\."
 fi
