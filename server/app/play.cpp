@@ -4,6 +4,7 @@
 
 #include "app/commands.hpp"
 #include "http/server.hpp"
+#include "http/status.hpp"
 #include "recording/playback.hpp"
 #include "service/viewers.hpp"
 
@@ -45,6 +46,14 @@ http::Sources sources_of(const recording::Broadcast& broadcast) {
     sources.hand_over = [] { return http::HandOver{}; };
     sources.broadcast = [&broadcast](std::string_view path) {
         return service::viewers_resource(broadcast, path);
+    };
+    // A recording is fetched. Nothing of it is streamed live.
+    sources.live = [] { return http::live_page({}); };
+    sources.model = [](const std::string& /*map*/, live::ModelKind /*kind*/) {
+        return live::Models::Answer();
+    };
+    sources.join = [](const std::string& /*match_id*/, const std::shared_ptr<live::Viewer>& /*viewer*/) {
+        return live::Broadcast::Admission::no_match;
     };
     return sources;
 }

@@ -31,9 +31,7 @@ Result<void> sync_folder(const std::filesystem::path& folder) {
     return {};
 }
 
-Result<void> make_folder(const std::filesystem::path& folder) {
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
+Result<void> created(const std::filesystem::path& folder, const std::error_code& error) {
     if (error) return fail(folder.string() + ": cannot create: " + error.message());
     return {};
 }
@@ -45,7 +43,9 @@ Result<Writer> Writer::create(const std::filesystem::path& folder, const Start& 
     std::error_code ignored;
     if (std::filesystem::exists(folder / "start", ignored))
         return fail(folder.string() + ": has a recording already, expected a new folder");
-    Result<void> done = make_folder(folder);
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    Result<void> done = created(folder, error);
     if (done) done = write_file(folder / "start", encode_start(start));
     if (!done) std::filesystem::remove(folder, ignored);  // when it is empty
     if (!done) return tl::unexpected(done.error());
@@ -101,7 +101,11 @@ Result<void> Writer::write_fragment() {
         encode(Resource{ResourceKind::delta, next_, pending_->begin_time, pending_->records.content()});
 
     const std::filesystem::path folder = folder_ / std::to_string(next_);
-    Result<void> done = make_folder(folder);
+    // Only in the recording's folder: whoever removed that removed `start` too, without which nothing is
+    // read.
+    std::error_code error;
+    std::filesystem::create_directory(folder, error);
+    Result<void> done = created(folder, error);
     if (done) done = write_file(folder / "full", full_bytes);
     if (done) done = write_file(folder / "delta", delta_bytes);
     if (done) done = sync_folder(folder);

@@ -52,8 +52,6 @@ class PlayTest : public testing::Test {
 
     const Folder folder_;
     std::optional<ChildProcess> process_;
-
-  private:
     int port_ = 0;
 };
 
@@ -105,6 +103,18 @@ TEST_F(PlayTest, BeginsWhereItIsTold) {
     const std::string below = "/broadcast/cup%2F1/" + sync()["recording"].get<std::string>();
     EXPECT_EQ(get(below + "/0/full").status, 200) << "seeking is by the number";
     EXPECT_EQ(get(below + "/5/full").status, 404) << "not yet";
+}
+
+TEST_F(PlayTest, HasNothingToWatchLive) {
+    play({});
+    EXPECT_EQ(json::parse(get("/live").body)["matches"], json::array());
+    EXPECT_EQ(get("/map/hall/mesh.glb").status, 404);
+    const std::string upgrade =
+        "Connection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\n"
+        "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n";
+    EXPECT_EQ(HttpClient(port_).ask("GET", "/live/cup%2F1", upgrade).status, 404);
+    for (const char* path : {"/-/healthy", "/-/ready", "/metrics", "/status"})
+        EXPECT_EQ(get(path).status, 200) << path;
 }
 
 TEST_F(PlayTest, RefusesWhatIsNoRecordingAndNoAddress) {

@@ -362,5 +362,16 @@ TEST(Recording, AnErrorOfTheDiskEndsTheRecording) {
     EXPECT_EQ(writer->append({5'000'000'000, Withdrawal{"x"}}).error().message, failed.error().message);
 }
 
+TEST(Recording, ARemovedFolderDoesNotComeBackWithoutItsStart) {
+    const test::TemporaryFolder folder;
+    auto writer = Writer::create(folder / "r", start_of_match(), unlimited);
+    ASSERT_TRUE(writer->append({0, Withdrawal{"x"}}));
+    std::filesystem::remove_all(folder / "r");
+    const auto failed = writer->finish();
+    ASSERT_FALSE(failed);
+    EXPECT_THAT(failed.error().message, HasSubstr("/r/0: cannot create"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "r"));
+}
+
 }  // namespace
 }  // namespace camdir::recording
