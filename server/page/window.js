@@ -36,7 +36,7 @@ let listed = [];          // of /live
 let camera = null;        // the id of the camera that is shown
 let view = 'camera';
 let pictures = !calm.matches;
-let connection = {state: 'connecting'};
+let connection = {state: 'none'};  // to no match yet
 let sample = null;
 let mapShown = null;      // its name
 let obstaclesNote = '';
@@ -240,6 +240,7 @@ function shownCamera() {
 function stateText() {
     if (connection.state === 'waiting')
         return ['waiting', `Reconnecting in ${Math.max(1, Math.round((connection.retryAt - now()) / 1000))} s`];
+    if (connection.state === 'none') return ['empty', 'No match'];
     if (connection.state === 'connecting') return ['connecting', match ? 'Reconnecting' : 'Connecting'];
     if (match?.ended) return ['ended', 'Ended'];
     const entry = listed.find(other => other.match_id === match?.match_id);
