@@ -205,13 +205,7 @@ void Service::reload() {
     }
     for (const std::string& pointer : config::changes_for_restart(config_, *loaded))
         spdlog::warn("{}: {} takes effect after a restart", file_.string(), pointer);
-    config_.dds.shard = std::move(loaded->dds.shard);
-    config_.dds.shards = std::move(loaded->dds.shards);
-    config_.maps = std::move(loaded->maps);
-    config_.profiles = std::move(loaded->profiles);
-    config_.overrides = std::move(loaded->overrides);
-    config_.matches = std::move(loaded->matches);
-    config_.log.level = std::move(loaded->log.level);
+    config::reload(config_, std::move(*loaded));
     set_log_level(config_.log);
     director_.reconfigure(config_);
     gateway_->reshard(config_.dds);
