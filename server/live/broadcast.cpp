@@ -21,7 +21,8 @@ class Broadcast::Channel {
     void show(const director::PoseFrame& poses, const director::CameraFrame& cameras);
     void show(const director::MatchEvent& event);
     void end();
-    void join(const std::shared_ptr<Viewer>& viewer);
+    // False: it has ended.
+    [[nodiscard]] bool join(const std::shared_ptr<Viewer>& viewer);
     [[nodiscard]] std::size_t viewers();
 
   private:
@@ -42,7 +43,7 @@ class Broadcast::Channel {
     director::MatchInfo match_;
     Roster roster_;
     std::map<std::uint32_t, std::uint8_t> slots_;  // by player
-    std::optional<History> history_;               // of this epoch
+    std::optional<History> history_;               // of this epoch; none before and after the match
     director::PoseFrame poses_;                    // the last ones
     director::CameraFrame cameras_;
     std::vector<std::shared_ptr<Viewer>> viewers_;
@@ -87,14 +88,17 @@ void Broadcast::Channel::end() {
     for (const auto& viewer : viewers_)
         viewer->finish();
     viewers_.clear();
+    history_.reset();
 }
 
-void Broadcast::Channel::join(const std::shared_ptr<Viewer>& viewer) {
+bool Broadcast::Channel::join(const std::shared_ptr<Viewer>& viewer) {
     const std::lock_guard lock(mutex_);
+    if (!history_) return false;
     viewer->put(match_note(match_, roster_));
     viewer->put(history_note(*history_, slots()));
     if (!poses_.poses.empty()) viewer->put(encode_last());
     viewers_.push_back(viewer);
+    return true;
 }
 
 std::size_t Broadcast::Channel::viewers() {
@@ -171,10 +175,11 @@ void Broadcast::Channel::put(const SharedMessage& message) {
 Broadcast::~Broadcast() = default;
 
 void Broadcast::show(const director::MatchInfo& shown) {
-    const std::unique_lock lock(mutex_);
-    auto& channel = channels_[shown.match_id];
-    if (!channel) channel = std::make_shared<Channel>(*this);
+    if (const auto channel = find(shown.match_id)) return channel->show(shown);
+    const auto channel = std::make_shared<Channel>(*this);
     channel->show(shown);  // before anybody can find it, it knows its match
+    const std::unique_lock lock(mutex_);
+    channels_.emplace(shown.match_id, channel);
 }
 
 void Broadcast::show(const std::string& match_id, const director::PoseFrame& poses,
@@ -201,9 +206,7 @@ void Broadcast::end(const std::string& match_id) {
 Broadcast::Admission Broadcast::join(const std::string& match_id, const std::shared_ptr<Viewer>& viewer) {
     if (statistics().viewers >= max_viewers_) return Admission::full;
     const auto channel = find(match_id);
-    if (!channel) return Admission::no_match;
-    channel->join(viewer);
-    return Admission::joined;
+    return channel && channel->join(viewer) ? Admission::joined : Admission::no_match;
 }
 
 BroadcastStatistics Broadcast::statistics() const {

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "live/history.hpp"
@@ -234,6 +236,31 @@ TEST(Broadcast, EndsWithTheMatch) {
     EXPECT_EQ(take_all(*watcher).back(), json::parse(R"({"kind":"end"})"));
     EXPECT_TRUE(watcher->finished());
     EXPECT_EQ(broadcast.join("cup", viewer()), Broadcast::Admission::no_match);
+}
+
+// A viewer who has joined is told of the end, however the match's thread and theirs meet.
+TEST(Broadcast, ViewersWhoJoinWhileTheMatchEndsAreNotLeftWaiting) {
+    Broadcast broadcast(1'000'000);
+    std::atomic<bool> stop{false};
+    std::thread match([&] {
+        while (!stop) {
+            broadcast.show(match_info("cup", {}));
+            broadcast.end("cup");
+        }
+    });
+    std::vector<std::shared_ptr<Viewer>> joined;
+    for (int i = 0; i < 20'000; ++i) {
+        const auto late = viewer();
+        if (broadcast.join("cup", late) == Broadcast::Admission::joined) joined.push_back(late);
+    }
+    stop = true;
+    match.join();
+    for (const auto& late : joined) {
+        const auto told = take_all(*late);
+        ASSERT_FALSE(told.empty());
+        EXPECT_EQ(told.back()["kind"], "end");
+        EXPECT_TRUE(late->finished());
+    }
 }
 
 }  // namespace
