@@ -350,4 +350,15 @@ std::vector<std::string> changes_for_restart(const Config& running, const Config
     return changed;
 }
 
+void reload(Config& running, Config loaded) {
+    running.dds.shard = std::move(loaded.dds.shard);
+    running.dds.shards = std::move(loaded.dds.shards);
+    running.maps = std::move(loaded.maps);
+    running.profiles = std::move(loaded.profiles);
+    running.overrides = std::move(loaded.overrides);
+    running.matches = loaded.matches;
+    running.direction = std::move(loaded.direction);
+    running.log.level = std::move(loaded.log.level);
+}
+
 }  // namespace camdir::config

@@ -140,6 +140,9 @@ struct Config {
 // JSON pointers of the keys that differ and need a restart to take effect.
 [[nodiscard]] std::vector<std::string> changes_for_restart(const Config& running, const Config& loaded);
 
+// Takes over what takes effect without a restart. Other threads may read the rest meanwhile.
+void reload(Config& running, Config loaded);
+
 // JSON Schema (2020-12) of the file.
 [[nodiscard]] std::string schema();
 

@@ -17,7 +17,7 @@ enum class Bound : std::size_t {
     header_size,
     body_size,
     slow_pages,       // Limits::slow_pages
-    viewers,          // the broadcast's
+    viewers,          // the relay's
     viewer_messages,  // a viewer sent something
     count
 };

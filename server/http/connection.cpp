@@ -119,12 +119,12 @@ void Connection::watch(const Page& page, Request request) {
     const auto live = std::make_shared<LiveConnection>(site_);
     const std::string_view name = below(page, request).substr(1);
     switch (site_.sources.join(recording::percent_decoded(name).value_or(""), live->viewer())) {
-        case live::Broadcast::Admission::no_match:
+        case live::Relay::Admission::no_match:
             return send(refusal(request, Status::not_found));
-        case live::Broadcast::Admission::full:
+        case live::Relay::Admission::full:
             site_.bounds_reached->add(Bound::viewers);
             return send(refusal(request, Status::service_unavailable));
-        case live::Broadcast::Admission::joined:
+        case live::Relay::Admission::joined:
             break;
     }
     site_.connections.leave(place_);

@@ -164,7 +164,7 @@ std::vector<MetricFamily> map_metrics(const std::map<std::string, director::MapE
     return {loaded, bake};
 }
 
-std::vector<MetricFamily> live_metrics(const live::BroadcastStatistics& statistics) {
+std::vector<MetricFamily> live_metrics(const live::RelayStatistics& statistics) {
     MetricFamily viewers = gauge_family("live_viewers", "Browsers that watch a match.");
     MetricFamily frames = counter_family("live_frames_total", "Frames put before viewers.");
     MetricFamily dropped =

@@ -10,7 +10,7 @@
 #include "director/map_library.hpp"
 #include "director/view.hpp"
 #include "http/bounds.hpp"
-#include "live/broadcast.hpp"
+#include "live/relay.hpp"
 
 namespace camdir::http {
 
@@ -28,7 +28,7 @@ void add_metric(prometheus::MetricFamily& family, double value,
     const std::vector<director::MatchStatistics>& matches);
 [[nodiscard]] std::vector<prometheus::MetricFamily> map_metrics(
     const std::map<std::string, director::MapEntry>& maps);
-[[nodiscard]] std::vector<prometheus::MetricFamily> live_metrics(const live::BroadcastStatistics& statistics);
+[[nodiscard]] std::vector<prometheus::MetricFamily> live_metrics(const live::RelayStatistics& statistics);
 [[nodiscard]] prometheus::MetricFamily bound_metrics(const BoundCounters& bounds_reached);
 
 }  // namespace camdir::http

@@ -15,8 +15,8 @@
 
 #include "base/error.hpp"
 #include "config/config.hpp"
-#include "live/broadcast.hpp"
 #include "live/models.hpp"
+#include "live/relay.hpp"
 
 namespace camdir::http {
 
@@ -46,8 +46,8 @@ struct Sources {
     std::function<std::string()> live;  // JSON: what there is to watch
     std::function<live::Models::Answer(const std::string& map, live::ModelKind kind)> model;
     // Waits for nothing. Messages reach the viewer from then on.
-    std::function<live::Broadcast::Admission(const std::string& match_id,
-                                             const std::shared_ptr<live::Viewer>& viewer)>
+    std::function<live::Relay::Admission(const std::string& match_id,
+                                         const std::shared_ptr<live::Viewer>& viewer)>
         join;
 };
 

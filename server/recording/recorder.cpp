@@ -38,7 +38,11 @@ void Recorder::show(const director::MatchInfo& shown) {
 
 void Recorder::show(const std::string& match_id, const director::PoseFrame& poses,
                     const director::CameraFrame& cameras) {
-    put_bounded(match_id, {poses, cameras}, max_waiting);
+    std::vector<Message> messages;  // a list in braces would copy each twice
+    messages.reserve(2);
+    messages.emplace_back(poses);
+    messages.emplace_back(cameras);
+    put_bounded(match_id, std::move(messages), max_waiting);
 }
 
 void Recorder::show(const std::string& match_id, const director::MatchEvent& event) {

@@ -65,7 +65,7 @@ Service::Service(std::filesystem::path file, std::string shard, config::Config c
       gateway_(std::move(gateway)),
       recorder_(make_recorder(config_.recording)),
       models_(maps_),
-      broadcast_(static_cast<std::size_t>(config_.http.viewers)),
+      relay_(static_cast<std::size_t>(config_.http.viewers)),
       director_(config_, maps_, *gateway_, audiences()),
       loader_(map_sink()) {
     for (const config::Map& map : config_.maps)
@@ -75,7 +75,7 @@ Service::Service(std::filesystem::path file, std::string shard, config::Config c
 director::Audiences Service::audiences() {
     director::Audiences audiences;
     if (recorder_) audiences.push_back(recorder_.get());
-    if (config_.http.enabled) audiences.push_back(&broadcast_);
+    if (config_.http.enabled) audiences.push_back(&relay_);
     return audiences;
 }
 
@@ -116,7 +116,7 @@ http::Sources Service::sources() {
              {http::match_metrics(director_.match_statistics(most)), http::map_metrics(maps_.entries()),
               wire_metrics(gateway_->counters(), gateway_->identity()),
               recording_metrics(recorder_ ? recorder_->statistics() : recording::RecorderStatistics{}),
-              http::live_metrics(broadcast_.statistics())})
+              http::live_metrics(relay_.statistics())})
             families.insert(families.end(), more.begin(), more.end());
         return families;
     };
@@ -132,7 +132,7 @@ http::Sources Service::sources() {
     sources.live = [this] { return http::live_page(director_.view(view_timeout)); };
     sources.model = [this](const std::string& map, live::ModelKind kind) { return models_.find(map, kind); };
     sources.join = [this](const std::string& match_id, const std::shared_ptr<live::Viewer>& viewer) {
-        return broadcast_.join(match_id, viewer);
+        return relay_.join(match_id, viewer);
     };
     return sources;
 }
@@ -205,13 +205,7 @@ void Service::reload() {
     }
     for (const std::string& pointer : config::changes_for_restart(config_, *loaded))
         spdlog::warn("{}: {} takes effect after a restart", file_.string(), pointer);
-    config_.dds.shard = std::move(loaded->dds.shard);
-    config_.dds.shards = std::move(loaded->dds.shards);
-    config_.maps = std::move(loaded->maps);
-    config_.profiles = std::move(loaded->profiles);
-    config_.overrides = std::move(loaded->overrides);
-    config_.matches = std::move(loaded->matches);
-    config_.log.level = std::move(loaded->log.level);
+    config::reload(config_, std::move(*loaded));
     set_log_level(config_.log);
     director_.reconfigure(config_);
     gateway_->reshard(config_.dds);

@@ -11,8 +11,8 @@
 #include "dds/gateway.hpp"
 #include "director/director.hpp"
 #include "http/server.hpp"
-#include "live/broadcast.hpp"
 #include "live/models.hpp"
+#include "live/relay.hpp"
 #include "maps/loader.hpp"
 #include "recording/recorder.hpp"
 #include "service/signals.hpp"
@@ -53,7 +53,7 @@ class Service {
     director::MapLibrary maps_;
     std::unique_ptr<recording::Recorder> recorder_;  // null when off
     live::Models models_;
-    live::Broadcast broadcast_;
+    live::Relay relay_;
     director::Director director_;
     maps::Loader loader_;
     std::unique_ptr<http::Server> http_;  // null when off

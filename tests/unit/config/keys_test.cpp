@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -50,6 +51,10 @@ bool is_number(const Key& key) {
     return type_name(key) == "integer" || type_name(key) == "number";
 }
 
+json number_of(const Key& key, double number) {
+    return type_name(key) == "integer" ? json(static_cast<std::int64_t>(number)) : json(number);
+}
+
 TEST(EveryKey, AcceptsItsDefault) {
     for (const Key& key : keys()) {
         if (key.required) continue;
@@ -62,17 +67,14 @@ TEST(EveryKey, AcceptsItsBoundsAndNothingBeyond) {
     for (const Key& key : keys()) {
         if (!is_number(key)) continue;
         const bool whole = type_name(key) == "integer";
-        const auto value = [&](double number) {
-            return whole ? json(static_cast<std::int64_t>(number)) : json(number);
-        };
         ASSERT_LE(key.minimum, key.maximum);
         for (const double inside : {key.minimum, key.maximum}) {
-            const auto config = parsed(key, value(inside));
+            const auto config = parsed(key, number_of(key, inside));
             EXPECT_TRUE(config) << config.error().message;
         }
         const double step = whole ? 1.0 : 0.001 * (1.0 + std::abs(key.maximum));
-        expect_refused(key, value(key.minimum - step));
-        expect_refused(key, value(key.maximum + step));
+        expect_refused(key, number_of(key, key.minimum - step));
+        expect_refused(key, number_of(key, key.maximum + step));
     }
 }
 
@@ -116,6 +118,28 @@ TEST(EveryKey, RefusesStringsThatAreTooLongOrNotAChoice) {
         ASSERT_FALSE(config);
         EXPECT_THAT(config.error().message, HasSubstr(pointer_of(key) + ": \"xxx"));
         if (key.minimum > 0) expect_refused(key, "");
+    }
+}
+
+Target target_in(const Key& key, Config& config) {
+    if (key.section == "/maps/*") return {&config, &config.maps.at(0)};
+    if (key.section == "/profiles/*") return {&config, nullptr, &config.profiles.at("p")};
+    if (key.section == "/moments/*")
+        return {&config, nullptr, nullptr,
+                &*std::ranges::find(config.direction.moments, "kill", &direction::Rule::name)};
+    return {&config};
+}
+
+TEST(EveryKey, TakesEffectInAReloadIfItSaysSo) {
+    for (const Key& key : keys()) {
+        if (!is_number(key)) continue;
+        auto running = parsed(key, number_of(key, key.minimum));
+        auto loaded = parsed(key, number_of(key, key.maximum));
+        ASSERT_TRUE(running && loaded) << pointer_of(key);
+        const json before = value_of(key, target_in(key, *running));
+        const json after = value_of(key, target_in(key, *loaded));
+        reload(*running, *loaded);
+        EXPECT_EQ(value_of(key, target_in(key, *running)), key.reloads ? after : before) << pointer_of(key);
     }
 }
 

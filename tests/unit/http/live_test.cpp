@@ -86,7 +86,7 @@ director::PoseFrame poses(std::uint32_t number) {
 
 TEST(Live, SendsAMatchToItsViewers) {
     TestServer server;
-    server.broadcast.show(match("the cup/1"));
+    server.relay.show(match("the cup/1"));
     WatchingClient client(server.port(), "/live/the%20cup%2F1",
                           {{"Sec-WebSocket-Protocol", "camera-director.v1"}});
     ASSERT_TRUE(client.watches());
@@ -94,11 +94,11 @@ TEST(Live, SendsAMatchToItsViewers) {
     EXPECT_EQ(nlohmann::json::parse(client.read()).at("match_id"), "the cup/1");
     EXPECT_EQ(nlohmann::json::parse(client.read()).at("kind"), "history");
     EXPECT_FALSE(client.binary());
-    server.broadcast.show("the cup/1", poses(1), {});
+    server.relay.show("the cup/1", poses(1), {});
     EXPECT_EQ(nlohmann::json::parse(client.read()).at("kind"), "match") << "a player who is not listed";
     EXPECT_EQ(client.read().size(), 28U + 14U);
     EXPECT_TRUE(client.binary());
-    server.broadcast.end("the cup/1");
+    server.relay.end("the cup/1");
     EXPECT_EQ(nlohmann::json::parse(client.read()).at("kind"), "end");
     EXPECT_EQ(client.read(), "");
     EXPECT_EQ(client.close_code(), 1000);
@@ -106,7 +106,7 @@ TEST(Live, SendsAMatchToItsViewers) {
 
 TEST(Live, AnswersWhatIsNoStream) {
     TestServer server;
-    server.broadcast.show(match("cup"));
+    server.relay.show(match("cup"));
     EXPECT_EQ(server.status_of("GET", "/live"), 200);
     EXPECT_EQ(server.status_of("GET", "/live/cup"), 426);
     EXPECT_EQ(server.status_of("POST", "/live/cup"), 405);
@@ -116,7 +116,7 @@ TEST(Live, AnswersWhatIsNoStream) {
 
 TEST(Live, IsNotForThePagesOfOtherSites) {
     TestServer server;
-    server.broadcast.show(match("cup"));
+    server.relay.show(match("cup"));
     for (const std::string origin : {"http://localhost", "https://LOCALHOST"})
         EXPECT_EQ(handshake_status(server, "/live/cup", "Origin: " + origin + "\r\n"), 101) << origin;
     for (const std::string origin : {"http://evil.example", "null", "", "http://localhost:81", "localhost"})
@@ -125,7 +125,7 @@ TEST(Live, IsNotForThePagesOfOtherSites) {
 
 TEST(Live, ClosesAViewerWhoSaysSomething) {
     TestServer server;
-    server.broadcast.show(match("cup"));
+    server.relay.show(match("cup"));
     for (const std::size_t size : {std::size_t{1}, std::size_t{1} << 20U}) {
         WatchingClient client(server.port(), "/live/cup");
         ASSERT_TRUE(client.watches());
@@ -136,7 +136,7 @@ TEST(Live, ClosesAViewerWhoSaysSomething) {
         }
         while (!client.read().empty()) {
         }
-        EXPECT_TRUE(eventually([&] { return server.broadcast.statistics().viewers == 0; }));
+        EXPECT_TRUE(eventually([&] { return server.relay.statistics().viewers == 0; }));
     }
     EXPECT_NE(server.ask("GET", "/metrics")
                   .body.find("camera_director_http_bounds_total{bound=\"viewer_messages\"} 2\n"),
@@ -145,16 +145,16 @@ TEST(Live, ClosesAViewerWhoSaysSomething) {
 
 TEST(Live, ClosesAViewerWhoDoesNotSpeakTheProtocol) {
     TestServer server;
-    server.broadcast.show(match("cup"));
+    server.relay.show(match("cup"));
     WatchingClient client(server.port(), "/live/cup");
     client.write_raw(std::string(64, '\xff'));
-    EXPECT_TRUE(eventually([&] { return server.broadcast.statistics().viewers == 0; }));
+    EXPECT_TRUE(eventually([&] { return server.relay.statistics().viewers == 0; }));
     EXPECT_EQ(server.status_of("GET", "/-/healthy"), 200);
 }
 
 TEST(Live, HasSoManyViewersAndNoMore) {
     TestServer server;
-    server.broadcast.show(match("cup"));
+    server.relay.show(match("cup"));
     auto first = std::make_unique<WatchingClient>(server.port(), "/live/cup");
     const WatchingClient second(server.port(), "/live/cup");
     EXPECT_EQ(handshake_status(server, "/live/cup"), 503);
@@ -164,17 +164,17 @@ TEST(Live, HasSoManyViewersAndNoMore) {
 
 TEST(Live, ClosesAViewerWhoTakesNothing) {
     TestServer server({}, {.answer = std::chrono::milliseconds(500)});
-    server.broadcast.show(match("cup"));
+    server.relay.show(match("cup"));
     const WatchingClient client(server.port(), "/live/cup");
     ASSERT_TRUE(client.watches());
     // More than any buffer on the way takes; it answers no ping either.
     std::uint32_t number = 0;
     EXPECT_TRUE(eventually([&] {
         for (int i = 0; i < 1000; ++i)
-            server.broadcast.show("cup", poses(++number), {});
-        return server.broadcast.statistics().viewers == 0;
+            server.relay.show("cup", poses(++number), {});
+        return server.relay.statistics().viewers == 0;
     }));
-    EXPECT_GT(server.broadcast.statistics().dropped_frames, 0U);
+    EXPECT_GT(server.relay.statistics().dropped_frames, 0U);
 }
 
 TEST(Live, TakesTheTokenAsASubprotocol) {
@@ -185,7 +185,7 @@ TEST(Live, TakesTheTokenAsASubprotocol) {
     ASSERT_TRUE(write_file(config.token_file, std::string("se/cr+et==\n")));
     std::filesystem::permissions(config.token_file, std::filesystem::perms::owner_read);
     TestServer server(config);
-    server.broadcast.show(match("cup"));
+    server.relay.show(match("cup"));
     const auto status = [&](const std::string& protocols) {
         return handshake_status(server, "/live/cup", "Sec-WebSocket-Protocol: " + protocols + "\r\n");
     };

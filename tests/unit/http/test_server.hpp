@@ -59,7 +59,7 @@ class TestServer {
     }
     std::atomic<std::size_t> status_size{2};  // in bytes
 
-    live::Broadcast broadcast{2};  // two viewers at most
+    live::Relay relay{2};  // two viewers at most
 
   private:
     Sources sources() {
@@ -97,7 +97,7 @@ class TestServer {
             return {std::make_shared<live::Model>(live::Model{mesh ? "mesh" : "obstacles", "1"}), {}, ""};
         };
         sources.join = [this](const std::string& match_id, const std::shared_ptr<live::Viewer>& viewer) {
-            return broadcast.join(match_id, viewer);
+            return relay.join(match_id, viewer);
         };
         return sources;
     }

@@ -1,4 +1,4 @@
-#include "live/broadcast.hpp"
+#include "live/relay.hpp"
 
 #include <algorithm>
 #include <mutex>
@@ -13,15 +13,16 @@
 namespace camdir::live {
 
 // One match. Its messages come from one thread at a time, its viewers from others.
-class Broadcast::Channel {
+class Relay::Channel {
   public:
-    explicit Channel(Broadcast& broadcast) : broadcast_(broadcast) {}
+    explicit Channel(Relay& relay) : relay_(relay) {}
 
     void show(const director::MatchInfo& shown);
     void show(const director::PoseFrame& poses, const director::CameraFrame& cameras);
     void show(const director::MatchEvent& event);
     void end();
-    void join(const std::shared_ptr<Viewer>& viewer);
+    // False: it has ended.
+    [[nodiscard]] bool join(const std::shared_ptr<Viewer>& viewer);
     [[nodiscard]] std::size_t viewers();
 
   private:
@@ -37,18 +38,18 @@ class Broadcast::Channel {
     [[nodiscard]] SharedMessage encode_last() const;
     void put(const SharedMessage& message);
 
-    Broadcast& broadcast_;
+    Relay& relay_;
     std::mutex mutex_;
     director::MatchInfo match_;
     Roster roster_;
     std::map<std::uint32_t, std::uint8_t> slots_;  // by player
-    std::optional<History> history_;               // of this epoch
+    std::optional<History> history_;               // of this epoch; none before and after the match
     director::PoseFrame poses_;                    // the last ones
     director::CameraFrame cameras_;
     std::vector<std::shared_ptr<Viewer>> viewers_;
 };
 
-void Broadcast::Channel::show(const director::MatchInfo& shown) {
+void Relay::Channel::show(const director::MatchInfo& shown) {
     const std::lock_guard lock(mutex_);
     if (!history_ || match_.epoch != shown.epoch) {
         history_.emplace();
@@ -60,7 +61,7 @@ void Broadcast::Channel::show(const director::MatchInfo& shown) {
     put(match_note(match_, roster_));
 }
 
-void Broadcast::Channel::show(const director::PoseFrame& poses, const director::CameraFrame& cameras) {
+void Relay::Channel::show(const director::PoseFrame& poses, const director::CameraFrame& cameras) {
     const std::lock_guard lock(mutex_);
     poses_ = poses;
     cameras_ = cameras;
@@ -74,50 +75,53 @@ void Broadcast::Channel::show(const director::PoseFrame& poses, const director::
     if (!viewers_.empty()) put(encode_last());
 }
 
-void Broadcast::Channel::show(const director::MatchEvent& event) {
+void Relay::Channel::show(const director::MatchEvent& event) {
     const std::lock_guard lock(mutex_);
     const SharedMessage note = event_note(event, slots());
     history_->keep(note);
     put(note);
 }
 
-void Broadcast::Channel::end() {
+void Relay::Channel::end() {
     const std::lock_guard lock(mutex_);
     put(end_note());
     for (const auto& viewer : viewers_)
         viewer->finish();
     viewers_.clear();
+    history_.reset();
 }
 
-void Broadcast::Channel::join(const std::shared_ptr<Viewer>& viewer) {
+bool Relay::Channel::join(const std::shared_ptr<Viewer>& viewer) {
     const std::lock_guard lock(mutex_);
+    if (!history_) return false;
     viewer->put(match_note(match_, roster_));
     viewer->put(history_note(*history_, slots()));
     if (!poses_.poses.empty()) viewer->put(encode_last());
     viewers_.push_back(viewer);
+    return true;
 }
 
-std::size_t Broadcast::Channel::viewers() {
+std::size_t Relay::Channel::viewers() {
     const std::lock_guard lock(mutex_);
     forget_left();
     return viewers_.size();
 }
 
-std::uint8_t Broadcast::Channel::slot_of(std::uint32_t player) const {
+std::uint8_t Relay::Channel::slot_of(std::uint32_t player) const {
     const auto found = slots_.find(player);
     return found == slots_.end() ? no_slot : found->second;
 }
 
 // Who has a slot keeps it, so that frames which viewers have kept stay readable; slots of players that are
 // gone are given away when there is no other.
-void Broadcast::Channel::give_slots() {
+void Relay::Channel::give_slots() {
     for (auto& [slot, place] : roster_)
         place.listed = false;
     for (const director::Player& player : match_.players)
         give_slot({player, true});
 }
 
-void Broadcast::Channel::give_slot(const Place& place) {
+void Relay::Channel::give_slot(const Place& place) {
     std::uint8_t slot = slot_of(place.player.id);
     if (slot == no_slot) {
         for (slot = 0; slot < no_slot && roster_.contains(slot);)
@@ -137,7 +141,7 @@ void Broadcast::Channel::give_slot(const Place& place) {
     roster_[slot] = place;
 }
 
-void Broadcast::Channel::add_unlisted(const director::PoseFrame& poses) {
+void Relay::Channel::add_unlisted(const director::PoseFrame& poses) {
     const std::size_t before = slots_.size();
     for (const director::PlayerPose& pose : poses.poses)
         if (slot_of(pose.player_id) == no_slot) {
@@ -148,45 +152,46 @@ void Broadcast::Channel::add_unlisted(const director::PoseFrame& poses) {
     if (slots_.size() != before) put(match_note(match_, roster_));
 }
 
-void Broadcast::Channel::forget_left() {
+void Relay::Channel::forget_left() {
     std::erase_if(viewers_, [this](const std::shared_ptr<Viewer>& viewer) {
-        if (viewer->lost()) ++broadcast_.lost_viewers_;
+        if (viewer->lost()) ++relay_.lost_viewers_;
         return viewer->lost() || viewer->left();
     });
 }
 
-SharedMessage Broadcast::Channel::encode_last() const {
+SharedMessage Relay::Channel::encode_last() const {
     return std::make_shared<Message>(
         Message{Message::Kind::frame,
                 encode_frame(poses_, cameras_, position_step(match_.metres_per_unit), slots())});
 }
 
-void Broadcast::Channel::put(const SharedMessage& message) {
+void Relay::Channel::put(const SharedMessage& message) {
     for (const auto& viewer : viewers_) {
-        broadcast_.dropped_frames_ += viewer->put(message);
-        if (message->kind == Message::Kind::frame) ++broadcast_.frames_;
+        relay_.dropped_frames_ += viewer->put(message);
+        if (message->kind == Message::Kind::frame) ++relay_.frames_;
     }
 }
 
-Broadcast::~Broadcast() = default;
+Relay::~Relay() = default;
 
-void Broadcast::show(const director::MatchInfo& shown) {
-    const std::unique_lock lock(mutex_);
-    auto& channel = channels_[shown.match_id];
-    if (!channel) channel = std::make_shared<Channel>(*this);
+void Relay::show(const director::MatchInfo& shown) {
+    if (const auto channel = find(shown.match_id)) return channel->show(shown);
+    const auto channel = std::make_shared<Channel>(*this);
     channel->show(shown);  // before anybody can find it, it knows its match
+    const std::unique_lock lock(mutex_);
+    channels_.emplace(shown.match_id, channel);
 }
 
-void Broadcast::show(const std::string& match_id, const director::PoseFrame& poses,
-                     const director::CameraFrame& cameras) {
+void Relay::show(const std::string& match_id, const director::PoseFrame& poses,
+                 const director::CameraFrame& cameras) {
     if (const auto channel = find(match_id)) channel->show(poses, cameras);
 }
 
-void Broadcast::show(const std::string& match_id, const director::MatchEvent& event) {
+void Relay::show(const std::string& match_id, const director::MatchEvent& event) {
     if (const auto channel = find(match_id)) channel->show(event);
 }
 
-void Broadcast::end(const std::string& match_id) {
+void Relay::end(const std::string& match_id) {
     std::shared_ptr<Channel> channel;
     {
         const std::unique_lock lock(mutex_);
@@ -198,23 +203,21 @@ void Broadcast::end(const std::string& match_id) {
     channel->end();
 }
 
-Broadcast::Admission Broadcast::join(const std::string& match_id, const std::shared_ptr<Viewer>& viewer) {
+Relay::Admission Relay::join(const std::string& match_id, const std::shared_ptr<Viewer>& viewer) {
     if (statistics().viewers >= max_viewers_) return Admission::full;
     const auto channel = find(match_id);
-    if (!channel) return Admission::no_match;
-    channel->join(viewer);
-    return Admission::joined;
+    return channel && channel->join(viewer) ? Admission::joined : Admission::no_match;
 }
 
-BroadcastStatistics Broadcast::statistics() const {
-    BroadcastStatistics result{0, frames_, dropped_frames_, lost_viewers_};
+RelayStatistics Relay::statistics() const {
+    RelayStatistics result{0, frames_, dropped_frames_, lost_viewers_};
     const std::shared_lock lock(mutex_);
     for (const auto& [match_id, channel] : channels_)
         result.viewers += channel->viewers();
     return result;
 }
 
-std::shared_ptr<Broadcast::Channel> Broadcast::find(const std::string& match_id) const {
+std::shared_ptr<Relay::Channel> Relay::find(const std::string& match_id) const {
     const std::shared_lock lock(mutex_);
     const auto found = channels_.find(match_id);
     return found == channels_.end() ? nullptr : found->second;

@@ -1,10 +1,12 @@
-#include "live/broadcast.hpp"
+#include "live/relay.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "live/history.hpp"
@@ -65,17 +67,17 @@ std::vector<json> take_all(Viewer& viewer) {
 
 constexpr std::size_t frame_bytes = 28 + 14 + 22;
 
-TEST(Broadcast, TellsALateJoinerTheMatchItsHistoryAndTheLastFrame) {
-    Broadcast broadcast(10);
-    broadcast.show(match_info("cup", {{7, "Ann", "medic", 2}}));
+TEST(Relay, TellsALateJoinerTheMatchItsHistoryAndTheLastFrame) {
+    Relay relay(10);
+    relay.show(match_info("cup", {{7, "Ann", "medic", 2}}));
     const auto first = poses_of({7}, 1);
-    broadcast.show("cup", first, cameras_of(first, 7, 1 | 2));
+    relay.show("cup", first, cameras_of(first, 7, 1 | 2));
     const auto second = poses_of({7}, 2);
-    broadcast.show("cup", second, cameras_of(second, 7, 4));
-    broadcast.show("cup", director::MatchEvent{1, 30'000'000, 1, 7, director::no_player, 1.0F, "MOD\xff"});
+    relay.show("cup", second, cameras_of(second, 7, 4));
+    relay.show("cup", director::MatchEvent{1, 30'000'000, 1, 7, director::no_player, 1.0F, "MOD\xff"});
 
     const auto late = viewer();
-    ASSERT_EQ(broadcast.join("cup", late), Broadcast::Admission::joined);
+    ASSERT_EQ(relay.join("cup", late), Relay::Admission::joined);
     const auto told = take_all(*late);
     ASSERT_EQ(told.size(), 3U);
     EXPECT_EQ(told[0]["kind"], "match");
@@ -93,15 +95,15 @@ TEST(Broadcast, TellsALateJoinerTheMatchItsHistoryAndTheLastFrame) {
     EXPECT_EQ(told[2], frame_bytes);
 }
 
-TEST(Broadcast, SaysWhyAShotWasCut) {
-    Broadcast broadcast(10);
-    broadcast.show(match_info("cup", {{1, "", "", 0}, {2, "", "", 0}}));
+TEST(Relay, SaysWhyAShotWasCut) {
+    Relay relay(10);
+    relay.show(match_info("cup", {{1, "", "", 0}, {2, "", "", 0}}));
     const auto watcher = viewer();
-    ASSERT_EQ(broadcast.join("cup", watcher), Broadcast::Admission::joined);
+    ASSERT_EQ(relay.join("cup", watcher), Relay::Admission::joined);
     const auto show = [&](std::uint32_t number, std::uint32_t target, std::uint32_t flags,
                           std::uint32_t pose_flags = 1) {
         const auto poses = poses_of({1, 2}, number, pose_flags);
-        broadcast.show("cup", poses, cameras_of(poses, target, flags));
+        relay.show("cup", poses, cameras_of(poses, target, flags));
     };
     show(1, 1, 1 | 2);     // begins
     show(2, 2, 1 | 2);     // another player
@@ -115,15 +117,15 @@ TEST(Broadcast, SaysWhyAShotWasCut) {
     EXPECT_EQ(reasons, (std::vector<std::string>{"begin", "target", "moved", "hidden", "viewpoint"}));
 }
 
-TEST(Broadcast, NamesTheMomentForWhichAnAutomaticShotWasCut) {
-    Broadcast broadcast(10);
-    broadcast.show(match_info("cup", {{1, "", "", 0}, {2, "", "", 0}}));
+TEST(Relay, NamesTheMomentForWhichAnAutomaticShotWasCut) {
+    Relay relay(10);
+    relay.show(match_info("cup", {{1, "", "", 0}, {2, "", "", 0}}));
     const auto watcher = viewer();
-    ASSERT_EQ(broadcast.join("cup", watcher), Broadcast::Admission::joined);
+    ASSERT_EQ(relay.join("cup", watcher), Relay::Admission::joined);
     const auto show = [&](std::uint32_t number, std::uint32_t target, std::uint32_t pose_flags) {
         director::CameraFrame cameras = cameras_of(poses_of({1, 2}, number, pose_flags), target, 1 | 2);
         cameras.reasons = {{cameras.cameras.at(0).camera_id, {1, 2, "duel"}}};
-        broadcast.show("cup", poses_of({1, 2}, number, pose_flags), cameras);
+        relay.show("cup", poses_of({1, 2}, number, pose_flags), cameras);
     };
     show(1, 1, 1);  // begins
     show(2, 2, 1);  // another player
@@ -135,14 +137,14 @@ TEST(Broadcast, NamesTheMomentForWhichAnAutomaticShotWasCut) {
     EXPECT_EQ(moments, (std::vector<json>{duel, duel, json()}));
 }
 
-TEST(Broadcast, KeepsThePlayersSlots) {
-    Broadcast broadcast(10);
-    broadcast.show(match_info("cup", {{7, "Ann", "", 0}, {8, "Bob", "", 0}}));
+TEST(Relay, KeepsThePlayersSlots) {
+    Relay relay(10);
+    relay.show(match_info("cup", {{7, "Ann", "", 0}, {8, "Bob", "", 0}}));
     const auto watcher = viewer();
-    ASSERT_EQ(broadcast.join("cup", watcher), Broadcast::Admission::joined);
+    ASSERT_EQ(relay.join("cup", watcher), Relay::Admission::joined);
     const auto poses = poses_of({8, 9}, 1);  // 9 is not listed
-    broadcast.show("cup", poses, cameras_of(poses, 8, 2));
-    broadcast.show(match_info("cup", {{8, "Bob", "", 0}, {9, "Cem", "", 0}}));
+    relay.show("cup", poses, cameras_of(poses, 8, 2));
+    relay.show(match_info("cup", {{8, "Bob", "", 0}, {9, "Cem", "", 0}}));
     json last;
     for (const json& message : take_all(*watcher))
         if (message.is_object() && message["kind"] == "match") last = message["players"];
@@ -153,12 +155,12 @@ TEST(Broadcast, KeepsThePlayersSlots) {
     EXPECT_EQ(last[2]["name"], "Cem");
 }
 
-TEST(Broadcast, GivesSlotsOfThoseWhoHaveGoneAwayWhenAllAreTaken) {
-    Broadcast broadcast(10);
+TEST(Relay, GivesSlotsOfThoseWhoHaveGoneAwayWhenAllAreTaken) {
+    Relay relay(10);
     for (std::uint32_t player = 0; player < 600; ++player)
-        broadcast.show(match_info("cup", {{player, "", "", 0}}));
+        relay.show(match_info("cup", {{player, "", "", 0}}));
     const auto watcher = viewer();
-    ASSERT_EQ(broadcast.join("cup", watcher), Broadcast::Admission::joined);
+    ASSERT_EQ(relay.join("cup", watcher), Relay::Admission::joined);
     const json players = take_all(*watcher).front()["players"];
     EXPECT_EQ(players.size(), 255U);
     EXPECT_EQ(
@@ -167,73 +169,98 @@ TEST(Broadcast, GivesSlotsOfThoseWhoHaveGoneAwayWhenAllAreTaken) {
         1);
 }
 
-TEST(Broadcast, ForgetsTheHistoryOfAnEpochThatIsOver) {
-    Broadcast broadcast(10);
-    broadcast.show(match_info("cup", {{1, "", "", 0}}));
+TEST(Relay, ForgetsTheHistoryOfAnEpochThatIsOver) {
+    Relay relay(10);
+    relay.show(match_info("cup", {{1, "", "", 0}}));
     const auto poses = poses_of({1}, 1);
-    broadcast.show("cup", poses, cameras_of(poses, 1, 3));
-    broadcast.show(match_info("cup", {{1, "", "", 0}}, 2));
+    relay.show("cup", poses, cameras_of(poses, 1, 3));
+    relay.show(match_info("cup", {{1, "", "", 0}}, 2));
     const auto late = viewer();
-    ASSERT_EQ(broadcast.join("cup", late), Broadcast::Admission::joined);
+    ASSERT_EQ(relay.join("cup", late), Relay::Admission::joined);
     const auto told = take_all(*late);
     ASSERT_EQ(told.size(), 2U) << "no frame";
     EXPECT_TRUE(told[1]["states"].empty());
     EXPECT_TRUE(told[1]["notes"].empty());
 }
 
-TEST(Broadcast, BoundsHistory) {
-    Broadcast broadcast(10);
-    broadcast.show(match_info("cup", {{1, "", "", 0}}));
+TEST(Relay, BoundsHistory) {
+    Relay relay(10);
+    relay.show(match_info("cup", {{1, "", "", 0}}));
     for (std::uint32_t number = 1; number < 5000; ++number) {
         const auto poses = poses_of({1}, number);
-        broadcast.show("cup", poses, cameras_of(poses, 1, 1 | (number % 2) << 1));
+        relay.show("cup", poses, cameras_of(poses, 1, 1 | (number % 2) << 1));
     }
     const auto late = viewer();
-    ASSERT_EQ(broadcast.join("cup", late), Broadcast::Admission::joined);
+    ASSERT_EQ(relay.join("cup", late), Relay::Admission::joined);
     const auto told = take_all(*late);
     EXPECT_EQ(told[1]["states"].size(), History::max_states);
     EXPECT_EQ(told[1]["notes"].size(), History::max_notes);
 }
 
-TEST(Broadcast, LetsInSoManyViewersAndNoMore) {
-    Broadcast broadcast(2);
-    broadcast.show(match_info("cup", {}));
+TEST(Relay, LetsInSoManyViewersAndNoMore) {
+    Relay relay(2);
+    relay.show(match_info("cup", {}));
     const auto a = viewer();
     const auto b = viewer();
     const auto c = viewer();
-    EXPECT_EQ(broadcast.join("nothing", a), Broadcast::Admission::no_match);
-    EXPECT_EQ(broadcast.join("cup", a), Broadcast::Admission::joined);
-    EXPECT_EQ(broadcast.join("cup", b), Broadcast::Admission::joined);
-    EXPECT_EQ(broadcast.join("cup", c), Broadcast::Admission::full);
+    EXPECT_EQ(relay.join("nothing", a), Relay::Admission::no_match);
+    EXPECT_EQ(relay.join("cup", a), Relay::Admission::joined);
+    EXPECT_EQ(relay.join("cup", b), Relay::Admission::joined);
+    EXPECT_EQ(relay.join("cup", c), Relay::Admission::full);
     a->leave();
-    EXPECT_EQ(broadcast.join("cup", c), Broadcast::Admission::joined);
-    EXPECT_EQ(broadcast.statistics().viewers, 2U);
+    EXPECT_EQ(relay.join("cup", c), Relay::Admission::joined);
+    EXPECT_EQ(relay.statistics().viewers, 2U);
 }
 
-TEST(Broadcast, CountsWhatSlowViewersLose) {
-    Broadcast broadcast(10);
-    broadcast.show(match_info("cup", {{1, "", "", 0}}));
+TEST(Relay, CountsWhatSlowViewersLose) {
+    Relay relay(10);
+    relay.show(match_info("cup", {{1, "", "", 0}}));
     const auto slow = std::make_shared<Viewer>([] {}, ViewerLimits{4, 10});
-    ASSERT_EQ(broadcast.join("cup", slow), Broadcast::Admission::joined);
+    ASSERT_EQ(relay.join("cup", slow), Relay::Admission::joined);
     for (std::uint32_t number = 1; number <= 10; ++number)
-        broadcast.show("cup", poses_of({1}, number), {});
-    EXPECT_EQ(broadcast.statistics().frames, 10U);
-    EXPECT_EQ(broadcast.statistics().dropped_frames, 6U);
+        relay.show("cup", poses_of({1}, number), {});
+    EXPECT_EQ(relay.statistics().frames, 10U);
+    EXPECT_EQ(relay.statistics().dropped_frames, 6U);
     for (std::uint32_t number = 0; number < 20; ++number)
-        broadcast.show("cup", director::MatchEvent{});
-    EXPECT_EQ(broadcast.statistics().viewers, 0U);
-    EXPECT_EQ(broadcast.statistics().lost_viewers, 1U);
+        relay.show("cup", director::MatchEvent{});
+    EXPECT_EQ(relay.statistics().viewers, 0U);
+    EXPECT_EQ(relay.statistics().lost_viewers, 1U);
 }
 
-TEST(Broadcast, EndsWithTheMatch) {
-    Broadcast broadcast(10);
-    broadcast.show(match_info("cup", {}));
+TEST(Relay, EndsWithTheMatch) {
+    Relay relay(10);
+    relay.show(match_info("cup", {}));
     const auto watcher = viewer();
-    ASSERT_EQ(broadcast.join("cup", watcher), Broadcast::Admission::joined);
-    broadcast.end("cup");
+    ASSERT_EQ(relay.join("cup", watcher), Relay::Admission::joined);
+    relay.end("cup");
     EXPECT_EQ(take_all(*watcher).back(), json::parse(R"({"kind":"end"})"));
     EXPECT_TRUE(watcher->finished());
-    EXPECT_EQ(broadcast.join("cup", viewer()), Broadcast::Admission::no_match);
+    EXPECT_EQ(relay.join("cup", viewer()), Relay::Admission::no_match);
+}
+
+// A viewer who has joined is told of the end, however the match's thread and theirs meet.
+TEST(Relay, ViewersWhoJoinWhileTheMatchEndsAreNotLeftWaiting) {
+    Relay relay(1'000'000);
+    std::atomic<bool> stop{false};
+    std::thread match([&] {
+        while (!stop) {
+            relay.show(match_info("cup", {}));
+            relay.end("cup");
+        }
+    });
+    std::vector<std::shared_ptr<Viewer>> joined;
+    for (int i = 0; i < 20'000; ++i) {
+        const auto late = viewer();
+        if (relay.join("cup", late) == Relay::Admission::joined) joined.push_back(late);
+    }
+    stop = true;
+    match.join();
+    for (const auto& late : joined) {
+        const auto told = take_all(*late);
+        ASSERT_FALSE(told.empty());
+        EXPECT_EQ(told.back()["kind"], "end");
+        EXPECT_TRUE(late->finished());
+    }
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 
 namespace camdir::live {
 
-struct BroadcastStatistics {
+struct RelayStatistics {
     std::size_t viewers = 0;
     std::uint64_t frames = 0;  // put before viewers
     std::uint64_t dropped_frames = 0;
@@ -20,10 +20,10 @@ struct BroadcastStatistics {
 };
 
 // Encodes each frame once for all viewers of its match, and not at all without one. Thread-safe.
-class Broadcast final : public director::Audience {
+class Relay final : public director::Audience {
   public:
-    explicit Broadcast(std::size_t max_viewers) : max_viewers_(max_viewers) {}
-    ~Broadcast() override;
+    explicit Relay(std::size_t max_viewers) : max_viewers_(max_viewers) {}
+    ~Relay() override;
 
     void show(const director::MatchInfo& shown) override;
     void show(const std::string& match_id, const director::PoseFrame& poses,
@@ -38,7 +38,7 @@ class Broadcast final : public director::Audience {
     // until Viewer::leave or the match's end.
     [[nodiscard]] Admission join(const std::string& match_id, const std::shared_ptr<Viewer>& viewer);
 
-    [[nodiscard]] BroadcastStatistics statistics() const;
+    [[nodiscard]] RelayStatistics statistics() const;
 
   private:
     class Channel;
