@@ -53,7 +53,7 @@ http::Sources sources_of(const recording::Broadcast& broadcast) {
         return live::Models::Answer();
     };
     sources.join = [](const std::string& /*match_id*/, const std::shared_ptr<live::Viewer>& /*viewer*/) {
-        return live::Broadcast::Admission::no_match;
+        return live::Relay::Admission::no_match;
     };
     return sources;
 }
