@@ -23,7 +23,8 @@ class CameraFrameEncoder {
     CameraFrameEncoder& operator=(const CameraFrameEncoder&) = delete;
 
     // The sample points into the encoder and is valid until the next call. `write_time` is CLOCK_REALTIME in
-    // ns; `offset` is added to the frame's number. Precondition: at most 256 cameras and as many reasons. Does not allocate.
+    // ns; `offset` is added to the frame's number. Precondition: at most 256 cameras and as many reasons.
+    // Does not allocate.
     [[nodiscard]] const camera_director_CameraFrame& encode(const director::CameraFrame& frame,
                                                             std::int64_t write_time,
                                                             std::uint32_t offset = 0);

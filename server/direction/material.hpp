@@ -36,7 +36,7 @@ class Material {
 
     Footage footage_;
     std::vector<Event> events_;  // ascending by time
-    Tally tally_;          // by those that were forgotten
+    Tally tally_;                // by those that were forgotten
 };
 
 }  // namespace camdir::direction
