@@ -102,14 +102,15 @@ void Subscriber::run() noexcept {
         take_ready(ready);
         remove_forgotten();
         put_new_shards_into_effect();
+        take_signs_of_new_matches();  // an assertion decides too
         if (Clock::now() >= next_assertion_.load()) {
             assert_liveliness();
             leave_matches();
             admit_waiting();
+            take_signs_of_new_matches();
             rate_.forget_idle(Clock::now());
             next_assertion_ = Clock::now() + assertion_interval();
         }
-        take_signs_of_new_matches();
         // Last, when all signs that had come by then are seen.
         if (Clock::now() >= next_decision_) decide();
     }

@@ -258,6 +258,12 @@ std::uint32_t RawPeer::directors() {
     return status.current_count;
 }
 
+bool RawPeer::signs_are_known() {
+    dds_publication_matched_status_t status{};
+    check(dds_get_publication_matched_status(sign_, &status), "counting readers of signs");
+    return status.current_count > 0 && dds_wait_for_acks(sign_, 0) == DDS_RETCODE_OK;
+}
+
 camera_director_MatchInfo raw_match_info(const std::string& match_id, std::uint64_t epoch) {
     static char map_name[] = "test_map";
     camera_director_MatchInfo sample{};

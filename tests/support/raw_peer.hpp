@@ -58,6 +58,8 @@ class RawPeer {
     [[nodiscard]] std::uint32_t directors();
     // The ownership strength of the strongest of them.
     [[nodiscard]] std::int32_t camera_strength();
+    // A director has received all signs that this peer has written.
+    [[nodiscard]] bool signs_are_known();
 
   private:
     dds_entity_t add_writer(const dds_topic_descriptor_t& type, const char* topic, dds_qos_t* qos);

@@ -198,6 +198,7 @@ TEST_F(StandbyTest, LooksForALeaderHoweverLongTheDirectorTakesToBeginTheMatch) {
     raw.write(test::raw_match_info("cup", 1));
     ASSERT_TRUE(eventually([&] { return recorder_.has("info cup 1"); }));
     gateway_->publish("cup", one_camera(0));
+    ASSERT_TRUE(eventually([&] { return other.signs_are_known(); }));
     std::this_thread::sleep_for(Succession::settling);
     recorder_.hangs = false;
     EXPECT_TRUE(eventually([&] { return gateway_->counters().of(Topic::director_sign).accepted > 0; }));
