@@ -72,6 +72,13 @@ void WorkerPool::schedule(Strand& strand) {
     if (strand.pending_.fetch_add(1, std::memory_order_acq_rel) == 0) mark_ready(strand.slot_);
 }
 
+// Rises at once and falls slowly: where every twelfth turn is long, the caller runs none of them.
+void Strand::expect(std::int64_t last_ns) {
+    const std::int64_t expected = expected_ns_.load(std::memory_order_relaxed);
+    expected_ns_.store(std::max(last_ns, expected + (last_ns - expected) / remembered_turns),
+                       std::memory_order_relaxed);
+}
+
 void WorkerPool::mark_ready(std::size_t slot) {
     ready_since_ns_[slot].store(now_ns(),
                                 std::memory_order_relaxed);  // before the bit: whoever sees it, sees this
@@ -136,8 +143,7 @@ void WorkerPool::run(Worker& worker, Strand& strand) {
     const std::int64_t begun = now_ns();
     Turn turn(*this, worker, strand);
     strand.turn(turn);
-    const std::int64_t usual = strand.usual_ns_.load(std::memory_order_relaxed);
-    strand.usual_ns_.store(usual + (now_ns() - begun - usual) / remembered_turns, std::memory_order_relaxed);
+    strand.expect(now_ns() - begun);
     // As soon as nothing is pending the strand may be destroyed.
     if (strand.pending_.fetch_sub(seen, std::memory_order_acq_rel) != seen) mark_ready(slot);
 }
@@ -189,9 +195,9 @@ bool WorkerPool::waits_since(std::int64_t ns) const {
 
 void BriefTurns::schedule(Strand& strand) {
     if (strand.pending_.fetch_add(1, std::memory_order_acq_rel) != 0) return;
-    const std::int64_t usual_ns = strand.usual_ns_.load(std::memory_order_relaxed);
-    if (!lock_ || usual_ns > left_ns_) return pool_.mark_ready(strand.slot_);
-    left_ns_ -= usual_ns;
+    const std::int64_t expected_ns = strand.expected_ns_.load(std::memory_order_relaxed);
+    if (!lock_ || expected_ns > left_ns_) return pool_.mark_ready(strand.slot_);
+    left_ns_ -= expected_ns;
     pool_.brief_.push_back(&strand);
 }
 

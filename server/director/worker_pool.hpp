@@ -35,9 +35,12 @@ class Strand {
     // bug and ends the process.
     virtual void turn(Turn& turn) noexcept = 0;
 
+    // Of the next turn, after one that took so long.
+    void expect(std::int64_t last_ns);
+
     std::atomic<std::uint32_t> pending_{0};  // schedule() calls not yet covered by a finished turn
-    // The mean of its last turns; long before the first one.
-    std::atomic<std::int64_t> usual_ns_{1'000'000};
+    // The longest of its last turns, about; long before the first one.
+    std::atomic<std::int64_t> expected_ns_{1'000'000};
     std::size_t slot_ = 0;
 };
 

@@ -163,11 +163,19 @@ nlohmann::json to_json(const Latencies& latencies) {
             {"max", milliseconds(latencies.largest())}};
 }
 
-nlohmann::json to_json(const Findings& total, const Options& options, double seconds,
+using Clock = std::chrono::steady_clock;
+
+double since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+nlohmann::json to_json(const Findings& total, const Options& options, Clock::time_point start, double seconds,
                        const std::vector<std::string>& violations) {
     const double frames = static_cast<double>(total.frames);
+    const double start_s = std::chrono::duration<double>(start.time_since_epoch()).count();
     return {{"matches", options.matches},
             {"observers", options.observers * options.matches},
+            {"start_s", start_s},  // of the monotonic clock
             {"seconds", seconds},
             {"frames", total.frames},
             {"frames_per_second", frames / (options.observers * options.matches) / seconds},
@@ -213,12 +221,6 @@ std::vector<std::string> violations_of(const Findings& total, const Options& opt
     const double rate = static_cast<double>(total.frames) / static_cast<double>(probes.size()) / seconds;
     if (rate < options.min_rate) list.push_back("only " + std::to_string(rate) + " frames a second");
     return list;
-}
-
-using Clock = std::chrono::steady_clock;
-
-double since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
 void wait_until_served(const Probes& probes, double grace, const std::stop_token& stop) {
@@ -278,7 +280,7 @@ int probe(const Options& options, const std::stop_token& stop) {
     for (const std::string& violation : violations)
         std::cout << "VIOLATION: " << violation << '\n';
     if (!options.json.empty()) {
-        const auto text = to_json(total, options, seconds, violations).dump(2) + "\n";
+        const auto text = to_json(total, options, start, seconds, violations).dump(2) + "\n";
         if (const auto written = write_file(options.json, text); !written) {
             std::cerr << "observer-probe: " << written.error().message << '\n';
             return 1;

@@ -1,5 +1,6 @@
 #include "served_load.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <ctime>
 #include <deque>
@@ -25,7 +26,7 @@ using test::ChildProcess;
 
 constexpr const char* map_name = "map";
 constexpr const char* prefix = "bench";
-constexpr std::chrono::milliseconds sampling{250};
+constexpr std::chrono::milliseconds sampling{100};
 
 // What a server has used since it began, s.
 struct Usage {
@@ -98,12 +99,12 @@ class ServerProcess {
     clockid_t clock_{};
 };
 
-// Over the last `seconds` of these.
-void set_cost(Served& served, const std::deque<Usage>& usages, double seconds) {
-    const Usage& last = usages.back();
-    auto first = usages.begin();
-    while (first->at < last.at - seconds)
-        ++first;
+// Within the measured time: before it the observers come, after it they leave.
+void set_cost(Served& served, const std::deque<Usage>& usages, double start, double end) {
+    const auto first = std::ranges::find_if(usages, [&](const Usage& usage) { return usage.at >= start; });
+    const auto after = std::ranges::find_if(usages, [&](const Usage& usage) { return usage.at > end; });
+    if (after - first < 2) throw std::runtime_error("the server's processor time was read too rarely");
+    const Usage& last = *std::prev(after);
     served.cores = (last.processor - first->processor) / (last.at - first->at);
     served.waits_per_s = (last.waits - first->waits) / (last.at - first->at);
 }
@@ -141,7 +142,8 @@ Served serve(const Bench& bench, Server server, const Load& load) {
     Served served{.frames_per_s = probe.at("frames_per_second"),
                   .p50_ms = probe.at("latency_ms").at("p50"),
                   .p99_ms = probe.at("latency_ms").at("p99")};
-    set_cost(served, usages, bench.seconds);
+    const double start = probe.at("start_s");
+    set_cost(served, usages, start, start + probe.at("seconds").get<double>());
     return served;
 }
 

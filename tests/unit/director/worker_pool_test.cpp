@@ -253,8 +253,8 @@ class BriefTurnsTest : public testing::Test {
         for (FunctionStrand* one : strands)
             turns.schedule(*one);
     }
-    // Schedules these until the calling thread runs the turn that is counted: what is known of it is that of
-    // its last turns, and a busy machine may make any of them long.
+    // Schedules these until the calling thread runs the turn that is counted: what is expected of it is the
+    // longest of its last turns, and a busy machine may make any of them long.
     void schedule_until_here(std::initializer_list<FunctionStrand*> strands, const Turns& turns) {
         const int before = turns.here;
         ASSERT_TRUE(test::eventually([&] {
@@ -294,6 +294,19 @@ TEST_F(BriefTurnsTest, LongOnesAreTheWorkers) {
     }
     EXPECT_EQ(turns.here, 0);
     EXPECT_EQ(turns.elsewhere, 20);
+}
+
+TEST_F(BriefTurnsTest, WhatIsLongNowAndThenIsTheWorkers) {
+    Turns turns;
+    int turn = 0;
+    const auto slow = strand(turns, [&] {
+        if (++turn % 4 == 0) std::this_thread::sleep_for(std::chrono::microseconds(300));
+    });
+    for (int i = 0; i < 100; ++i) {
+        schedule({slow.get()});
+        WorkerPool::wait_idle(*slow);
+    }
+    EXPECT_EQ(turns.here, 0);
 }
 
 TEST_F(BriefTurnsTest, DoNotWaitForLongOnes) {
