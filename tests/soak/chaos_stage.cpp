@@ -158,6 +158,7 @@ void ChaosStage::act_on_director(const Act& act, const std::stop_token& stop) {
 
 void ChaosStage::act_as_stranger(ActRecord& record, const std::stop_token& stop) {
     if (record.act.kind == ActKind::slow_observer) return freeze_observer(record.act, stop);
+    if (record.act.kind == ActKind::crowd) return run_crowd(record, stop);
     record.invented = run_stranger(record.act, stop);
 }
 
@@ -193,6 +194,17 @@ std::uint64_t ChaosStage::run_stranger(const Act& act, const std::stop_token& st
                            "--batch", std::to_string(act.batch), "--seed", std::to_string(seed)});
     await_end(stranger, "stranger", stop);
     return number_after(stranger.output(), "answered");
+}
+
+void ChaosStage::run_crowd(ActRecord& record, const std::stop_token& stop) {
+    ChildProcess crowd({options_.programs + "/crowd", "--domain", std::to_string(domain_.id()), "--directors",
+                        test::director_address(domain_.id(), 0), test::director_address(domain_.id(), 1),
+                        "--match-prefix", match_prefix, "--matches", std::to_string(scenario_.matches),
+                        "--players", std::to_string(scenario_.players), "--count",
+                        std::to_string(record.act.count), "--seconds", std::to_string(record.act.for_s)});
+    await_end(crowd, "crowd", stop);
+    record.invented = number_after(crowd.output(), "answered");
+    record.waited_s = 1e-3 * static_cast<double>(number_after(crowd.output(), "longest_wait_ms"));
 }
 
 std::array<std::optional<Usage>, 2> ChaosStage::usages() {
