@@ -2,20 +2,14 @@
 #include "idl/deletion.h"
 
 #include <gtest/gtest.h>
-#include <malloc.h>
 
 #include "dds/match_endpoints.hpp"
 #include "dds/participant.hpp"
-#include "support/eventually.hpp"
+#include "support/kept_memory.hpp"
 #include "support/test_domain.hpp"
 
 namespace camdir::dds {
 namespace {
-
-// Of Cyclone DDS, too; 0 where a sanitizer allocates.
-std::size_t bytes_in_use() {
-    return ::mallinfo2().uordblks;
-}
 
 class DeletionTest : public testing::Test {
   protected:
@@ -38,16 +32,9 @@ class DeletionTest : public testing::Test {
 };
 
 TEST_F(DeletionTest, MatchesThatHaveEndedLeaveNothing) {
-    constexpr int warm_up = 30;
-    constexpr int matches = 100;
-    constexpr std::size_t allowed_per_match = 1000;  // dds_delete() leaves 456 of each of the nine endpoints
-    for (int i = 0; i < warm_up; ++i)
-        open_and_delete_match(i);
-    const std::size_t before = bytes_in_use();
-    for (int i = 0; i < matches; ++i)
-        open_and_delete_match(warm_up + i);
-    EXPECT_TRUE(test::eventually([&] { return bytes_in_use() <= before + matches * allowed_per_match; }))
-        << (static_cast<double>(bytes_in_use()) - static_cast<double>(before)) / matches << " bytes a match";
+    int opened = 0;
+    const auto kept = test::bytes_kept(50, [&] { open_and_delete_match(++opened); });
+    EXPECT_LT(kept, 1000.0) << "bytes of each";  // dds_delete() keeps 456 of each of the nine endpoints
 }
 
 TEST_F(DeletionTest, DeletesAnEntityAlone) {
