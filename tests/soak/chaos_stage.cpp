@@ -197,14 +197,21 @@ std::uint64_t ChaosStage::run_stranger(const Act& act, const std::stop_token& st
 }
 
 void ChaosStage::run_crowd(ActRecord& record, const std::stop_token& stop) {
-    ChildProcess crowd({options_.programs + "/crowd", "--domain", std::to_string(domain_.id()), "--directors",
-                        test::director_address(domain_.id(), 0), test::director_address(domain_.id(), 1),
-                        "--match-prefix", match_prefix, "--matches", std::to_string(scenario_.matches),
-                        "--players", std::to_string(scenario_.players), "--count",
-                        std::to_string(record.act.count), "--seconds", std::to_string(record.act.for_s)});
-    await_end(crowd, "crowd", stop);
-    record.invented = number_after(crowd.output(), "answered");
-    record.waited_s = 1e-3 * static_cast<double>(number_after(crowd.output(), "longest_wait_ms"));
+    const Act& act = record.act;
+    std::vector<std::unique_ptr<ChildProcess>> processes;
+    for (std::int64_t first = 0; first < act.count; first += act.batch) {
+        processes.push_back(std::make_unique<ChildProcess>(std::vector<std::string>{
+            options_.programs + "/crowd", "--domain", std::to_string(domain_.id()), "--directors",
+            directors(), "--match-prefix", match_prefix, "--matches", std::to_string(scenario_.matches),
+            "--players", std::to_string(scenario_.players), "--first", std::to_string(first), "--count",
+            std::to_string(std::min(act.batch, act.count - first)), "--seconds", std::to_string(act.for_s)}));
+    }
+    for (const auto& process : processes) {
+        await_end(*process, "crowd", stop);
+        record.invented += number_after(process->output(), "answered");
+        const double waited_ms = static_cast<double>(number_after(process->output(), "longest_wait_ms"));
+        record.waited_s = std::max(record.waited_s, 1e-3 * waited_ms);
+    }
 }
 
 std::array<std::optional<Usage>, 2> ChaosStage::usages() {

@@ -27,7 +27,7 @@ enum class ActKind {
     flood_observers,
     flood_matches,
     passing_matches,  // come, are watched and go
-    crowd,            // observers that all connect at once
+    crowd,            // observers of the real matches that all connect at once
 };
 
 enum class Role { leader, standby };
@@ -39,7 +39,7 @@ struct Act {
     double for_s = 1.0;            // its duration
     Role director = Role::leader;  // to whom; of the first match
     std::int64_t count = 1000;     // of a crowd; of a flood or of passing matches, spread over its duration
-    std::int64_t batch = 50;       // of these at a time
+    std::int64_t batch = 50;       // of these at a time; of a crowd, in one process
 };
 
 [[nodiscard]] std::string name_of(ActKind kind);

@@ -32,6 +32,11 @@ bool removes_leader(const Act& act) {
     return is_done_to_director(act.kind) && act.kind != ActKind::reload && act.director == Role::leader;
 }
 
+// Its processes take the machine: what others lose meanwhile is not the directors' doing.
+bool is_crowd(const Act& act) {
+    return act.kind == ActKind::crowd;
+}
+
 class Judge {
   public:
     Judge(const Timeline& timeline, bool sanitized) : timeline_(timeline), sanitized_(sanitized) {}
@@ -42,9 +47,8 @@ class Judge {
         checks.push_back(none("frames older than the one before", &Seen::stale));
         checks.push_back(none("changes of a match's epoch", &Seen::epochs));
         checks.push_back(all_are_answered());
-        if (std::ranges::any_of(timeline_.acts,
-                                [](const ActRecord& act) { return act.act.kind == ActKind::crowd; }))
-            checks.push_back(crowds_are_served());
+        const auto is_of_crowd = [](const ActRecord& record) { return is_crowd(record.act); };
+        if (std::ranges::any_of(timeline_.acts, is_of_crowd)) checks.push_back(crowds_are_served());
         for (int director = 0; director < timeline_.scenario.directors; ++director)
             judge_lives(director, checks);
         return checks;
@@ -52,6 +56,7 @@ class Judge {
 
     // Whether the machine ran what is measured, in the slice and those beside it.
     [[nodiscard]] bool is_fair(std::size_t slice) const {
+        if (during(timeline_.slices[slice], is_crowd, longest_absence_s)) return false;
         const double limit = 0.5 / timeline_.scenario.rate_hz;
         const std::size_t last = std::min(slice + 2, timeline_.slices.size());
         for (std::size_t i = slice - std::min<std::size_t>(slice, 1); i < last; ++i)
@@ -133,6 +138,7 @@ class Judge {
         for (const Slice& slice : timeline_.slices) {
             const bool alone = timeline_.scenario.directors < 2;
             if (alone && !keeps_leader(slice)) continue;
+            if (during(slice, is_crowd, longest_absence_s)) continue;
             longest = std::max(longest, slice.seen.gap_s - slice.stall_s);
         }
         return {"longest gap beside the machine's own, ms", text(1e3 * longest), text(1e3 * longest_gap_s),

@@ -155,6 +155,8 @@ TEST(Verdict, ObserversOfACrowdThatWaitTooLongFail) {
     Timeline timeline = flooded();
     timeline.acts[0].act.kind = ActKind::crowd;
     timeline.acts[0].waited_s = 9.9;
+    timeline.slices[50].seen.lost = 100;
+    timeline.slices[50].seen.gap_s = 1.5;
     EXPECT_THAT(failures(timeline), testing::IsEmpty());
     timeline.acts[0].waited_s = 10.1;
     expect_failure(timeline, "crowd");
