@@ -58,7 +58,7 @@ static void release_key(const dds_guid_t* guid, struct ddsi_domaingv* domain) {
     if (sample == NULL) return;
     struct ddsi_tkmap_instance* instance = ddsi_tkmap_find(domain->m_tkmap, sample, false);
     if (instance != NULL) {
-        const bool is_lost = ddsrt_atomic_ld32(&instance->m_refc) == 2;
+        const bool is_lost = ddsrt_atomic_ld32(&instance->m_refc) == 2;  // this one, and the lost one
         ddsi_tkmap_instance_unref(domain->m_tkmap, instance);
         if (is_lost) ddsi_tkmap_instance_unref(domain->m_tkmap, instance);
     }

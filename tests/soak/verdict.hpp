@@ -35,7 +35,8 @@ inline constexpr double slack_mib =
 
 [[nodiscard]] ActFindings findings_of(const ActRecord& act, const Timeline& timeline);
 
-// Frames are judged where the machine did not stall for half a frame; the share of the time where it did not.
+// Frames are judged where the machine did not stall for half a frame and had no crowd; the share of the time
+// where it did not.
 [[nodiscard]] double judged_share(const Timeline& timeline);
 
 // Of `sanitized` directors neither memory nor what observers see is judged: sanitizers cost memory and time,
