@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "failure.hpp"
+#include "idl/deletion.h"
 #include "idl/security.hpp"
 
 namespace camdir::sdk {
@@ -40,7 +41,7 @@ class Entity {
     Entity(const Entity&) = delete;
     Entity& operator=(const Entity&) = delete;
     ~Entity() {
-        if (entity_ > 0) dds_delete(entity_);
+        if (entity_ > 0) camdir_delete_entity(entity_);
     }
 
     [[nodiscard]] dds_entity_t get() const { return entity_; }

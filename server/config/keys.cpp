@@ -468,11 +468,9 @@ void add_limits(std::vector<Key>& table) {
     table.push_back({section, "participant_matches", slot(&Limits::participant_matches),
                      "Matches of one DDS participant. Lower it where several hosts run game servers.", "", 1,
                      4096});
-    table.push_back(
-        {section, "participant_match_rate", slot(&Limits::participant_match_rate),
-         "How fast a DDS participant may begin matches after its first `participant_matches`. Each that "
-         "was ever begun leaves 4 kB in a director.",
-         "1/s", 0.01, 1000});
+    table.push_back({section, "participant_match_rate", slot(&Limits::participant_match_rate),
+                     "How fast a DDS participant may begin matches after its first `participant_matches`.",
+                     "1/s", 0.01, 1000});
     table.push_back({section, "participant_observers", slot(&Limits::participant_observers),
                      "Observers of a match that are one DDS participant's. Lower it where strangers can ask.",
                      "", 1, 65536});

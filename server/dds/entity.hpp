@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "idl/deletion.h"
 #include "idl/security.hpp"
 
 namespace camdir::dds {
@@ -25,7 +26,7 @@ class Entity {
 
     [[nodiscard]] dds_entity_t handle() const { return handle_; }
     void reset(dds_entity_t handle = 0) {
-        if (handle_ > 0) dds_delete(handle_);
+        if (handle_ > 0) camdir_delete_entity(handle_);
         handle_ = handle;
     }
 

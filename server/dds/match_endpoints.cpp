@@ -372,8 +372,8 @@ bool MatchEndpoints::hand_over() {
 void MatchEndpoints::release_ownership() {
     unregister_cameras();
     // Deleting a writer unregisters its instances at the readers.
-    dds_delete(status_writer_);
-    dds_delete(shown_writer_);
+    camdir_delete_entity(status_writer_);
+    camdir_delete_entity(shown_writer_);
 }
 
 }  // namespace camdir::dds

@@ -136,7 +136,7 @@ int run(const Options& options, const std::stop_token& stop) {
     print(checks);
     const double judged = judged_share(timeline);
     std::cout << "frames were judged in " << std::setprecision(0) << 100.0 * judged
-              << " % of the time; in the rest the machine stalled\n";
+              << " % of the time; in the rest the machine stalled or a crowd had it\n";
     if (options.logs) std::cerr << stage.logs();
     if (!options.report.empty()) {
         const auto written = write_file(options.report, to_html(timeline, checks));

@@ -158,6 +158,7 @@ void ChaosStage::act_on_director(const Act& act, const std::stop_token& stop) {
 
 void ChaosStage::act_as_stranger(ActRecord& record, const std::stop_token& stop) {
     if (record.act.kind == ActKind::slow_observer) return freeze_observer(record.act, stop);
+    if (record.act.kind == ActKind::crowd) return run_crowd(record, stop);
     record.invented = run_stranger(record.act, stop);
 }
 
@@ -193,6 +194,24 @@ std::uint64_t ChaosStage::run_stranger(const Act& act, const std::stop_token& st
                            "--batch", std::to_string(act.batch), "--seed", std::to_string(seed)});
     await_end(stranger, "stranger", stop);
     return number_after(stranger.output(), "answered");
+}
+
+void ChaosStage::run_crowd(ActRecord& record, const std::stop_token& stop) {
+    const Act& act = record.act;
+    std::vector<std::unique_ptr<ChildProcess>> processes;
+    for (std::int64_t first = 0; first < act.count; first += act.batch) {
+        processes.push_back(std::make_unique<ChildProcess>(std::vector<std::string>{
+            options_.programs + "/crowd", "--domain", std::to_string(domain_.id()), "--directors",
+            directors(), "--match-prefix", match_prefix, "--matches", std::to_string(scenario_.matches),
+            "--players", std::to_string(scenario_.players), "--first", std::to_string(first), "--count",
+            std::to_string(std::min(act.batch, act.count - first)), "--seconds", std::to_string(act.for_s)}));
+    }
+    for (const auto& process : processes) {
+        await_end(*process, "crowd", stop);
+        record.invented += number_after(process->output(), "answered");
+        const double waited_ms = static_cast<double>(number_after(process->output(), "longest_wait_ms"));
+        record.waited_s = std::max(record.waited_s, 1e-3 * waited_ms);
+    }
 }
 
 std::array<std::optional<Usage>, 2> ChaosStage::usages() {

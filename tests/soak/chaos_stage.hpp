@@ -60,6 +60,7 @@ class ChaosStage {
     void restart(Place& place, const Act& act, const std::stop_token& stop);
     void freeze_observer(const Act& act, const std::stop_token& stop);
     [[nodiscard]] std::uint64_t run_stranger(const Act& act, const std::stop_token& stop);
+    void run_crowd(ActRecord& record, const std::stop_token& stop);
     [[nodiscard]] std::string directors() const;
 
     const Options options_;

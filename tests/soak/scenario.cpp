@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array<std::pair<const char*, ActKind>, 15> act_names{{
+constexpr std::array<std::pair<const char*, ActKind>, 16> act_names{{
     {"kill", ActKind::kill},
     {"terminate", ActKind::terminate},
     {"pause", ActKind::pause},
@@ -31,6 +31,7 @@ constexpr std::array<std::pair<const char*, ActKind>, 15> act_names{{
     {"flood_observers", ActKind::flood_observers},
     {"flood_matches", ActKind::flood_matches},
     {"passing_matches", ActKind::passing_matches},
+    {"crowd", ActKind::crowd},
 }};
 constexpr std::array<std::pair<const char*, Role>, 2> role_names{
     {{"leader", Role::leader}, {"standby", Role::standby}}};
@@ -87,11 +88,11 @@ bool assign(const Key& key, const json& value) {
 }
 
 std::vector<Key> keys_of(Scenario& to) {
-    return {{"seed", &to.seed, 0, 4294967295},   {"seconds", &to.seconds, 1, 1e7},
-            {"settle_s", &to.settle_s, 2, 1e4},  {"directors", &to.directors, 1, 2},
-            {"matches", &to.matches, 1, 64},     {"players", &to.players, 1, 64},
-            {"observers", &to.observers, 1, 64}, {"rate_hz", &to.rate_hz, 1, 240},
-            {"delay_s", &to.delay_s, 0, 120}};
+    return {{"seed", &to.seed, 0, 4294967295},  {"seconds", &to.seconds, 1, 1e7},
+            {"settle_s", &to.settle_s, 2, 1e4}, {"warm_up_s", &to.warm_up_s, 0, 1e6},
+            {"directors", &to.directors, 1, 2}, {"matches", &to.matches, 1, 64},
+            {"players", &to.players, 1, 64},    {"observers", &to.observers, 1, 64},
+            {"rate_hz", &to.rate_hz, 1, 240},   {"delay_s", &to.delay_s, 0, 120}};
 }
 
 std::vector<Key> keys_of(Act& to) {

@@ -27,6 +27,7 @@ enum class ActKind {
     flood_observers,
     flood_matches,
     passing_matches,  // come, are watched and go
+    crowd,            // observers of the real matches that all connect at once
 };
 
 enum class Role { leader, standby };
@@ -37,8 +38,8 @@ struct Act {
     double every_s = 0.0;          // 0 = once
     double for_s = 1.0;            // its duration
     Role director = Role::leader;  // to whom; of the first match
-    std::int64_t count = 1000;     // of a flood or of passing matches, spread over its duration
-    std::int64_t batch = 50;       // of these at a time
+    std::int64_t count = 1000;     // of a crowd; of a flood or of passing matches, spread over its duration
+    std::int64_t batch = 50;       // of these at a time; of a crowd, in one process
 };
 
 [[nodiscard]] std::string name_of(ActKind kind);
@@ -46,8 +47,9 @@ struct Act {
 
 struct Scenario {
     std::int64_t seed = 1;
-    double seconds = 30.0;  // measured
-    double settle_s = 5.0;  // without acts, at the end
+    double seconds = 30.0;   // measured
+    double settle_s = 5.0;   // without acts, at the end
+    double warm_up_s = 0.0;  // with acts, and time to settle, before the level of memory is taken
     std::int64_t directors = 2;
     std::int64_t matches = 2;    // real ones
     std::int64_t players = 8;    // a match

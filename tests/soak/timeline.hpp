@@ -45,6 +45,7 @@ struct ActRecord {
     Act act;
     double begin = 0.0, end = 0.0;
     std::uint64_t invented = 0;  // observers or matches that a director answered
+    double waited_s = 0.0;       // of a crowd: its last observer for its camera
     std::string failure;         // empty: it was carried out
 };
 

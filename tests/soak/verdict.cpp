@@ -32,9 +32,9 @@ bool removes_leader(const Act& act) {
     return is_done_to_director(act.kind) && act.kind != ActKind::reload && act.director == Role::leader;
 }
 
-bool begins_matches(const Act& act) {
-    return act.kind == ActKind::flapping_match || act.kind == ActKind::flood_matches ||
-           act.kind == ActKind::passing_matches;
+// Its processes take the machine: what others lose meanwhile is not the directors' doing.
+bool is_crowd(const Act& act) {
+    return act.kind == ActKind::crowd;
 }
 
 class Judge {
@@ -47,6 +47,8 @@ class Judge {
         checks.push_back(none("frames older than the one before", &Seen::stale));
         checks.push_back(none("changes of a match's epoch", &Seen::epochs));
         checks.push_back(all_are_answered());
+        const auto is_of_crowd = [](const ActRecord& record) { return is_crowd(record.act); };
+        if (std::ranges::any_of(timeline_.acts, is_of_crowd)) checks.push_back(crowds_are_served());
         for (int director = 0; director < timeline_.scenario.directors; ++director)
             judge_lives(director, checks);
         return checks;
@@ -54,6 +56,7 @@ class Judge {
 
     // Whether the machine ran what is measured, in the slice and those beside it.
     [[nodiscard]] bool is_fair(std::size_t slice) const {
+        if (during(timeline_.slices[slice], is_crowd, longest_absence_s)) return false;
         const double limit = 0.5 / timeline_.scenario.rate_hz;
         const std::size_t last = std::min(slice + 2, timeline_.slices.size());
         for (std::size_t i = slice - std::min<std::size_t>(slice, 1); i < last; ++i)
@@ -135,6 +138,7 @@ class Judge {
         for (const Slice& slice : timeline_.slices) {
             const bool alone = timeline_.scenario.directors < 2;
             if (alone && !keeps_leader(slice)) continue;
+            if (during(slice, is_crowd, longest_absence_s)) continue;
             longest = std::max(longest, slice.seen.gap_s - slice.stall_s);
         }
         return {"longest gap beside the machine's own, ms", text(1e3 * longest), text(1e3 * longest_gap_s),
@@ -147,6 +151,14 @@ class Judge {
             longest = std::max(longest, findings_of(act, timeline_).back_s);
         return {"cameras again after an act, s", text(longest, 1), text(longest_absence_s, 1),
                 cost_verdict_of(longest <= longest_absence_s)};
+    }
+
+    [[nodiscard]] Check crowds_are_served() const {
+        double longest = 0.0;
+        for (const ActRecord& act : timeline_.acts)
+            longest = std::max(longest, act.waited_s);
+        return {"wait of the last observer of a crowd for its camera, s", text(longest, 1),
+                text(longest_wait_s, 1), cost_verdict_of(longest <= longest_wait_s)};
     }
 
     [[nodiscard]] Check none(const std::string& what, std::uint64_t Seen::*count) const {
@@ -171,7 +183,8 @@ class Judge {
                 born = process == 0 ? slice.begin - settle : slice.begin;
                 process = usage->process;
             }
-            if (is_quiet(slice, settle) && slice.begin >= born + settle) lives.back().push_back(&slice);
+            const double settled = std::max(born + settle, timeline_.scenario.warm_up_s);
+            if (is_quiet(slice, settle) && slice.begin >= settled) lives.back().push_back(&slice);
         }
         return lives;
     }
@@ -205,22 +218,12 @@ class Judge {
                 Check{whose + what, text(before, decimals) + " then " + text(after, decimals),
                       "at most " + text(before + more, decimals), verdict_of(after <= before + more)});
         };
-        const double kept =
-            kept_bytes_a_match * static_cast<double>(served_in_between(*first.front(), *last.back()));
-        Check& memory = compare(
-            "memory, MiB", &Usage::resident_mib,
-            max_growth * level(first, &Usage::resident_mib) + slack_mib + kept / (1024.0 * 1024.0), 1);
+        const double slack = timeline_.scenario.warm_up_s > 0.0 ? 0.0 : slack_mib;
+        Check& memory = compare("memory, MiB", &Usage::resident_mib,
+                                max_growth * level(first, &Usage::resident_mib) + slack, 1);
         if (sanitized_) memory.verdict = Verdict::not_judged;
         compare("descriptors", &Usage::descriptors, 0.0, 0);
         compare("threads", &Usage::threads, 0.0, 0);
-    }
-
-    // Matches of strangers.
-    [[nodiscard]] std::uint64_t served_in_between(const Slice& first, const Slice& last) const {
-        std::uint64_t sum = 0;
-        for (const ActRecord& act : timeline_.acts)
-            if (begins_matches(act.act) && act.end > first.begin && act.begin < last.end) sum += act.invented;
-        return sum;
     }
 
     const Timeline& timeline_;

@@ -86,11 +86,14 @@ class ServerProcess {
         if (server == Server::raw)
             return {bench.programs + "/raw-director", "--domain", std::to_string(domain)};
         const std::filesystem::path file = folder / "bench.json";
+        // The configuration's paths are relative to its own folder.
+        const std::string map_file = std::filesystem::absolute(bench.map_file);
+        const std::string source = std::filesystem::absolute(bench.source);
         const nlohmann::json config = {
             {"dds", {{"domain", domain}}},
             {"http", {{"port", 0}}},
             {"limits", {{"participant_matches", 4096}, {"participant_observers", 256}}},
-            {"maps", {{{"name", map_name}, {"file", bench.map_file}, {"source", bench.source}}}}};
+            {"maps", {{{"name", map_name}, {"file", map_file}, {"source", source}}}}};
         std::ofstream(file) << config;
         return {bench.programs + "/camera-director", "serve", "--config", file};
     }

@@ -12,6 +12,7 @@
 #include <thread>
 #include <vector>
 
+#include "support/kept_memory.hpp"
 #include "support/test_domain.hpp"
 
 namespace camdir::test {
@@ -119,6 +120,19 @@ TEST_F(Calls, ClosingTheContextClosesAllOfIt) {
     EXPECT_EQ(cdir_observer_open(context_, "a", "b", nullptr, &observer_), CDIR_INVALID_HANDLE);
     EXPECT_EQ(cdir_context_close(context_), CDIR_INVALID_HANDLE);
     EXPECT_EQ(match.id, 0U);
+}
+
+TEST_F(Calls, ClosedObserversLeaveNothingOfTheirEndpoints) {
+    const auto watch = [&](int number) {
+        cdir_observer observer{};
+        const std::string match_id = "watched " + std::to_string(number);
+        ASSERT_EQ(cdir_observer_open(context_, match_id.c_str(), "anna", nullptr, &observer), CDIR_OK);
+        ASSERT_EQ(cdir_observer_request(observer, &request_), CDIR_OK);
+        ASSERT_EQ(cdir_observer_close(observer), CDIR_OK);
+    };
+    int watched = 0;
+    const auto kept = bytes_kept(50, [&] { watch(++watched); });
+    EXPECT_LT(kept, 1000.0) << "bytes of each";  // dds_delete() keeps 456 of each of the four endpoints
 }
 
 TEST_F(Calls, HandlesThatWereNeverOpenedAreRefused) {

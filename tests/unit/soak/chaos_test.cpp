@@ -132,18 +132,34 @@ TEST(Verdict, CamerasThatDoNotReturnFail) {
     expect_failure(timeline, "cameras again");
 }
 
-TEST(Verdict, GrowthFailsBeyondWhatDdsKeepsOfMatches) {
+Timeline grown(Timeline timeline, double from_s, double to_mib) {
+    for (Slice& slice : timeline.slices)
+        if (slice.begin >= from_s) slice.directors[0]->resident_mib = to_mib;
+    return timeline;
+}
+
+TEST(Verdict, GrowthFails) {
+    EXPECT_THAT(failures(grown(flooded(), 30.0, 60.0)), testing::IsEmpty());  // 5 % and 8 MiB are 10.5
+    expect_failure(grown(flooded(), 30.0, 61.0), "memory");
+}
+
+TEST(Verdict, AfterAWarmUpTheLevelHolds) {
+    Timeline timeline = grown(flooded(), 5.0, 90.0);
+    timeline.scenario.warm_up_s = 10.0;
+    EXPECT_THAT(failures(timeline), testing::IsEmpty());
+    EXPECT_THAT(failures(grown(timeline, 30.0, 94.0)), testing::IsEmpty());  // 5 % are 4.5
+    expect_failure(grown(timeline, 30.0, 95.0), "memory");
+}
+
+TEST(Verdict, ObserversOfACrowdThatWaitTooLongFail) {
     Timeline timeline = flooded();
-    const auto grown_to = [&](double mib) {
-        for (std::size_t i = 60; i < timeline.slices.size(); ++i)
-            timeline.slices[i].directors[0]->resident_mib = mib;
-        return timeline;
-    };
-    EXPECT_THAT(failures(grown_to(56.0)), testing::IsEmpty());  // 5 % and 4 MiB are 6.5
-    expect_failure(grown_to(57.0), "memory");
-    timeline.acts[0].act.kind = ActKind::flood_matches;  // 10,000 x 5,500 bytes are 52.5 MiB
-    EXPECT_THAT(failures(grown_to(108.0)), testing::IsEmpty());
-    expect_failure(grown_to(110.0), "memory");
+    timeline.acts[0].act.kind = ActKind::crowd;
+    timeline.acts[0].waited_s = 9.9;
+    timeline.slices[50].seen.lost = 100;
+    timeline.slices[50].seen.gap_s = 1.5;
+    EXPECT_THAT(failures(timeline), testing::IsEmpty());
+    timeline.acts[0].waited_s = 10.1;
+    expect_failure(timeline, "crowd");
 }
 
 TEST(Verdict, DescriptorsAndThreadsThatStayFail) {

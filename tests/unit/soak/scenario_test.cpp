@@ -14,8 +14,8 @@ std::string error_of(const std::string& text) {
 }
 
 TEST(ScenarioTest, ThoseThatShipAreValid) {
-    for (const char* name :
-         {"short.json", "every_act.json", "churn.json", "dense_matches.json", "long.json"}) {
+    for (const char* name : {"short.json", "every_act.json", "churn.json", "crowd.json", "dense_matches.json",
+                             "floods.json", "long.json"}) {
         const auto scenario = read_scenario(std::string(CAMDIR_SCENARIOS) + "/" + name);
         ASSERT_TRUE(scenario) << scenario.error().message;
         EXPECT_FALSE(scenario->acts.empty()) << name;
