@@ -1,4 +1,7 @@
-// camera-director play: serves a recording over HTTP like a match that goes on.
+// camera-director play: serves a recording over HTTP, with the page that shows it.
+#include <boost/asio/ip/address.hpp>
+#include <cmath>
+#include <cstdio>
 #include <iostream>
 #include <memory>
 
@@ -15,8 +18,11 @@ constexpr std::chrono::milliseconds step{50};
 
 struct PlayOptions {
     std::string recording;
+    std::string freespace;
+    std::string map;
     std::string http = "127.0.0.1:9464";
     std::string token_file;
+    bool live = false;
     double from = 0.0;
     double speed = 1.0;
 };
@@ -37,7 +43,41 @@ Result<config::Http> listening(const PlayOptions& options) {
     return http;
 }
 
-http::Sources sources_of(const recording::Broadcast& broadcast) {
+// For a browser on this host.
+std::string link_to(const std::string& address, std::uint16_t port) {
+    boost::system::error_code error;
+    const auto ip = boost::asio::ip::make_address(address, error);
+    const bool is_ipv6 = !error && ip.is_v6();
+    const std::string host = !error && ip.is_unspecified() ? "localhost"
+                             : is_ipv6                     ? "[" + address + "]"
+                                                           : address;
+    return "http://" + host + ":" + std::to_string(port) + "/";
+}
+
+// The map of the recording's match, as far as the options name it.
+class PlayedMap {
+  public:
+    // The page asks for the map by the name that the recording has.
+    Result<void> load(const PlayOptions& options, const director::MatchInfo& match) {
+        auto freespace = freespace::Freespace::open(options.freespace);
+        if (!freespace) return tl::unexpected(freespace.error());
+        if (match.map_hash != 0 && match.map_hash != freespace->metadata().source_hash)
+            std::cerr << "camera-director: warning: " << options.freespace
+                      << " was baked from another version of the map " << match.map_name
+                      << " than the match was played on\n";
+        library_.set_ready(match.map_name, std::move(*freespace));
+        models_.set_source(match.map_name, options.map);
+        return {};
+    }
+
+    [[nodiscard]] live::Models& models() { return models_; }
+
+  private:
+    director::MapLibrary library_;
+    live::Models models_{library_};
+};
+
+http::Sources sources_of(const recording::Broadcast& broadcast, live::Models& models) {
     http::Sources sources;
     sources.healthy = [] { return true; };
     sources.missing = [] { return std::vector<std::string>{}; };
@@ -48,14 +88,47 @@ http::Sources sources_of(const recording::Broadcast& broadcast) {
         return service::viewers_resource(broadcast, path);
     };
     // A recording is fetched. Nothing of it is streamed live.
-    sources.live = [] { return http::live_page({}); };
-    sources.model = [](const std::string& /*map*/, live::ModelKind /*kind*/) {
-        return live::Models::Answer();
+    sources.live = [] { return http::live_page({}, true); };
+    sources.model = [&models](const std::string& map, live::ModelKind kind) {
+        return models.find(map, kind);
     };
     sources.join = [](const std::string& /*match_id*/, const std::shared_ptr<live::Viewer>& /*viewer*/) {
         return live::Relay::Admission::no_match;
     };
     return sources;
+}
+
+void announce(const PlayOptions& options, const recording::Playback& playback, double length_s,
+              const std::string& link) {
+    const auto seconds = static_cast<long>(std::ceil(length_s));
+    std::fprintf(stderr, "camera-director: %s: match %s on %s, %ld:%02ld: watch it at %s, until Ctrl-C\n",
+                 options.recording.c_str(), playback.match().match_id.c_str(),
+                 playback.match().map_name.c_str(), seconds / 60, seconds % 60, link.c_str());
+    if (options.freespace.empty())
+        std::fprintf(
+            stderr,
+            "camera-director: the map is not shown: name its baked file, and with --map its source\n");
+}
+
+// Until the user stops it.
+Result<void> serve_all(const recording::Playback& playback, recording::Broadcast& broadcast,
+                       service::Signals& signals) {
+    broadcast.set(playback.match().match_id, playback.whole());
+    while (signals.wait(step) != service::Signal::stop) {
+    }
+    return {};
+}
+
+Result<void> serve_live(recording::Playback& playback, recording::Broadcast& broadcast,
+                        service::Signals& signals) {
+    const auto begin = std::chrono::steady_clock::now();
+    do {
+        const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
+        auto channel = playback.at(elapsed.count());
+        if (!channel) return tl::unexpected(channel.error());
+        broadcast.set(playback.match().match_id, std::move(*channel));
+    } while (signals.wait(step) != service::Signal::stop);
+    return {};
 }
 
 Result<void> play(const PlayOptions& options) {
@@ -64,28 +137,31 @@ Result<void> play(const PlayOptions& options) {
     if (!http) return tl::unexpected(http.error());
     auto playback = recording::Playback::open(options.recording, options.from, options.speed);
     if (!playback) return tl::unexpected(playback.error());
+    const auto length_s = playback->length_s();
+    if (!length_s) return tl::unexpected(length_s.error());
+    PlayedMap map;
+    if (!options.freespace.empty())
+        if (auto loaded = map.load(options, playback->match()); !loaded) return loaded;
     recording::Broadcast broadcast;
-    const auto server = http::Server::start(*http, sources_of(broadcast));
+    const auto server = http::Server::start(*http, sources_of(broadcast, map.models()));
     if (!server) return tl::unexpected(server.error());
-    std::cerr << "camera-director: " << options.recording << ": match " << playback->match_id() << " on port "
-              << (*server)->port() << ", /broadcast; until Ctrl-C\n";
-    const auto begin = std::chrono::steady_clock::now();
-    do {
-        const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
-        auto channel = playback->at(elapsed.count());
-        if (!channel) return tl::unexpected(channel.error());
-        broadcast.set(playback->match_id(), std::move(*channel));
-    } while (signals.wait(step) != service::Signal::stop);
-    return {};
+    announce(options, *playback, *length_s, link_to(http->address, (*server)->port()));
+    return options.live ? serve_live(*playback, broadcast, signals)
+                        : serve_all(*playback, broadcast, signals);
 }
 
 }  // namespace
 
 void add_play(CLI::App& root, Run& run) {
     auto options = std::make_shared<PlayOptions>();
-    CLI::App* command =
-        root.add_subcommand("play", "Serve a recording over HTTP like a match that goes on, until Ctrl-C.");
+    CLI::App* command = root.add_subcommand(
+        "play", "Show a recorded match in a browser, at the link that this prints, until Ctrl-C.");
     command->add_option("RECORDING", options->recording, "The recording's folder")->required();
+    auto* freespace = command->add_option("FILE.vfs", options->freespace,
+                                          "The match's map, baked, for the page: its free space");
+    command->add_option("--map", options->map, "The map that it was baked from, for the page: its walls")
+        ->type_name("MAP")
+        ->needs(freespace);
     command->add_option("--http", options->http, "Address and port to listen on; port 0: any free one")
         ->type_name("ADDRESS:PORT")
         ->capture_default_str();
@@ -93,12 +169,17 @@ void add_play(CLI::App& root, Run& run) {
         ->add_option("--token-file", options->token_file,
                      "The token that requests carry; needed where other hosts reach the address")
         ->type_name("FILE");
-    command->add_option("--from", options->from, "Seconds after the recording's begin")
+    auto* live = command->add_flag("--live", options->live,
+                                   "As if the match went on now: fragments follow each other, as a running "
+                                   "director broadcasts them");
+    command->add_option("--from", options->from, "Seconds after the recording's begin at which it goes on")
         ->capture_default_str()
-        ->check(CLI::Range(0.0, 1e9));
+        ->check(CLI::Range(0.0, 1e9))
+        ->needs(live);
     command->add_option("--speed", options->speed, "How fast fragments follow each other")
         ->capture_default_str()
-        ->check(CLI::Range(0.01, 1000.0));
+        ->check(CLI::Range(0.01, 1000.0))
+        ->needs(live);
     command->callback([options, &run] { run = [options] { return exit_code_of(play(*options)); }; });
 }
 

@@ -103,8 +103,9 @@ std::string status_page(const director::View& view, const std::map<std::string, 
     return config::format_json(page);
 }
 
-std::string live_page(const director::View& view) {
+std::string live_page(const director::View& view, bool broadcasts) {
     json page = {{"version", live::protocol_version}, {"matches", json::array()}};
+    if (broadcasts) page["broadcast"] = "/broadcast";
     for (const auto& match : view.matches) {
         if (!match.answered || match.map_name.empty()) continue;
         json entry = page_of(match);

@@ -12,7 +12,8 @@ namespace camdir::http {
 [[nodiscard]] std::string status_page(const director::View& view,
                                       const std::map<std::string, director::MapEntry>& maps);
 
-// What there is to watch: what observers know, and nothing of them.
-[[nodiscard]] std::string live_page(const director::View& view);
+// What there is to watch: what observers know, and nothing of them. `broadcasts`: whether there may be
+// something at /broadcast, too.
+[[nodiscard]] std::string live_page(const director::View& view, bool broadcasts);
 
 }  // namespace camdir::http

@@ -31,9 +31,9 @@ Models::Answer without_source(std::string reason) {
 
 }  // namespace
 
-void Models::set_source(const config::Map& map) {
+void Models::set_source(const std::string& map, const std::string& source) {
     const std::lock_guard lock(mutex_);
-    sources_[map.name] = map;
+    sources_[map] = source;
 }
 
 void Models::remove_source(const std::string& map) {
@@ -56,14 +56,14 @@ Models::Answer Models::find(const std::string& map, ModelKind kind) {
 
 // Reasons name no file: whoever opens the page reads them. The log does.
 Models::Answer Models::make_obstacles(const director::MapEntry& map, const std::string& name) {
-    config::Map source;
+    std::string source;
     {
         const std::lock_guard lock(mutex_);
         const auto found = sources_.find(name);
         if (found != sources_.end()) source = found->second;
     }
-    if (source.source.empty()) return without_source("the configuration names no source of this map");
-    const auto scene = maps::load_source(source);
+    if (source.empty()) return without_source("no source of this map is named");
+    const auto scene = maps::load_source(*map.freespace, source);
     if (!scene) {
         spdlog::warn("live: map {}: {}", name, scene.error().message);
         return without_source("the map's source cannot be read");

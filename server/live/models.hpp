@@ -10,7 +10,6 @@
 #include <string>
 
 #include "base/error.hpp"
-#include "config/config.hpp"
 #include "director/map_library.hpp"
 
 namespace camdir::live {
@@ -34,8 +33,8 @@ class Models {
 
     explicit Models(const director::MapLibrary& maps) : maps_(maps) {}
 
-    // The map's entry in the configuration: new or changed.
-    void set_source(const config::Map& map);
+    // The file that the map was baked from; empty: none is known.
+    void set_source(const std::string& map, const std::string& source);
     void remove_source(const std::string& map);
 
     enum class Failure {
@@ -69,8 +68,8 @@ class Models {
     const director::MapLibrary& maps_;
     std::mutex making_;
     std::mutex mutex_;
-    std::map<std::string, config::Map> sources_;
-    std::list<Kept> kept_;  // the latest first
+    std::map<std::string, std::string> sources_;  // by map
+    std::list<Kept> kept_;                        // the latest first
 };
 
 }  // namespace camdir::live

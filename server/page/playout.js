@@ -1,13 +1,9 @@
-// The last minutes of a match, and the clock that plays them.
-import {cameraFlag, decodeFrame, frameTime, playerFlag} from './protocol.js';
+// Some minutes of a match, and the clock that plays them.
+import {cameraFlag, playerFlag} from './protocol.js';
 
-const keptMs = 5 * 60e3;
 const keptBytes = 64e6;
 // How far live playing stays behind the fastest arrivals: as much as the others were late, and a frame.
 const frameMs = 40;
-const maxJitterMs = 400;
-const offsetWindowMs = 4e3;
-const farMs = 600;         // a clock that is farther from where it should be jumps
 const maxGapMs = 300;      // frames farther apart are not interpolated
 const maxDecoded = 16;
 
@@ -24,7 +20,8 @@ function mixRotations(a, b, part) {
 
 // Frames in the order of their time, bounded.
 export class FrameBuffer {
-    constructor() {
+    constructor(keptMs) {
+        this.keptMs = keptMs;
         this.clear();
     }
 
@@ -34,15 +31,14 @@ export class FrameBuffer {
         this.decoded = new Map();
     }
 
-    // Returns whether it was kept: it is a frame, and newer than the last.
-    add(buffer) {
-        const t = frameTime(buffer);
-        if (t === null || (this.frames.length > 0 && t <= this.last)) return false;
-        this.frames.push({t, buffer});
-        this.bytes += buffer.byteLength;
+    // `bytes`: that it takes; `read()` returns the frame. Returns whether it was kept: it is newer than the last.
+    add(t, bytes, read) {
+        if (this.frames.length > 0 && t <= this.last) return false;
+        this.frames.push({t, bytes, read});
+        this.bytes += bytes;
         let old = 0;
-        while (old < this.frames.length - 1 && (t - this.frames[old].t > keptMs || this.bytes > keptBytes)) {
-            this.bytes -= this.frames[old++].buffer.byteLength;
+        while (old < this.frames.length - 1 && (t - this.frames[old].t > this.keptMs || this.bytes > keptBytes)) {
+            this.bytes -= this.frames[old++].bytes;
         }
         if (old > 0) this.frames.splice(0, old);
         return true;
@@ -62,26 +58,33 @@ export class FrameBuffer {
         return low;
     }
 
-    decode(index, step) {
-        const {t, buffer} = this.frames[index];
+    // When the next frame is, where it is more than `ms` after the one at t; else null.
+    silenceAfter(t, ms) {
+        const index = this.indexAt(t);
+        const next = this.frames[index + 1];
+        return next && t >= this.frames[index].t && next.t - this.frames[index].t > ms ? next.t : null;
+    }
+
+    decode(index) {
+        const {t, read} = this.frames[index];
         let frame = this.decoded.get(t);
         if (!frame) {
-            frame = decodeFrame(buffer, step);
+            frame = read();
             this.decoded.set(t, frame);
             if (this.decoded.size > maxDecoded) this.decoded.delete(this.decoded.keys().next().value);
         }
         return frame;
     }
 
-    // What is seen at t: between two frames, interpolated, but never over a cut or a jump.
+    // What is seen at t: between two frames, interpolated, but never over a cut, a jump or the begin of an epoch.
     // `cutBetween(camera, from, to)`: whether a cut is known of that no frame shows.
-    sample(t, step, cutBetween = () => false) {
+    sample(t, cutBetween = () => false) {
         if (this.frames.length === 0) return null;
         const index = this.indexAt(t);
-        const a = this.decode(index, step);
-        if (a === null || index + 1 >= this.frames.length || t <= a.t) return a;
-        const b = this.decode(index + 1, step);
-        if (b === null || b.t - a.t > maxGapMs) return a;
+        const a = this.decode(index);
+        if (index + 1 >= this.frames.length || t <= a.t) return a;
+        const b = this.decode(index + 1);
+        if (b.t - a.t > maxGapMs || a.epoch !== b.epoch) return a;
         const part = (t - a.t) / (b.t - a.t);
         const players = new Map();
         for (const [slot, before] of a.players) {
@@ -111,7 +114,10 @@ export class FrameBuffer {
 // Which time of the match is shown. Live, it runs evenly whatever the jitter of arrivals, a little behind the
 // newest frame; else it was moved by the viewer.
 export class PlayoutClock {
-    constructor() {
+    // `timing`: windowMs, of arrivals that count; maxJitterMs, by which they may be late; farMs: a clock that is farther
+    // from where it should be jumps.
+    constructor(timing) {
+        this.timing = timing;
         this.reset();
     }
 
@@ -119,27 +125,37 @@ export class PlayoutClock {
         this.t = null;
         this.live = true;
         this.paused = false;
+        this.speed = 1;
         this.arrivals = [];
     }
 
     // A frame of time t has arrived `now` (ms of any clock that runs evenly).
     arrived(t, now) {
         this.arrivals.push({now, offset: now - t});
-        while (this.arrivals[0].now < now - offsetWindowMs) this.arrivals.shift();
+        while (this.arrivals[0].now < now - this.timing.windowMs) this.arrivals.shift();
     }
 
-    // Moves on to `now`, within what is kept, first to last.
-    advance(now, first, last) {
+    // Stands still until `now`.
+    hold(now) {
+        this.now = now;
+    }
+
+    // Moves on to `now`, within what is kept, first to last; null: nothing. `follows`: whether last is the newest there
+    // is, from which on playing is live.
+    advance(now, first, last, follows = true) {
         const elapsed = this.now === undefined ? 0 : Math.min(now - this.now, 1000);
         this.now = now;
         if (first === null) return;
         if (this.t === null) this.t = last;
-        if (!this.paused) this.t += elapsed * (this.live ? this.pace(now) : 1);
+        if (!this.paused) this.t += elapsed * (this.live ? this.pace(now) : this.speed);
         if (this.live && this.arrivals.length > 0) {
             const target = this.target(now);
-            if (Math.abs(target - this.t) > farMs) this.t = target;
+            if (Math.abs(target - this.t) > this.timing.farMs) this.t = target;
         }
-        if (this.t >= last && !this.live && !this.paused) this.live = true;
+        if (this.t >= last && follows && !this.live && !this.paused) {
+            this.live = true;
+            this.speed = 1;
+        }
         this.t = Math.min(Math.max(this.t, first), last);
     }
 
@@ -147,7 +163,7 @@ export class PlayoutClock {
     target(now) {
         const offsets = this.arrivals.map(arrival => arrival.offset);
         const fastest = Math.min(...offsets);
-        return now - fastest - Math.min(Math.max(...offsets) - fastest, maxJitterMs) - frameMs;
+        return now - fastest - Math.min(Math.max(...offsets) - fastest, this.timing.maxJitterMs) - frameMs;
     }
 
     pace(now) {
@@ -163,11 +179,17 @@ export class PlayoutClock {
     goLive() {
         this.live = true;
         this.paused = false;
+        this.speed = 1;
         if (this.arrivals.length > 0 && this.now !== undefined) this.t = this.target(this.now);
     }
 
     setPaused(paused) {
         this.paused = paused;
         if (paused) this.live = false;
+    }
+
+    setSpeed(speed) {
+        this.speed = speed;
+        if (speed !== 1) this.live = false;
     }
 }

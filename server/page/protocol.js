@@ -57,13 +57,6 @@ function slotOrNull(slot) {
     return slot === noSlot ? null : slot;
 }
 
-// The time of a frame in milliseconds of the match's clock; null: it is no frame.
-export function frameTime(buffer) {
-    if (buffer.byteLength < headerSize) return null;
-    const view = new DataView(buffer);
-    return view.getUint8(0) === kindFrame ? Number(view.getBigInt64(12, true)) / 1e6 : null;
-}
-
 // `step`: position_step of the match. Null: it is no frame, or damaged.
 export function decodeFrame(buffer, step) {
     if (buffer.byteLength < headerSize) return null;

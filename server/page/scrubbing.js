@@ -3,12 +3,12 @@
 const keySteps = {ArrowLeft: -1000, ArrowDown: -1000, ArrowRight: 1000, ArrowUp: 1000, PageDown: -30e3, PageUp: 30e3};
 
 // `match`: range() [first, last] of what is kept or null, now() what is shown, timeAt(clientX), describe(t),
-// seek(t), goLive().
+// seek(t), goToBegin(), goLive().
 export function attachScrubbing(element, tip, match) {
     element.addEventListener('keydown', event => {
         if (match.range() === null) return;
         if (event.key in keySteps) match.seek(match.now() + keySteps[event.key]);
-        else if (event.key === 'Home') match.seek(match.range()[0]);
+        else if (event.key === 'Home') match.goToBegin();
         else if (event.key === 'End') match.goLive();
         else return;
         event.preventDefault();

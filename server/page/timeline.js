@@ -1,17 +1,31 @@
-// What happened in the last minutes: how each shot went, cuts with their reasons, events.
+// What happened in a match, as far as it is known: how each shot went, cuts with their reasons, events.
 import {cameraFlag} from './protocol.js';
 
-const keptMs = 5 * 60e3;
-const maxStates = 4096;  // of a shot
-const maxMarks = 1024;
+const maxGapMs = 300;  // between parts that follow each other
+
+// The index of the first entry that is later than t.
+function indexAfter(entries, t) {
+    let low = 0;
+    let high = entries.length;
+    while (low < high) {
+        const middle = (low + high) >> 1;
+        if (entries[middle].t <= t) low = middle + 1; else high = middle;
+    }
+    return low;
+}
+
+const byTime = (a, b) => a.t - b.t;
+const isSame = (a, b) => a.flags === b.flags && a.target === b.target;
 
 export class Timeline {
-    constructor() {
+    // `keptMs`: before the newest frame; of a shot at most maxStates, and maxMarks cuts and as many events.
+    constructor({keptMs, maxStates, maxMarks}) {
+        Object.assign(this, {keptMs, maxStates, maxMarks});
         this.clear();
     }
 
     clear() {
-        this.shots = new Map();  // by camera: [{t, target, flags}], flags null: the shot has ended
+        this.shots = new Map();  // by camera: [{t, target, flags}], flags null: the shot has ended, or is not known
         this.cuts = [];
         this.events = [];
     }
@@ -20,10 +34,10 @@ export class Timeline {
         if (!this.shots.has(camera)) this.shots.set(camera, []);
         const states = this.shots.get(camera);
         const last = states[states.length - 1];
-        const shown = flags === null ? null : flags & ~cameraFlag.cut;
-        if (last && (t <= last.t || (last.flags === shown && last.target === target))) return;
-        states.push({t, target, flags: shown});
-        if (states.length > maxStates) states.shift();
+        const state = {t, target, flags: flags === null ? null : flags & ~cameraFlag.cut};
+        if (last && (t <= last.t || isSame(last, state))) return;
+        states.push(state);
+        if (states.length > this.maxStates) states.shift();
     }
 
     // The shots of a frame.
@@ -33,13 +47,13 @@ export class Timeline {
             const last = states[states.length - 1];
             if (!frame.cameras.has(id) && last.flags !== null) this.addState(frame.t, id, last.target, null);
         }
-        this.forget(frame.t - keptMs);
+        this.forget(frame.t - this.keptMs);
     }
 
     addNote(note) {
         const marks = note.kind === 'cut' ? this.cuts : this.events;
         marks.push(note);
-        if (marks.length > maxMarks) marks.shift();
+        if (marks.length > this.maxMarks) marks.shift();
     }
 
     addHistory(history) {
@@ -47,25 +61,71 @@ export class Timeline {
         for (const note of history.notes) this.addNote(note);
     }
 
+    // Another timeline, of a part of the match that ends at `end`, before, after or between the parts that are known.
+    insert(part, end) {
+        for (const [camera, states] of part.shots) {
+            const last = states[states.length - 1];
+            const closed = last.flags === null ? states : [...states, {t: end, target: last.target, flags: null}];
+            if (!this.shots.has(camera)) this.shots.set(camera, []);
+            this.insertStates(this.shots.get(camera), closed);
+        }
+        this.insertMarks(this.cuts, part.cuts);
+        this.insertMarks(this.events, part.events);
+    }
+
+    insertStates(states, more) {
+        const at = indexAfter(states, more[0].t);
+        states.splice(at, 0, ...more);
+        Timeline.join(states, at + more.length - 1);
+        Timeline.join(states, at - 1);
+        if (states.length > this.maxStates) states.splice(0, states.length - this.maxStates);
+    }
+
+    // The end at this index is none where the shot goes on.
+    static join(states, index) {
+        const next = states[index + 1];
+        if (states[index]?.flags !== null || !next || next.t - states[index].t > maxGapMs) return;
+        const before = states[index - 1];
+        states.splice(index, before && isSame(before, next) ? 2 : 1);
+    }
+
+    insertMarks(marks, more) {
+        if (more.length === 0) return;
+        const sorted = [...more].sort(byTime);
+        marks.splice(indexAfter(marks, sorted[0].t), 0, ...sorted);
+        if (marks.length > this.maxMarks) marks.splice(0, marks.length - this.maxMarks);
+    }
+
     // Spans of a shot between two times: [{from, to, target, flags}].
     spans(camera, from, to) {
         const states = this.shots.get(camera) ?? [];
         const spans = [];
-        states.forEach((state, i) => {
+        for (let i = Math.max(indexAfter(states, from) - 1, 0); i < states.length && states[i].t < to; ++i) {
+            const {t, target, flags} = states[i];
             const end = states[i + 1]?.t ?? to;
-            if (state.flags === null || end <= from || state.t >= to) return;
-            spans.push({from: Math.max(state.t, from), to: Math.min(end, to), target: state.target, flags: state.flags});
-        });
+            if (flags !== null && end > from) spans.push({from: Math.max(t, from), to: Math.min(end, to), target, flags});
+        }
         return spans;
     }
 
     cutBetween(camera, from, to) {
-        return this.cuts.some(cut => cut.camera === camera && cut.t > from && cut.t <= to);
+        for (let i = indexAfter(this.cuts, from); i < this.cuts.length && this.cuts[i].t <= to; ++i)
+            if (this.cuts[i].camera === camera) return true;
+        return false;
     }
 
     // The latest cut of a shot at or before t.
     cutBefore(camera, t) {
-        return this.cuts.filter(cut => cut.camera === camera && cut.t <= t).pop() ?? null;
+        for (let i = indexAfter(this.cuts, t) - 1; i >= 0; --i)
+            if (this.cuts[i].camera === camera) return this.cuts[i];
+        return null;
+    }
+
+    // The first cut of a shot after t.
+    cutAfter(camera, t) {
+        for (let i = indexAfter(this.cuts, t); i < this.cuts.length; ++i)
+            if (this.cuts[i].camera === camera) return this.cuts[i];
+        return null;
     }
 
     forget(before) {

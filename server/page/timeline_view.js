@@ -1,8 +1,11 @@
 // Draws the timeline: the shown camera's shot above, the others below it, cuts and events as marks.
 import {cameraFlag} from './protocol.js';
+import {clockText} from './words.js';
 
 const colours = {visible: '#7cc4ff', hidden: '#ffc857', searching: '#ffc857', held: '#55606e', absent: '#3a434f'};
 const spanMs = 5 * 60e3;
+const steps = [1, 2, 5, 10, 30, 60, 120, 300, 600, 1800, 3600].map(s => s * 1000);  // between times
+const minLabelPx = 56;
 
 const reasons = {
     begin: 'the shot begins',
@@ -36,19 +39,20 @@ export class TimelineView {
         this.context = this.canvas.getContext('2d');
     }
 
-    // The times at both ends.
-    range(first, last) {
+    // The times at both ends: of a whole recording, or of the last minutes.
+    range(first, last, whole) {
+        if (whole) return [first, Math.max(last, first + 1)];
         const span = Math.min(Math.max(last - first, 30e3), spanMs);
         return [last - span, last];
     }
 
-    timeAt(clientX, first, last) {
+    timeAt(clientX, first, last, whole) {
         const {left, width} = this.element.getBoundingClientRect();
-        const [from, to] = this.range(first, last);
+        const [from, to] = this.range(first, last, whole);
         return from + Math.min(Math.max((clientX - left) / width, 0), 1) * (to - from);
     }
 
-    draw({timeline, camera, t, first, last, colourOfSlot}) {
+    draw({timeline, camera, t, first, last, whole, colourOfSlot}) {
         const ratio = devicePixelRatio;
         const width = this.element.clientWidth;
         const height = this.element.clientHeight;
@@ -59,7 +63,7 @@ export class TimelineView {
         const c = this.context;
         c.setTransform(ratio, 0, 0, ratio, 0, 0);
         c.clearRect(0, 0, width, height);
-        const [from, to] = this.range(first, last);
+        const [from, to] = this.range(first, last, whole);
         const x = time => (time - from) / (to - from) * width;
         const middle = height * 0.42;
         c.fillStyle = '#ffffff10';
@@ -70,7 +74,7 @@ export class TimelineView {
         for (const cut of timeline.cuts)
             if (cut.camera === camera && cut.t >= from) c.fillRect(Math.round(x(cut.t)) - 1, middle - 11, 2, 22);
         for (const event of timeline.events) this.drawEvent(c, event, x, middle - 13, colourOfSlot);
-        this.drawTimes(c, from, to, last, x, height);
+        this.drawTimes(c, from, to, whole ? from : null, x, height, width);
         const unseen = x(Math.max(first, from));
         c.fillStyle = '#0d1014aa';
         c.fillRect(0, 0, unseen, height - 12);
@@ -119,16 +123,17 @@ export class TimelineView {
         c.fill();
     }
 
-    drawTimes(c, from, to, last, x, height) {
+    // Since `origin`, or before the end where that is null.
+    drawTimes(c, from, to, origin, x, height, width) {
         c.fillStyle = '#9aa6b5';
         c.font = '10.5px system-ui, sans-serif';
-        const step = to - from > 120e3 ? 60e3 : 10e3;
-        for (let back = step; back < to - from; back += step) {
-            const at = x(last - back);
-            if (at < 18) continue;
-            const text = back % 60e3 === 0 ? `−${back / 60e3} min` : `−${back / 1e3} s`;
-            c.textAlign = 'center';
-            c.fillText(text, at, height - 1);
+        c.textAlign = 'center';
+        const step = steps.find(each => each / (to - from) * width > minLabelPx) ?? steps[steps.length - 1];
+        for (let distance = step; distance < to - from; distance += step) {
+            const at = x(origin === null ? to - distance : origin + distance);
+            if (at < 18 || at > width - 18) continue;
+            const before = distance % 60e3 === 0 ? `−${distance / 60e3} min` : `−${distance / 1e3} s`;
+            c.fillText(origin === null ? before : clockText(distance, false), at, height - 1);
             c.fillRect(Math.round(at), height - 13, 1, 3);
         }
     }

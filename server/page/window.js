@@ -1,123 +1,99 @@
 // The window: anyone who has the link watches the match through the director's cameras.
-import {Connection} from './connection.js';
+import {Broadcast, Refused} from './broadcast.js';
 import {Feed} from './feed.js';
 import {Rows, shotEntry} from './lists.js';
-import {colourOf, nameOf} from './palette.js';
-import {FrameBuffer, PlayoutClock} from './playout.js';
-import {decodeFrame, version} from './protocol.js';
+import {LiveSource} from './live_source.js';
+import {findMatches} from './matches.js';
+import {Model} from './model.js';
+import {nameOf} from './palette.js';
+import {Playback, kept} from './playback.js';
 import {attachScrubbing} from './scrubbing.js';
 import * as server from './server.js';
 import {Stage} from './stage.js';
-import {Timeline} from './timeline.js';
 import {TimelineView, modeOf, modeText, reasonText} from './timeline_view.js';
 import {Viewpoint, attach} from './viewpoint.js';
+import {clockText, seconds, stateText} from './words.js';
 
 const listPeriodMs = 3000;
 const maxPictures = 3;
 const stepMs = 5000;
+const noticeMs = 6000;
 
 const find = id => document.getElementById(id);
 const calm = matchMedia('(prefers-reduced-motion: reduce)');
 
-const buffer = new FrameBuffer();
-const clock = new PlayoutClock();
-const timeline = new Timeline();
+const model = new Model();
+model.begin(kept);
 const viewpoint = new Viewpoint();
 const shotRows = new Rows(find('shots'), 'No camera is on: no spectator has asked for one.');
 const matchRows = new Rows(find('matches'), 'No match is running.');
 
+const look = slot => model.look(slot);
 const feed = new Feed(find('feed'), look);
 const timelineView = new TimelineView(find('timeline'));
 
 let stage = null;
-let match = null;         // the last note of the match
-let players = new Map();  // by slot
-let listed = [];          // of /live
+let source = null;        // LiveSource or Playback: what feeds the model
+let watched = null;       // the entry of `matches` that it shows
+let matches = [];         // of findMatches
 let camera = null;        // the id of the camera that is shown
 let view = 'camera';
 let pictures = !calm.matches;
-let connection = {state: 'none'};  // to no match yet
 let sample = null;
 let mapShown = null;      // its name
 let obstaclesNote = '';
-let dropped = 0;
 let noticeTimer = 0;
 let framesDrawn = 0;
 let drawRate = 0;
 let dirty = true;
 
 const now = () => performance.now();
-const step = () => match?.position_step ?? 1;
+const isRecorded = () => source instanceof Playback;
 
-function look(slot) {
-    const player = players.get(slot);
-    return {colour: slot === null ? '#9aa6b5' : colourOf(player, [...players.values()]), name: nameOf(player),
-        number: slot === null ? '–' : String(slot + 1)};
+const reports = {
+    match: showMatch,
+    problem: notice,
+    change: () => { dirty = true; },
+    token: () => showMessage('This server asks for a token.', true),
+    newest: goLive,
+    restart: () => watch(watched.id),
+};
+
+// From now on the match's stream, where it has one, else its broadcast: from the newest where it goes on, else from the
+// begin, or as `begin` says (Playback.open).
+function watch(id, begin) {
+    const entry = matches.find(other => other.id === id);
+    if (!entry) return;
+    if (watched) server.rememberMatch(id);
+    if (watched?.id !== id) camera = null;
+    watched = entry;
+    source?.close();
+    if (entry.stream && !begin) {
+        source = new LiveSource(id, model, server.token, reports);
+    } else {
+        source = new Playback(new Broadcast(entry.sync, server.ask), model, reports);
+        source.open(begin ?? (entry.goesOn ? {} : {t: 0}));
+    }
+    sample = null;
+    dirty = true;
 }
 
-const link = new Connection(server.token, {
-    state(state, retryMs) {
-        connection = {state, retryAt: retryMs === undefined ? null : now() + retryMs};
-        dirty = true;
-    },
-    note(note) {
-        ({match: onMatch, history: onHistory, cut: onMark, event: onMark, dropped: onDropped, end: onEnd})[note.kind]?.(note);
-        dirty = true;
-    },
-    frame(data) {
-        if (!buffer.add(data)) return;
-        const frame = decodeFrame(data, step());
-        if (!frame) return;
-        clock.arrived(frame.t, now());
-        timeline.addFrame(frame);
-        age = Date.now() - frame.sourceTime;
-    },
-});
-let age = null;  // ms between the game server's clock and this one, when the last frame arrived
-
-function onMatch(note) {
-    if (note.version !== version) return showMessage('The server speaks another version: reload this page.');
-    const begins = !match || match.match_id !== note.match_id || match.epoch !== note.epoch || match.ended;
-    if (begins) {
-        buffer.clear();
-        timeline.clear();
-        clock.reset();
-        sample = null;
-    }
-    match = note;
-    players = new Map(note.players.map(player => [player.slot, player]));
+function showMatch(note) {
+    if (isRecorded()) model.setMatch(note);
     stage.setScale(note.metres_per_unit);
     stage.setLooks(slot => ({...look(slot), label: look(slot).name}));
     find('match-name').textContent = note.match_id;
     find('map-name').textContent = note.map;
     document.title = `${note.match_id} · Camera director`;
     showMap(note.map);
-}
-
-function onHistory(note) {
-    timeline.clear();
-    timeline.addHistory(note);
-}
-
-function onMark(note) {
-    timeline.addNote(note);
-}
-
-function onDropped(note) {
-    dropped += note.frames;
-    notice(`${note.frames} frames skipped: this connection is slow`);
-}
-
-function onEnd() {
-    match.ended = true;
-    notice('The match has ended');
+    dirty = true;
 }
 
 function notice(text) {
     find('notice').textContent = text;
     find('notice').hidden = false;
     clearTimeout(noticeTimer);
-    noticeTimer = setTimeout(() => { find('notice').hidden = true; }, 4000);
+    noticeTimer = setTimeout(() => { find('notice').hidden = true; }, noticeMs);
 }
 
 function showMessage(text, asksForToken = false) {
@@ -156,34 +132,37 @@ async function showMap(name) {
 
 async function refreshList() {
     try {
-        const answer = await server.ask('/live');
-        if (answer.status === 401) {
+        matches = await findMatches();
+        showMessage(matches.length > 0 ? '' : server.broadcastOfAddress === null
+            ? 'No match is running. This page shows one as soon as it begins.'
+            : 'Nothing is broadcast. This page shows a match as soon as one is.');
+        chooseMatch();
+        if (model.note && mapShown === null && !isRecorded()) showMap(model.note.map);
+    } catch (error) {
+        if (error instanceof Refused && error.status === 401) {
             showMessage('This server asks for a token.', true);
-        } else if (answer.ok) {
-            listed = (await answer.json()).matches;
-            showMessage(listed.length === 0 ? 'No match is running. This page shows one as soon as it begins.' : '');
-            chooseMatch();
-            if (match && mapShown === null) showMap(match.map);
+        } else {
+            source?.unreachable?.();
+            if (!source) showMessage(error instanceof Refused ? `There is nothing to watch: ${error.message}.`
+                : 'The server cannot be reached. Trying again.');
         }
-    } catch {
-        link.unreachable();
-        if (!match) showMessage('The server cannot be reached. Trying again.');
     }
     dirty = true;
     setTimeout(refreshList, listPeriodMs);
 }
 
+// Stays with what is watched as long as it goes on, and with recordings.
 function chooseMatch() {
-    const known = listed.find(entry => entry.match_id === link.matchId);
-    if (known && !(match?.ended)) return;
-    const wanted = listed.find(entry => entry.match_id === (link.matchId ?? server.matchOfAddress)) ?? listed[0];
-    if (wanted) watch(wanted.match_id);
-}
-
-function watch(matchId) {
-    if (link.matchId !== undefined) server.rememberMatch(matchId);
-    camera = null;
-    link.watch(matchId);
+    const entry = matches.find(other => other.id === watched?.id);
+    if (entry) watched = entry;
+    if (isRecorded()) {
+        if (source.state === 'ended' && entry?.goesOn && !entry.stream) watch(entry.id);  // another one begins
+        return;
+    }
+    if (source && entry?.stream && !source.ended) return;
+    const wanted = source ? entry?.stream ? entry : matches.find(other => other.stream)
+        : matches.find(other => other.id === server.matchOfAddress) ?? matches.find(other => other.goesOn) ?? matches[0];
+    if (wanted) watch(wanted.id);
 }
 
 function chooseCamera(id) {
@@ -207,24 +186,48 @@ function stepCamera(by) {
     if (ids.length > 0) chooseCamera(ids[(ids.indexOf(camera) + by + ids.length) % ids.length]);
 }
 
+// What is older than the stream's minutes is in the recording.
 function seek(t) {
-    clock.seek(Math.min(Math.max(t, buffer.first ?? t), buffer.last ?? t));
+    if (!source?.range) return;
+    const [first, last] = source.range;
+    if (!isRecorded() && watched.sync && t < first - 1) watch(watched.id, {behind: last - t}); else source.seek(t);
     dirty = true;
 }
 
+function goToBegin() {
+    if (!isRecorded() && watched?.sync) watch(watched.id, {t: 0}); else if (source?.range) seek(source.range[0]);
+}
+
 function stepCut(by) {
-    const cuts = timeline.cuts.filter(cut => cut.camera === camera);
-    const next = by > 0 ? cuts.find(cut => cut.t > clock.t + 1) : cuts.filter(cut => cut.t < clock.t - 1000).pop();
+    const {clock, timeline} = model;
+    const next = by > 0 ? timeline.cutAfter(camera, clock.t + 1) : timeline.cutBefore(camera, clock.t - 1000);
     if (next) seek(next.t);
 }
 
 function setPaused(paused) {
-    clock.setPaused(paused);
+    if (!paused && isRecorded() && source.state === 'ended') seek(source.range[0]);
+    model.clock.setPaused(paused);
     dirty = true;
 }
 
+const speeds = [0.25, 0.5, 1, 2, 4, 8];
+
+function setSpeed(speed) {
+    model.clock.setSpeed(speed);
+    dirty = true;
+}
+
+function stepSpeed(by) {
+    const next = speeds[speeds.indexOf(model.clock.speed) + by];
+    if (next) setSpeed(next);
+}
+
+const canGoLive = () => Boolean(watched?.stream || source?.isLive);
+
 function goLive() {
-    clock.goLive();
+    if (isRecorded() && watched.stream) watch(watched.id);
+    else if (canGoLive()) source.goLive();
+    else if (source?.range) seek(source.range[1]);
     dirty = true;
 }
 
@@ -237,30 +240,23 @@ function shownCamera() {
     return sample?.cameras.get(camera) ?? null;
 }
 
-function stateText() {
-    if (connection.state === 'waiting')
-        return ['waiting', `Reconnecting in ${Math.max(1, Math.round((connection.retryAt - now()) / 1000))} s`];
-    if (connection.state === 'none') return ['empty', 'No match'];
-    if (connection.state === 'connecting') return ['connecting', match ? 'Reconnecting' : 'Connecting'];
-    if (match?.ended) return ['ended', 'Ended'];
-    const entry = listed.find(other => other.match_id === match?.match_id);
-    if (connection.state === 'silent') return ['silent', entry ? `No frames: ${entry.state}` : 'No frames'];
-    if (buffer.last === null) return ['empty', entry ? entry.state : 'No frames yet'];
-    const behind = buffer.last - clock.t;
-    if (clock.paused) return ['paused', `Paused, ${seconds(behind)} behind`];
-    if (!clock.live) return ['behind', `${seconds(behind)} behind`];
-    const late = age !== null && age > -1000 && age < 600e3 ? Math.max(age, 0) + behind : behind;
-    return ['live', `Live · ${seconds(late)} after the game`];
+// What the words of the state need to know.
+function facts() {
+    const {clock, buffer, note} = model;
+    const entry = matches.find(other => other.id === watched?.id);
+    const behindMs = isRecorded() ? source.isLive && source.range ? source.newest() - clock.t : null : buffer.last - clock.t;
+    const {age} = source ?? {};
+    const lateMs = isRecorded() ? behindMs === null ? null : behindMs + source.sync.delayMs
+        : age !== null && age > -1000 && age < 600e3 ? Math.max(age, 0) + behindMs : null;
+    return {retryInMs: (source?.retryAt ?? 0) - now(), known: note !== null, entry: entry?.stream?.state, behindMs, lateMs};
 }
 
-function seconds(ms) {
-    return `${(ms / 1000).toFixed(1)} s`;
-}
-
-function clockText(ms) {
-    const whole = Math.floor(ms / 1000);
-    const minutes = Math.floor(whole / 60);
-    return `${minutes}:${String(whole % 60).padStart(2, '0')}.${Math.floor(ms / 100) % 10}`;
+function shownTime() {
+    const {t} = model.clock;
+    if (t === null) return '';
+    if (!isRecorded() || !source.range) return clockText(t);
+    const [first, last] = source.range;
+    return `${clockText(t - first)} / ${clockText(last - first, false)}`;
 }
 
 function setText(id, text) {
@@ -268,7 +264,8 @@ function setText(id, text) {
 }
 
 function showState() {
-    const [state, text] = stateText();
+    const {clock} = model;
+    const [state, text] = stateText(source?.state ?? 'none', facts());
     const element = find('state');
     if (element.dataset.state !== state) {
         element.dataset.state = state;
@@ -276,14 +273,17 @@ function showState() {
     }
     const label = element.querySelector('span');
     if (label.textContent !== text) label.textContent = text;
-    find('live').setAttribute('aria-pressed', clock.live && !clock.paused);
+    find('live').hidden = source !== null && !canGoLive();
+    find('live').setAttribute('aria-pressed', state === 'live');
+    find('begin').hidden = !isRecorded() && !watched?.sync;
     const playing = !clock.paused;
     if (find('play').dataset.playing !== String(playing)) {
         find('play').dataset.playing = playing;
         find('play').setAttribute('aria-label', playing ? 'Pause' : 'Play');
         find('play').querySelector('path').setAttribute('d', playing ? 'M4 2h3v12H4zM9 2h3v12H9z' : 'M4 2l9 6-9 6z');
     }
-    setText('clock', clock.t === null ? '' : clockText(clock.t));
+    if (document.activeElement !== find('speed')) find('speed').value = String(clock.speed);
+    setText('clock', shownTime());
 }
 
 function showCaption() {
@@ -296,22 +296,22 @@ function showCaption() {
     setText('caption-name', text);
     name.style.borderColor = colour;
     const mode = modeOf(shot.flags);
-    const cut = timeline.cutBefore(camera, clock.t);
-    const fresh = cut && clock.t - cut.t < 2500 ? ` · cut: ${reasonText(cut, slot => look(slot).name)}` : '';
+    const cut = model.timeline.cutBefore(camera, model.clock.t);
+    const fresh = cut && model.clock.t - cut.t < 2500 ? ` · cut: ${reasonText(cut, slot => look(slot).name)}` : '';
     state.dataset.mode = mode;
     setText('caption-state', modeText[mode] + fresh);
 }
 
 function showLists() {
-    const entry = listed.find(other => other.match_id === match?.match_id);
-    const profiles = new Map((entry?.shots ?? []).map(shot =>
+    const shots = matches.find(other => other.id === watched?.id)?.stream?.shots ?? [];
+    const profiles = new Map(shots.map(shot =>
         [shot.camera_id, shot.automatic ? `${shot.profile}, the director chooses` : shot.profile]));
     shotRows.show(shownCameras().map(shot =>
         shotEntry(shot, look(shot.target), profiles.get(shot.id) ?? '', shot.id === camera, () => chooseCamera(shot.id))));
-    matchRows.show(listed.map(other => ({
-        key: `match ${other.match_id}`, number: String(other.players.length), colour: '#c4ccd6', name: other.match_id,
-        detail: `${other.map}, ${other.state}`, pressed: other.match_id === link.matchId,
-        choose: () => watch(other.match_id),
+    matchRows.show(matches.map(({id, map, stream, goesOn}) => ({
+        key: `match ${id}`, number: stream ? String(stream.players.length) : '▸', colour: '#c4ccd6', name: id,
+        detail: `${map}, ${stream?.state ?? (goesOn ? 'broadcast' : 'recorded')}`, pressed: id === watched?.id,
+        choose: () => watch(id),
     })));
 }
 
@@ -378,31 +378,30 @@ function drawStage() {
 }
 
 function drawTimeline() {
-    const first = buffer.first ?? 0;
-    const last = buffer.last ?? 0;
+    const [first, last] = source?.range ?? [0, 0];
+    const {clock, timeline} = model;
     const element = find('timeline');
     element.setAttribute('aria-valuemin', Math.round(first));
     element.setAttribute('aria-valuemax', Math.round(last));
     element.setAttribute('aria-valuenow', Math.round(clock.t ?? 0));
-    element.setAttribute('aria-valuetext', `${seconds(last - (clock.t ?? last))} before the newest frame`);
-    if (buffer.last !== null)
-        timelineView.draw({timeline, camera, t: clock.t, first, last, colourOfSlot: slot => look(slot).colour});
+    element.setAttribute('aria-valuetext', isRecorded() ? shownTime() : `${seconds(last - (clock.t ?? last))} before the newest frame`);
+    if (source?.range && clock.t !== null)
+        timelineView.draw({timeline, camera, t: clock.t, first, last, whole: isRecorded(), colourOfSlot: slot => look(slot).colour});
 }
 
 let lastPanel = 0;
 function frame() {
     const at = now();
-    const shownBefore = clock.t;
-    clock.advance(at, buffer.first, buffer.last);
+    const shownBefore = model.clock.t;
+    source?.advance(at);
     resize();
-    if (clock.t !== shownBefore || dirty) {
+    if (model.clock.t !== shownBefore || dirty) {
         dirty = false;
-        sample = clock.t === null ? null
-            : buffer.sample(clock.t, step(), (id, from, to) => timeline.cutBetween(id, from, to));
+        sample = source?.state === 'loading' ? sample : model.sample() ?? sample;
         if (!shownCamera()) camera = shownCameras()[0]?.id ?? camera;
         drawStage();
         showCaption();
-        feed.show(timeline.events, clock.t);
+        feed.show(model.timeline.events, model.clock.t ?? 0);
     }
     if (at - lastPanel > 120) {
         drawRate = framesDrawn * 1000 / (at - lastPanel) * 0.2 + drawRate * 0.8;
@@ -421,9 +420,12 @@ const keys = {
     '3': () => setView('plan'),
     n: () => stepCamera(1),
     p: () => stepCamera(-1),
-    ' ': () => setPaused(!clock.paused),
-    j: () => seek(clock.t - stepMs),
-    k: () => seek(clock.t + stepMs),
+    ' ': () => setPaused(!model.clock.paused),
+    j: () => seek(model.clock.t - stepMs),
+    k: () => seek(model.clock.t + stepMs),
+    b: goToBegin,
+    '<': () => stepSpeed(-1),
+    '>': () => stepSpeed(1),
     '[': () => stepCut(-1),
     ']': () => stepCut(1),
     l: goLive,
@@ -442,7 +444,7 @@ function moveCut(by) {
 document.addEventListener('keydown', event => {
     if (event.ctrlKey || event.metaKey || event.altKey || find('help').open) return;
     const {target} = event;
-    if (target.matches('input:not([type=checkbox])')) return;
+    if (target.matches('input:not([type=checkbox]), select')) return;
     if (event.key === ' ' && target.matches('button, input')) return;  // presses it
     const handled = target === find('canvas') && view !== 'camera' && viewpoint.key(event, view === 'plan');
     const action = handled ? () => {} : keys[event.key] ?? (event.shiftKey ? undefined : keys[event.key.toLowerCase()]);
@@ -453,20 +455,21 @@ document.addEventListener('keydown', event => {
 });
 
 attachScrubbing(find('timeline'), find('tip'), {
-    range: () => buffer.last === null ? null : [buffer.first, buffer.last],
-    now: () => clock.t,
-    timeAt: clientX => timelineView.timeAt(clientX, buffer.first, buffer.last),
+    range: () => source?.range ?? null,
+    now: () => model.clock.t,
+    timeAt: clientX => timelineView.timeAt(clientX, ...source.range, isRecorded()),
     describe: describeTime,
     seek,
+    goToBegin,
     goLive,
 });
 
 // What the shot did at a time, and the nearest cut.
 function describeTime(t) {
-    const span = timeline.spans(camera, t, t + 1)[0];
-    const near = timeline.cuts.filter(cut => cut.camera === camera && Math.abs(cut.t - t) < 1500)
-        .sort((a, b) => Math.abs(a.t - t) - Math.abs(b.t - t))[0];
-    const parts = [`−${seconds(buffer.last - t)}`];
+    const [first, last] = source.range;
+    const span = model.timeline.spans(camera, t, t + 1)[0];
+    const near = model.cutNear(camera, t, 0.005 * Math.max(last - first, 300e3));
+    const parts = [isRecorded() ? clockText(t - first) : `−${seconds(last - t)}`];
     if (span) parts.push(`${look(span.target).name}: ${modeText[modeOf(span.flags)].toLowerCase()}`);
     if (near) parts.push(`cut: ${reasonText(near, slot => look(slot).name)}`);
     return parts.join(' · ');
@@ -488,6 +491,8 @@ find('back').addEventListener('click', keys.j);
 find('ahead').addEventListener('click', keys.k);
 find('play').addEventListener('click', keys[' ']);
 find('live').addEventListener('click', goLive);
+find('begin').addEventListener('click', goToBegin);
+find('speed').addEventListener('change', () => setSpeed(Number(find('speed').value)));
 for (const id of ['cut', 'mesh', 'follow']) find(id).addEventListener('input', () => { dirty = true; });
 find('token-form').addEventListener('submit', event => {
     event.preventDefault();
@@ -500,13 +505,15 @@ document.addEventListener('visibilitychange', () => { dirty = true; });
 window.cameraDirector = {
     redraw: drawStage,  // the canvas keeps its picture only until the browser has shown it
     state: () => ({
-        connection: connection.state, state: find('state').dataset.state, match: match?.match_id ?? null, map: match?.map ?? null,
-        view, camera, time: clock.t, first: buffer.first, last: buffer.last, live: clock.live, paused: clock.paused,
-        frames: buffer.frames.length, dropped, drawRate, age,
-        players: sample ? [...sample.players.values()].map(player => ({...player, id: players.get(player.slot)?.id,
-            name: nameOf(players.get(player.slot))})) : [],
-        cameras: shownCameras().map(shot => ({...shot, target: players.get(shot.target)?.id ?? null})),
-        cuts: timeline.cuts.length, events: timeline.events.length,
+        connection: source?.connection ?? 'none', state: find('state').dataset.state, match: model.note?.match_id ?? null,
+        map: model.note?.map ?? null, view, camera, time: model.clock.t, range: source?.range ?? null,
+        first: source?.range?.[0] ?? null, last: source?.range?.[1] ?? null, live: model.clock.live, paused: model.clock.paused,
+        speed: model.clock.speed, recorded: isRecorded(), problems: source?.problems ?? [], frames: model.buffer.frames.length,
+        dropped: source?.dropped ?? 0, drawRate, age: source?.age ?? null,
+        players: sample ? [...sample.players.values()].map(player => ({...player, id: model.players.get(player.slot)?.id,
+            name: nameOf(model.players.get(player.slot))})) : [],
+        cameras: shownCameras().map(shot => ({...shot, target: model.players.get(shot.target)?.id ?? null})),
+        cuts: model.timeline.cuts.length, events: model.timeline.events.length,
         obstacles: Boolean(stage?.obstacles), mesh: Boolean(stage?.mesh), note: obstaclesNote,
     }),
 };

@@ -31,6 +31,21 @@ Result<Playback> Playback::open(const std::filesystem::path& folder, double from
     return Playback(std::move(*reader), std::move(channel), begin, speed);
 }
 
+Result<double> Playback::length_s() const {
+    const auto first = reader_.begin_time(reader_.first_fragment());
+    if (!first) return tl::unexpected(first.error());
+    const auto last = reader_.begin_time(reader_.last_fragment());
+    if (!last) return tl::unexpected(last.error());
+    return 1e-9 * static_cast<double>(*last - *first) + channel_.fragment_duration_s;
+}
+
+Channel Playback::whole() const {
+    Channel channel = channel_;
+    channel.sync.last = reader_.last_fragment();
+    channel.is_live = false;
+    return channel;
+}
+
 Result<Channel> Playback::at(double elapsed_s) {
     const std::int64_t time = begin_ + nanoseconds(elapsed_s * speed_);
     while (channel_.sync.last < reader_.last_fragment()) {

@@ -1,4 +1,4 @@
-// A recording that viewers see as if its match went on now.
+// A recording for viewers: all of it, or as if its match went on now.
 #pragma once
 
 #include <filesystem>
@@ -16,7 +16,12 @@ class Playback {
     [[nodiscard]] static Result<Playback> open(const std::filesystem::path& folder, double from_s,
                                                double speed);
 
-    [[nodiscard]] const std::string& match_id() const { return reader_.start().match.match_id; }
+    [[nodiscard]] const director::MatchInfo& match() const { return reader_.start().match; }
+    // At most: the last fragment may end earlier.
+    [[nodiscard]] Result<double> length_s() const;
+
+    // With every fragment. Nothing follows.
+    [[nodiscard]] Channel whole() const;
     // With every fragment that begins up to `elapsed_s` after the playback's begin, which never descends. It
     // is live until it has the last one.
     [[nodiscard]] Result<Channel> at(double elapsed_s);

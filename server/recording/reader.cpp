@@ -1,8 +1,46 @@
 #include "recording/reader.hpp"
 
+#include <algorithm>
+#include <string>
+#include <system_error>
+#include <vector>
+
 namespace camdir::recording {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The recordings in a folder, of which the last one by name began last.
+std::vector<std::string> recordings_in(const fs::path& folder) {
+    std::vector<std::string> names;
+    std::error_code error;
+    for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+        std::error_code ignored;
+        if (fs::exists(it->path() / "start", ignored)) names.push_back(it->path().filename().string());
+    }
+    std::ranges::sort(names);
+    return names;
+}
+
+Result<void> check_is_recording(const fs::path& folder) {
+    static const std::string expected =
+        ": expected the folder of a recording, one of those that a director makes in its recording.folder";
+    std::error_code error;
+    if (!fs::is_directory(folder, error)) return fail(folder.string() + ": is no folder" + expected);
+    if (fs::exists(folder / "start", error)) {
+        if (fs::exists(folder / "sync", error)) return {};
+        return fail(folder.string() + ": has no sync: the recording ended before its first fragment did");
+    }
+    const auto names = recordings_in(folder);
+    if (names.empty()) return fail(folder.string() + ": has no start" + expected);
+    return fail(folder.string() + ": holds recordings and is none: name one of these " +
+                std::to_string(names.size()) + ", the last is " + (folder / names.back()).string());
+}
+
+}  // namespace
 
 Result<Reader> Reader::open(const std::filesystem::path& folder) {
+    if (auto is = check_is_recording(folder); !is) return tl::unexpected(is.error());
     const auto start_bytes = read_file(folder / "start");
     if (!start_bytes) return tl::unexpected(start_bytes.error());
     auto start = decode_start(*start_bytes, (folder / "start").string());

@@ -83,7 +83,7 @@ maps::LoaderSink Service::map_sink() {
     maps::LoaderSink sink;
     sink.added = [this](const config::Map& map) {
         maps_.add(map.name, map.strict);
-        models_.set_source(map);
+        models_.set_source(map.name, map.source);
         director_.maps_changed();
     };
     sink.removed = [this](const std::string& name) {
@@ -129,7 +129,7 @@ http::Sources Service::sources() {
         return recorder_ ? viewers_resource(recorder_->broadcast(), path) : std::nullopt;
     };
     sources.status = [this] { return http::status_page(director_.view(view_timeout), maps_.entries()); };
-    sources.live = [this] { return http::live_page(director_.view(view_timeout)); };
+    sources.live = [this] { return http::live_page(director_.view(view_timeout), recorder_ != nullptr); };
     sources.model = [this](const std::string& map, live::ModelKind kind) { return models_.find(map, kind); };
     sources.join = [this](const std::string& match_id, const std::shared_ptr<live::Viewer>& viewer) {
         return relay_.join(match_id, viewer);

@@ -1,4 +1,5 @@
-// `camera-director play`: a recording is fetched over HTTP like a match that goes on.
+// `camera-director play`: a recording is watched in a browser and fetched over HTTP, whole or like a match
+// that goes on.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,10 +8,13 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "freespace/freespace.hpp"
 #include "recording/reader.hpp"
 #include "recording/writer.hpp"
+#include "scene/load.hpp"
 #include "served.hpp"
 #include "support/eventually.hpp"
+#include "support/freespace_meshes.hpp"
 #include "support/http_client.hpp"
 
 namespace camdir::test {
@@ -41,10 +45,12 @@ class PlayTest : public testing::Test {
         std::vector<std::string> command = {CAMERA_DIRECTOR, "play", folder_ / "r", "--http", "127.0.0.1:0"};
         command.insert(command.end(), options.begin(), options.end());
         process_.emplace(command);
-        static const std::string before = "match cup/1 on port ";
-        ASSERT_TRUE(eventually([&] { return process_->errors().find(", /broadcast") != std::string::npos; }))
-            << process_->errors();
+        static const std::string before = "match cup/1 on hall, 0:01: watch it at http://127.0.0.1:";
+        ASSERT_TRUE(eventually([&] {
+            return process_->errors().find(", until Ctrl-C") != std::string::npos;
+        })) << process_->errors();
         const std::string said = process_->errors();
+        ASSERT_THAT(said, testing::HasSubstr(before));
         port_ = std::stoi(said.substr(said.find(before) + before.size()));
     }
     [[nodiscard]] HttpAnswer get(const std::string& path) const { return HttpClient(port_).ask("GET", path); }
@@ -56,7 +62,7 @@ class PlayTest : public testing::Test {
 };
 
 TEST_F(PlayTest, AViewerFetchesEveryBitFromTheListToTheEnd) {
-    play({"--speed", "2"});
+    play({"--live", "--speed", "2"});
     const json list = json::parse(get("/broadcast").body);
     ASSERT_EQ(list["matches"].size(), 1U);
     EXPECT_EQ(list["matches"][0]["match"], "cup/1");
@@ -96,7 +102,7 @@ TEST_F(PlayTest, AViewerFetchesEveryBitFromTheListToTheEnd) {
 }
 
 TEST_F(PlayTest, BeginsWhereItIsTold) {
-    play({"--from", "0.45", "--speed", "0.01"});
+    play({"--live", "--from", "0.45", "--speed", "0.01"});
     EXPECT_EQ(sync()["first_fragment"], 0);
     EXPECT_EQ(sync()["last_fragment"], 4);
     EXPECT_EQ(sync()["live"], true);
@@ -105,9 +111,33 @@ TEST_F(PlayTest, BeginsWhereItIsTold) {
     EXPECT_EQ(get(below + "/5/full").status, 404) << "not yet";
 }
 
+TEST_F(PlayTest, HasAllOfItAtOnce) {
+    play({});
+    EXPECT_EQ(sync()["first_fragment"], 0);
+    EXPECT_EQ(sync()["last_fragment"], fragments - 1);
+    EXPECT_EQ(sync()["live"], false);
+    EXPECT_EQ(get("/").header.at("content-type"), "text/html; charset=utf-8");
+    EXPECT_EQ(run_director({"play", folder_ / "r", "--from", "1"}).exit_code, 2) << "of --live";
+}
+
+TEST_F(PlayTest, ShowsTheMapThatItIsGiven) {
+    EXPECT_TRUE(write_file(folder_ / "room.obj",
+                           "v 0 0 0\nv 9 0 0\nv 0 9 0\nv 0 0 9\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n"));
+    auto contents = square_contents();
+    contents.metadata.source_hash = scene::hash_source(folder_ / "room.obj").value();
+    contents.metadata.metres_per_unit = 1.0F;
+    ASSERT_TRUE(write_file(folder_ / "room.vfs", freespace::encode(contents)));
+    play({folder_ / "room.vfs", "--map", folder_ / "room.obj"});
+    for (const char* path : {"/map/hall/mesh.glb", "/map/hall/obstacles.glb"})
+        EXPECT_EQ(get(path).header.at("content-type"), "model/gltf-binary") << path;
+    EXPECT_EQ(get("/map/room/mesh.glb").status, 404) << "the recording's name counts";
+    EXPECT_EQ(run_director({"play", folder_ / "r", folder_ / "none.vfs"}).exit_code, 1);
+}
+
 TEST_F(PlayTest, HasNothingToWatchLive) {
     play({});
     EXPECT_EQ(json::parse(get("/live").body)["matches"], json::array());
+    EXPECT_EQ(json::parse(get("/live").body)["broadcast"], "/broadcast");
     EXPECT_EQ(get("/map/hall/mesh.glb").status, 404);
     const std::string upgrade =
         "Connection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\n"
@@ -119,7 +149,21 @@ TEST_F(PlayTest, HasNothingToWatchLive) {
 
 TEST_F(PlayTest, RefusesWhatIsNoRecordingAndNoAddress) {
     const std::string recording = folder_ / "r";
-    EXPECT_EQ(run_director({"play", folder_ / "none"}).exit_code, 1);
+    using testing::AllOf;
+    using testing::HasSubstr;
+    const auto errors_of = [&](const std::string& folder) {
+        const Ran ran = run_director({"play", folder});
+        EXPECT_EQ(ran.exit_code, 1) << folder;
+        return ran.errors;
+    };
+    EXPECT_THAT(errors_of(folder_ / "none"), HasSubstr("is no folder: expected the folder of a recording"));
+    EXPECT_THAT(errors_of(folder_ / ""),
+                AllOf(HasSubstr("holds recordings and is none: name one of these 1"), HasSubstr(recording)));
+    fs::create_directory(folder_ / "empty");
+    EXPECT_THAT(errors_of(folder_ / "empty"), HasSubstr("has no start: expected the folder of a recording"));
+    fs::copy(folder_ / "r", folder_ / "cut", fs::copy_options::recursive);
+    fs::remove(folder_ / "cut/sync");
+    EXPECT_THAT(errors_of(folder_ / "cut"), HasSubstr("the recording ended before its first fragment did"));
     for (const char* address : {"localhost", "127.0.0.1:x", "127.0.0.1:70000", "127.0.0.1:"}) {
         const Ran ran = run_director({"play", recording, "--http", address});
         EXPECT_EQ(ran.exit_code, 1) << address;

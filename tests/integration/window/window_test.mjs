@@ -163,7 +163,7 @@ const tests = {
         await browser.open(`${url}/#match=walk-0`);
         await browser.send('Page.reload');
         await browser.until('window.cameraDirector?.state().mesh');
-        assert.match(await browser.until('cameraDirector.state().note'), /names no source/);
+        assert.match(await browser.until('cameraDirector.state().note'), /no source of this map/);
         await browser.until('!document.getElementById("map-note").hidden');
     },
     async 'where a token is wanted the page asks for it, and takes it from the link'(browser, stage) {

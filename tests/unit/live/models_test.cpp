@@ -16,19 +16,19 @@ class Library {
     Library() {
         const std::string text = "v 0 0 0\nv 9 0 0\nv 0 9 0\nv 0 0 9\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
         EXPECT_TRUE(write_file(folder_ / "room.obj", text));
-        source.name = "room";
-        source.source = (folder_ / "room.obj").string();
-        load(scene::hash_source(source.source).value());
+        source = (folder_ / "room.obj").string();
+        load(scene::hash_source(source).value());
     }
 
     void load(std::uint64_t source_hash) {
         auto contents = test::square_contents();
         contents.metadata.source_hash = source_hash;
+        contents.metadata.metres_per_unit = 1.0F;  // as of the source
         maps.set_ready("room", test::make_freespace(contents));
     }
 
     director::MapLibrary maps;
-    config::Map source;
+    std::string source;
 
   private:
     test::TemporaryFolder folder_;
@@ -37,7 +37,7 @@ class Library {
 TEST(Models, ShowsTheObstaclesOfAMapWhoseSourceIsThere) {
     Library library;
     Models models(library.maps);
-    models.set_source(library.source);
+    models.set_source("room", library.source);
     const auto answer = models.find("room", ModelKind::obstacles);
     ASSERT_TRUE(answer.model) << answer.reason;
     EXPECT_EQ(answer.model->gzip.substr(0, 2), "\x1f\x8b");
@@ -56,8 +56,8 @@ TEST(Models, ShowsTheMeshWithoutASource) {
 TEST(Models, NamesNoFileToViewers) {
     Library library;
     Models models(library.maps);
-    library.source.source += ".gone";
-    models.set_source(library.source);
+    library.source += ".gone";
+    models.set_source("room", library.source);
     const auto answer = models.find("room", ModelKind::obstacles);
     EXPECT_EQ(answer.failure, Models::Failure::no_source);
     EXPECT_EQ(answer.reason.find('/'), std::string::npos) << answer.reason;
@@ -66,7 +66,7 @@ TEST(Models, NamesNoFileToViewers) {
 TEST(Models, DoesNotShowObstaclesThatTheMapWasNotBakedFrom) {
     Library library;
     Models models(library.maps);
-    models.set_source(library.source);
+    models.set_source("room", library.source);
     library.load(1234);
     EXPECT_EQ(models.find("room", ModelKind::obstacles).failure, Models::Failure::no_source);
 }

@@ -2,62 +2,65 @@ import assert from 'node:assert/strict';
 import {test} from 'node:test';
 import {FrameBuffer, PlayoutClock} from '../../../server/page/playout.js';
 
+const liveTiming = {windowMs: 4e3, maxJitterMs: 400, farMs: 600};
+const keptMs = 5 * 60e3;
+
 // A frame with player 0 at (x, 0, 0), looked at by camera 5 at the same place.
-function frame(t, x, {flags = 2, playerFlags = 1, target = 0} = {}) {
-    const buffer = new ArrayBuffer(28 + 14 + 22);
-    const view = new DataView(buffer);
-    view.setUint8(0, 1);
-    view.setUint16(2, 1, true);
-    view.setUint16(4, 1, true);
-    view.setBigInt64(12, BigInt(Math.round(t * 1e6)), true);
-    view.setUint8(28 + 1, playerFlags);
-    view.setUint32(30, x, true);
-    view.setUint32(38, (3 << 30 | 511 << 20 | 511 << 10 | 511) >>> 0, true);
-    view.setUint32(42, 5, true);
-    view.setUint8(46, target);
-    view.setUint8(47, flags);
-    view.setUint32(50, x, true);
-    view.setUint16(62, 3 << 13, true);
-    return buffer;
+function frame(t, x, {flags = 2, playerFlags = 1, target = 0, epoch} = {}) {
+    const place = {position: [x, 0, 0], rotation: [0, 0, 0, 1]};
+    return {t, epoch, players: new Map([[0, {slot: 0, flags: playerFlags, ...place}]]),
+        cameras: new Map([[5, {id: 5, target, flags, fov: 1, ...place}]])};
 }
 
+const add = (buffer, data) => buffer.add(data.t, 64, () => data);
+
 function filled(...frames) {
-    const buffer = new FrameBuffer();
-    for (const data of frames) assert.ok(buffer.add(data));
+    const buffer = new FrameBuffer(keptMs);
+    for (const data of frames) assert.ok(add(buffer, data));
     return buffer;
 }
 
 test('between two frames things move evenly', () => {
     const buffer = filled(frame(100, 0), frame(120, 10));
     for (const [t, x] of [[100, 0], [105, 2.5], [110, 5], [120, 10]]) {
-        const sample = buffer.sample(t, 1);
+        const sample = buffer.sample(t);
         assert.equal(sample.players.get(0).position[0], x);
         assert.equal(sample.cameras.get(5).position[0], x);
     }
-    assert.equal(buffer.sample(90, 1).players.get(0).position[0], 0, 'before the first');
-    assert.equal(buffer.sample(900, 1).players.get(0).position[0], 10, 'after the last');
+    assert.equal(buffer.sample(90).players.get(0).position[0], 0, 'before the first');
+    assert.equal(buffer.sample(900).players.get(0).position[0], 10, 'after the last');
 });
 
 test('a cut is not interpolated, a jump of a player neither', () => {
-    const at = (options, cut) => filled(frame(100, 0), frame(120, 10, options)).sample(115, 1, cut);
+    const at = (options, cut) => filled(frame(100, 0), frame(120, 10, options)).sample(115, cut);
     assert.equal(at({flags: 3}).cameras.get(5).position[0], 0);
     assert.equal(at({flags: 3}).players.get(0).position[0], 7.5);
     assert.equal(at({playerFlags: 3}).players.get(0).position[0], 0);
     assert.equal(at({target: 1}).cameras.get(5).position[0], 0);
+    assert.equal(at({epoch: 2}).players.get(0).position[0], 0, 'another epoch');
     assert.equal(at({}, (id, from, to) => id === 5 && from === 100 && to === 120).cameras.get(5).position[0], 0,
         'a cut whose frame was dropped');
 });
 
 test('over a long gap nothing moves', () => {
-    assert.equal(filled(frame(100, 0), frame(500, 10)).sample(400, 1).players.get(0).position[0], 0);
+    assert.equal(filled(frame(100, 0), frame(500, 10)).sample(400).players.get(0).position[0], 0);
+});
+
+test('it tells how long nothing follows', () => {
+    const buffer = filled(frame(100, 0), frame(120, 10), frame(5000, 0));
+    assert.equal(buffer.silenceAfter(110, 2000), null);
+    assert.equal(buffer.silenceAfter(120, 2000), 5000);
+    assert.equal(buffer.silenceAfter(4000, 2000), 5000);
+    assert.equal(buffer.silenceAfter(4000, 9000), null);
+    assert.equal(buffer.silenceAfter(5000, 2000), null, 'the end is no silence');
+    assert.equal(new FrameBuffer(keptMs).silenceAfter(0, 1), null);
 });
 
 test('the buffer is bounded and takes frames in order', () => {
     const buffer = filled(frame(100, 0));
-    assert.ok(!buffer.add(frame(100, 0)));
-    assert.ok(!buffer.add(frame(50, 0)));
-    assert.ok(!buffer.add(new ArrayBuffer(3)));
-    for (let t = 120; t < 800e3; t += 20) buffer.add(frame(t, 0));
+    assert.ok(!add(buffer, frame(100, 0)));
+    assert.ok(!add(buffer, frame(50, 0)));
+    for (let t = 120; t < 800e3; t += 20) add(buffer, frame(t, 0));
     assert.ok(buffer.last - buffer.first <= 5 * 60e3);
     assert.ok(buffer.frames.length > 14000);
     assert.equal(buffer.bytes, buffer.frames.length * 64);
@@ -82,7 +85,7 @@ test('live playing is even although arrivals are not', () => {
     let seed = 7;
     const jitter = () => (seed = seed * 48271 % 2147483647) % 60;
     const delays = Array.from({length: 600}, jitter);
-    const shown = play(new PlayoutClock(), 10, i => 50 + delays[i]).slice(200);
+    const shown = play(new PlayoutClock(liveTiming), 10, i => 50 + delays[i]).slice(200);
     for (let i = 1; i < shown.length; ++i) {
         const moved = shown[i] - shown[i - 1];
         assert.ok(moved > 14 && moved < 19.5, `moved ${moved} ms in a frame of 16.7 ms`);
@@ -90,7 +93,7 @@ test('live playing is even although arrivals are not', () => {
 });
 
 test('the clock goes on after a stall, and never beyond what has arrived', () => {
-    const clock = new PlayoutClock();
+    const clock = new PlayoutClock(liveTiming);
     play(clock, 5, () => 50);
     clock.advance(20e3, 0, 4900);
     assert.ok(clock.t <= 4900);
@@ -101,7 +104,7 @@ test('the clock goes on after a stall, and never beyond what has arrived', () =>
 });
 
 test('a viewer pauses, scrubs, plays and comes back', () => {
-    const clock = new PlayoutClock();
+    const clock = new PlayoutClock(liveTiming);
     play(clock, 5, () => 50);
     const live = clock.t;
     clock.setPaused(true);
@@ -117,4 +120,20 @@ test('a viewer pauses, scrubs, plays and comes back', () => {
     assert.equal(clock.t, 2000, 'what was before is forgotten');
     clock.goLive();
     assert.ok(clock.live && clock.t > 5000);
+});
+
+test('a recording is played at a speed, to its end', () => {
+    const clock = new PlayoutClock(liveTiming);
+    clock.seek(0);
+    clock.advance(1000, 0, 500, false);
+    clock.setSpeed(4);
+    clock.advance(1050, 0, 500, false);
+    assert.equal(clock.t, 200);
+    clock.hold(2000);
+    clock.advance(2010, 0, 500, false);
+    assert.equal(clock.t, 240, 'it stood still');
+    clock.advance(2900, 0, 500, false);
+    assert.ok(clock.t === 500 && !clock.live, 'more may follow');
+    clock.advance(2910, 0, 500, true);
+    assert.ok(clock.live && clock.speed === 1, 'what is newest is live');
 });

@@ -4,10 +4,12 @@ import {Timeline} from '../../../server/page/timeline.js';
 
 const visible = 2;
 const searching = 4;
+const live = {keptMs: 5 * 60e3, maxStates: 4096, maxMarks: 1024};
+const whole = {keptMs: Infinity, maxStates: 65536, maxMarks: 65536};
 const frame = (t, ...cameras) => ({t, cameras: new Map(cameras.map(([id, target, flags]) => [id, {id, target, flags}]))});
 
 test('a shot has a span for each state', () => {
-    const timeline = new Timeline();
+    const timeline = new Timeline(live);
     timeline.addFrame(frame(0, [5, 1, visible | 1]));
     timeline.addFrame(frame(20, [5, 1, visible]));
     timeline.addFrame(frame(40, [5, 1, searching]));
@@ -24,7 +26,7 @@ test('a shot has a span for each state', () => {
 });
 
 test('history comes first, frames go on from it', () => {
-    const timeline = new Timeline();
+    const timeline = new Timeline(live);
     const cut = {kind: 'cut', t: 10, camera: 5, target: 0, reason: 'begin'};
     timeline.addHistory({states: [[10, 5, 0, visible], [20, 5, 0, searching]], notes: [cut, {kind: 'event', t: 15, event: 'kill'}]});
     timeline.addFrame(frame(20, [5, 0, searching]));
@@ -40,7 +42,7 @@ test('history comes first, frames go on from it', () => {
 });
 
 test('what is older than five minutes is forgotten', () => {
-    const timeline = new Timeline();
+    const timeline = new Timeline(live);
     timeline.addNote({kind: 'cut', t: 5, camera: 5});
     timeline.addNote({kind: 'event', t: 5, event: 'kill'});
     timeline.addFrame(frame(0, [5, 1, visible], [6, 1, visible]));
@@ -52,11 +54,51 @@ test('what is older than five minutes is forgotten', () => {
 });
 
 test('it is bounded whatever happens', () => {
-    const timeline = new Timeline();
+    const timeline = new Timeline(live);
     for (let i = 0; i < 20000; ++i) {
         timeline.addState(i, 5, 0, i % 2 ? visible : searching);
         timeline.addNote({kind: 'cut', t: i, camera: 5});
     }
     assert.ok(timeline.shots.get(5).length <= 4096);
     assert.ok(timeline.cuts.length <= 1024);
+});
+
+// Parts of a recording: four of 3 s, in which camera 5 sees player 1, loses it at 4 s and is gone at 8 s.
+function parts() {
+    return [0, 1, 2, 3].map(n => {
+        const part = new Timeline(whole);
+        for (let t = n * 3000; t < (n + 1) * 3000; t += 100)
+            part.addFrame(t < 8000 ? frame(t, [5, 1, t < 4000 ? visible : searching]) : frame(t));
+        part.addNote({kind: 'cut', t: n * 3000, camera: 5, target: 1, reason: 'begin'});
+        part.addNote({kind: 'event', t: n * 3000 + 5, event: 'kill'});
+        part.addNote({kind: 'event', t: n * 3000 + 1, event: 'item'});
+        return {part, end: n * 3000 + 2900};
+    });
+}
+
+test('parts make the same timeline in any order', () => {
+    const inOrder = new Timeline(whole);
+    for (const {part, end} of parts()) inOrder.insert(part, end);
+    assert.deepEqual(inOrder.spans(5, 0, 12000), [
+        {from: 0, to: 4000, target: 1, flags: visible},
+        {from: 4000, to: 8000, target: 1, flags: searching},
+    ]);
+    assert.deepEqual(inOrder.cuts.map(cut => cut.t), [0, 3000, 6000, 9000]);
+    assert.deepEqual(inOrder.events.map(event => event.t), [1, 5, 3001, 3005, 6001, 6005, 9001, 9005]);
+    for (const order of [[3, 2, 1, 0], [2, 0, 3, 1], [1, 3, 0, 2]]) {
+        const timeline = new Timeline(whole);
+        for (const n of order) timeline.insert(parts()[n].part, parts()[n].end);
+        assert.deepEqual(timeline.spans(5, 0, 12000), inOrder.spans(5, 0, 12000), `${order}`);
+        assert.deepEqual(timeline.cuts, inOrder.cuts);
+        assert.deepEqual(timeline.events, inOrder.events);
+    }
+});
+
+test('between parts nothing is known', () => {
+    const timeline = new Timeline(whole);
+    for (const n of [2, 0]) timeline.insert(parts()[n].part, parts()[n].end);
+    assert.deepEqual(timeline.spans(5, 0, 12000).map(({from, to}) => [from, to]), [[0, 2900], [6000, 8000]]);
+    assert.deepEqual(timeline.spans(5, 2950, 5950), []);
+    assert.equal(timeline.cutAfter(5, 0).t, 6000);
+    assert.equal(timeline.cutAfter(5, 6000), null);
 });

@@ -1,0 +1,111 @@
+// Feeds the model from a match's stream (idl/live.md).
+import {Connection} from './connection.js';
+import {decodeFrame, version} from './protocol.js';
+
+// What the model keeps of it.
+export const kept = {
+    framesMs: 5 * 60e3,
+    timing: {windowMs: 4e3, maxJitterMs: 400, farMs: 600},
+    timeline: {keptMs: 5 * 60e3, maxStates: 4096, maxMarks: 1024},
+};
+
+const now = () => performance.now();
+
+export class LiveSource {
+    // `on.match(note)`, `on.problem(text)`, `on.change()`.
+    constructor(matchId, model, token, on) {
+        Object.assign(this, {matchId, model, on});
+        this.dropped = 0;
+        this.age = null;  // ms between the game server's clock and this one, when the last frame arrived
+        this.ended = false;
+        this.step = 1;
+        model.begin(kept);
+        this.link = new Connection(token, {
+            state: (state, retryMs) => {
+                this.connection = state;
+                this.retryAt = retryMs === undefined ? null : now() + retryMs;
+                on.change();
+            },
+            note: note => {
+                this.notes[note.kind]?.(note);
+                on.change();
+            },
+            frame: data => this.add(data),
+        });
+        this.link.watch(matchId);
+    }
+
+    close() {
+        this.link.close();
+    }
+
+    // The server does not answer otherwise either.
+    unreachable() {
+        this.link.unreachable();
+    }
+
+    notes = {
+        match: note => {
+            if (note.version !== version) return this.on.problem('The server speaks another version: reload this page.');
+            const before = this.model.note;
+            if (before && (before.epoch !== note.epoch || this.ended)) this.model.begin(kept);
+            this.ended = false;
+            this.step = note.position_step;
+            this.model.setMatch(note);
+            this.on.match(note);
+        },
+        history: note => {
+            this.model.timeline.clear();
+            this.model.timeline.addHistory(note);
+        },
+        cut: note => this.model.timeline.addNote(note),
+        event: note => this.model.timeline.addNote(note),
+        dropped: ({frames}) => {
+            this.dropped += frames;
+            this.on.problem(`${frames} frames skipped: this connection is slow`);
+        },
+        end: () => {
+            this.ended = true;
+            this.on.problem('The match has ended');
+        },
+    };
+
+    add(data) {
+        const {step} = this;
+        const frame = decodeFrame(data, step);
+        if (!frame || !this.model.buffer.add(frame.t, data.byteLength, () => decodeFrame(data, step))) return;
+        this.model.clock.arrived(frame.t, now());
+        this.model.timeline.addFrame(frame);
+        this.age = Date.now() - frame.sourceTime;
+    }
+
+    get range() {
+        const {first, last} = this.model.buffer;
+        return last === null ? null : [first, last];
+    }
+
+    seek(t) {
+        const {buffer, clock} = this.model;
+        clock.seek(Math.min(Math.max(t, buffer.first ?? t), buffer.last ?? t));
+    }
+
+    goLive() {
+        this.model.clock.goLive();
+    }
+
+    advance(at) {
+        const {buffer, clock} = this.model;
+        clock.advance(at, buffer.first, buffer.last);
+    }
+
+    // What it does: connecting, waiting (until retryAt), silent, empty, ended, paused, live, behind.
+    get state() {
+        const {buffer, clock} = this.model;
+        if (this.connection === 'waiting' || this.connection === 'connecting') return this.connection;
+        if (this.ended) return 'ended';
+        if (this.connection === 'silent') return 'silent';
+        if (buffer.last === null) return 'empty';
+        if (clock.paused) return 'paused';
+        return clock.live ? 'live' : 'behind';
+    }
+}

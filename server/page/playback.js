@@ -1,0 +1,368 @@
+// Plays a recording, or a match that is broadcast: fetches the fragments that the clock comes to, seeks in all there is.
+// One thing is fetched at a time, what is needed first.
+import {Damaged} from './bytes.js';
+import {Refused} from './broadcast.js';
+import {Roster, readFragment, readState} from './fragment.js';
+
+// What the model keeps of a recording.
+export const kept = {
+    framesMs: 60e3,
+    timing: {windowMs: 30e3, maxJitterMs: 6e3, farMs: 4e3},
+    timeline: {keptMs: Infinity, maxStates: 1 << 16, maxMarks: 1 << 16},
+};
+
+const aheadMs = 15e3;       // that is fetched before the clock comes to it
+const slackMs = 400;        // by which a time may be beside a fragment
+const silenceMs = 2e3;      // frames farther apart: playing goes on with the next
+const lookMs = 500;         // how late a new fragment is found
+const syncRetryMs = 1e3;    // what a cache keeps `sync`
+const surveyedBytes = 128e6;  // that may be fetched for the timeline alone
+const maxUnreadable = 16;   // fragments, one after the other
+const firstRetryMs = 500;
+const longestRetryMs = 15e3;
+const frameBytes = 400;     // of a player or camera in memory
+
+const now = () => performance.now();
+const isMissing = error => error instanceof Refused && (error.status === 404 || error.status === 410);
+
+export class Playback {
+    // `on.match(note)`: of the time that is shown; `on.problem(text)`; `on.token()`: the server wants another one.
+    constructor(broadcast, model, on) {
+        Object.assign(this, {broadcast, model, on});
+        model.begin(kept);
+        this.roster = new Roster();
+        this.fragments = new Map();  // by number: {from, to} in ms, `to` where it was read
+        this.states = new Map();     // of the match at the begin of fragments
+        this.surveyed = new Set();   // numbers of those that the timeline has
+        this.unreadable = new Map(); // why, by number
+        this.notes = [];             // {t, note, key} of what is loaded
+        this.loaded = null;          // {last: number, from, to: ms}
+        this.retryMs = firstRetryMs;
+        this.problems = [];
+    }
+
+    // `begin`: {t} in ms, {behind} in ms before what is newest, or {} for the newest.
+    open(begin) {
+        this.abort = new AbortController();
+        this.begin = begin;
+        this.run();
+    }
+
+    close() {
+        this.closed = true;
+        this.abort.abort();
+        this.wake();
+    }
+
+    async run() {
+        while (!this.closed) {
+            this.abort = new AbortController();
+            try {
+                await (this.nextJob() ?? (() => this.sleep(250)))();
+                this.retryMs = firstRetryMs;
+                this.retryAt = null;
+            } catch (error) {
+                if (!this.abort.signal.aborted) await this.pause(error);
+            }
+        }
+    }
+
+    // The network or the server does not answer: later again.
+    async pause(error) {
+        if (error instanceof Refused && error.status === 401) this.on.token();
+        if (error instanceof Damaged || isMissing(error)) this.tell(error.message);
+        const wait = this.retryMs * (0.75 + Math.random() / 2);
+        this.retryMs = Math.min(this.retryMs * 2, longestRetryMs);
+        this.retryAt = now() + wait;
+        await this.sleep(wait);
+    }
+
+    sleep(ms) {
+        return new Promise(resolve => {
+            this.wake = resolve;
+            setTimeout(resolve, ms);
+        });
+    }
+
+    wake() {}
+
+    tell(problem) {
+        this.problems.push(problem);
+        if (this.problems.length > 100) this.problems.shift();
+        this.on.problem(problem);
+    }
+
+    nextJob() {
+        const {clock} = this.model;
+        if (!this.start) return () => this.prepare();
+        if (this.seeksNewest) return () => this.loadNewest();
+        if (!this.covers(clock.t)) return () => this.load(clock.t);
+        if (this.loaded.last < this.sync.last && this.loaded.to - clock.t < aheadMs) return () => this.append(this.loaded.last + 1);
+        if (this.sync.live && now() >= this.syncDue) return () => this.refresh();
+        if (!clock.live && this.broadcast.bytes < surveyedBytes) {
+            const n = this.nextToSurvey();
+            if (n !== null) return () => this.read(n);
+        }
+        return null;
+    }
+
+    async refresh() {
+        const sync = await this.broadcast.sync(this.abort.signal);
+        if (this.sync && sync.recording !== this.sync.recording) {
+            this.tell('Another recording of this match has begun');
+            return this.on.restart();
+        }
+        const isNew = sync.last !== this.sync?.last;
+        this.sync = sync;
+        this.syncAt = now();
+        this.syncDue = this.syncAt + (isNew ? Math.max(sync.durationMs - sync.ageMs, 0) + lookMs / 2 : syncRetryMs);
+    }
+
+    async prepare() {
+        await this.refresh();
+        const start = await this.broadcast.start(this.abort.signal);
+        const first = await this.readable(this.sync.first, 1);
+        this.origin = first.beginTime - BigInt(Math.round((first.n - this.sync.first) * this.sync.durationMs * 1e6));
+        const last = await this.readable(this.sync.last, -1);
+        for (const {n, beginTime} of [first, last]) this.fragments.set(n, {from: Number(beginTime - this.origin) / 1e6});
+        if (!this.sync.live) await this.read(last.n);  // tells where it ends
+        this.start = start;
+        this.on.match(this.roster.note(first.state.match ?? start.match));
+        const {t, behind} = this.begin;
+        if (t === undefined && behind === undefined) this.goLive(); else this.seek(t ?? this.newest() - behind);
+    }
+
+    // The state of the next fragment from n on, in steps, that can be read.
+    async readable(n, step) {
+        for (let i = 0; i < maxUnreadable && n >= this.sync.first && n <= this.sync.last; ++i, n += step) {
+            try {
+                return {n, ...await readState(await this.broadcast.fragment(n, 'full', this.abort.signal), n)};
+            } catch (error) {
+                this.leaveOut(n, error);
+            }
+        }
+        throw new Damaged(`No fragment of this recording can be read: ${[...this.unreadable.values()].pop()}`);
+    }
+
+    // Tells why a fragment is not shown; other errors are thrown on.
+    leaveOut(n, error) {
+        if (!(error instanceof Damaged) && !isMissing(error)) throw error;
+        if (this.unreadable.has(n)) return;
+        this.unreadable.set(n, error.message);
+        this.tell(`${isMissing(error) ? 'Missing' : 'Damaged'}, left out: ${error.message}`);
+    }
+
+    // Null: it cannot be read.
+    async read(n) {
+        if (this.unreadable.has(n)) return null;
+        try {
+            const {signal} = this.abort;
+            const state = this.states.get(n) ?? (await readState(await this.broadcast.fragment(n, 'full', signal), n)).state;
+            const bytes = await this.broadcast.fragment(n, 'delta', signal);
+            const fragment = await readFragment(bytes, n, state, this.origin, this.roster);
+            this.fragments.set(n, {from: fragment.from, to: fragment.to});
+            this.keepState(n + 1, fragment.state);
+            this.enter(fragment);
+            return fragment;
+        } catch (error) {
+            if (isMissing(error) && this.isLive) await this.leaveIfRemoved(n, error);
+            this.leaveOut(n, error);
+            return null;
+        }
+    }
+
+    // A recording that has become too large loses its oldest fragments.
+    async leaveIfRemoved(n, error) {
+        await this.refresh();
+        if (n >= this.sync.first) return;
+        this.tell('What was here is no longer kept: it goes on with the oldest that is');
+        this.loaded = null;
+        this.seek(-Infinity);
+        throw error;  // the job is aborted
+    }
+
+    keepState(n, state) {
+        this.states.set(n, state);
+        if (this.states.size > 4) this.states.delete(this.states.keys().next().value);
+    }
+
+    // Into the timeline, once.
+    enter(fragment) {
+        if (this.surveyed.has(fragment.n)) return;
+        this.surveyed.add(fragment.n);
+        const part = this.model.newTimeline();
+        fragment.frames.forEach(frame => part.addFrame(frame));
+        for (const note of [...fragment.cuts, ...fragment.events]) part.addNote(note);
+        this.model.timeline.insert(part, fragment.to);
+    }
+
+    // Behind what is loaded first, then from the begin.
+    nextToSurvey() {
+        const {first, last} = this.sync;
+        const isKnown = n => this.surveyed.has(n) || this.unreadable.has(n);
+        for (let n = this.loaded.last; n <= last; ++n) if (!isKnown(n)) return n;
+        for (let n = first; n < this.loaded.last; ++n) if (!isKnown(n)) return n;
+        return null;
+    }
+
+    async load(t) {
+        const {clock} = this.model;
+        let fragment = null;
+        for (let n = this.locate(t), reads = 0; n !== null && reads < maxUnreadable; ++reads) {
+            fragment = await this.read(n);
+            const next = fragment ? this.locate(t) : this.nextReadable(n);
+            if (next === n) break;
+            n = next;
+        }
+        if (!fragment) throw new Damaged(`Nothing can be read here: ${[...this.unreadable.values()].pop()}`);
+        this.replace(fragment);
+        // Where nothing was recorded, or nothing can be read, it goes on with what follows.
+        if (clock.t === t) clock.t = Math.min(Math.max(t, fragment.from), fragment.to);
+    }
+
+    async loadNewest() {
+        await this.refresh();
+        const {n} = await this.readable(this.sync.last, -1);
+        const fragment = await this.read(n);
+        if (!fragment) return;
+        this.seeksNewest = false;
+        this.replace(fragment);
+        const {clock} = this.model;
+        clock.arrivals = [];
+        clock.arrived(fragment.from, this.syncAt - this.sync.ageMs + lookMs);
+        clock.t = Math.min(clock.target(now()), fragment.to);
+    }
+
+    replace(fragment) {
+        this.model.buffer.clear();
+        this.notes = [];
+        this.loaded = {last: fragment.n, from: fragment.from, to: fragment.to};
+        this.put(fragment);
+    }
+
+    async append(n) {
+        const fragment = await this.read(n);
+        this.loaded.last = n;
+        if (!fragment) return;
+        if (this.model.clock.live) this.model.clock.arrived(fragment.from, now());
+        this.loaded.to = fragment.to;
+        this.put(fragment);
+    }
+
+    put(fragment) {
+        const {buffer} = this.model;
+        const first = buffer.first;
+        for (const frame of fragment.frames)
+            buffer.add(frame.t, frameBytes * (1 + frame.players.size + frame.cameras.size), () => frame);
+        if (first !== null && buffer.first > first) this.loaded.from = buffer.first;
+        for (const {t, note} of fragment.matches) this.notes.push({t, note, key: JSON.stringify(note)});
+        while (this.notes.length > 1 && this.notes[1].t <= this.loaded.from) this.notes.shift();
+    }
+
+    // The fragment at a time, as far as it can be told from those that are known.
+    locate(t) {
+        const {first, last, durationMs} = this.sync;
+        let before = null;
+        let after = null;
+        for (const [n, {from, to}] of this.fragments) {
+            if (from <= t && (!before || n > before.n)) before = {n, from, to};
+            if (from > t && (!after || n < after.n)) after = {n, from};
+        }
+        if (!before) return first;
+        const isPast = before.to !== undefined && t > before.to + slackMs;
+        if (before.to !== undefined && !isPast) return Math.min(Math.max(before.n, first), last);
+        const each = after ? (after.from - before.from) / (after.n - before.n) : durationMs;
+        const guess = before.n + Math.floor((t - before.from) / each);
+        const least = before.n + (isPast ? 1 : 0);
+        return Math.min(Math.max(guess, least, first), after ? Math.max(after.n - 1, least) : last, last);
+    }
+
+    // After n, else before it; null: none.
+    nextReadable(n) {
+        for (let next = n + 1; next <= this.sync.last; ++next) if (!this.unreadable.has(next)) return next;
+        for (let next = n - 1; next >= this.sync.first; --next) if (!this.unreadable.has(next)) return next;
+        return null;
+    }
+
+    covers(t) {
+        return this.loaded !== null && t >= this.loaded.from - slackMs && t <= this.loaded.to + slackMs;
+    }
+
+    // When fragment n begins, as far as it is known.
+    beginOf(n) {
+        let nearest = null;
+        for (const [known, {from}] of this.fragments)
+            if (!nearest || Math.abs(known - n) < Math.abs(nearest.n - n)) nearest = {n: known, from};
+        return nearest.from + (n - nearest.n) * this.sync.durationMs;
+    }
+
+    // What observers see now, in ms of the model.
+    newest() {
+        return this.endOfLast() + this.sync.ageMs + now() - this.syncAt;
+    }
+
+    endOfLast() {
+        const {last, durationMs} = this.sync;
+        return this.fragments.get(last)?.to ?? this.beginOf(last) + durationMs;
+    }
+
+    // [first, last] ms where one may go, or null.
+    get range() {
+        return this.start ? [this.beginOf(this.sync.first), this.endOfLast()] : null;
+    }
+
+    get isLive() { return this.sync?.live ?? false; }
+
+    // Everything there is was played.
+    get atEnd() {
+        return this.loaded !== null && this.loaded.last >= this.sync.last && this.model.clock.t >= this.loaded.to - 1;
+    }
+
+    seek(t) {
+        const [first, last] = this.range;
+        this.seeksNewest = false;
+        this.model.clock.seek(Math.min(Math.max(t, first), last));
+        if (!this.covers(this.model.clock.t)) this.abort.abort();
+        this.wake();
+    }
+
+    goLive() {
+        this.model.clock.goLive();
+        this.seeksNewest = true;
+        this.abort.abort();
+        this.wake();
+    }
+
+    // Moves the clock on.
+    advance(at) {
+        const {clock, buffer} = this.model;
+        if (clock.t === null || this.seeksNewest || !this.covers(clock.t)) return clock.hold(at);
+        const follows = this.isLive && this.loaded.last >= this.sync.last;
+        clock.advance(at, this.loaded.from, this.loaded.to, false);
+        const next = clock.live || clock.paused ? null : buffer.silenceAfter(clock.t, silenceMs);
+        if (next !== null) clock.t = next;
+        if (this.atEnd && !clock.live && !clock.paused)
+            if (follows) this.on.newest(); else if (!this.isLive) clock.setPaused(true);
+        this.showMatch(clock.t);
+    }
+
+    showMatch(t) {
+        let shown = this.notes[0];
+        for (const entry of this.notes) if (entry.t <= t) shown = entry;
+        if (!shown || shown.key === this.shownKey) return;
+        this.shownKey = shown.key;
+        this.on.match(shown.note);
+    }
+
+    // What it does: opening, waiting (until retryAt), loading, paused, ended, live, playing.
+    get state() {
+        const {clock} = this.model;
+        if (this.retryAt) return 'waiting';
+        if (!this.start) return 'opening';
+        if (this.seeksNewest || !this.covers(clock.t)) return 'loading';
+        if (!this.isLive && this.atEnd) return 'ended';
+        if (clock.paused) return 'paused';
+        if (clock.live) return 'live';
+        return this.loaded.last < this.sync.last && clock.t >= this.loaded.to - 1 ? 'loading' : 'playing';
+    }
+}
