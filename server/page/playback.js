@@ -110,6 +110,7 @@ export class Playback {
         const sync = await this.broadcast.sync(this.abort.signal);
         if (this.sync && sync.recording !== this.sync.recording) {
             this.tell('Another recording of this match has begun');
+            this.close();
             return this.on.restart();
         }
         const isNew = sync.last !== this.sync?.last;
@@ -136,7 +137,7 @@ export class Playback {
     async readable(n, step) {
         for (let i = 0; i < maxUnreadable && n >= this.sync.first && n <= this.sync.last; ++i, n += step) {
             try {
-                return {n, ...await readState(await this.broadcast.fragment(n, 'full', this.abort.signal), n)};
+                return {n, ...await this.readState(n)};
             } catch (error) {
                 this.leaveOut(n, error);
             }
@@ -152,12 +153,18 @@ export class Playback {
         this.tell(`${isMissing(error) ? 'Missing' : 'Damaged'}, left out: ${error.message}`);
     }
 
+    async readState(n) {
+        const found = await readState(await this.broadcast.fragment(n, 'full', this.abort.signal), n);
+        this.keepState(n, found.state);
+        return found;
+    }
+
     // Null: it cannot be read.
     async read(n) {
         if (this.unreadable.has(n)) return null;
         try {
             const {signal} = this.abort;
-            const state = this.states.get(n) ?? (await readState(await this.broadcast.fragment(n, 'full', signal), n)).state;
+            const state = this.states.get(n) ?? (await this.readState(n)).state;
             const bytes = await this.broadcast.fragment(n, 'delta', signal);
             const fragment = await readFragment(bytes, n, state, this.origin, this.roster);
             this.fragments.set(n, {from: fragment.from, to: fragment.to});

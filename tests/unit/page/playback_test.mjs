@@ -1,0 +1,222 @@
+import assert from 'node:assert/strict';
+import {test} from 'node:test';
+import {Broadcast} from '../../../server/page/broadcast.js';
+import {Model} from '../../../server/page/model.js';
+import {Playback} from '../../../server/page/playback.js';
+import * as writer from './recording_writer.mjs';
+
+const patienceMs = 20e3;
+
+// A server of a recording, and a viewer of it whose clock the test moves.
+class Stage {
+    constructor(files, sync = {}) {
+        this.files = files;
+        const last = Math.max(...Object.keys(files).map(name => parseInt(name, 10)).filter(Number.isFinite));
+        this.sync = {version: 1, recording: 'r', first_fragment: 0, last_fragment: last, fragment_duration_s: writer.durationMs / 1000,
+            age_s: 0, delay_s: 0, live: false, ...sync};
+        this.asked = [];
+        this.status = 0;  // of every answer; 0: as it is
+        this.told = [];
+        this.problems = [];
+        this.newest = 0;
+        this.model = new Model();
+        const broadcast = new Broadcast('http://cache/broadcast/m/sync', async (url, abort) => this.answer(url, abort));
+        this.playback = new Playback(broadcast, this.model, {match: note => { this.told.push(note); this.model.setMatch(note); },
+            problem: text => this.problems.push(text), token: () => this.told.push('token'), newest: () => { ++this.newest; },
+            restart: () => this.told.push('restart')});
+        this.now = performance.now();
+    }
+
+    answer(url, abort) {
+        abort?.throwIfAborted();
+        const name = new URL(url).pathname.replace('/broadcast/m/', '');
+        this.asked.push(name);
+        if (this.status) return new Response('', {status: this.status});
+        if (name === 'sync') return new Response(JSON.stringify(this.sync));
+        const bytes = this.files[name.replace('r/', '')];
+        return bytes ? new Response(bytes) : new Response('Not Found', {status: 404});
+    }
+
+    // Moves the clock on by so much.
+    play(ms) {
+        this.playback.advance(this.now);
+        for (const end = this.now + ms; this.now < end;) this.playback.advance(this.now = Math.min(this.now + 50, end));
+    }
+
+    async until(what, condition) {
+        for (const end = Date.now() + patienceMs; !condition(); await new Promise(resolve => setTimeout(resolve, 2))) {
+            this.play(0);
+            if (Date.now() > end) throw new Error(`never: ${what}; ${this.playback.state} ${this.model.clock.t} ${this.problems}`);
+        }
+    }
+
+    // Player 0 is at the number of the fragment.
+    get shown() {
+        return this.model.sample()?.players.get(0).position[0] ?? null;
+    }
+}
+
+async function watch(files, use, {sync, begin = {t: 0}} = {}) {
+    const stage = new Stage(files, sync);
+    stage.playback.open(begin);
+    try {
+        await use(stage);
+    } finally {
+        stage.playback.close();
+    }
+}
+
+test('a recording is played from its begin to its end, and all of its timeline is known', () =>
+    watch(writer.recording(6), async stage => {
+        await stage.until('begins', () => stage.shown === 0);
+        assert.equal(stage.told[0].match_id, 'm');
+        assert.deepEqual(stage.told[0].players.map(player => player.name), ['Ann', 'Bob']);
+        assert.deepEqual(stage.playback.range, [0, 5001]);
+        const {timeline, clock} = stage.model;
+        await stage.until('the timeline', () => timeline.cuts.length === 6 && stage.playback.loaded.last === 5);
+        assert.deepEqual(timeline.cuts.map(cut => [cut.t, cut.camera, cut.reason]), [0, 1, 2, 3, 4, 5].map(n => [n * 1000, 5, n === 0 ? 'begin' : 'viewpoint']));
+        assert.equal(timeline.events.length, 6);
+        assert.equal(timeline.events[2].detail, 'axe');
+        stage.play(2500);
+        assert.ok(Math.abs(clock.t - 2500) < 1, `${clock.t}`);
+        assert.equal(stage.shown, 2, 'frames a second apart are not mixed');
+        stage.play(9000);
+        assert.equal(stage.playback.state, 'ended');
+        assert.ok(clock.paused);
+        assert.equal(stage.shown, 5);
+        assert.deepEqual(stage.problems, []);
+        assert.ok(stage.asked.length - new Set(stage.asked).size <= 1, `what is known is not fetched again: ${stage.asked}`);
+    }));
+
+test('a seek fetches little, wherever it goes', () =>
+    watch(writer.recording(400, n => n * 1015), async stage => {
+        await stage.until('begins', () => stage.shown === 0);
+        for (const n of [399, 7, 250, 251, 100, 0]) {
+            const before = stage.asked.length;
+            stage.playback.seek(n * 1015 + 20);
+            stage.model.clock.setPaused(true);
+            await stage.until(`at ${n}`, () => stage.shown === n);
+            assert.ok(stage.asked.length - before < 30, `${stage.asked.length - before} requests`);
+        }
+        assert.deepEqual(stage.problems, []);
+    }));
+
+test('what is damaged, cut off or missing is told, and left out', () => {
+    const files = writer.recording(10);
+    files['2/delta'] = files['2/delta'].map((byte, i) => i === 40 ? byte ^ 1 : byte);
+    files['3/delta'] = files['3/delta'].slice(0, -5);
+    delete files['4/delta'];
+    delete files['7/full'];
+    return watch(files, async stage => {
+        await stage.until('begins', () => stage.shown === 0);
+        await stage.until('told', () => stage.problems.length === 3);
+        assert.match(stage.problems[0], /^Damaged, left out: fragment 2, delta: byte 28: the checksum differs/);
+        assert.match(stage.problems[1], /^Damaged, left out: fragment 3, delta: byte 24: .* bytes follow the header, expected/);
+        assert.match(stage.problems[2], /^Missing, left out: fragment 4, delta: the server answers with 404/);
+        await stage.until('loaded', () => stage.playback.loaded.last === 9);
+        stage.play(1200);
+        assert.equal(stage.shown, 5, 'playing goes on with what follows');
+        stage.play(2000);
+        assert.equal(stage.shown, 7, 'the state is known from the fragment before');
+        stage.playback.seek(2500);
+        await stage.until('behind the damage', () => stage.shown === 5 && stage.playback.state === 'playing');
+    });
+});
+
+test('a seek into what is damaged goes on behind it, at the end before it', () => {
+    const files = writer.recording(40);
+    for (const n of [20, 21, 39]) files[`${n}/delta`] = new Uint8Array(3);
+    return watch(files, async stage => {
+        await stage.until('begins', () => stage.shown === 0);
+        stage.playback.seek(20500);
+        await stage.until('behind it', () => stage.shown === 22);
+        stage.playback.seek(39900);
+        await stage.until('before it', () => stage.shown === 38);
+    });
+});
+
+test('where nothing was recorded, it goes on with what follows', () =>
+    watch(writer.recording(8, n => n * 1000 + (n > 3 ? 60e3 : 0)), async stage => {
+        await stage.until('begins', () => stage.shown === 0);
+        stage.playback.seek(30e3);
+        await stage.until('after the silence', () => stage.shown === 4);
+        assert.ok(stage.model.clock.t >= 64e3);
+        stage.playback.seek(3300);
+        await stage.until('before the silence', () => stage.shown === 3);
+        await stage.until('loaded', () => stage.playback.loaded.last === 4);
+        stage.play(1000);
+        assert.equal(stage.shown, 4);
+    }));
+
+test('a broadcast is watched at its newest, and followed', () =>
+    watch(writer.recording(30), async stage => {
+        await stage.until('begins', () => stage.shown === 20);
+        assert.equal(stage.playback.state, 'live');
+        assert.ok(stage.asked.length < 12, `${stage.asked}`);
+        stage.sync.last_fragment = 21;
+        await stage.until('the next', () => stage.playback.loaded.last === 21);
+        stage.playback.seek(2000);
+        await stage.until('back', () => stage.shown === 2 && stage.playback.state === 'playing');
+        stage.playback.goLive();
+        await stage.until('live again', () => stage.shown === 21 && stage.playback.state === 'live');
+        stage.sync = {...stage.sync, last_fragment: 22, live: false};
+        await stage.until('the last', () => stage.playback.loaded.last === 22);
+        stage.now += 5000;
+        await stage.until('the end', () => stage.playback.state === 'ended');
+        assert.deepEqual(stage.problems, []);
+    }, {sync: {last_fragment: 20, live: true, age_s: 0.9}, begin: {}}));
+
+test('who plays to the newest is told', () =>
+    watch(writer.recording(30), async stage => {
+        await stage.until('begins', () => stage.shown === 9);
+        stage.model.clock.setSpeed(4);
+        await stage.until('loaded', () => stage.playback.loaded.last === 10);
+        stage.play(3000);
+        assert.ok(stage.newest > 0);
+    }, {sync: {last_fragment: 10, live: true}, begin: {t: 9000}}));
+
+test('what is removed meanwhile is not waited for', () =>
+    watch(writer.recording(200), async stage => {
+        await stage.until('begins', () => stage.shown === 0);
+        stage.model.clock.setPaused(true);
+        stage.sync = {...stage.sync, first_fragment: 150};
+        for (let n = 0; n < 150; ++n) for (const name of ['full', 'delta']) delete stage.files[`${n}/${name}`];
+        stage.playback.seek(60500);
+        await stage.until('the oldest that is kept', () => stage.shown === 150);
+        assert.match(stage.problems.pop(), /no longer kept/);
+        assert.equal(stage.playback.range[0], 150e3);
+    }, {sync: {live: true}}));
+
+test('a server that does not answer is asked again', () =>
+    watch(writer.recording(5), async stage => {
+        stage.status = 503;
+        await stage.until('it waits', () => stage.playback.state === 'waiting');
+        stage.status = 401;
+        await stage.until('it asks for a token', () => stage.told.includes('token'));
+        stage.status = 0;
+        await stage.until('begins', () => stage.shown === 0);
+        assert.deepEqual(stage.problems, []);
+    }));
+
+test('another recording of the match is begun anew', () =>
+    watch(writer.recording(5), async stage => {
+        await stage.until('begins', () => stage.shown === 4);
+        stage.sync.recording = 'other';
+        await stage.until('it restarts', () => stage.told.includes('restart'));
+    }, {sync: {live: true}, begin: {}}));
+
+test('a recording of which nothing can be read says so, and is not asked for in haste', () => {
+    const files = writer.recording(5);
+    for (let n = 0; n < 5; ++n) files[`${n}/full`] = new Uint8Array(1);
+    return watch(files, async stage => {
+        await stage.until('told', () => stage.problems.some(text => /^No fragment of this recording can be read/.test(text)));
+        assert.equal(stage.playback.state, 'waiting');
+        assert.ok(stage.asked.length < 20);
+    });
+});
+
+test('answers are not read beyond what a resource may have', async () => {
+    const endless = new ReadableStream({pull: controller => controller.enqueue(new Uint8Array(1 << 20))});
+    const broadcast = new Broadcast('http://cache/broadcast/m/sync', async () => new Response(endless));
+    await assert.rejects(broadcast.sync(), /sync: more than 4096 bytes/);
+});
