@@ -98,9 +98,8 @@ http::Sources sources_of(const recording::Broadcast& broadcast, live::Models& mo
     return sources;
 }
 
-void announce(const PlayOptions& options, const recording::Playback& playback, double length_s,
-              const std::string& link) {
-    const auto seconds = static_cast<long>(std::ceil(length_s));
+void announce(const PlayOptions& options, const recording::Playback& playback, const std::string& link) {
+    const auto seconds = static_cast<long>(std::ceil(playback.length_s()));
     std::fprintf(stderr, "camera-director: %s: match %s on %s, %ld:%02ld: watch it at %s, until Ctrl-C\n",
                  options.recording.c_str(), playback.match().match_id.c_str(),
                  playback.match().map_name.c_str(), seconds / 60, seconds % 60, link.c_str());
@@ -119,8 +118,9 @@ Result<void> serve_all(const recording::Playback& playback, recording::Broadcast
     return {};
 }
 
-Result<void> serve_live(recording::Playback& playback, recording::Broadcast& broadcast,
-                        service::Signals& signals) {
+Result<void> serve_live(const PlayOptions& options, recording::Playback& playback,
+                        recording::Broadcast& broadcast, service::Signals& signals) {
+    if (auto begun = playback.go_on(options.from, options.speed); !begun) return begun;
     const auto begin = std::chrono::steady_clock::now();
     do {
         const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
@@ -135,18 +135,16 @@ Result<void> play(const PlayOptions& options) {
     service::Signals signals;
     const auto http = listening(options);
     if (!http) return tl::unexpected(http.error());
-    auto playback = recording::Playback::open(options.recording, options.from, options.speed);
+    auto playback = recording::Playback::open(options.recording);
     if (!playback) return tl::unexpected(playback.error());
-    const auto length_s = playback->length_s();
-    if (!length_s) return tl::unexpected(length_s.error());
     PlayedMap map;
     if (!options.freespace.empty())
         if (auto loaded = map.load(options, playback->match()); !loaded) return loaded;
     recording::Broadcast broadcast;
     const auto server = http::Server::start(*http, sources_of(broadcast, map.models()));
     if (!server) return tl::unexpected(server.error());
-    announce(options, *playback, *length_s, link_to(http->address, (*server)->port()));
-    return options.live ? serve_live(*playback, broadcast, signals)
+    announce(options, *playback, link_to(http->address, (*server)->port()));
+    return options.live ? serve_live(options, *playback, broadcast, signals)
                         : serve_all(*playback, broadcast, signals);
 }
 

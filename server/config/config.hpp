@@ -36,8 +36,9 @@ struct Dds {
 struct Http {
     bool enabled = true;
     std::string address = "127.0.0.1";
-    std::int64_t port = 9464;  // 0 = any free one, which the log names
-    std::string token_file;    // needed off loopback
+    std::int64_t port = 9464;        // 0 = any free one, which the log names
+    std::string token_file;          // needed off loopback
+    std::vector<std::string> hosts;  // names of proxies before a loopback address
     std::int64_t match_metrics = 0;
     std::int64_t viewers = 256;  // who watch matches in a browser, at most
     std::string page;            // folder of the page's files; empty: beside the program

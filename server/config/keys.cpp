@@ -141,6 +141,11 @@ void add_http(std::vector<Key>& table) {
          "File with the token that requests carry as `Authorization: Bearer TOKEN`; not open to everyone. "
          "Its content is read again on SIGHUP. Relative paths start at the configuration's folder.",
          "", 0, 4095});
+    table.push_back(
+        {section, "hosts", slot(&Http::hosts),
+         "Names by which proxies ask, where the address is a loopback one: requests for other hosts "
+         "than this one's names are refused.",
+         "", 0, 255});
     table.push_back({section, "match_metrics", slot(&Http::match_metrics),
                      "Matches that have metrics of their own, with the label `match`: as many of those that "
                      "began first. 0: none.",

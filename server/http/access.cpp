@@ -1,9 +1,11 @@
 #include "http/access.hpp"
 
 #include <algorithm>
+#include <boost/asio/ip/address.hpp>
 #include <filesystem>
 
 #include "base/file.hpp"
+#include "http/letter_case.hpp"
 
 namespace camdir::http {
 namespace {
@@ -36,8 +38,21 @@ Result<std::string> read_token(const std::string& file) {
     return token;
 }
 
-char lower(char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+// HOST or HOST:PORT; IPv6 in brackets, which are removed.
+std::string_view without_port(std::string_view host) {
+    if (host.starts_with('[')) return host.substr(1, host.find(']') - 1);
+    return host.substr(0, host.find(':'));
+}
+
+bool is_loopback_name(std::string_view name) {
+    constexpr std::string_view local = "localhost";
+    constexpr std::string_view below = ".localhost";
+    if (equal_without_case(name, local)) return true;
+    if (name.size() > below.size() && equal_without_case(name.substr(name.size() - below.size()), below))
+        return true;
+    boost::system::error_code error;
+    const auto address = boost::asio::ip::make_address(std::string(name), error);
+    return !error && address.is_loopback();
 }
 
 // Takes as long for every `given` of a size, so that nobody finds out how much of it is right.
@@ -51,8 +66,10 @@ bool equal_in_constant_time(std::string_view expected, std::string_view given) {
 }  // namespace
 
 Result<Access> Access::load(const config::Http& config, bool on_loopback) {
+    std::vector<std::string> hosts = config.hosts;
+    hosts.push_back(config.address);
     if (config.token_file.empty()) {
-        if (on_loopback) return Access(on_loopback, "");
+        if (on_loopback) return Access(on_loopback, "", std::move(hosts));
         return fail(
             "http: " + config.address +
             " is not a loopback address: expected /http/token_file to name a file with the token that "
@@ -60,7 +77,7 @@ Result<Access> Access::load(const config::Http& config, bool on_loopback) {
     }
     auto token = read_token(config.token_file);
     if (!token) return fail("http: /http/token_file: " + token.error().message);
-    return Access(on_loopback, std::move(*token));
+    return Access(on_loopback, std::move(*token), std::move(hosts));
 }
 
 bool Access::allows(bool reads, bool open, std::string_view authorization) const {
@@ -69,6 +86,13 @@ bool Access::allows(bool reads, bool open, std::string_view authorization) const
                         std::equal(scheme.begin(), scheme.end(), authorization.begin(),
                                    [](char of_scheme, char given) { return of_scheme == lower(given); });
     return bearer && equal_in_constant_time(token_, authorization.substr(scheme.size()));
+}
+
+bool Access::serves(std::string_view host) const {
+    const std::string_view name = without_port(host);
+    return !on_loopback_ || is_loopback_name(name) ||
+           std::ranges::any_of(hosts_,
+                               [&](const std::string& known) { return equal_without_case(known, name); });
 }
 
 }  // namespace camdir::http

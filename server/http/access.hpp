@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/error.hpp"
 #include "config/config.hpp"
@@ -23,12 +24,18 @@ class Access {
     // Where none is demanded, nothing that changes the server is allowed: any page that somebody's browser
     // shows could send it.
     [[nodiscard]] bool demands_token() const { return !token_.empty(); }
+    // Whether `host`, of a request's header, may be asked for. On loopback, where what is read needs no
+    // token, a page of any site could else have its own name resolve to this host and read everything (DNS
+    // rebinding).
+    [[nodiscard]] bool serves(std::string_view host) const;
 
   private:
-    Access(bool on_loopback, std::string token) : on_loopback_(on_loopback), token_(std::move(token)) {}
+    Access(bool on_loopback, std::string token, std::vector<std::string> hosts)
+        : on_loopback_(on_loopback), token_(std::move(token)), hosts_(std::move(hosts)) {}
 
     bool on_loopback_;
-    std::string token_;  // empty: none is demanded
+    std::string token_;               // empty: none is demanded
+    std::vector<std::string> hosts_;  // that are served on loopback, besides loopback's own names
 };
 
 }  // namespace camdir::http

@@ -1,11 +1,11 @@
 #include "http/live_connection.hpp"
 
-#include <algorithm>
 #include <boost/asio/post.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
-#include <cctype>
 #include <string_view>
 #include <utility>
+
+#include "http/letter_case.hpp"
 
 namespace camdir::http {
 namespace {
@@ -19,11 +19,6 @@ constexpr const char* subprotocol = "camera-director.v1";
 constexpr std::size_t max_received = 1024;
 // What the system keeps of frames is old when it arrives: a second or two are enough.
 constexpr int system_buffer = 64 * 1024;
-
-bool equal_without_case(std::string_view a, std::string_view b) {
-    return std::ranges::equal(
-        a, b, [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
-}
 
 // Browsers say which site's page asks; other clients say nothing.
 bool is_of_this_site(const Request& request) {

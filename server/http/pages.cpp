@@ -197,6 +197,11 @@ std::optional<Response> check(const Request& request, const Page* page, const Ac
     const bool reads = request.method() == verb::get || request.method() == verb::head;
     if (request.version() >= 11 && request.count(field::host) != 1)
         return refusal(request, Status::bad_request);
+    if (request.count(field::host) == 1 && !access.serves(view(request[field::host])))
+        return answer(request,
+                      plain(Status::misdirected_request,
+                            "the Host of this request is no name of this host: ask for localhost; the "
+                            "name of a proxy belongs into /http/hosts of the configuration\n"));
     if (!access.allows(reads, page != nullptr && page->open, authorization_of(request))) {
         Response response = refusal(request, Status::unauthorized);
         response.set(field::www_authenticate, "Bearer");

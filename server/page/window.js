@@ -190,7 +190,9 @@ function stepCamera(by) {
 function seek(t) {
     if (!source?.range) return;
     const [first, last] = source.range;
+    const {paused} = model.clock;
     if (!isRecorded() && watched.sync && t < first - 1) watch(watched.id, {behind: last - t}); else source.seek(t);
+    model.clock.setPaused(paused);
     dirty = true;
 }
 
@@ -506,7 +508,7 @@ window.cameraDirector = {
     redraw: drawStage,  // the canvas keeps its picture only until the browser has shown it
     state: () => ({
         connection: source?.connection ?? 'none', state: find('state').dataset.state, match: model.note?.match_id ?? null,
-        map: model.note?.map ?? null, view, camera, time: model.clock.t, range: source?.range ?? null,
+        map: model.note?.map ?? null, view, camera, time: model.clock.t, shown: sample?.t ?? null, range: source?.range ?? null,
         first: source?.range?.[0] ?? null, last: source?.range?.[1] ?? null, live: model.clock.live, paused: model.clock.paused,
         speed: model.clock.speed, recorded: isRecorded(), problems: source?.problems ?? [], frames: model.buffer.frames.length,
         dropped: source?.dropped ?? 0, drawRate, age: source?.age ?? null,

@@ -14,36 +14,37 @@ std::int64_t nanoseconds(double seconds) {
 
 }  // namespace
 
-Result<Playback> Playback::open(const std::filesystem::path& folder, double from_s, double speed) {
+Result<Playback> Playback::open(const std::filesystem::path& folder) {
     auto reader = Reader::open(folder);
     if (!reader) return tl::unexpected(reader.error());
-    const auto recorded = reader->begin_time(reader->first_fragment());
-    if (!recorded) return tl::unexpected(recorded.error());
-    const std::int64_t begin = *recorded + nanoseconds(from_s);
-    const auto fragment = reader->fragment_at(begin);
-    if (!fragment) return tl::unexpected(fragment.error());
     const Start& start = reader->start();
+    const std::int64_t recorded = reader->begin_time(reader->first_fragment()).value_or(0);
     // Another id for every playback: caches may know the folder's name with other content.
-    Channel channel{new_recording_id(*recorded),   folder,
+    Channel channel{new_recording_id(recorded),    folder,
                     start.match.map_name,          1e-9 * static_cast<double>(start.fragment_duration),
-                    start.match.spectator_delay_s, {reader->first_fragment(), *fragment},
-                    Channel::Clock::now()};
-    return Playback(std::move(*reader), std::move(channel), begin, speed);
+                    start.match.spectator_delay_s, {reader->first_fragment(), reader->last_fragment()},
+                    Channel::Clock::now(),         false};
+    return Playback(std::move(*reader), std::move(channel));
 }
 
-Result<double> Playback::length_s() const {
-    const auto first = reader_.begin_time(reader_.first_fragment());
-    if (!first) return tl::unexpected(first.error());
-    const auto last = reader_.begin_time(reader_.last_fragment());
-    if (!last) return tl::unexpected(last.error());
-    return 1e-9 * static_cast<double>(*last - *first) + channel_.fragment_duration_s;
+double Playback::length_s() const {
+    const double fragments = 1.0 + reader_.last_fragment() - reader_.first_fragment();
+    return fragments * channel_.fragment_duration_s;
 }
 
 Channel Playback::whole() const {
-    Channel channel = channel_;
-    channel.sync.last = reader_.last_fragment();
-    channel.is_live = false;
-    return channel;
+    return channel_;
+}
+
+Result<void> Playback::go_on(double from_s, double speed) {
+    const auto recorded = reader_.begin_time(reader_.first_fragment());
+    if (!recorded) return tl::unexpected(recorded.error());
+    begin_ = *recorded + nanoseconds(from_s);
+    speed_ = speed;
+    const auto fragment = reader_.fragment_at(begin_);
+    if (!fragment) return tl::unexpected(fragment.error());
+    channel_.sync.last = *fragment;
+    return {};
 }
 
 Result<Channel> Playback::at(double elapsed_s) {

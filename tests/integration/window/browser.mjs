@@ -81,7 +81,7 @@ export class Browser {
 
     async press(key, {code = key, shift = false} = {}) {
         const text = key.length === 1 ? key : key === 'Enter' ? '\r' : undefined;
-        const params = {key, code, text, modifiers: shift ? 8 : 0, windowsVirtualKeyCode: {Tab: 9, Enter: 13, Escape: 27, End: 35, Home: 36}[key]};
+        const params = {key, code, text, modifiers: shift ? 8 : 0, windowsVirtualKeyCode: {Tab: 9, Enter: 13, Escape: 27, PageUp: 33, PageDown: 34, End: 35, Home: 36}[key]};
         await this.send('Input.dispatchKeyEvent', {type: 'keyDown', ...params});
         await this.send('Input.dispatchKeyEvent', {type: 'keyUp', ...params});
     }

@@ -12,3 +12,4 @@ at_exit() { rm -rf "$work"; }
 lock_domain
 # shellcheck disable=SC2154  # lock_domain sets it
 foreground node "$here/window_test.mjs" "$1" "$work" "$domain"
+foreground node "$here/playback_test.mjs" "$1" "$work" "$domain"

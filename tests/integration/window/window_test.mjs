@@ -1,65 +1,26 @@
 // What a browser shows of a real match of players that walk through a hall: window_test.mjs BIN_DIR FOLDER DOMAIN.
 import assert from 'node:assert/strict';
-import {spawn, spawnSync} from 'node:child_process';
-import {once} from 'node:events';
+import {spawnSync} from 'node:child_process';
 import {writeFileSync} from 'node:fs';
 import {Browser} from './browser.mjs';
+import {Programs, colours, eventually, hall, isInHall, run, stop} from './stage.mjs';
 
 const [bin, folder, domain] = process.argv.slice(2);
 const port = 20000 + Number(domain) * 100;  // a domain is this test's alone
 const url = `http://127.0.0.1:${port}`;
-const children = [];
+const programs = new Programs(bin);
 const players = 3;
-const patienceMs = 90e3;
 const secret = 'a/b+c==';
-
-function start(name, ...args) {
-    const child = spawn(`${bin}/${name}`, args, {stdio: ['ignore', 'ignore', 'pipe']});
-    child.log = '';
-    child.stderr.setEncoding('utf8').on('data', text => { child.log = (child.log + text).slice(-1e5); });
-    children.push(child);
-    return child;
-}
-
-async function stop(child) {
-    if (child.exitCode !== null || child.signalCode !== null) return;
-    child.kill('SIGTERM');
-    await once(child, 'exit');
-}
-
-async function eventually(what, condition) {
-    for (const end = Date.now() + patienceMs;;) {
-        const value = await condition().catch(() => null);
-        if (value) return value;
-        if (Date.now() > end) throw new Error(`never: ${what}`);
-        await new Promise(resolve => setTimeout(resolve, 100));
-    }
-}
 
 const json = path => fetch(url + path).then(answer => answer.json());
 
-// A hall with two pillars, in metres.
-function hall() {
-    const vertices = [];
-    const faces = [];
-    const box = ([x0, y0, z0], [x1, y1, z1], inward) => {
-        const first = vertices.length + 1;
-        for (const z of [z0, z1]) vertices.push([x0, y0, z], [x1, y0, z], [x1, y1, z], [x0, y1, z]);
-        for (const face of [[0, 1, 2, 3], [4, 7, 6, 5], [0, 4, 5, 1], [1, 5, 6, 2], [2, 6, 7, 3], [3, 7, 4, 0]])
-            faces.push((inward ? face : face.slice().reverse()).map(corner => corner + first));
-    };
-    box([0, 0, 0], [16, 10, 5], true);
-    box([4, 4, 0], [5.5, 6, 5], false);
-    box([10, 3, 0], [11.5, 6, 5], false);
-    return vertices.map(v => `v ${v.join(' ')}\n`).join('') + faces.map(f => `f ${f.join(' ')}\n`).join('');
-}
-
-function serve({source = true, token = false} = {}) {
+function serve({source = true, token = false, records = false} = {}) {
     const map = {name: 'hall', file: 'hall.vfs', ...(source ? {source: 'hall.obj', up: 'z'} : {})};
     const http = {port, ...(token ? {address: '0.0.0.0', token_file: 'token'} : {})};
     writeFileSync(`${folder}/token`, `${secret}\n`, {mode: 0o600});
-    writeFileSync(`${folder}/config.json`, JSON.stringify({dds: {domain: Number(domain)}, http, maps: [map]}));
-    return start('camera-director', 'serve', '--config', `${folder}/config.json`);
+    writeFileSync(`${folder}/config.json`, JSON.stringify({dds: {domain: Number(domain)}, http, maps: [map],
+        ...(records ? {recording: {folder: 'recordings'}} : {})}));
+    return programs.start('camera-director', 'serve', '--config', `${folder}/config.json`);
 }
 
 const tests = {
@@ -73,8 +34,7 @@ const tests = {
         assert.deepEqual(state.players.map(player => player.id).sort(), match.players.map(player => player.id).sort());
         assert.deepEqual(state.cameras.map(({id, target}) => [id, target]).sort(),
             status.matches[0].shots.map(shot => [shot.camera_id, shot.target.id]).sort());
-        for (const {position: [x, y, z]} of [...state.players, ...state.cameras])
-            assert.ok(x > 0 && x < 16 && y > 0 && y < 10 && z > 0 && z < 5, `${x} ${y} ${z} is not in the hall`);
+        for (const shown of [...state.players, ...state.cameras]) assert.ok(isInHall(shown), `${shown.position} is not in the hall`);
         assert.equal(await browser.evaluate('document.querySelectorAll("#shots button").length'), players);
         assert.equal(await browser.evaluate('document.querySelectorAll("#matches button").length'), 1);
         const metrics = await fetch(`${url}/metrics`).then(answer => answer.text());
@@ -84,15 +44,8 @@ const tests = {
         for (const view of ['orbit', 'plan', 'camera']) {
             await browser.evaluate(`document.querySelector('[data-view=${view}]').click()`);
             await browser.until(`cameraDirector.state().view === '${view}'`);
-            const colours = await browser.evaluate(`new Promise(resolve => requestAnimationFrame(() => requestAnimationFrame(() => {
-                const copy = document.createElement('canvas');
-                copy.width = copy.height = 64;
-                const context = copy.getContext('2d');
-                cameraDirector.redraw();
-                context.drawImage(document.getElementById('canvas'), 0, 0, 64, 64);
-                resolve(new Set(new Uint32Array(context.getImageData(0, 0, 64, 64).data.buffer)).size);
-            })))`);
-            assert.ok(colours > 20, `${view} has ${colours} colours`);
+            const found = await browser.evaluate(colours);
+            assert.ok(found > 20, `${view} has ${found} colours`);
         }
     },
     async 'it moves with the match, pauses, goes back and comes back'(browser) {
@@ -109,10 +62,30 @@ const tests = {
         await browser.until(`cameraDirector.state().live && cameraDirector.state().time > ${paused}`);
         await browser.press(' ', {code: 'Space'});
         await browser.evaluate('document.getElementById("timeline").focus()');
-        await browser.press('Home');
-        await browser.until('cameraDirector.state().time === cameraDirector.state().first');
         await browser.press('End');
         await browser.until('cameraDirector.state().live');
+    },
+    async 'what is recorded is watched from its begin, and live again'(browser) {
+        await browser.until('document.getElementById("live").ariaPressed === "true"');
+        await browser.until('!document.getElementById("begin").hidden');
+        await browser.press('Home');
+        await browser.until(`cameraDirector.state().recorded && cameraDirector.state().state === 'behind' &&
+            cameraDirector.state().cameras.length > 0`);
+        const state = await browser.evaluate('cameraDirector.state()');
+        assert.ok(state.time < 5000, `${state.time}`);
+        assert.deepEqual(state.problems, []);
+        for (const shown of [...state.players, ...state.cameras]) assert.ok(isInHall(shown), `${shown.position} is not in the hall`);
+        await browser.until('document.getElementById("live").ariaPressed === "false"');
+        await browser.press('l');
+        await browser.until('!cameraDirector.state().recorded && cameraDirector.state().live');
+        await browser.until(`document.getElementById('state').dataset.state === 'live'`);
+        await browser.press('j');
+        await browser.until('!cameraDirector.state().live');
+        await browser.evaluate('document.getElementById("timeline").focus()');
+        await browser.press('PageDown');
+        await browser.until('cameraDirector.state().recorded', 90e3);
+        await browser.press('End');
+        await browser.until(`!cameraDirector.state().recorded && cameraDirector.state().live && cameraDirector.state().cameras.length === ${players}`);
     },
     async 'keys choose views and cameras'(browser) {
         for (const [key, view] of [['2', 'orbit'], ['3', 'plan'], ['1', 'camera']]) {
@@ -153,6 +126,8 @@ const tests = {
         await browser.resize({width: 1280, height: 800});
     },
     async 'it comes back when the director does, and says when the map has no source'(browser, stage) {
+        // Enough for playback_test.mjs.
+        await eventually('four fragments', async () => (await json('/broadcast/walk%2D0/sync')).last_fragment >= 3);
         await stop(stage.director);
         await browser.until(`document.getElementById('state').dataset.state === 'waiting'`);
         stage.director = serve({source: false});
@@ -195,39 +170,30 @@ async function main() {
     const baked = spawnSync(`${bin}/camera-director`,
         ['bake', `${folder}/hall.obj`, '-o', `${folder}/hall.vfs`, '--up', 'z', '--quiet'], {encoding: 'utf8'});
     assert.equal(baked.status, 0, baked.stderr);
-    const stage = {director: serve()};
-    start('synthetic-players', `${folder}/hall.vfs`, '--map-name', 'hall', '--players', String(players), '--match-prefix', 'walk',
+    const stage = {director: serve({records: true})};
+    programs.start('synthetic-players', `${folder}/hall.vfs`, '--map-name', 'hall', '--players', String(players), '--match-prefix', 'walk',
         '--rate', '30', '--domain', domain);
-    start('observer-probe', '--domain', domain, '--match-prefix', 'walk', '--observers', String(players), '--grace', '600',
+    programs.start('observer-probe', '--domain', domain, '--match-prefix', 'walk', '--observers', String(players), '--grace', '600',
         '--max-gaps', '1000000', '--max-violations', '1000000');
     await eventually('cameras', () => json('/live').then(live => live.matches[0]?.shots.length === players));
     const browser = await Browser.start();
-    let failed = 0;
+    let failed;
     try {
         await browser.open(`${url}/`);
         await browser.until('window.cameraDirector?.state().frames > 10');
-        for (const [name, test] of Object.entries(tests)) {
-            try {
-                await test(browser, stage);
-                console.log(`ok: ${name}`);
-            } catch (error) {
-                ++failed;
-                console.log(`FAILED: ${name}\n${error.stack}`);
-                console.log(await browser.evaluate('JSON.stringify(window.cameraDirector?.state())').catch(String));
-            }
-        }
+        failed = await run(tests, browser, stage);
     } finally {
         browser.close();
     }
-    if (failed > 0) console.log(children.map(child => child.log).join('\n---\n'));
+    if (failed > 0) console.log(programs.logs());
     process.exitCode = failed > 0 ? 1 : 0;
 }
 
 try {
     await main();
 } catch (error) {
-    console.log(error.stack, children.map(child => child.log).join('\n---\n'));
+    console.log(error.stack, programs.logs());
     process.exitCode = 1;
 } finally {
-    for (const child of children) child.kill('SIGKILL');
+    programs.kill();
 }

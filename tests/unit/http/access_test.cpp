@@ -86,6 +86,39 @@ TEST_F(AccessTest, OnLoopbackOnlyChangesNeedTheToken) {
     EXPECT_EQ(server.status_of("POST", "/status", "Authorization: Bearer secret\r\n"), 405);
 }
 
+// A page of any site can let its own name resolve to this host.
+TEST_F(AccessTest, OnLoopbackOnlyNamesOfThisHostAreServed) {
+    config_.token_file.clear();
+    config_.hosts = {"match.example"};
+    const TestServer server(config_);
+    const auto status_for = [&](const std::string& host) {
+        test::HttpClient client(server.port());
+        EXPECT_TRUE(client.send("GET /status HTTP/1.1\r\nHost: " + host + "\r\n\r\n"));
+        return client.receive();
+    };
+    for (const char* known : {"localhost", "LocalHost:9464", "a.localhost", "127.0.0.1", "127.9.9.9:80",
+                              "[::1]", "[::1]:9464", "match.example", "MATCH.example:8080"})
+        EXPECT_EQ(status_for(known).status, 200) << known;
+    for (const char* strange : {"evil.example", "localhost.evil.example", "notlocalhost", ".localhost", "",
+                                "127.0.0.1.evil.example", "10.0.0.1", "[::2]", "[", "0", "0.0.0.0:80",
+                                "match.example.evil", "2130706433"}) {
+        const auto refused = status_for(strange);
+        EXPECT_EQ(refused.status, 421) << strange;
+        EXPECT_THAT(refused.body, HasSubstr("/http/hosts of the configuration")) << strange;
+    }
+    EXPECT_EQ(server.status_of("GET", "/-/healthy"), 200);
+}
+
+TEST_F(AccessTest, OnOtherAddressesTheTokenDecides) {
+    config_.address = "0.0.0.0";
+    write_token("secret");
+    const TestServer server(config_);
+    test::HttpClient client(server.port());
+    ASSERT_TRUE(
+        client.send("GET /status HTTP/1.1\r\nHost: camera.example\r\nAuthorization: Bearer secret\r\n\r\n"));
+    EXPECT_EQ(client.receive().status, 200);
+}
+
 TEST_F(AccessTest, NothingChangesTheServerWithoutAToken) {
     config::Http without_file = config_;
     without_file.token_file.clear();
