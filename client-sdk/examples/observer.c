@@ -48,8 +48,15 @@ static void print_camera(const cdir_camera* camera, const cdir_view* view) {
            (double)camera->clearance, camera->flags, view->segment);
 }
 
+static void end_without_camera(double seconds) {
+    fprintf(stderr,
+            "no camera after %.1f s: is a director at --directors, and does it know the match and its map?\n",
+            seconds);
+    exit(EXIT_FAILURE);
+}
+
 /* Prints the camera once per display frame, for `seconds` (0 = without limit) or until the user stops the
- * program. Ends with an error when there is none after `patience` seconds. */
+ * program. Ends with an error when there is none after `patience` seconds, or until the end. */
 static void watch(cdir_observer observer, double rate, double seconds, double patience) {
     const int64_t start = monotonic_ns();
     const int64_t period = (int64_t)(1e9 / rate);
@@ -59,7 +66,10 @@ static void watch(cdir_observer observer, double rate, double seconds, double pa
     printf("frame_time,target,x,y,z,qx,qy,qz,qw,vertical_fov,clearance,flags,segment\n");
     for (int64_t number = 0; !stop_requested; ++number) {
         const double elapsed = (double)(number * period) / 1e9;
-        if (seconds > 0 && elapsed > seconds) break;
+        if (seconds > 0 && elapsed > seconds) {
+            if (!seen) end_without_camera(elapsed);
+            break;
+        }
 
         check("receiving", cdir_observer_poll(observer, NULL));
         report_status(observer, &last_state);
@@ -78,13 +88,7 @@ static void watch(cdir_observer observer, double rate, double seconds, double pa
             perror("standard output");
             exit(EXIT_FAILURE);
         }
-        if (!seen && elapsed > patience) {
-            fprintf(stderr,
-                    "no camera after %g s: is a director at --directors, and does it know the match and its "
-                    "map?\n",
-                    patience);
-            exit(EXIT_FAILURE);
-        }
+        if (!seen && elapsed > patience) end_without_camera(elapsed);
         sleep_until(start + (number + 1) * period);
     }
 }

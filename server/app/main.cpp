@@ -1,12 +1,34 @@
 // camera-director: dispatches to the subcommands.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <exception>
 #include <iostream>
+#include <string>
+#include <vector>
 
 #include "app/commands.hpp"
+#include "config/spelling.hpp"
 
 namespace camdir::app {
 namespace {
+
+std::vector<std::string> commands_of(const CLI::App& root) {
+    std::vector<std::string> names;
+    for (const CLI::App* command : root.get_subcommands({}))
+        names.push_back(command->get_name());
+    return names;
+}
+
+int report_unknown(const std::string& command, const std::vector<std::string>& known) {
+    const std::string nearest = config::nearest_spelling(command, known);
+    std::cerr << "camera-director: unknown command '" << command << "'";
+    if (!nearest.empty()) std::cerr << ", did you mean '" << nearest << "'?";
+    std::cerr << "\nExpected one of:";
+    for (const std::string& name : known)
+        std::cerr << ' ' << name;
+    std::cerr << "; `camera-director --help` says what they do.\n";
+    return exit_usage;
+}
 
 int run_command(int argc, char** argv) {
     CLI::App root("Automatic cameras for spectators of live 3D games.", "camera-director");
@@ -22,6 +44,9 @@ int run_command(int argc, char** argv) {
     add_render(root, run);
     add_serve(root, run);
     add_play(root, run);
+    const auto known = commands_of(root);
+    if (argc > 1 && argv[1][0] != '-' && std::ranges::find(known, argv[1]) == known.end())
+        return report_unknown(argv[1], known);
     try {
         root.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -7,6 +7,7 @@
 #include "app/commands.hpp"
 #include "base/file.hpp"
 #include "dds/protection.hpp"
+#include "recording/archive.hpp"
 #include "service/heap.hpp"
 #include "service/logging.hpp"
 #include "service/service.hpp"
@@ -33,6 +34,9 @@ int check(const config::Config& config, const std::string& file) {
         if (!checked) complain(checked.error().message);
     }
     if (const auto checked = dds::check_protection(config.dds); !checked) complain(checked.error().message);
+    if (!config.recording.folder.empty())
+        if (const auto checked = recording::Archive::check(config.recording.folder); !checked)
+            complain("/recording/folder: " + checked.error().message);
     for (std::size_t i = 0; i < config.maps.size(); ++i) {
         const auto checked = maps::check_map(config.maps[i]);
         if (!checked) complain("/maps/" + std::to_string(i) + ": " + checked.error().message);
@@ -80,7 +84,8 @@ void add_serve(CLI::App& root, Run& run) {
         ->needs(config);
     command
         .add_flag("--check", options->check,
-                  "Validate the configuration and the maps and identity that it names, then exit.")
+                  "Validate the configuration and the maps, identity and folder of recordings that it names, "
+                  "then exit.")
         ->needs(config);
     auto* print = command.add_option_group("print", "Print documentation of the configuration, then exit");
     print->add_flag("--print-schema", options->print_schema, "JSON Schema of the configuration.");

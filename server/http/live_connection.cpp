@@ -98,7 +98,7 @@ void LiveConnection::send_next() {
     }
     sending_ = viewer_->take();
     if (!sending_) {
-        if (viewer_->finished()) close(websocket::close_code::normal, "the match has ended");
+        if (viewer_->finished()) close(websocket::close_code::normal, "that was all");
         return;
     }
     stream_->binary(sending_->kind == live::Message::Kind::frame);

@@ -106,8 +106,8 @@ SharedMessage dropped_note(std::size_t frames) {
     return note({{"kind", "dropped"}, {"frames", frames}});
 }
 
-SharedMessage end_note() {
-    return note({{"kind", "end"}});
+SharedMessage end_note(EndReason reason) {
+    return note({{"kind", "end"}, {"reason", reason == EndReason::match ? "match" : "server"}});
 }
 
 }  // namespace camdir::live

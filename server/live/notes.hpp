@@ -27,6 +27,10 @@ using Roster = std::map<std::uint8_t, Place>;  // by slot
 [[nodiscard]] SharedMessage event_note(const director::MatchEvent& event, const SlotOf& slot_of);
 [[nodiscard]] SharedMessage cut_note(const Cut& cut, const SlotOf& slot_of);
 [[nodiscard]] SharedMessage dropped_note(std::size_t frames);
-[[nodiscard]] SharedMessage end_note();
+enum class EndReason {
+    match,   // it has ended
+    server,  // it stops; the match may go on
+};
+[[nodiscard]] SharedMessage end_note(EndReason reason);
 
 }  // namespace camdir::live

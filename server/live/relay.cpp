@@ -4,6 +4,8 @@
 #include <mutex>
 #include <optional>
 #include <set>
+#include <thread>
+#include <utility>
 #include <vector>
 
 #include "live/frame.hpp"
@@ -20,7 +22,8 @@ class Relay::Channel {
     void show(const director::MatchInfo& shown);
     void show(const director::PoseFrame& poses, const director::CameraFrame& cameras);
     void show(const director::MatchEvent& event);
-    void end();
+    // Returns the viewers, who are to leave.
+    std::vector<std::shared_ptr<Viewer>> end(EndReason reason);
     // False: it has ended.
     [[nodiscard]] bool join(const std::shared_ptr<Viewer>& viewer);
     [[nodiscard]] std::size_t viewers();
@@ -82,13 +85,13 @@ void Relay::Channel::show(const director::MatchEvent& event) {
     put(note);
 }
 
-void Relay::Channel::end() {
+std::vector<std::shared_ptr<Viewer>> Relay::Channel::end(EndReason reason) {
     const std::lock_guard lock(mutex_);
-    put(end_note());
+    put(end_note(reason));
     for (const auto& viewer : viewers_)
         viewer->finish();
-    viewers_.clear();
     history_.reset();
+    return std::exchange(viewers_, {});
 }
 
 bool Relay::Channel::join(const std::shared_ptr<Viewer>& viewer) {
@@ -179,7 +182,7 @@ void Relay::show(const director::MatchInfo& shown) {
     const auto channel = std::make_shared<Channel>(*this);
     channel->show(shown);  // before anybody can find it, it knows its match
     const std::unique_lock lock(mutex_);
-    channels_.emplace(shown.match_id, channel);
+    if (!closed_) channels_.emplace(shown.match_id, channel);
 }
 
 void Relay::show(const std::string& match_id, const director::PoseFrame& poses,
@@ -200,7 +203,26 @@ void Relay::end(const std::string& match_id) {
         channel = found->second;
         channels_.erase(found);
     }
-    channel->end();
+    channel->end(EndReason::match);
+}
+
+std::size_t Relay::close(std::chrono::milliseconds limit) {
+    constexpr std::chrono::milliseconds step{5};
+    std::map<std::string, std::shared_ptr<Channel>> channels;
+    {
+        const std::unique_lock lock(mutex_);
+        closed_ = true;
+        channels.swap(channels_);
+    }
+    std::vector<std::shared_ptr<Viewer>> watching;
+    for (const auto& [match_id, channel] : channels)
+        for (auto& viewer : channel->end(EndReason::server))
+            watching.push_back(std::move(viewer));
+    const auto end = std::chrono::steady_clock::now() + limit;
+    for (;; std::this_thread::sleep_for(step)) {
+        std::erase_if(watching, [](const std::shared_ptr<Viewer>& viewer) { return viewer->left(); });
+        if (watching.empty() || std::chrono::steady_clock::now() >= end) return watching.size();
+    }
 }
 
 Relay::Admission Relay::join(const std::string& match_id, const std::shared_ptr<Viewer>& viewer) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <map>
 #include <memory>
 #include <shared_mutex>
@@ -38,6 +39,10 @@ class Relay final : public director::Audience {
     // until Viewer::leave or the match's end.
     [[nodiscard]] Admission join(const std::string& match_id, const std::shared_ptr<Viewer>& viewer);
 
+    // The server stops: no viewer joins any more. Those who watch are told, and have so long to take what
+    // waits for them and leave; returns how many have not.
+    std::size_t close(std::chrono::milliseconds limit);
+
     [[nodiscard]] RelayStatistics statistics() const;
 
   private:
@@ -47,6 +52,7 @@ class Relay final : public director::Audience {
     const std::size_t max_viewers_;
     mutable std::shared_mutex mutex_;
     std::map<std::string, std::shared_ptr<Channel>> channels_;  // by match
+    bool closed_ = false;
     std::atomic<std::uint64_t> frames_{0}, dropped_frames_{0}, lost_viewers_{0};
 };
 

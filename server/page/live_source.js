@@ -64,9 +64,11 @@ export class LiveSource {
             this.dropped += frames;
             this.on.problem(`${frames} frames skipped: this connection is slow`);
         },
-        end: () => {
-            this.ended = true;
-            this.on.problem('The match has ended');
+        // Of a server that stops the connection is tried again.
+        end: ({reason}) => {
+            this.ended = reason !== 'server';
+            this.on.problem(this.ended ? 'The match has ended' : 'The server stops');
+            if (this.ended) this.link.close();
         },
     };
 
@@ -101,8 +103,8 @@ export class LiveSource {
     // What it does: connecting, waiting (until retryAt), silent, empty, ended, paused, live, behind.
     get state() {
         const {buffer, clock} = this.model;
-        if (this.connection === 'waiting' || this.connection === 'connecting') return this.connection;
         if (this.ended) return 'ended';
+        if (this.connection === 'waiting' || this.connection === 'connecting') return this.connection;
         if (this.connection === 'silent') return 'silent';
         if (buffer.last === null) return 'empty';
         if (clock.paused) return 'paused';

@@ -66,6 +66,21 @@ Result<Archive> Archive::open(const fs::path& folder) {
     return archive;
 }
 
+Result<void> Archive::check(const fs::path& folder) {
+    // Of a folder that is still to be made, the nearest one above it that is there.
+    fs::path nearest = fs::absolute(folder);
+    std::error_code error;
+    while (!fs::exists(nearest, error) && nearest.has_relative_path())
+        nearest = nearest.parent_path();
+    if (!fs::is_directory(nearest, error))
+        return fail(folder.string() + ": " + nearest.string() + " is no folder: expected one for recordings");
+    if (::access(nearest.c_str(), W_OK | X_OK) != 0)
+        return fail(folder.string() + ": " + nearest.string() +
+                    " cannot be written: " + std::generic_category().message(errno) +
+                    ": expected a folder that this user may write to");
+    return {};
+}
+
 Archive::Archive(Archive&& other) noexcept
     : folder_(std::move(other.folder_)),
       descriptor_(std::exchange(other.descriptor_, -1)),

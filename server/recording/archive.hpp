@@ -23,6 +23,9 @@ class Archive {
   public:
     // Creates the folder. Fails when another process has it. Recordings that it holds already have ended.
     [[nodiscard]] static Result<Archive> open(const std::filesystem::path& folder);
+    // Whether open() could use the folder, apart from other processes: it can be written, or made. Leaves
+    // nothing behind.
+    [[nodiscard]] static Result<void> check(const std::filesystem::path& folder);
     Archive(Archive&& other) noexcept;
     Archive& operator=(Archive&&) = delete;
     ~Archive();

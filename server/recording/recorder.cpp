@@ -12,6 +12,9 @@ namespace {
 
 // Frames, events and requests of a match: some seconds. Descriptions may use as many places again.
 constexpr std::size_t max_waiting = 512;
+// Of all matches: as many of 128 matches; beside them, ends.
+constexpr std::size_t max_waiting_of_all = 128 * max_waiting;
+constexpr std::size_t max_ends = 8192;
 constexpr std::chrono::milliseconds write_period{50};
 
 std::int64_t wall_clock_ns() {
@@ -33,7 +36,7 @@ Recorder::~Recorder() {
 }
 
 void Recorder::show(const director::MatchInfo& shown) {
-    put_bounded(shown.match_id, {shown}, 2 * max_waiting);
+    put(shown.match_id, {shown}, 2 * max_waiting);
 }
 
 void Recorder::show(const std::string& match_id, const director::PoseFrame& poses,
@@ -42,23 +45,31 @@ void Recorder::show(const std::string& match_id, const director::PoseFrame& pose
     messages.reserve(2);
     messages.emplace_back(poses);
     messages.emplace_back(cameras);
-    put_bounded(match_id, std::move(messages), max_waiting);
+    put(match_id, std::move(messages), max_waiting);
 }
 
 void Recorder::show(const std::string& match_id, const director::MatchEvent& event) {
-    put_bounded(match_id, {event}, max_waiting);
+    put(match_id, {event}, max_waiting);
 }
 
 void Recorder::request(const director::ObserverRequest& request) {
-    put_bounded(request.match_id, {request}, max_waiting);
+    put(request.match_id, {request}, max_waiting);
 }
 
 void Recorder::request_ended(const std::string& match_id, const std::string& observer_id) {
-    put(match_id, {Withdrawal{observer_id}});
+    put(match_id, {Withdrawal{observer_id}}, 2 * max_waiting);
 }
 
+// One end is enough, where another waits already.
 void Recorder::end(const std::string& match_id) {
-    put(match_id, {}, true);
+    const std::lock_guard lock(mutex_);
+    const auto waiting = waiting_of_.find(match_id);
+    if (waiting != waiting_of_.end() && waiting->second.ends) return;
+    if (waiting_.size() >= max_waiting_of_all + max_ends) {
+        ++statistics_.dropped;
+        return;
+    }
+    push({now(), match_id, {}, true});
 }
 
 // Never descends, whatever happens to the system's clock.
@@ -66,20 +77,22 @@ std::int64_t Recorder::now() const {
     return director::now_ns() + clock_offset_;
 }
 
-void Recorder::put(const std::string& match_id, std::vector<Message> messages, bool ends) {
+void Recorder::put(const std::string& match_id, std::vector<Message> messages, std::size_t max) {
     const std::lock_guard lock(mutex_);
-    waiting_.push_back({now(), match_id, std::move(messages), ends});
-}
-
-void Recorder::put_bounded(const std::string& match_id, std::vector<Message> messages, std::size_t max) {
-    const std::lock_guard lock(mutex_);
-    std::size_t& waiting = bounded_[match_id];
-    if (waiting >= max) {
+    const auto waiting = waiting_of_.find(match_id);
+    if (waiting_.size() >= max_waiting_of_all ||
+        (waiting != waiting_of_.end() && waiting->second.count >= max)) {
         statistics_.dropped += messages.size();
         return;
     }
-    ++waiting;
-    waiting_.push_back({now(), match_id, std::move(messages)});
+    push({now(), match_id, std::move(messages)});
+}
+
+void Recorder::push(Shown shown) {
+    Waiting& waiting = waiting_of_[shown.match_id];
+    waiting.count += shown.ends ? 0 : 1;
+    waiting.ends = shown.ends;
+    waiting_.push_back(std::move(shown));
 }
 
 RecorderStatistics Recorder::statistics() const {
@@ -114,7 +127,7 @@ std::vector<Recorder::Shown> Recorder::take(const std::stop_token& stop) {
     std::unique_lock lock(mutex_);
     written_.wait_for(lock, stop, write_period, [] { return false; });
     is_writing_ = true;
-    bounded_.clear();
+    waiting_of_.clear();
     return std::exchange(waiting_, {});
 }
 
@@ -240,9 +253,7 @@ bool Recorder::remove_oldest_fragment() {
 std::uint64_t Recorder::disk_bytes() const {
     std::uint64_t bytes = archive_ ? archive_->ended_bytes() : 0;
     for (const auto& [match_id, match] : matches_)
-        if (match.recording)
-            for (const Writer::Written& fragment : match.recording->writer.written())
-                bytes += fragment.bytes;
+        if (match.recording) bytes += match.recording->writer.bytes();
     return bytes;
 }
 

@@ -32,13 +32,15 @@ struct RecorderStatistics {
     std::uint64_t running = 0;    // recordings
     std::uint64_t bytes = 0;      // of the disk, for all recordings
     std::uint64_t fragments = 0;  // completed since the start
-    std::uint64_t dropped = 0;    // messages for which the disk was too slow
+    std::uint64_t dropped = 0;    // messages and ends for which the disk was too slow
     std::uint64_t failures = 0;   // matches whose recording could not begin or go on
 };
 
 // A match is recorded from its first MatchInfo to its end, across epochs, in a folder of its own. The
 // audience's calls copy what they are shown; one thread encodes and writes. What waits for it is bounded for
-// each match: frames, events and requests are dropped first, then descriptions; ends never are.
+// each match, where frames, events and requests are dropped first, then descriptions and withdrawals, and for
+// all matches, where ends are dropped last: a recording whose end was dropped goes on with the next match of
+// its id, or ends with the recorder. All that is dropped is counted.
 //
 // An error of the disk ends the recording of its match: it is logged and counted, and the match's next epoch
 // begins a new one. When all recordings take more than max_bytes, the oldest that have ended are removed,
@@ -88,10 +90,16 @@ class Recorder final : public director::Audience {
         bool failed = false;  // in this epoch
     };
 
+    struct Waiting {  // of a match
+        std::size_t count = 0;
+        bool ends = false;  // the last is its end
+    };
+
     [[nodiscard]] std::int64_t now() const;
-    void put(const std::string& match_id, std::vector<Message> messages, bool ends = false);
-    // Dropped where `max` bounded messages of the match wait.
-    void put_bounded(const std::string& match_id, std::vector<Message> messages, std::size_t max);
+    // Dropped where `max` of the match wait.
+    void put(const std::string& match_id, std::vector<Message> messages, std::size_t max);
+    // With mutex_ held.
+    void push(Shown shown);
 
     // On the thread.
     void run(const std::stop_token& stop);
@@ -118,7 +126,7 @@ class Recorder final : public director::Audience {
     mutable std::mutex mutex_;  // guards the next five
     std::condition_variable_any written_;
     std::vector<Shown> waiting_;
-    std::unordered_map<std::string, std::size_t> bounded_;  // how many of those wait, by match
+    std::unordered_map<std::string, Waiting> waiting_of_;  // by match
     bool is_writing_ = false;
     RecorderStatistics statistics_;
 

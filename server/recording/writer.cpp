@@ -114,6 +114,7 @@ Result<void> Writer::write_fragment() {
 
     written_.push_back(
         {next_, pending_->begin_time, folder_bytes + on_disk(full_bytes) + on_disk(delta_bytes)});
+    bytes_ += written_.back().bytes;
     ++next_;
     return tell(first_within_bound());
 }
@@ -142,6 +143,7 @@ Result<void> Writer::tell(std::uint32_t first) {
         std::error_code error;
         std::filesystem::remove_all(old, error);
         if (error) return fail(old.string() + ": cannot remove: " + error.message());
+        bytes_ -= written_.front().bytes;
         written_.erase(written_.begin());
     }
     return {};

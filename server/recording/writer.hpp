@@ -36,6 +36,7 @@ class Writer {
     };
     [[nodiscard]] const std::vector<Written>& written() const { return written_; }
 
+    [[nodiscard]] std::uint64_t bytes() const { return bytes_; }     // of the disk, of all written
     [[nodiscard]] std::uint32_t fragments() const { return next_; }  // also removed ones
 
     // Removes the oldest fragment, as if max_bytes had asked for it. There must be two.
@@ -64,6 +65,7 @@ class Writer {
     std::uint32_t next_ = 0;
     std::optional<Pending> pending_;
     std::vector<Written> written_;
+    std::uint64_t bytes_ = 0;
     std::optional<Error> error_;
 };
 

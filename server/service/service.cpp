@@ -22,6 +22,7 @@ constexpr std::chrono::seconds trim_period(10);
 constexpr std::chrono::seconds start_extension{60};
 constexpr std::chrono::milliseconds max_turn{5000};  // whoever takes longer has hung
 constexpr std::chrono::milliseconds view_timeout{500};
+constexpr std::chrono::milliseconds viewers_leave{1000};  // a stop waits so long for them
 
 void log_lines(spdlog::level::level_enum level, const std::string& text) {
     std::istringstream lines(text);
@@ -221,6 +222,7 @@ void Service::drain() {
     loader_.stop();
     director_.drain();
     gateway_->close();
+    relay_.close(viewers_leave);
     http_.reset();
     recorder_.reset();
     spdlog::info("stopped");

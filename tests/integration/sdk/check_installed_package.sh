@@ -17,7 +17,9 @@ mv "$work/first" "$prefix"   # an installed tree may be moved
     -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_C_COMPILER="$cc" -DCMAKE_C_FLAGS="${sanitize_flags[*]}" >/dev/null
 "$cmake" --build "$work/examples" >/dev/null
 "$work/examples/example-game-server" --domain 83 --seconds 0.2
-"$work/examples/example-observer" --domain 83 --seconds 0.2
+status=0
+"$work/examples/example-observer" --domain 83 --seconds 0.2 || status=$?
+[ "$status" -eq 1 ]  # there is no director
 
 export PKG_CONFIG_PATH=$prefix/lib/pkgconfig:$prefix/lib64/pkgconfig
 read -ra cflags <<<"$(pkg-config --cflags camera-director-client)"

@@ -131,6 +131,12 @@ TEST_F(Examples, ObserverPrintsTheDirectorsCameraOfTheWalkingPlayer) {
         EXPECT_NEAR(std::hypot(line.x - 10.0, line.y - 20.0), 100.0, 1.0) << "interpolated along the circle";
 }
 
+TEST_F(Examples, AnObserverWithoutADirectorFailsAndSaysSo) {
+    ChildProcess watcher({observer, "--domain", domain_.text(), "--seconds", "0.2"});
+    EXPECT_EQ(watcher.wait(), 1);
+    EXPECT_THAT(watcher.errors(), HasSubstr("no camera after 0.2 s: is a director at --directors"));
+}
+
 TEST_F(Examples, GameServerThatIsKilledIsNoticed) {
     FakeDirector director(domain_.number(), "example");
     ChildProcess server({game_server, "--domain", domain_.text()});

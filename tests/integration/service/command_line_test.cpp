@@ -22,6 +22,15 @@ TEST(CommandLine, UsageErrorsExitWith2) {
     EXPECT_EQ(run_director({"serve", "--config", "x", "--no-such-option"}).exit_code, 2);
 }
 
+TEST(CommandLine, AnUnknownCommandIsToldWithWhatThereIs) {
+    const Ran ran = run_director({"bakee", "x"});
+    EXPECT_EQ(ran.exit_code, 2);
+    EXPECT_THAT(ran.errors, AllOf(HasSubstr("unknown command 'bakee', did you mean 'bake'?"),
+                                  HasSubstr("Expected one of: bake inspect"), HasSubstr("--help")));
+    EXPECT_THAT(run_director({"frobnicate"}).errors, HasSubstr("unknown command 'frobnicate'\n"));
+    EXPECT_EQ(run_director({"--help"}).exit_code, 0);
+}
+
 TEST(CommandLine, ABadConfigurationExitsWith1AndItsErrors) {
     const Folder folder;
     folder.write("config.json", R"({"dds": {"domain": 999}, "htpp": {}})");
@@ -50,6 +59,24 @@ TEST(CommandLine, CheckIncludesTheMaps) {
     const Ran good = run_director({"serve", "--check", "--config", folder / "config.json"});
     EXPECT_EQ(good.exit_code, 0) << good.errors;
     EXPECT_THAT(good.errors, HasSubstr("valid"));
+}
+
+TEST(CommandLine, CheckIncludesTheFolderOfRecordings) {
+    const Folder folder;
+    json config = quiet_config();
+    folder.write("file", "in the way");
+    for (const char* name : {"file", "file/below"}) {
+        config["recording"]["folder"] = name;
+        folder.write("config.json", config.dump());
+        const Ran ran = run_director({"serve", "--check", "--config", folder / "config.json"});
+        EXPECT_EQ(ran.exit_code, 1);
+        EXPECT_THAT(ran.errors, AllOf(HasSubstr("/recording/folder: "), HasSubstr("is no folder: expected")))
+            << name;
+    }
+    config["recording"]["folder"] = "new/recordings";
+    folder.write("config.json", config.dump());
+    EXPECT_EQ(run_director({"serve", "--check", "--config", folder / "config.json"}).exit_code, 0);
+    EXPECT_FALSE(std::filesystem::exists(folder / "new")) << "a check makes nothing";
 }
 
 TEST(CommandLine, PlainDdsDoesNotLeaveLoopbackUnlessTold) {

@@ -129,6 +129,7 @@ const tests = {
         // Enough for playback_test.mjs.
         await eventually('four fragments', async () => (await json('/broadcast/walk%2D0/sync')).last_fragment >= 3);
         await stop(stage.director);
+        await browser.until(`document.getElementById('notice').textContent === 'The server stops'`);
         await browser.until(`document.getElementById('state').dataset.state === 'waiting'`);
         stage.director = serve({source: false});
         await eventually('ready', () => fetch(`${url}/-/ready`).then(answer => answer.ok));

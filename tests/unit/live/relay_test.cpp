@@ -233,12 +233,34 @@ TEST(Relay, EndsWithTheMatch) {
     const auto watcher = viewer();
     ASSERT_EQ(relay.join("cup", watcher), Relay::Admission::joined);
     relay.end("cup");
-    EXPECT_EQ(take_all(*watcher).back(), json::parse(R"({"kind":"end"})"));
+    EXPECT_EQ(take_all(*watcher).back(), json::parse(R"({"kind":"end","reason":"match"})"));
     EXPECT_TRUE(watcher->finished());
     EXPECT_EQ(relay.join("cup", viewer()), Relay::Admission::no_match);
 }
 
 // A viewer who has joined is told of the end, however the match's thread and theirs meet.
+TEST(Relay, TellsViewersThatTheServerStopsAndWaitsUntilTheyHaveLeft) {
+    using namespace std::chrono_literals;
+    Relay relay(10);
+    relay.show(match_info("cup", {}));
+    const auto leaves = viewer();
+    const auto stays = viewer();
+    for (const auto& one : {leaves, stays})
+        ASSERT_EQ(relay.join("cup", one), Relay::Admission::joined);
+    std::thread connection([&] {
+        while (!leaves->finished())
+            (void)leaves->take();
+        leaves->leave();
+    });
+    EXPECT_EQ(relay.close(50ms), 1U) << "one takes nothing";
+    connection.join();
+    EXPECT_EQ(take_all(*stays).back(), json::parse(R"({"kind":"end","reason":"server"})"));
+    relay.show(match_info("cup", {}));
+    relay.show(match_info("late", {}));
+    EXPECT_EQ(relay.join("late", viewer()), Relay::Admission::no_match);
+    EXPECT_EQ(relay.close(10s), 0U) << "nobody is left to wait for";
+}
+
 TEST(Relay, ViewersWhoJoinWhileTheMatchEndsAreNotLeftWaiting) {
     Relay relay(1'000'000);
     std::atomic<bool> stop{false};

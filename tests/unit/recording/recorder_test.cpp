@@ -261,6 +261,50 @@ TEST(Recorder, ADiskThatIsTooSlowDropsFramesAndCounts) {
     EXPECT_EQ(kinds(records_in(folder / "r" / names[0])).substr(0, 5), "IPCPC");
 }
 
+TEST(Recorder, EndsThatWaitForASlowDiskAreBoundedAndCounted) {
+    const test::TemporaryFolder folder;
+    Recorder recorder(options(folder / "r"));
+    for (int i = 0; i < 200'000; ++i)
+        recorder.end("the same");
+    recorder.wait_until_written();
+    EXPECT_EQ(recorder.statistics().dropped, 0U) << "one is enough";
+    // Faster than the thread, which looks for them every 50 ms.
+    EXPECT_TRUE(test::eventually([&] {
+        for (int i = 0; i < 100'000; ++i)
+            recorder.end(std::to_string(i));
+        return recorder.statistics().dropped > 0;
+    }));
+    recorder.wait_until_written();
+    recorder.show(info("m"));
+    recorder.wait_until_written();
+    EXPECT_EQ(recorder.statistics().running, 1U) << "it goes on";
+}
+
+TEST(Recorder, WithdrawalsThatWaitForASlowDiskAreBoundedAndCounted) {
+    const test::TemporaryFolder folder;
+    Recorder recorder(options(folder / "r"));
+    EXPECT_TRUE(test::eventually([&] {
+        for (int i = 0; i < 10'000; ++i)
+            recorder.request_ended("m", "gone");
+        return recorder.statistics().dropped > 0;
+    }));
+}
+
+TEST(Recorder, KnowsWhatAllItsFragmentsTake) {
+    const test::TemporaryFolder folder;
+    auto writer = Writer::create(folder / "r", {info("m"), "test", 1'000'000}, 100'000);
+    ASSERT_TRUE(writer);
+    for (int i = 0; i < 60; ++i) {
+        ASSERT_TRUE(writer->append({i * 1'000'000LL, Withdrawal{std::string(1000U * (i % 9), 'x')}}));
+        std::uint64_t sum = 0;
+        for (const Writer::Written& fragment : writer->written())
+            sum += fragment.bytes;
+        ASSERT_EQ(writer->bytes(), sum);
+    }
+    ASSERT_TRUE(writer->remove_oldest());
+    EXPECT_EQ(writer->bytes(), 12'288U * writer->written().size()) << "a folder and two files each";
+}
+
 // In a process of its own, for what ends it or bounds its files; reports on `out`.
 class Child {
   public:
