@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # The whole system on a real map: bakes oa_dm1 (and keeps the result for the next run), starts the director, replays
 # 30 s of a recorded match of 8 players over DDS in a loop, and shows what 8 observers receive. Anyone on this machine
-# can watch in a browser: it prints the link.
+# can watch in a browser: it prints the link, and in the end how to watch it again.
 #
 #     demo.sh [--seconds N] [--json FILE]
 #     demo.sh --openarena [--seconds N] [--video FILE.mp4]
@@ -79,6 +79,7 @@ cat >"$work/demo.json" <<CONFIG
 {
   "dds": {"domain": $domain},
   "http": {"port": 0},
+  "recording": {"folder": "recordings", "disk_mib": 64},
   "maps": [{"name": "oa_dm1", "file": "oa_dm1.vfs", "source": "$map"}]
 }
 CONFIG
@@ -126,6 +127,9 @@ trap 'send INT "$probe"' INT  # the observers print their summary
 while running "$probe"; do wait "$probe" || true; done  # a signal ends a wait
 status=0
 wait "$probe" || status=$?
+recordings=("$work"/recordings/*/sync)
+[ ! -e "${recordings[-1]}" ] || echo "Watch it again, from its beginning:
+    $bin/camera-director play $(dirname "${recordings[-1]}") $work/oa_dm1.vfs --map $map" >&2
 if [ "$status" -eq 0 ]; then
     echo "All checks held: every camera frame arrived, no camera was in a wall or moved through one, every jump was declared."
 elif [ "$status" -ne 130 ]; then  # 130: Ctrl-C twice

@@ -10,10 +10,14 @@ async function json(url) {
 
 // [{id, map, stream: the entry of /live or null, sync: URL or null, goesOn: whether more follows}].
 export async function findMatches() {
-    const {matches: streams, broadcast} = server.broadcastOfAddress === null
-        ? await json('/live') : {matches: [], broadcast: server.broadcastOfAddress};
+    const isAlone = server.broadcastOfAddress !== null;
+    const {matches: streams, broadcast} = isAlone ? {matches: [], broadcast: server.broadcastOfAddress} : await json('/live');
     const list = broadcast === undefined ? null : new URL(broadcast, location.href);
-    const broadcasts = list === null ? [] : (await json(list)).matches;
+    // Streams are watched although the list of broadcasts cannot be had.
+    const broadcasts = list === null ? [] : (await json(list).catch(error => {
+        if (isAlone) throw error;
+        return {matches: []};
+    })).matches;
     const found = new Map(streams.map(stream =>
         [stream.match_id, {id: stream.match_id, map: stream.map, stream, sync: null, goesOn: true}]));
     for (const {match, map, live, sync} of broadcasts) {

@@ -17,6 +17,7 @@ const silenceMs = 2e3;      // frames farther apart: playing goes on with the ne
 const lookMs = 500;         // how late a new fragment is found
 const syncRetryMs = 1e3;    // what a cache keeps `sync`
 const surveyedBytes = 128e6;  // that may be fetched for the timeline alone
+const surveyPauseMs = 10;
 const maxUnreadable = 16;   // fragments, one after the other
 const firstRetryMs = 500;
 const longestRetryMs = 15e3;
@@ -101,7 +102,7 @@ export class Playback {
         if (this.sync.live && now() >= this.syncDue) return () => this.refresh();
         if (!clock.live && this.broadcast.bytes < surveyedBytes) {
             const n = this.nextToSurvey();
-            if (n !== null) return () => this.read(n);
+            if (n !== null) return () => this.survey(n);
         }
         return null;
     }
@@ -201,6 +202,12 @@ export class Playback {
         fragment.frames.forEach(frame => part.addFrame(frame));
         for (const note of [...fragment.cuts, ...fragment.events]) part.addNote(note);
         this.model.timeline.insert(part, fragment.to);
+    }
+
+    // For the timeline alone; leaves time to draw.
+    async survey(n) {
+        await this.read(n);
+        await this.sleep(surveyPauseMs);
     }
 
     // Behind what is loaded first, then from the begin.

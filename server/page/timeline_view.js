@@ -6,6 +6,7 @@ const colours = {visible: '#7cc4ff', hidden: '#ffc857', searching: '#ffc857', he
 const spanMs = 5 * 60e3;
 const steps = [1, 2, 5, 10, 30, 60, 120, 300, 600, 1800, 3600].map(s => s * 1000);  // between times
 const minLabelPx = 56;
+const thinFromMs = 10 * 60e3;  // of a timeline: cuts are thin lines
 
 const reasons = {
     begin: 'the shot begins',
@@ -71,8 +72,9 @@ export class TimelineView {
         for (const span of timeline.spans(camera, from, to)) this.drawSpan(c, span, x, middle, colourOfSlot);
         this.drawOthers(c, timeline, camera, from, to, x, middle + 13, height - 12, colourOfSlot);
         c.fillStyle = '#ffffff';
+        const cutWidth = to - from > thinFromMs ? 1 : 2;
         for (const cut of timeline.cuts)
-            if (cut.camera === camera && cut.t >= from) c.fillRect(Math.round(x(cut.t)) - 1, middle - 11, 2, 22);
+            if (cut.camera === camera && cut.t >= from) c.fillRect(Math.round(x(cut.t)) - 1, middle - 11, cutWidth, 22);
         for (const event of timeline.events) this.drawEvent(c, event, x, middle - 13, colourOfSlot);
         this.drawTimes(c, from, to, whole ? from : null, x, height, width);
         const unseen = x(Math.max(first, from));
