@@ -3,6 +3,7 @@
 import {Damaged} from './bytes.js';
 import {Refused} from './broadcast.js';
 import {Roster, readFragment, readState} from './fragment.js';
+import {FragmentIndex, slackMs} from './fragment_index.js';
 
 // What the model keeps of a recording.
 export const kept = {
@@ -12,7 +13,6 @@ export const kept = {
 };
 
 const aheadMs = 15e3;       // that is fetched before the clock comes to it
-const slackMs = 400;        // by which a time may be beside a fragment
 const silenceMs = 2e3;      // frames farther apart: playing goes on with the next
 const lookMs = 500;         // how late a new fragment is found
 const syncRetryMs = 1e3;    // what a cache keeps `sync`
@@ -32,7 +32,6 @@ export class Playback {
         Object.assign(this, {broadcast, model, on});
         model.begin(kept);
         this.roster = new Roster();
-        this.fragments = new Map();  // by number: {from, to} in ms, `to` where it was read
         this.states = new Map();     // of the match at the begin of fragments
         this.surveyed = new Set();   // numbers of those that the timeline has
         this.unreadable = new Map(); // why, by number
@@ -126,7 +125,8 @@ export class Playback {
         const first = await this.readable(this.sync.first, 1);
         this.origin = first.beginTime - BigInt(Math.round((first.n - this.sync.first) * this.sync.durationMs * 1e6));
         const last = await this.readable(this.sync.last, -1);
-        for (const {n, beginTime} of [first, last]) this.fragments.set(n, {from: Number(beginTime - this.origin) / 1e6});
+        this.index = new FragmentIndex(this.sync.durationMs);
+        for (const {n, beginTime} of [first, last]) this.index.add(n, Number(beginTime - this.origin) / 1e6);
         if (!this.sync.live) await this.read(last.n);  // tells where it ends
         this.start = start;
         this.on.match(this.roster.note(first.state.match ?? start.match));
@@ -168,7 +168,7 @@ export class Playback {
             const state = this.states.get(n) ?? (await this.readState(n)).state;
             const bytes = await this.broadcast.fragment(n, 'delta', signal);
             const fragment = await readFragment(bytes, n, state, this.origin, this.roster);
-            this.fragments.set(n, {from: fragment.from, to: fragment.to});
+            this.index.add(n, fragment.from, fragment.to);
             this.keepState(n + 1, fragment.state);
             this.enter(fragment);
             return fragment;
@@ -273,22 +273,8 @@ export class Playback {
         while (this.notes.length > 1 && this.notes[1].t <= this.loaded.from) this.notes.shift();
     }
 
-    // The fragment at a time, as far as it can be told from those that are known.
     locate(t) {
-        const {first, last, durationMs} = this.sync;
-        let before = null;
-        let after = null;
-        for (const [n, {from, to}] of this.fragments) {
-            if (from <= t && (!before || n > before.n)) before = {n, from, to};
-            if (from > t && (!after || n < after.n)) after = {n, from};
-        }
-        if (!before) return first;
-        const isPast = before.to !== undefined && t > before.to + slackMs;
-        if (before.to !== undefined && !isPast) return Math.min(Math.max(before.n, first), last);
-        const each = after ? (after.from - before.from) / (after.n - before.n) : durationMs;
-        const guess = before.n + Math.floor((t - before.from) / each);
-        const least = before.n + (isPast ? 1 : 0);
-        return Math.min(Math.max(guess, least, first), after ? Math.max(after.n - 1, least) : last, last);
+        return this.index.locate(t, this.sync.first, this.sync.last);
     }
 
     // After n, else before it; null: none.
@@ -302,27 +288,14 @@ export class Playback {
         return this.loaded !== null && t >= this.loaded.from - slackMs && t <= this.loaded.to + slackMs;
     }
 
-    // When fragment n begins, as far as it is known.
-    beginOf(n) {
-        let nearest = null;
-        for (const [known, {from}] of this.fragments)
-            if (!nearest || Math.abs(known - n) < Math.abs(nearest.n - n)) nearest = {n: known, from};
-        return nearest.from + (n - nearest.n) * this.sync.durationMs;
-    }
-
     // What observers see now, in ms of the model.
     newest() {
-        return this.endOfLast() + this.sync.ageMs + now() - this.syncAt;
-    }
-
-    endOfLast() {
-        const {last, durationMs} = this.sync;
-        return this.fragments.get(last)?.to ?? this.beginOf(last) + durationMs;
+        return this.index.endOf(this.sync.last) + this.sync.ageMs + now() - this.syncAt;
     }
 
     // [first, last] ms where one may go, or null.
     get range() {
-        return this.start ? [this.beginOf(this.sync.first), this.endOfLast()] : null;
+        return this.start ? [this.index.beginOf(this.sync.first), this.index.endOf(this.sync.last)] : null;
     }
 
     get isLive() { return this.sync?.live ?? false; }

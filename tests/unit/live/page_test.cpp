@@ -148,6 +148,7 @@ class Match {
     void add_expected(const director::PoseFrame& poses, const director::CameraFrame& cameras) {
         poses_ = poses;
         cameras_ = cameras;
+        const std::int64_t source_us = poses.source_time / 1000;
         json players = json::array();
         for (const auto& pose : poses.poses) {
             if (!slots_.contains(pose.player_id)) slots_[pose.player_id] = slots_.size();
@@ -166,7 +167,7 @@ class Match {
                              {"fov", camera.vertical_fov}});
         frames_.push_back({{"t", model_ms(poses.frame_time)},
                            {"number", poses.frame_number},
-                           {"source_time_ms", static_cast<double>(poses.source_time / 1000) / 1e3},
+                           {"source_time_ms", static_cast<double>(source_us) / 1e3},
                            {"players", players},
                            {"cameras", shots}});
     }
