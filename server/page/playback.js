@@ -14,7 +14,8 @@ export const kept = {
 
 const aheadMs = 15e3;       // that is fetched before the clock comes to it
 const silenceMs = 2e3;      // frames farther apart: playing goes on with the next
-const lookMs = 500;         // how late a new fragment is found
+const lookMs = 250;         // after a fragment is to be complete
+const lateMs = 1500;        // how late one may be found, and fetched, without playing having to stand still
 const syncRetryMs = 1e3;    // what a cache keeps `sync`
 const surveyedBytes = 128e6;  // that may be fetched for the timeline alone
 const surveyPauseMs = 10;
@@ -116,7 +117,8 @@ export class Playback {
         const isNew = sync.last !== this.sync?.last;
         this.sync = sync;
         this.syncAt = now();
-        this.syncDue = this.syncAt + (isNew ? Math.max(sync.durationMs - sync.ageMs, 0) + lookMs / 2 : syncRetryMs);
+        if (this.index) this.noteNewest();
+        this.syncDue = this.syncAt + (isNew ? Math.max(sync.durationMs - sync.ageMs, 0) + lookMs : syncRetryMs);
     }
 
     async prepare() {
@@ -128,6 +130,7 @@ export class Playback {
         this.index = new FragmentIndex(this.sync.durationMs);
         for (const {n, beginTime} of [first, last]) this.index.add(n, Number(beginTime - this.origin) / 1e6);
         if (!this.sync.live) await this.read(last.n);  // tells where it ends
+        this.noteNewest();
         this.start = start;
         this.on.match(this.roster.note(first.state.match ?? start.match));
         const {t, behind} = this.begin;
@@ -243,8 +246,9 @@ export class Playback {
         this.replace(fragment);
         const {clock} = this.model;
         clock.arrivals = [];
-        clock.arrived(fragment.from, this.syncAt - this.sync.ageMs + lookMs);
-        clock.t = Math.min(clock.target(now()), fragment.to);
+        clock.arrived(fragment.from, this.syncAt - this.sync.ageMs + lateMs);
+        this.newestArrived = n;
+        clock.t = Math.min(clock.target(now()), fragment.to);  // in the fragment before, where this one is new
     }
 
     replace(fragment) {
@@ -258,7 +262,10 @@ export class Playback {
         const fragment = await this.read(n);
         this.loaded.last = n;
         if (!fragment) return;
-        if (this.model.clock.live) this.model.clock.arrived(fragment.from, now());
+        if (this.model.clock.live && n > this.newestArrived) {
+            this.model.clock.arrived(fragment.from, now());
+            this.newestArrived = n;
+        }
         this.loaded.to = fragment.to;
         this.put(fragment);
     }
@@ -288,9 +295,14 @@ export class Playback {
         return this.loaded !== null && t >= this.loaded.from - slackMs && t <= this.loaded.to + slackMs;
     }
 
-    // What observers see now, in ms of the model.
+    // What observers see now, in ms of the model. A cache may have kept a `sync` whose age is no longer true: the one that
+    // says most is the youngest.
     newest() {
-        return this.index.endOf(this.sync.last) + this.sync.ageMs + now() - this.syncAt;
+        return this.aheadMs + now();
+    }
+
+    noteNewest() {
+        this.aheadMs = Math.max(this.aheadMs ?? -Infinity, this.index.endOf(this.sync.last) + this.sync.ageMs - this.syncAt);
     }
 
     // [first, last] ms where one may go, or null.
