@@ -66,6 +66,7 @@ void Relay::Channel::show(const director::MatchInfo& shown) {
 
 void Relay::Channel::show(const director::PoseFrame& poses, const director::CameraFrame& cameras) {
     const std::lock_guard lock(mutex_);
+    if (!history_) return;  // the server stops
     poses_ = poses;
     cameras_ = cameras;
     add_unlisted(poses);
@@ -80,6 +81,7 @@ void Relay::Channel::show(const director::PoseFrame& poses, const director::Came
 
 void Relay::Channel::show(const director::MatchEvent& event) {
     const std::lock_guard lock(mutex_);
+    if (!history_) return;
     const SharedMessage note = event_note(event, slots());
     history_->keep(note);
     put(note);

@@ -104,7 +104,7 @@ const tests = {
     },
     async 'the tabulator reaches every control, and the focus is seen'(browser) {
         await browser.evaluate('document.querySelector("[data-view=plan]").click(); document.activeElement.blur()');
-        const mark = `[...document.querySelectorAll('button, input, [tabindex="0"], a')]
+        const mark = `[...document.querySelectorAll('button, input, select, [tabindex="0"], a')]
             .filter(e => e.checkVisibility() && e.tabIndex >= 0 && !e.closest('dialog'))`;
         const wanted = await browser.evaluate(`${mark}.map((e, i) => e.dataset.probe = String(i))`);
         const reached = new Set();
