@@ -114,11 +114,14 @@ export class Playback {
             this.close();
             return this.on.restart();
         }
-        const isNew = sync.last !== this.sync?.last;
-        this.sync = sync;
-        this.syncAt = now();
-        if (this.index) this.noteNewest();
-        this.syncDue = this.syncAt + (isNew ? Math.max(sync.durationMs - sync.ageMs, 0) + lookMs : syncRetryMs);
+        // One of several caches may know less than another.
+        const isNew = !this.sync || sync.last > this.sync.last;
+        if (isNew || sync.last === this.sync.last) {
+            this.sync = sync;
+            this.syncAt = now();
+            if (this.index) this.noteNewest();
+        }
+        this.syncDue = now() + (isNew ? Math.max(sync.durationMs - sync.ageMs, 0) + lookMs : syncRetryMs);
     }
 
     async prepare() {

@@ -156,6 +156,11 @@ test('a broadcast is watched at its newest, and followed', () =>
         assert.ok(stage.asked.length < 12, `${stage.asked}`);
         stage.sync.last_fragment = 21;
         await stage.until('the next', () => stage.playback.loaded.last === 21);
+        stage.sync.last_fragment = 19;
+        const asked = stage.asked.length;
+        await stage.until('another cache answers', () => stage.asked.length > asked);
+        assert.equal(stage.playback.sync.last, 21, 'it knows less');
+        stage.sync.last_fragment = 21;
         stage.playback.seek(2000);
         await stage.until('back', () => stage.shown === 2 && stage.playback.state === 'playing');
         stage.playback.goLive();
