@@ -7,8 +7,9 @@
 extern "C" {
 #endif
 
-// As dds_delete(). Also takes back what Cyclone DDS 0.10 keeps of each reader and writer until the process
-// ends: of `entity`, and of its children. Thread-safe; not inside a DDS callback.
+// As dds_delete(). Also takes back what Cyclone DDS 0.10 keeps of each reader and writer until its domain is
+// deleted: of `entity`, and of its children. Thread-safe, but the domain must outlive the call, and no other
+// thread may delete the entity or its parent at the same time; not inside a DDS callback.
 void camdir_delete_entity(dds_entity_t entity);
 
 #ifdef __cplusplus
