@@ -1,7 +1,7 @@
 #include "freespace/lookouts.hpp"
 
 #include <algorithm>
-#include <numeric>
+#include <functional>
 
 #include "base/point_grid.hpp"
 #include "freespace/roadmap.hpp"
