@@ -66,6 +66,9 @@ Observer::Request Observer::checked_request(const cdir_shot_request& request) {
     require(request.reserved == 0, "request.reserved is not 0");
     require(request.group_count <= CDIR_MAX_PLAYERS, "group_count is greater than CDIR_MAX_PLAYERS");
     require(request.group_count == 0 || request.group != nullptr, "group is null");
+    require(request.target != CDIR_SHOW_GROUP ||
+                (request.group_count >= 2 && request.group_count <= CDIR_MAX_GROUP_SHOT),
+            "group_count is not 2 to CDIR_MAX_GROUP_SHOT, as CDIR_SHOW_GROUP takes");
     Request checked;
     checked.target = request.target;
     checked.group.assign(request.group, request.group + request.group_count);

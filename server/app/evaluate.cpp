@@ -6,9 +6,11 @@
 
 #include "app/commands.hpp"
 #include "app/evaluate_cameras.hpp"
+#include "app/evaluate_group.hpp"
 #include "app/evaluate_inputs.hpp"
 #include "app/progress.hpp"
 #include "base/file.hpp"
+#include "camera/group/members.hpp"
 #include "evaluation/figures.hpp"
 #include "evaluation/judgement.hpp"
 #include "evaluation/kills.hpp"
@@ -30,6 +32,12 @@ void check_usage(const EvaluateOptions& options) {
         throw CLI::ValidationError("--solver and --look-ahead", "only the tracker has a solver");
     if (!options.tracks() && !options.terms.empty())
         throw CLI::ValidationError("--terms", "only the tracker has an objective");
+    if (!options.group.empty() && (!options.tracks() || !options.solver.empty()))
+        throw CLI::ValidationError("--group", "is a shot of its own: neither --camera, --judge nor --solver");
+    if (!options.group.empty() && !(options.terms + options.report + options.events).empty())
+        throw CLI::ValidationError("--group", "has neither --terms, --report nor --events");
+    if (!options.group.empty() && (options.group.size() < 2 || options.group.size() > camera::max_members))
+        throw CLI::ValidationError("--group", "takes two to four players");
     check_one_standard_output({{"--cameras", options.cameras},
                                {"--terms", options.terms},
                                {"--json", options.json},
@@ -164,6 +172,10 @@ Result<void> evaluate(const EvaluateOptions& options) {
     if (!map) return tl::unexpected(map.error());
     line.clear();
     warn_of_another_source(options.freespace, options.map, *map);
+    if (!options.group.empty()) {
+        reading.reset();
+        return evaluate_group(options, *match, *map, line, stop);
+    }
     Judge judge(*match, *map);
     reading.reset();
     const auto made = make_cameras(options, *match, *map, line, stop);
@@ -213,6 +225,10 @@ void add_evaluate(CLI::App& root, Run& run) {
         ->check(CLI::Range(0.0, 120.0));
     command->add_option("--solver", options->solver, "paper or planner; default: the profile's")
         ->check(CLI::IsMember({paper, planner}));
+    command
+        ->add_option("--group", options->group,
+                     "One camera of these two to four players together, those who matter most first: 0,3")
+        ->delimiter(',');
     command->add_option("--cameras", options->cameras, "Write the cameras, CSV; - = standard output");
     command->add_option("--terms", options->terms, "Write the tracker's objective terms, CSV");
     command->add_option("--json", options->json, "Write the metrics, JSON; - = standard output");

@@ -26,18 +26,8 @@ Result<camera::Profile> find_profile(const EvaluateOptions& options) {
                 options.profile + "\"; there are" + names);
 }
 
-// The options' profile and solver, or the other one.
+// The options' solver, or the other one.
 enum class Choice { chosen, other };
-
-Result<camera::Profile> choose_profile(const EvaluateOptions& options, Choice choice) {
-    auto profile = find_profile(options);
-    if (!profile) return profile;
-    if (!options.solver.empty())
-        profile->solver = options.solver == planner ? Solver::planner : Solver::paper;
-    if (choice == Choice::other)
-        profile->solver = profile->solver == Solver::planner ? Solver::paper : Solver::planner;
-    return profile;
-}
 
 std::string name_of(const EvaluateOptions& options, Solver solver) {
     std::string name = solver == Solver::planner ? planner : paper;
@@ -50,8 +40,10 @@ std::string name_of(const EvaluateOptions& options, Solver solver) {
 
 Result<NamedRecording> run_tracker(const EvaluateOptions& options, Choice choice, const Match& match,
                                    const SourceMap& map, ProgressLine& line, const std::stop_token& stop) {
-    const auto profile = choose_profile(options, choice);
+    auto profile = choose_profile(options);
     if (!profile) return tl::unexpected(profile.error());
+    if (choice == Choice::other)
+        profile->solver = profile->solver == Solver::planner ? Solver::paper : Solver::planner;
     const auto show = [&](std::uint64_t done, std::uint64_t total) { line.show("tracking", done, total); };
     auto recording = evaluation::record(*map.freespace, *profile, match.poses, match.frames,
                                         options.look_ahead, show, stop);
@@ -67,6 +59,13 @@ NamedRecording run_peer(const std::string& name, const Match& match, const Sourc
 }
 
 }  // namespace
+
+Result<camera::Profile> choose_profile(const EvaluateOptions& options) {
+    auto profile = find_profile(options);
+    if (profile && !options.solver.empty())
+        profile->solver = options.solver == planner ? Solver::planner : Solver::paper;
+    return profile;
+}
 
 Result<NamedRecording> make_cameras(const EvaluateOptions& options, const Match& match, const SourceMap& map,
                                     ProgressLine& line, const std::stop_token& stop) {

@@ -6,6 +6,7 @@
 
 #include "app/evaluate_inputs.hpp"
 #include "app/progress.hpp"
+#include "camera/profile.hpp"
 #include "evaluation/recording.hpp"
 
 namespace camdir::app {
@@ -14,6 +15,9 @@ struct NamedRecording {
     std::string name;
     evaluation::Recording recording;  // only the tracker's have objective terms and times
 };
+
+// The options' profile, with their solver.
+[[nodiscard]] Result<camera::Profile> choose_profile(const EvaluateOptions& options);
 
 // The camera that the options choose.
 [[nodiscard]] Result<NamedRecording> make_cameras(const EvaluateOptions& options, const Match& match,

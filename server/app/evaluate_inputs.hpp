@@ -1,6 +1,7 @@
 // What `evaluate` and `direct` read: its options, the match and the map.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,7 +34,8 @@ struct EvaluateOptions {
     std::string report;
     double output_hz = 0.0;  // 0 = the trace's own frames
     double look_ahead = 0.0;
-    std::string solver;  // empty: the profile's
+    std::string solver;                // empty: the profile's
+    std::vector<std::uint32_t> group;  // empty: a camera for each player
 
     [[nodiscard]] bool tracks() const { return judge.empty() && camera == tracker; }
 };

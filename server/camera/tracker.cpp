@@ -17,18 +17,10 @@
 namespace camdir::camera {
 namespace {
 
-constexpr float usual_frame = 1.0F / 60.0F;  // s
-constexpr float shortest_frame = 1e-3F;      // s
-constexpr float longest_frame = 0.25F;       // s
 constexpr float greatest_urgency = 1e6F;
 constexpr float at_rest = 1.0F;     // units/s
 constexpr float at_the_eye = 1.0F;  // units: nearer, there is no line of sight to look along
 constexpr float quarter_turn = std::numbers::pi_v<float> / 2.0F;
-
-float usable_frame(double dt) {
-    if (!std::isfinite(dt) || dt <= 0.0) return usual_frame;
-    return static_cast<float>(std::clamp<double>(dt, shortest_frame, longest_frame));
-}
 
 // One step of one shot.
 class Step {

@@ -64,12 +64,6 @@ class Scratch {
 [[nodiscard]] Camera step(const freespace::Freespace& freespace, const Profile& profile, const Pose* pose,
                           double dt, ShotState& state, Scratch& scratch);
 
-// A camera of this shot that another tracker has computed.
-struct View {
-    Vec3f position;
-    Quatf orientation;
-};
-
 // The shot goes on from `now`, of the time of the last step, and not from where that step came to; `before`
 // was `dt` seconds earlier, without a cut between. Returns false, and changes nothing, when no slab covers
 // the place or the shot has not had a usable pose yet.

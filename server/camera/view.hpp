@@ -11,6 +11,12 @@ struct Look {
     float pitch = 0.0F;
 };
 
+// A camera that another tracker has computed.
+struct View {
+    Vec3f position;
+    Quatf orientation;
+};
+
 // The look along `direction` (any length). Straight up and straight down have no yaw of their own and take
 // `yaw`; so does a direction of length 0, which looks level.
 [[nodiscard]] Look look_along(const Vec3f& direction, float yaw);

@@ -6,7 +6,10 @@
 namespace camdir::camera {
 namespace {
 
-constexpr float furthest = 1e7F;  // map units: no map reaches there
+constexpr float furthest = 1e7F;             // map units: no map reaches there
+constexpr float usual_frame = 1.0F / 60.0F;  // s
+constexpr float shortest_frame = 1e-3F;      // s
+constexpr float longest_frame = 0.25F;       // s
 
 bool seen(const TimedPose& each) {
     return each.present && usable(each.pose);
@@ -27,6 +30,11 @@ bool usable(const Pose& pose) {
     const float norm = pose.orientation.norm();
     return pose.eye.allFinite() && pose.eye.cwiseAbs().maxCoeff() <= furthest && pose.velocity.allFinite() &&
            std::isfinite(norm) && norm > 1e-3F;
+}
+
+float usable_frame(double dt) {
+    if (!std::isfinite(dt) || dt <= 0.0) return usual_frame;
+    return static_cast<float>(std::clamp<double>(dt, shortest_frame, longest_frame));
 }
 
 std::ptrdiff_t index_at(Window window, double time) {

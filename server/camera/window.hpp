@@ -22,6 +22,10 @@ using Window = std::span<const TimedPose>;
 // pose.
 [[nodiscard]] bool usable(const Pose& pose);
 
+// The time since a shot's last step, s: one frame of 60 Hz where it is <= 0 or not finite, and limited to
+// 1 ms .. 250 ms.
+[[nodiscard]] float usable_frame(double dt);
+
 // The index of the last pose at or before `time`; -1 before the first.
 [[nodiscard]] std::ptrdiff_t index_at(Window window, double time);
 

@@ -118,6 +118,8 @@ class Match final : public Strand {
                                               camera::Scratch& scratch);
     [[nodiscard]] camera::Camera step_by_timeline(Shot& shot, const PlayerPose* seen,
                                                   camera::Scratch& scratch);
+    [[nodiscard]] camera::Camera step_group_by_poses(Shot& shot, double dt);
+    [[nodiscard]] camera::Camera step_group_to(double time, const Shot& shot, camera::GroupState& state);
     [[nodiscard]] camera::Camera step_to(double time, const Shot& shot, camera::ShotState& state,
                                          camera::Scratch& scratch);
 

@@ -32,7 +32,9 @@ void Match::choose_targets(const PoseFrame& frame, CameraFrame& cameras) {
         edit_.clear();
     for (Shot& shot : shots) {
         if (shot.is_automatic()) choose_automatic_target(shot, cameras);
-        const std::uint32_t target = shot.is_automatic() ? shot.automatic.player : shot.key.target;
+        const std::uint32_t target = shot.is_automatic()  ? shot.automatic.player
+                                     : shot.is_of_group() ? shot.key.group.front()
+                                                          : shot.key.target;
         if (target != shot.target) shot.restart();
         shot.target = target;
     }

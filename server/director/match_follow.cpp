@@ -79,8 +79,11 @@ void Match::follow(const Disagreement& disagreement) {
     const auto since = [&](const ShotCamera& camera) {
         return camera::View{camera.position + way, turn * camera.orientation};
     };
-    if (camera::go_on_from(*freespace_, shot->profile, since(*before), since(shown), dt, shot->state))
-        shot->is_prepared = false;
+    const bool goes_on =
+        shot->is_of_group()
+            ? camera::go_on_from(*freespace_, since(*before), since(shown), dt, shot->group)
+            : camera::go_on_from(*freespace_, shot->profile, since(*before), since(shown), dt, shot->state);
+    if (goes_on) shot->is_prepared = false;
 }
 
 std::span<const CameraFrame> Match::own_frames() const {

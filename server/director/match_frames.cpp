@@ -2,6 +2,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <utility>
 
@@ -202,14 +203,17 @@ void Match::prepare_step(Shot& shot, double time, camera::Scratch& scratch) {
     PreparedStep& step = *shot.prepared;
     step.time = time;
     step.state = shot.state;
-    step.camera = step_to(time, shot, step.state, scratch);
+    step.group = shot.group;
+    step.camera =
+        shot.is_of_group() ? step_group_to(time, shot, step.group) : step_to(time, shot, step.state, scratch);
     shot.is_prepared = true;
 }
 
 ShotCamera Match::move_camera(Shot& shot, double dt, camera::Scratch& scratch) {
     const PlayerPose* seen = roster_.pose(shot.target);
-    const camera::Camera camera =
-        by_timeline_ ? step_by_timeline(shot, seen, scratch) : step_by_pose(shot, seen, dt, scratch);
+    const camera::Camera camera = by_timeline_         ? step_by_timeline(shot, seen, scratch)
+                                  : shot.is_of_group() ? step_group_by_poses(shot, dt)
+                                                       : step_by_pose(shot, seen, dt, scratch);
 
     if ((camera.flags & camera::cut) != 0) counters_.add(Counter::cuts);
     if ((camera.flags & camera::searching) != 0 && (shot.flags & camera::searching) == 0)
@@ -229,9 +233,38 @@ camera::Camera Match::step_by_pose(Shot& shot, const PlayerPose* seen, double dt
 camera::Camera Match::step_by_timeline(Shot& shot, const PlayerPose* seen, camera::Scratch& scratch) {
     if (after_silence_ && seen != nullptr) shot.restart();
     const bool prepared = std::exchange(shot.is_prepared, false) && shot.prepared->time == timeline_.shown();
-    if (!prepared) return step_to(timeline_.shown(), shot, shot.state, scratch);
+    if (!prepared)
+        return shot.is_of_group() ? step_group_to(timeline_.shown(), shot, shot.group)
+                                  : step_to(timeline_.shown(), shot, shot.state, scratch);
     shot.state = shot.prepared->state;
+    shot.group = shot.prepared->group;
     return shot.prepared->camera;
+}
+
+camera::Camera Match::step_group_by_poses(Shot& shot, double dt) {
+    const Timed timed(counters_.step);
+    if (after_silence_) shot.restart();
+    const double time = shot.group.time + dt;
+    std::array<camera::TimedPose, camera::max_members> poses;
+    std::array<camera::Window, camera::max_members> windows;
+    const std::size_t count = shot.key.group.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        const PlayerPose* seen = roster_.pose(shot.key.group[i]);
+        if (seen == nullptr) continue;
+        poses[i] = {time, tracker_pose(*seen, false), true};
+        windows[i] = {&poses[i], 1};
+    }
+    return camera::step(*freespace_, shot.profile, std::span(windows).first(count), time, shot.group);
+}
+
+camera::Camera Match::step_group_to(double time, const Shot& shot, camera::GroupState& state) {
+    const Timed timed(counters_.step);
+    if (!state.started) state.time = time - first_step_s;
+    std::array<camera::Window, camera::max_members> windows;
+    const std::size_t count = shot.key.group.size();
+    for (std::size_t i = 0; i < count; ++i)
+        windows[i] = timeline_.window(shot.key.group[i]);
+    return camera::step(*freespace_, shot.profile, std::span(windows).first(count), time, state);
 }
 
 camera::Camera Match::step_to(double time, const Shot& shot, camera::ShotState& state,

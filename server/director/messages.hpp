@@ -12,7 +12,8 @@
 
 namespace camdir::director {
 
-inline constexpr std::uint32_t no_player = 0xffffffffU;  // as a target: the director chooses
+inline constexpr std::uint32_t no_player = 0xffffffffU;    // as a target: the director chooses
+inline constexpr std::uint32_t whole_group = 0xfffffffeU;  // as a target: the players of the group together
 inline constexpr std::size_t max_players = 256;
 inline constexpr std::size_t max_cameras = 256;
 

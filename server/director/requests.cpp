@@ -45,9 +45,25 @@ std::vector<std::uint32_t> sorted(std::vector<std::uint32_t> group) {
     return group;
 }
 
+// In their order: those who matter more come first.
+std::vector<std::uint32_t> without_repetitions(std::span<const std::uint32_t> group) {
+    std::vector<std::uint32_t> distinct;
+    for (const std::uint32_t player : group)
+        if (std::ranges::find(distinct, player) == distinct.end()) distinct.push_back(player);
+    return distinct;
+}
+
+// What is wrong with the group of a group shot; empty when nothing is.
+std::string group_error(const ShotKey& key) {
+    if (key.target != whole_group || (key.group.size() >= 2 && key.group.size() <= camera::max_members))
+        return {};
+    return "a group shot shows 2 to " + std::to_string(camera::max_members) + " players, not " +
+           std::to_string(key.group.size());
+}
+
 // Why no player of the key can be shown now; empty when one can.
 std::string missing_player(const ShotKey& key, const Roster& roster) {
-    if (key.target != no_player) {
+    if (key.target != no_player && key.target != whole_group) {
         const Presence presence = roster.presence(key.target);
         if (presence == Presence::playing) return {};
         return "player " + std::to_string(key.target) +
@@ -131,8 +147,12 @@ void Requests::resolve_again(const config::Config& config) {
 void Requests::resolve(Observer& observer, const config::Config& config) {
     const ObserverRequest& request = observer.request;
     const std::string& name = request.profile.empty() ? config.matches.default_profile : request.profile;
-    observer.key = {request.target, sorted(request.group), name, canonical(request.overrides)};
-    observer.error.clear();
+    observer.key = {
+        request.target,
+        request.target == whole_group ? without_repetitions(request.group) : sorted(request.group), name,
+        canonical(request.overrides)};
+    observer.error = group_error(observer.key);
+    if (!observer.error.empty()) return;
     const auto base = config.profiles.find(name);
     if (base == config.profiles.end()) {
         observer.error = "there is no profile " + quoted(name) + "; known: " + known_profiles(config);
@@ -259,7 +279,8 @@ std::vector<ShotView> Requests::shot_views() const {
     std::vector<ShotView> views;
     for (const Shot& shot : shots_)
         views.push_back({shot.camera_id, shot.target, shot.is_automatic(), shot.key.profile, shot.observers,
-                         shot.flags, shot.automatic.reason, shot.automatic.since});
+                         shot.flags, shot.automatic.reason, shot.automatic.since,
+                         shot.is_of_group() ? shot.key.group : std::vector<std::uint32_t>()});
     return views;
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/log_limit.hpp"
+#include "camera/group/group_shot.hpp"
 #include "camera/tracker.hpp"
 #include "config/config.hpp"
 #include "director/counters.hpp"
@@ -20,8 +21,8 @@ namespace camdir::director {
 
 // Requests with equal keys share one camera.
 struct ShotKey {
-    std::uint32_t target = no_player;  // no_player: automatic
-    std::vector<std::uint32_t> group;  // ascending, distinct
+    std::uint32_t target = no_player;  // no_player: automatic; whole_group: a group shot
+    std::vector<std::uint32_t> group;  // distinct; ascending, of a group shot as requested
     std::string profile;
     std::string overrides;  // canonical JSON: keys sorted, no white space
 
@@ -32,6 +33,7 @@ struct ShotKey {
 struct PreparedStep {
     double time = 0.0;  // of the timeline
     camera::ShotState state;
+    camera::GroupState group;
     camera::Camera camera;
 };
 
@@ -40,20 +42,23 @@ struct Shot {
     std::uint32_t camera_id = 0;
     camera::Profile profile;
     camera::ShotState state;
+    camera::GroupState group;  // in its place, of a group shot
     AutomaticShot automatic;
-    std::uint32_t target = no_player;  // the player followed now
+    std::uint32_t target = no_player;  // the player followed now; of a group shot the first of its group
     std::uint64_t observers = 0;
     std::uint32_t flags = 0;  // of the last camera
-    // Follows from `state`, `target` and `profile` as they are; its memory is kept.
+    // Follows from `state`, `group`, `target` and `profile` as they are; its memory is kept.
     bool is_prepared = false;
     std::unique_ptr<PreparedStep> prepared;
 
     [[nodiscard]] bool is_automatic() const { return key.target == no_player; }
+    [[nodiscard]] bool is_of_group() const { return key.target == whole_group; }
 
     // Begins again, with a cut.
     void restart() {
         state = {};
         state.plan.phase = camera_id;
+        group = {};
         is_prepared = false;
     }
 };

@@ -79,9 +79,10 @@ struct ShotView {
     bool automatic = false;
     std::string profile;
     std::uint64_t observers = 0;
-    std::uint32_t flags = 0;  // of the last camera
-    Reason reason;            // why the player is followed, of an automatic shot
-    std::int64_t since = 0;   // frame_time, likewise
+    std::uint32_t flags = 0;                // of the last camera
+    Reason reason;                          // why the player is followed, of an automatic shot
+    std::int64_t since = 0;                 // frame_time, likewise
+    std::vector<std::uint32_t> group = {};  // of a group shot: its players
 };
 
 struct ObserverView {

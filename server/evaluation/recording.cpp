@@ -5,78 +5,17 @@
 #include <atomic>
 #include <cassert>
 #include <charconv>
-#include <ctime>
 #include <memory>
 #include <utility>
 
 #include "base/parallel.hpp"
 #include "camera/tracker.hpp"
+#include "evaluation/replay.hpp"
 
 namespace camdir::evaluation {
 namespace {
 
 constexpr std::uint64_t max_updates = 200'000'000;
-
-constexpr double history = 0.5;     // s of poses before a camera that it is given
-constexpr double same_time = 1e-9;  // s
-
-camera::Pose tracked(const TracePose& pose) {
-    camera::Pose seen;
-    seen.eye = pose.eye.cast<float>();
-    seen.orientation = pose.orientation.cast<float>().normalized();
-    seen.velocity = pose.velocity.cast<float>();
-    seen.alive = pose.alive;
-    seen.discontinuity = pose.discontinuity;
-    return seen;
-}
-
-double seconds(std::int64_t nanoseconds) {
-    return static_cast<double>(nanoseconds) * 1e-9;
-}
-
-// All poses of a player; times from `start`, ns.
-std::vector<camera::TimedPose> timed_poses(const Trace& trace, std::uint32_t player, std::int64_t start) {
-    std::vector<camera::TimedPose> poses;
-    poses.reserve(trace.frames.size());
-    const auto track = track_of(trace, player);
-    for (std::size_t frame = 0; frame < track.size(); ++frame) {
-        const bool present = track[frame] != absent;
-        poses.push_back({seconds(trace.frames[frame].time - start),
-                         present ? tracked(trace.poses[track[frame]]) : camera::Pose{}, present});
-    }
-    return poses;
-}
-
-// The part of a player's poses that is known at a time which ascends from call to call.
-class KnownPoses {
-  public:
-    KnownPoses(camera::Window all, double look_ahead) : all_(all), look_ahead_(look_ahead) {}
-
-    [[nodiscard]] camera::Window at(double time) {
-        while (end_ < all_.size() && all_[end_].time <= time + look_ahead_ + same_time)
-            ++end_;
-        while (first_ + 1 < end_ && all_[first_ + 1].time <= time - history)
-            ++first_;
-        return all_.subspan(first_, end_ - first_);
-    }
-
-  private:
-    camera::Window all_;
-    double look_ahead_;
-    std::size_t first_ = 0;
-    std::size_t end_ = 0;
-};
-
-CameraSample sampled(const camera::Camera& camera, bool cut) {
-    return {camera.position.cast<double>(), camera.orientation.cast<double>().normalized(), cut};
-}
-
-// Of this thread alone: unlike wall time, the same on a busy machine.
-double cpu_nanoseconds() {
-    timespec now{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return static_cast<double>(now.tv_sec) * 1e9 + static_cast<double>(now.tv_nsec);
-}
 
 // Records one player at a time; several recorders may share a recording.
 class Recorder {

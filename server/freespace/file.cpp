@@ -11,6 +11,7 @@
 #include "freespace/hints.hpp"
 #include "freespace/incidence.hpp"
 #include "freespace/index.hpp"
+#include "freespace/lookouts.hpp"
 #include "freespace/roadmap_graph.hpp"
 #include "freespace/slab_octree.hpp"
 #include "freespace_generated.h"
@@ -209,6 +210,7 @@ struct Freespace::Storage {
     Incidence incidence;
     Lazy<SlabOctree> octree;
     Lazy<RoadmapGraph> roadmap;
+    Lazy<Lookouts> lookouts;
 
     explicit Storage(Bytes bytes) : file(std::move(bytes)) {}
 };
@@ -269,6 +271,10 @@ const SlabOctree& Freespace::octree() const {
 
 const RoadmapGraph& Freespace::roadmap() const {
     return storage_->roadmap.get([&] { return RoadmapGraph(mesh_.vertices, mesh_.triangles); });
+}
+
+const Lookouts& Freespace::lookouts() const {
+    return storage_->lookouts.get([&] { return Lookouts(*this); });
 }
 
 std::size_t Freespace::byte_size() const {

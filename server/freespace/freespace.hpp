@@ -75,6 +75,7 @@ struct Contents {
     std::vector<SpawnPoint> spawn_points;
 };
 
+class Lookouts;
 class RoadmapGraph;
 class SlabOctree;
 
@@ -119,6 +120,7 @@ class Freespace {
     // (others wait meanwhile) and allocates.
     [[nodiscard]] const SlabOctree& octree() const;
     [[nodiscard]] const RoadmapGraph& roadmap() const;
+    [[nodiscard]] const Lookouts& lookouts() const;
 
   private:
     struct Storage;

@@ -49,6 +49,9 @@ json page_of(const director::ShotView& shot, const std::vector<director::Player>
                  {"observers", shot.observers},
                  {"flags", shot.flags}};
     page["target"] = page_of(shot.target, players);
+    page["group"] = json::array();
+    for (const std::uint32_t player : shot.group)
+        page["group"].push_back(page_of(player, players));
     page["reason"] = shot.automatic && !shot.reason.why.empty() ? page_of(shot.reason, players) : json();
     page["since"] = shot.automatic ? json(shot.since) : json();
     return page;

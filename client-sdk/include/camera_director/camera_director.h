@@ -132,6 +132,8 @@ CDIR_API const char* cdir_last_error(void) CDIR_NOEXCEPT;
 #define CDIR_MAX_CAMERAS 256u
 #define CDIR_NO_PLAYER 0xffffffffu     /* in events: no player */
 #define CDIR_CHOOSE_TARGET 0xffffffffu /* as a shot's target: the director chooses */
+#define CDIR_SHOW_GROUP 0xfffffffeu    /* as a shot's target: the players of its group together */
+#define CDIR_MAX_GROUP_SHOT 4u         /* players of such a group */
 
 /* Handles: plain values, free to copy. 0 is never a valid handle. Closed handles are detected and refused. */
 typedef struct cdir_context {
@@ -424,8 +426,11 @@ CDIR_API cdir_status cdir_observer_open(cdir_context context, const char* match_
 
 typedef struct cdir_shot_request {
     uint32_t struct_size;
-    uint32_t target; /* player id or CDIR_CHOOSE_TARGET */
-    /* group_count players among whom the director chooses; null = all. */
+    uint32_t target; /* player id, CDIR_CHOOSE_TARGET or CDIR_SHOW_GROUP */
+    /* With CDIR_CHOOSE_TARGET: group_count players among whom the director chooses; null = all. With
+     * CDIR_SHOW_GROUP: the 2 .. CDIR_MAX_GROUP_SHOT players whom one camera shows together, those who matter
+     * most first. A director that knows no group shots
+     * answers that there is no such player. */
     CDIR_POINTER(const uint32_t*, group);
     /* "default", "broadcast", "close", "tactical", or another one of the director's configuration, up to 31
      * bytes; null or "" = the one that it chooses. */
@@ -462,7 +467,8 @@ CDIR_API cdir_status cdir_observer_poll(cdir_observer observer, uint32_t* frame_
 
 enum {
     CDIR_CAMERA_CUT = 1,            /* the camera jumped since the previous frame */
-    CDIR_CAMERA_TARGET_VISIBLE = 2, /* no obstacle between the camera and the target's eye */
+    CDIR_CAMERA_TARGET_VISIBLE = 2, /* no obstacle between the camera and the target's eye; in a
+                                     * group shot: all living players of the group are shown */
     CDIR_CAMERA_SEARCHING = 4,      /* moving towards a target that is out of sight */
     CDIR_CAMERA_TARGET_ABSENT = 8,  /* the target has no pose */
     CDIR_CAMERA_HELD = 16           /* the camera stands still: the target is dead or cannot be followed */
@@ -471,7 +477,8 @@ enum {
 typedef struct cdir_camera {
     uint32_t struct_size;
     uint32_t camera_id;
-    uint32_t target;      /* player id; CDIR_CHOOSE_TARGET while the director has chosen none */
+    /* player id: of a group shot the first of its group; CDIR_CHOOSE_TARGET while the director has chosen none */
+    uint32_t target;
     uint32_t flags;       /* bitwise or of CDIR_CAMERA_ values */
     float position[3];    /* map units */
     float orientation[4]; /* x y z w */

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <csignal>
@@ -83,6 +84,21 @@ TEST_F(MatchTest, AnAutomaticShotSaysWhy) {
         late.poll().value();
         const auto view = late.newest_camera().value();
         return view && view->camera.reason[0] != '\0';
+    })) << server_.log();
+}
+
+TEST_F(MatchTest, AGroupShotShowsItsPlayersTogether) {
+    const Game game(context_, "cup", "hall");
+    Observer observer = Observer::open(context_, "cup", "anna").value();
+    EXPECT_FALSE(observer.request({.target = CDIR_SHOW_GROUP, .group = {1}}));
+    observer.request({.target = CDIR_SHOW_GROUP, .group = {2, 1}}).value();
+    ASSERT_TRUE(comes_to(observer, CDIR_SHOT_ACCEPTED)) << server_.log();
+    const std::uint32_t own = observer.shot_status().value().camera_id;
+    EXPECT_TRUE(sees(observer, [&](const auto& /*frame*/, auto cameras) {
+        return std::ranges::any_of(cameras, [&](const auto& camera) {
+            return camera.camera_id == own && camera.target == 2 &&
+                   (camera.flags & CDIR_CAMERA_TARGET_VISIBLE) != 0;
+        });
     })) << server_.log();
 }
 

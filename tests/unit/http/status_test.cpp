@@ -22,6 +22,7 @@ TEST(Status, ShowsMapsMatchesShotsAndObservers) {
     match.shots.push_back(
         {6, director::no_player, true, "default", 1, 0, {.actor = 4, .subject = 9, .why = "kill"}, 77});
     match.shots.push_back({7, 9, false, "default", 1, 0, {}, 0});
+    match.shots.push_back({8, 2, false, "default", 1, 2, {}, 0, {2, 9}});
     match.observers.push_back(
         {"anna", director::RequestState::waiting_for_player, 0, "player 9 is not in the match"});
     director::MatchView busy;
@@ -47,6 +48,8 @@ TEST(Status, ShowsMapsMatchesShotsAndObservers) {
     EXPECT_EQ(page["matches"][0]["shots"][0]["target"], anarki);
     EXPECT_EQ(page["matches"][0]["shots"][2]["target"], json({{"id", 9}})) << "not listed";
     EXPECT_TRUE(page["matches"][0]["shots"][1]["target"].is_null());
+    EXPECT_TRUE(page["matches"][0]["shots"][0]["group"].empty());
+    EXPECT_EQ(page["matches"][0]["shots"][3]["group"], json({anarki, {{"id", 9}}}));
     EXPECT_TRUE(page["matches"][0]["shots"][0]["reason"].is_null()) << "an observer has chosen";
     EXPECT_EQ(page["matches"][0]["shots"][1]["reason"]["why"], "kill");
     EXPECT_EQ(page["matches"][0]["shots"][1]["reason"]["actor"]["name"], "doom");

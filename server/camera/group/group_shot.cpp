@@ -1,0 +1,269 @@
+#include "camera/group/group_shot.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cmath>
+
+#include "camera/cut.hpp"
+#include "camera/group/framing.hpp"
+#include "camera/group/viewpoint.hpp"
+#include "freespace/distance.hpp"
+#include "freespace/visibility.hpp"
+
+namespace camdir::camera {
+namespace {
+
+constexpr float choice_interval = 0.1F;           // s
+constexpr float hurried_choice_interval = 0.03F;  // s: while somebody is not shown
+constexpr float worth_a_move = 0.01F;             // s more that everyone is shown
+constexpr float patience = 0.6F;  // s that somebody is hidden before a cut to others than everyone
+constexpr float shortest_partial_shot = 2.5F;  // s: likewise
+
+constexpr float glide_rate = 3.0F;         // 1/s: of the critically damped motion
+constexpr float fastest_glide = 350.0F;    // units/s
+constexpr float zone_share = 0.55F;        // of the picture: the dead zone
+constexpr std::size_t instants_ahead = 2;  // of Members, that are kept in it
+constexpr float pan_time = 0.09F;          // s, at the least: time constant of the rotation
+
+// Without the member who matters least; `set` is not empty.
+MemberSet without_the_last(MemberSet set) {
+    return set & (set - 1);
+}
+
+// One step of one shot.
+class GroupStep {
+  public:
+    GroupStep(const freespace::Freespace& freespace, const Profile& profile, const Members& members, float dt,
+              GroupState& state)
+        : freespace_(freespace),
+          profile_(profile, freespace.metadata().metres_per_unit),
+          members_(members),
+          dt_(dt),
+          state_(state) {}
+
+    Camera with_members() {
+        state_.since_cut += dt_;
+        state_.until_choice -= dt_;
+        bool cuts = !state_.started;
+        if (!state_.started) {
+            begin();
+        } else {
+            glide();
+            turn();
+            judge();
+            cuts = state_.until_choice <= 0.0F && members_.now().living != 0 && choose();
+        }
+        state_.side = side_of(members_.now(), state_.position);
+        if (cuts) judge();
+        return frame(flags_ | (cuts ? std::uint32_t{cut} : 0U));
+    }
+
+    Camera without_members() {
+        if (state_.started || state_.waiting) return frame(target_absent | held);
+        state_.waiting = true;
+        if (!freespace_.spawn_points().empty()) {
+            const freespace::SpawnPoint& spawn = freespace_.spawn_points().front();
+            state_.position = spawn.eye;
+            state_.look.yaw = spawn.yaw;
+        }
+        return frame(target_absent | held | cut);
+    }
+
+  private:
+    // Whether everyone is shown, from where the camera is.
+    void judge() {
+        const Members::Instant& now = members_.now();
+        shown_ = 0;
+        for (std::size_t member = 0; member < max_members; ++member) {
+            const Eyes eye(now, only(member));
+            const auto extent = extent_of(state_.position, state_.look, eye.span());
+            if (extent && extent->within(safe_area(profile_))) shown_ |= only(member);
+        }
+        shown_ &= seen_from(freespace_, state_.position, now);
+        const bool complete = shown_ == now.living;
+        state_.incomplete_for = complete ? 0.0F : state_.incomplete_for + dt_;
+        flags_ = now.living == 0 ? std::uint32_t{held}
+                 : complete      ? std::uint32_t{target_visible}
+                                 : std::uint32_t{searching} | (shown_ == 0 ? std::uint32_t{held} : 0U);
+    }
+
+    // True when it cuts.
+    bool choose() {
+        const MemberSet all = members_.soon_living();
+        const bool complete = shown_ == members_.now().living;
+        state_.until_choice = complete ? choice_interval : hurried_choice_interval;
+        const Standpoint from = standpoint();
+        const ViewpointSearch search(freespace_, profile_, members_, all, from);
+        const float staying = search.worth_of_staying(state_.goal, from.cut_in);
+        const auto near = search.glide();
+        const bool glides = near && near->worth > staying + worth_a_move;
+        if (from.cut_in <= 0.0F) {
+            const auto far = search.cut();
+            if (far && far->worth > (glides ? near->worth : staying) + worth_a_move) {
+                cut_to(*far);
+                return true;
+            }
+        }
+        if (glides) glide_to(*near);
+        if (complete || glides) return false;
+        const bool loses = search.worth_of_staying(state_.goal, shortest_group_shot) < staying;
+        return !loses && show_those_who_matter_more();
+    }
+
+    // Where not everyone can be shown.
+    bool show_those_who_matter_more() {
+        if (state_.since_cut < shortest_partial_shot || state_.incomplete_for < patience) return false;
+        for (MemberSet set = without_the_last(members_.now().living); set > shown_;
+             set = without_the_last(set))
+            if (const auto found = ViewpointSearch(freespace_, profile_, members_, set, standpoint()).cut()) {
+                cut_to(*found);
+                return true;
+            }
+        return false;
+    }
+
+    [[nodiscard]] Standpoint standpoint() const {
+        return {state_.position, state_.side, std::max(shortest_group_shot - state_.since_cut, 0.0F)};
+    }
+
+    void begin() {
+        state_.started = true;
+        for (MemberSet set = members_.now().living; set != 0; set = without_the_last(set))
+            if (const auto found = ViewpointSearch(freespace_, profile_, members_, set, {}).cut())
+                return cut_to(*found);
+        land_at_the_most_important();
+    }
+
+    // Where no lookout sees anybody.
+    void land_at_the_most_important() {
+        const std::size_t first =
+            members_.now().living == 0
+                ? 0
+                : max_members - static_cast<std::size_t>(std::bit_width(members_.now().living));
+        Pose pose;
+        pose.eye = members_.now().eyes[first];
+        PlayerTrack track;
+        restart(freespace_, pose, track);
+        const Candidate place = landing(freespace_, profile_, track);
+        cut_to({place.position, look_along(pose.eye - place.position, state_.look.yaw),
+                members_.now().living & only(first), 0.0F});
+    }
+
+    void cut_to(const Viewpoint& viewpoint) {
+        state_.position = state_.goal = viewpoint.position;
+        state_.velocity = Vec3f::Zero();
+        state_.look = viewpoint.look;
+        state_.look_rate = {};
+        state_.framed = viewpoint.shown;
+        state_.since_cut = 0.0F;
+        state_.incomplete_for = 0.0F;
+        state_.until_choice = choice_interval;
+    }
+
+    void glide_to(const Viewpoint& viewpoint) {
+        state_.goal = viewpoint.position;
+        state_.framed = viewpoint.shown;
+    }
+
+    // Critically damped, no faster than fastest_glide; each step free, by itself or on the straight way.
+    void glide() {
+        const Vec3f way = state_.goal - state_.position;
+        if (way.norm() < 0.01F * profile_.unit && state_.velocity.norm() < profile_.unit) {
+            state_.velocity.setZero();
+            return;
+        }
+        const float pull = 2.0F * fastest_glide * profile_.unit / glide_rate;
+        const Vec3f pulled = way.norm() > pull ? Vec3f(way * (pull / way.norm())) : way;
+        const Vec3f acceleration = glide_rate * glide_rate * pulled - 2.0F * glide_rate * state_.velocity;
+        const Vec3f velocity = state_.velocity + acceleration * dt_;
+        if (move_by(velocity)) return;
+        const Vec3f straight = way.normalized() * std::max(velocity.dot(way.normalized()), 0.0F);
+        if (move_by(straight)) return;
+        state_.velocity.setZero();
+        state_.goal = state_.position;
+    }
+
+    bool move_by(const Vec3f& velocity) {
+        const Vec3f next = state_.position + velocity * dt_;
+        if (!freespace::sight(freespace_, state_.position, next, 0.5F * profile_.minimum_clearance).clear)
+            return false;
+        state_.position = next;
+        state_.velocity = velocity;
+        return true;
+    }
+
+    // The members that are to stay in the picture: those that the viewpoint was chosen for, and whoever else
+    // is seen and finds room.
+    [[nodiscard]] MemberSet wanted_in_picture() const {
+        const Members::Instant& now = members_.now();
+        const MemberSet seen = seen_from(freespace_, state_.position, now);
+        const MemberSet more = (state_.framed & now.living) | seen;
+        if (seen == 0) return 0;
+        if (look_at_all(state_.position, Eyes(now, more).span(), safe_area(profile_))) return more;
+        return state_.framed & now.living;
+    }
+
+    // Towards the look that keeps them in the dead zone, now and soon; critically damped.
+    void turn() {
+        const MemberSet wanted = wanted_in_picture();
+        Look look = state_.look;
+        const PictureShape zone = PictureShape::of(profile_.vertical_fov, zone_share);
+        for (std::size_t i = instants_ahead + 1; i-- > 0;)
+            look = look_within(state_.position, look, Eyes(members_.at[i], wanted).span(), zone);
+        const float rate = 1.0F / std::max(pan_time, profile_.look_smoothing);
+        const auto accelerate = [&](float& speed, float way) {
+            // Implicit: stable for every frame.
+            speed = (speed + rate * rate * way * dt_) / (1.0F + 2.0F * rate * dt_ + rate * rate * dt_ * dt_);
+        };
+        accelerate(state_.look_rate.yaw, wrapped(look.yaw - state_.look.yaw));
+        accelerate(state_.look_rate.pitch, look.pitch - state_.look.pitch);
+        const Look next{state_.look.yaw + state_.look_rate.yaw * dt_,
+                        state_.look.pitch + state_.look_rate.pitch * dt_};
+        state_.look = turned(state_.look, next, 1.0F, profile_.turn_limit * dt_);
+    }
+
+    [[nodiscard]] Camera frame(std::uint32_t flags) const {
+        Camera camera;
+        camera.position = state_.position;
+        camera.orientation = orientation_of(state_.look);
+        camera.vertical_fov = profile_.vertical_fov;
+        camera.clearance = std::max(freespace::distance(freespace_, state_.position).value, 0.0F);
+        camera.flags = flags;
+        return camera;
+    }
+
+    const freespace::Freespace& freespace_;
+    const MapProfile profile_;
+    const Members& members_;
+    float dt_;
+    GroupState& state_;
+    MemberSet shown_ = 0;
+    std::uint32_t flags_ = 0;
+};
+
+}  // namespace
+
+Camera step(const freespace::Freespace& freespace, const Profile& profile, std::span<const Window> members,
+            double time, GroupState& state) {
+    assert(members.size() <= max_members);
+    const Members known = members_at(freespace, members, time);
+    GroupStep one(freespace, profile, known, usable_frame(time - state.time), state);
+    state.time = time;
+    return known.anyone ? one.with_members() : one.without_members();
+}
+
+bool go_on_from(const freespace::Freespace& freespace, const View& before, const View& now, double dt,
+                GroupState& state) {
+    if (!state.started || !freespace::distance(freespace, now.position).covered()) return false;
+    const float frame = usable_frame(dt);
+    const Look look_before = look_along(before.orientation * Vec3f::UnitX(), state.look.yaw);
+    state.look = look_along(now.orientation * Vec3f::UnitX(), look_before.yaw);
+    state.look_rate = {wrapped(state.look.yaw - look_before.yaw) / frame,
+                       (state.look.pitch - look_before.pitch) / frame};
+    state.position = state.goal = now.position;
+    state.velocity = (now.position - before.position) / frame;
+    return true;
+}
+
+}  // namespace camdir::camera

@@ -1,0 +1,54 @@
+// The group shot: one camera that shows two to four players together.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "camera/camera.hpp"
+#include "camera/group/members.hpp"
+#include "camera/profile.hpp"
+#include "camera/view.hpp"
+#include "camera/window.hpp"
+#include "freespace/freespace.hpp"
+
+namespace camdir::camera {
+
+// Everything that a group shot remembers between two frames. A value.
+struct GroupState {
+    bool started = false;  // false: the next step with a pose begins with a cut
+    bool waiting = false;  // for a first pose, at a spawn point
+    Vec3f position = Vec3f::Zero();
+    Vec3f velocity = Vec3f::Zero();
+    Vec3f goal = Vec3f::Zero();  // that the camera glides to
+    Look look;
+    Look look_rate;               // of yaw and pitch, rad/s
+    MemberSet framed = 0;         // whom the viewpoint was chosen for
+    float side = 0.0F;            // of the line of action
+    float since_cut = 0.0F;       // s
+    float incomplete_for = 0.0F;  // s: for so long somebody who lives is not shown
+    float until_choice = 0.0F;    // s
+    double time = 0.0;            // s: of the last step
+};
+
+// Moves the camera to `time`, later than the last step's. A window a member, at most max_members, those who
+// matter most first: the poses that are known, as for step() of the tracker; without any after `time` the
+// shot is causal. Of the profile it heeds vertical_fov, minimum_clearance, look_smoothing and turn_limit.
+//
+// The camera stands or glides at lookouts that see all living members, with all of them in the picture: while
+// it does, it moves and turns as little as keeps them there. Where it stops to do, it glides to another one
+// nearby or cuts, but for some time after a cut. Where no lookout sees all it shows those that matter more.
+// Of two it stays on one side of the line between them, as long as anything else shows them.
+//
+// Guarantees: as step() of the tracker, but that a step may ask for the freespace's lookouts for the first
+// time, which makes them and allocates, and what one of them sees, which takes milliseconds once for a map.
+//
+// Flags: target_visible, all living members are in sight and in the picture; searching, not all of them;
+// held, nobody lives or is in sight; target_absent, no member has a pose.
+[[nodiscard]] Camera step(const freespace::Freespace& freespace, const Profile& profile,
+                          std::span<const Window> members, double time, GroupState& state);
+
+// The same as go_on_from() of the tracker.
+[[nodiscard]] bool go_on_from(const freespace::Freespace& freespace, const View& before, const View& now,
+                              double dt, GroupState& state);
+
+}  // namespace camdir::camera

@@ -1,0 +1,232 @@
+#include "camera/group/viewpoint.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "freespace/visibility.hpp"
+
+namespace camdir::camera {
+namespace {
+
+constexpr float safe_share = 0.86F;            // of the picture
+constexpr float widest_cosine = 0.17F;         // of the angle between two members that a picture can hold
+constexpr float tallest_sine = 0.75F;          // likewise, of the difference of their elevations
+constexpr std::size_t most_looked_at = 100;    // lookouts that are looked at now
+constexpr std::size_t most_timed_sights = 32;  // lookouts that are looked at from instant to instant
+constexpr float longest_glide = 500.0F;        // units
+constexpr float time_after_the_known = 0.6F;   // s
+
+// Costs, s.
+constexpr float cost_of_a_cut = 0.05F;
+constexpr float far_away = 350.0F;  // units: farther members are small in the picture
+constexpr float cost_of_twice_as_far = 0.06F;
+constexpr float too_near = 90.0F;  // nearer members fill the picture and turn the camera
+constexpr float cost_of_touching = 0.3F;
+constexpr float steep_slope = 0.6F;  // sine: steeper views from above or below
+constexpr float cost_of_steepness = 0.3F;
+constexpr float cost_of_crossing = 0.1F;  // of a cut over the line of action
+constexpr float cost_of_jump = 0.08F;     // of a cut to nearly the same picture
+constexpr float same_place = 120.0F;      // units
+constexpr float cost_of_longest_glide = 0.2F;
+
+}  // namespace
+
+PictureShape safe_area(const MapProfile& profile) {
+    return PictureShape::of(profile.vertical_fov, safe_share);
+}
+
+float side_of(const Members::Instant& members, const Vec3f& position) {
+    const Eyes eyes(members, members.living);
+    if (eyes.span().size() != 2) return 0.0F;
+    const Vec3f line = eyes.span()[1] - eyes.span()[0];
+    return line.cross(position - eyes.span()[0]).z();
+}
+
+MemberSet seen_from(const freespace::Freespace& freespace, const Vec3f& position,
+                    const Members::Instant& members) {
+    const freespace::SightOrigin origin(freespace, position, 0.0F);
+    MemberSet seen = 0;
+    for (std::size_t member = 0; member < max_members; ++member)
+        if ((members.living & only(member)) != 0 && origin.to(members.eyes[member]).clear)
+            seen |= only(member);
+    return seen;
+}
+
+// Who dies or leaves meanwhile need not be seen then.
+ViewpointSearch::ViewpointSearch(const freespace::Freespace& freespace, const MapProfile& profile,
+                                 const Members& members, MemberSet set, const Standpoint& from)
+    : freespace_(freespace), profile_(profile), members_(members), set_(set), from_(from) {
+    const freespace::Lookouts& lookouts = freespace.lookouts();
+    const std::size_t known = members.known;
+    freespace::Lookouts::Set any;
+    for (std::size_t i = 0; i < known; ++i) {
+        seeing_[i].set();
+        for (const Vec3f& eye : Eyes(members.at[i], set).span())
+            seeing_[i] &= lookouts.seeing(freespace, eye);
+        any |= seeing_[i];
+        weight_[i] = (i + 1 < known ? Members::instants[i + 1] - Members::instants[i] : time_after_the_known);
+    }
+    for (std::uint32_t i = 0; i < lookouts.positions().size(); ++i) {
+        if (!any.test(i)) continue;
+        const Shows shows = shows_from(i);
+        if (shows == 0) continue;
+        const Vec3f& position = lookouts.positions()[i];
+        candidates_[candidate_count_++] = {i, shows,
+                                           picture_cost(position) + way_cost(Approach::cut, position)};
+    }
+    for (std::size_t i = 0; i < known; ++i) {
+        for (std::size_t c = 0; c < candidate_count_; ++c)
+            after_a_cut_[i] = std::max(after_a_cut_[i],
+                                       time_of(candidates_[c].shows, i, known) - candidates_[c].cost_of_cut);
+    }
+}
+
+// Probably.
+ViewpointSearch::Shows ViewpointSearch::shows_from(std::uint32_t lookout) const {
+    Shows shows = 0;
+    for (std::size_t i = 0; i < members_.known; ++i)
+        if (seeing_[i].test(lookout) && fits(freespace_.lookouts().positions()[lookout], i)) shows |= 1U << i;
+    return shows;
+}
+
+ViewpointSearch::Shows ViewpointSearch::shows_from(const Vec3f& position) const {
+    Shows shows = 0;
+    for (std::size_t i = 0; i < members_.known; ++i) {
+        if (shows_at(position, i)) shows |= 1U << i;
+    }
+    return shows;
+}
+
+bool ViewpointSearch::shows_at(const Vec3f& position, std::size_t instant) const {
+    const MemberSet wanted = set_ & members_.at[instant].living;
+    return fits(position, instant) &&
+           (seen_from(freespace_, position, members_.at[instant]) & wanted) == wanted;
+}
+
+// Whether the directions to the members are near enough to each other for one picture.
+bool ViewpointSearch::fits(const Vec3f& position, std::size_t instant) const {
+    const Eyes eyes(members_.at[instant], set_);
+    std::array<Vec3f, max_members> directions;
+    for (std::size_t i = 0; i < eyes.span().size(); ++i) {
+        directions[i] = (eyes.span()[i] - position).normalized();
+        for (std::size_t j = 0; j < i; ++j)
+            if (directions[i].dot(directions[j]) < widest_cosine ||
+                std::abs(directions[i].z() - directions[j].z()) > tallest_sine)
+                return false;
+    }
+    return true;
+}
+
+float ViewpointSearch::time_of(Shows shows, std::size_t first, std::size_t end) const {
+    float time = 0.0F;
+    for (std::size_t i = first; i < end; ++i)
+        if ((shows >> i & 1U) != 0) time += weight_[i];
+    return time;
+}
+
+float ViewpointSearch::time_with_a_cut(Shows shows, float cut_in) const {
+    float most = time_of(shows, 0, members_.known);
+    for (std::size_t i = 1; i < members_.known; ++i)
+        if (Members::instants[i] >= cut_in) most = std::max(most, time_of(shows, 0, i) + after_a_cut_[i]);
+    return most;
+}
+
+float ViewpointSearch::worth_of_staying(const Vec3f& position, float cut_in) const {
+    return time_with_a_cut(shows_from(position), cut_in) - picture_cost(position);
+}
+
+std::optional<Viewpoint> ViewpointSearch::cut() const {
+    return find(Approach::cut);
+}
+
+std::optional<Viewpoint> ViewpointSearch::glide() const {
+    return find(Approach::glide);
+}
+
+std::optional<Viewpoint> ViewpointSearch::find(Approach approach) const {
+    Hopes hopes;
+    const Shows begins = beginnings(approach);
+    const std::size_t count = collect(approach, begins, hopes);
+    std::optional<Viewpoint> best;
+    std::size_t timed = 0;
+    for (std::size_t i = 0; i < std::min(count, most_looked_at) && timed < most_timed_sights; ++i) {
+        const Hope& hope = hopes[i];
+        if (best && hope.worth <= best->worth) break;
+        const Vec3f& position = freespace_.lookouts().positions()[hope.lookout];
+        const std::size_t first = first_shown(position, begins);
+        if (first == members_.known || (approach == Approach::glide && !can_glide(position))) continue;
+        ++timed;
+        const auto look = look_at_all(position, Eyes(members_.at[first], set_).span(), safe_area(profile_));
+        const float worth = time_with_a_cut(shows_from(position), shortest_stay(approach)) - hope.cost;
+        if (look && (!best || worth > best->worth)) best = Viewpoint{position, *look, set_, worth};
+    }
+    return best;
+}
+
+// A cut may come a moment before the set is shown, when that is known.
+ViewpointSearch::Shows ViewpointSearch::beginnings(Approach approach) const {
+    return approach == Approach::cut && members_.known > Members::foreseen ? 3U : 1U;
+}
+
+float ViewpointSearch::shortest_stay(Approach approach) const {
+    return approach == Approach::cut ? shortest_group_shot : from_.cut_in;
+}
+
+// The best first.
+std::size_t ViewpointSearch::collect(Approach approach, Shows begins, Hopes& hopes) const {
+    std::size_t count = 0;
+    for (const auto& [lookout, shows, cost_of_cut] : std::span(candidates_).first(candidate_count_)) {
+        const Vec3f& position = freespace_.lookouts().positions()[lookout];
+        const bool too_far =
+            approach == Approach::glide && (position - from_.position).norm() > longest_glide * profile_.unit;
+        if ((shows & begins) == 0 || too_far) continue;
+        const float cost =
+            approach == Approach::cut ? cost_of_cut : picture_cost(position) + way_cost(approach, position);
+        hopes[count++] = {time_with_a_cut(shows, shortest_stay(approach)) - cost, lookout, cost};
+    }
+    std::sort(hopes.begin(), hopes.begin() + static_cast<std::ptrdiff_t>(count),
+              [](const Hope& a, const Hope& b) {
+                  return a.worth != b.worth ? a.worth > b.worth : a.lookout < b.lookout;
+              });
+    return count;
+}
+
+// The first of these instants at which sights show the set from the position; members_.known: none.
+std::size_t ViewpointSearch::first_shown(const Vec3f& position, Shows instants) const {
+    for (std::size_t i = 0; i < members_.known; ++i)
+        if ((instants >> i & 1U) != 0 && shows_at(position, i)) return i;
+    return members_.known;
+}
+
+bool ViewpointSearch::can_glide(const Vec3f& position) const {
+    const float radius = profile_.minimum_clearance;
+    if (!freespace::sight(freespace_, from_.position, position, radius).clear) return false;
+    const Vec3f middle = (from_.position + position) / 2.0F;
+    return (seen_from(freespace_, middle, members_.now()) & set_) == set_;
+}
+
+float ViewpointSearch::picture_cost(const Vec3f& position) const {
+    const Eyes eyes(members_.now(), set_);
+    float cost = 0.0F;
+    float furthest = 0.0F;
+    for (const Vec3f& eye : eyes.span()) {
+        const Vec3f way = eye - position;
+        const float distance = way.norm();
+        furthest = std::max(furthest, distance);
+        cost += cost_of_touching * std::max(1.0F - distance / (too_near * profile_.unit), 0.0F);
+        const float slope = std::abs(way.z()) / std::max(distance, profile_.unit);
+        cost += cost_of_steepness * std::max(slope - steep_slope, 0.0F);
+    }
+    return cost + cost_of_twice_as_far * std::log2(std::max(furthest / (far_away * profile_.unit), 1.0F));
+}
+
+float ViewpointSearch::way_cost(Approach approach, const Vec3f& position) const {
+    const float way = (position - from_.position).norm();
+    if (approach == Approach::glide) return cost_of_longest_glide * way / (longest_glide * profile_.unit);
+    const bool crosses = from_.side * side_of(members_.now(), position) < 0.0F;
+    return cost_of_a_cut + (crosses ? cost_of_crossing : 0.0F) +
+           (way < same_place * profile_.unit ? cost_of_jump : 0.0F);
+}
+
+}  // namespace camdir::camera

@@ -1,0 +1,110 @@
+// The place from which a group is best shown, now and for as far as is known.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "camera/group/framing.hpp"
+#include "camera/group/members.hpp"
+#include "camera/profile.hpp"
+#include "freespace/freespace.hpp"
+#include "freespace/lookouts.hpp"
+
+namespace camdir::camera {
+
+struct Viewpoint {
+    Vec3f position = Vec3f::Zero();
+    Look look;            // with those shown in the middle
+    MemberSet shown = 0;  // now
+    float worth = 0.0F;   // see ViewpointSearch
+};
+
+// Where the camera comes from.
+struct Standpoint {
+    Vec3f position = Vec3f::Zero();
+    float side = 0.0F;    // of the line of action: see side_of(); 0: any
+    float cut_in = 0.0F;  // s: until it may cut
+};
+
+// No shot between two cuts is shorter, s.
+inline constexpr float shortest_group_shot = 0.8F;
+
+// The part of the picture in which members count as shown.
+[[nodiscard]] PictureShape safe_area(const MapProfile& profile);
+
+// On which side of the line between two living members the position is, seen from above: > 0 left of the way
+// from the more important one to the other; 0 where there are not two. From the other side they change places
+// in the picture.
+[[nodiscard]] float side_of(const Members::Instant& members, const Vec3f& position);
+
+// The living members whose eyes a sight from `position` reaches.
+[[nodiscard]] MemberSet seen_from(const freespace::Freespace& freespace, const Vec3f& position,
+                                  const Members::Instant& members);
+
+// The search for viewpoints of some of the members, among the lookouts that probably see them.
+//
+// The worth of a decision is the time, s, for which all of the set are shown: from the place that it leads
+// to, and, from the instant on at which the camera may and should cut away from there, from the lookout that
+// goes on to show them for longest. What is not known yet counts as if it went on a little as it is. A cut,
+// and what makes a picture worse (members far or very near, steep views, a crossed line of action), costs a
+// part of a second each.
+class ViewpointSearch {
+  public:
+    ViewpointSearch(const freespace::Freespace& freespace, const MapProfile& profile, const Members& members,
+                    MemberSet set, const Standpoint& from);
+
+    // Of staying at `position`.
+    [[nodiscard]] float worth_of_staying(const Vec3f& position, float cut_in) const;
+
+    // The best lookout to cut to.
+    [[nodiscard]] std::optional<Viewpoint> cut() const;
+
+    // The best lookout to glide to: on a straight way that is free, from the middle of which the set is seen.
+    [[nodiscard]] std::optional<Viewpoint> glide() const;
+
+  private:
+    template <class Value>
+    using ByInstant = std::array<Value, Members::instants.size()>;
+    using Shows = std::uint32_t;  // by instant a bit: the set is shown then
+    enum class Approach { cut, glide };
+    // What a lookout promises.
+    struct Hope {
+        float worth;
+        std::uint32_t lookout;
+        float cost;
+    };
+    using Hopes = std::array<Hope, freespace::Lookouts::limit>;
+
+    [[nodiscard]] Shows shows_from(std::uint32_t lookout) const;
+    [[nodiscard]] Shows shows_from(const Vec3f& position) const;
+    [[nodiscard]] bool shows_at(const Vec3f& position, std::size_t instant) const;
+    [[nodiscard]] bool fits(const Vec3f& position, std::size_t instant) const;
+    [[nodiscard]] float time_of(Shows shows, std::size_t first, std::size_t end) const;
+    [[nodiscard]] float time_with_a_cut(Shows shows, float cut_in) const;
+    [[nodiscard]] float picture_cost(const Vec3f& position) const;
+    [[nodiscard]] float way_cost(Approach approach, const Vec3f& position) const;
+    [[nodiscard]] std::optional<Viewpoint> find(Approach approach) const;
+    [[nodiscard]] Shows beginnings(Approach approach) const;
+    [[nodiscard]] float shortest_stay(Approach approach) const;
+    std::size_t collect(Approach approach, Shows begins, Hopes& hopes) const;
+    [[nodiscard]] std::size_t first_shown(const Vec3f& position, Shows instants) const;
+    [[nodiscard]] bool can_glide(const Vec3f& position) const;
+
+    const freespace::Freespace& freespace_;
+    const MapProfile& profile_;
+    const Members& members_;
+    MemberSet set_;
+    Standpoint from_;
+    ByInstant<freespace::Lookouts::Set> seeing_;  // the lookouts that probably see the set
+    ByInstant<float> weight_{};                   // s
+    ByInstant<float> after_a_cut_{};              // the most time from this instant on, less the cut's cost
+    struct Candidate {
+        std::uint32_t lookout;
+        Shows shows;
+        float cost_of_cut;
+    };
+    std::array<Candidate, freespace::Lookouts::limit> candidates_;  // that show the set at some instant
+    std::size_t candidate_count_ = 0;
+};
+
+}  // namespace camdir::camera

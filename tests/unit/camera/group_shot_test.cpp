@@ -1,0 +1,242 @@
+#include "camera/group/group_shot.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "camera/group/framing.hpp"
+#include "camera/group/viewpoint.hpp"
+#include "freespace/distance.hpp"
+#include "freespace/lookouts.hpp"
+#include "support/allocations.hpp"
+#include "walk.hpp"
+
+namespace camdir::camera {
+namespace {
+
+constexpr double group_frame = 1.0 / 60.0;
+
+bool flagged(const Camera& camera, std::uint32_t flag) {
+    return (camera.flags & flag) != 0;
+}
+
+// A causal group shot; every camera is checked against the guarantees of step() as it comes.
+class CheckedGroup {
+  public:
+    explicit CheckedGroup(const test::Plan& plan) : plan_(plan), freespace_(plan.freespace()) {}
+
+    Camera step(const std::vector<Pose>& poses) {
+        std::vector<TimedPose> timed;
+        for (const Pose& pose : poses)
+            timed.push_back({time_, pose, true});
+        std::vector<Window> windows;
+        for (const TimedPose& pose : timed)
+            windows.emplace_back(&pose, 1);
+        const Camera camera = camera::step(freespace_, {}, windows, time_, state_);
+        check(camera, poses);
+        time_ += group_frame;
+        return camera;
+    }
+
+    [[nodiscard]] const freespace::Freespace& freespace() const { return freespace_; }
+    [[nodiscard]] int cuts() const { return cuts_; }
+
+  private:
+    void check(const Camera& camera, const std::vector<Pose>& poses) {
+        ASSERT_TRUE(camera.position.allFinite());
+        EXPECT_NEAR(camera.orientation.norm(), 1.0F, 1e-4F);
+        EXPECT_NEAR((camera.orientation * Vec3f::UnitY()).z(), 0.0F, 1e-4F) << "a level horizon";
+        EXPECT_GT(plan_.clearance(camera.position), 0.0F);
+        if (flagged(camera, cut)) {
+            EXPECT_TRUE(cuts_ == 0 || time_ - last_cut_ >= shortest_group_shot - 1e-3);
+            ++cuts_;
+            last_cut_ = time_;
+        } else {
+            EXPECT_TRUE(plan_.segment_clear(position_, camera.position));
+            EXPECT_LT((camera.position - position_).norm(), 400.0 * group_frame);
+        }
+        for (const Pose& pose : poses) {
+            if (!flagged(camera, target_visible) || !pose.alive) continue;
+            EXPECT_TRUE(shows(camera, pose.eye));
+        }
+        position_ = camera.position;
+    }
+    [[nodiscard]] bool shows(const Camera& camera, const Vec3f& eye) const {
+        const Vec3f seen = camera.orientation.conjugate() * (eye - camera.position);
+        const float half_height = std::tan(camera.vertical_fov / 2.0F);
+        return plan_.segment_clear(camera.position, eye) && std::abs(seen.z()) < half_height * seen.x() &&
+               std::abs(seen.y()) < 16.0F / 9.0F * half_height * seen.x();
+    }
+
+    const test::Plan& plan_;
+    freespace::Freespace freespace_;
+    GroupState state_;
+    double time_ = 0.0;
+    Vec3f position_ = Vec3f::Zero();
+    int cuts_ = 0;
+    double last_cut_ = 0.0;
+};
+
+test::Plan hall() {
+    return test::Plan({"##########", "#........#", "#........#", "#........#", "#........#", "##########"});
+}
+
+TEST(GroupShot, ShowsBothFromTheFirstFrame) {
+    const test::Plan plan = hall();
+    CheckedGroup shot(plan);
+    const Camera camera = shot.step({pose_at(plan.eye(2, 3), 0.0F), pose_at(plan.eye(3, 6), 3.0F)});
+    EXPECT_TRUE(flagged(camera, cut));
+    EXPECT_TRUE(flagged(camera, target_visible));
+}
+
+TEST(GroupShot, StandsStillWhilePlayersStayInTheMiddleOfThePicture) {
+    const test::Plan plan = hall();
+    CheckedGroup shot(plan);
+    const Vec3f a = plan.eye(2, 4);
+    const Vec3f b = plan.eye(2, 5);
+    const Camera first = shot.step({pose_at(a, 0.0F), pose_at(b, 0.0F)});
+    for (int i = 1; i < 60; ++i) {
+        const Vec3f way(0.0F, 8.0F * std::sin(0.1F * static_cast<float>(i)), 0.0F);
+        const Camera camera = shot.step({pose_at(a + way, 0.0F), pose_at(b - way, 0.0F)});
+        EXPECT_TRUE(flagged(camera, target_visible));
+        EXPECT_EQ(camera.position, first.position);
+    }
+    EXPECT_EQ(shot.cuts(), 1);
+}
+
+TEST(GroupShot, KeepsTheMoreImportantWhereNobodySeesBoth) {
+    const test::Plan plan = test::two_rooms();
+    CheckedGroup shot(plan);
+    const Pose s = pose_at(plan.eye('s'), 0.0F);
+    const Pose t = pose_at(plan.eye('t'), 0.0F);
+    const Camera camera = shot.step({s, t});
+    EXPECT_TRUE(flagged(camera, searching));
+    EXPECT_TRUE(plan.segment_clear(camera.position, s.eye));
+    CheckedGroup other(plan);
+    EXPECT_TRUE(plan.segment_clear(other.step({t, s}).position, t.eye));
+}
+
+TEST(GroupShot, HoldsTheLastPictureWhenNobodyLives) {
+    const test::Plan plan = hall();
+    CheckedGroup shot(plan);
+    std::vector<Pose> poses = {pose_at(plan.eye(2, 3), 0.0F), pose_at(plan.eye(3, 6), 3.0F)};
+    const Camera before = shot.step(poses);
+    for (Pose& pose : poses)
+        pose.alive = false;
+    for (int i = 0; i < 60; ++i) {
+        const Camera camera = shot.step(poses);
+        EXPECT_TRUE(flagged(camera, held));
+        EXPECT_EQ(camera.position, before.position);
+        EXPECT_TRUE(camera.orientation.isApprox(before.orientation));
+    }
+}
+
+TEST(GroupShot, WaitsForAFirstPose) {
+    const test::Plan plan = test::l_corridor();
+    const freespace::Freespace freespace = plan.freespace();
+    GroupState state;
+    const Window nobody[2] = {};
+    const Camera first = step(freespace, {}, nobody, 0.0, state);
+    EXPECT_EQ(first.flags, std::uint32_t{cut | target_absent | held});
+    EXPECT_EQ(step(freespace, {}, nobody, group_frame, state).flags, std::uint32_t{target_absent | held});
+    const TimedPose pose{2 * group_frame, pose_at(plan.eye('s'), 0.0F), true};
+    const Window one[2] = {{&pose, 1}, {}};
+    EXPECT_TRUE(flagged(step(freespace, {}, one, 2 * group_frame, state), cut));
+}
+
+struct Run {
+    int members;
+    test::Plan (*plan)();
+};
+class GroupRun : public testing::TestWithParam<Run> {};
+
+// The checks are those of CheckedGroup.
+TEST_P(GroupRun, KeepsItsPromisesAndIsDeterministic) {
+    const test::Plan plan = GetParam().plan();
+    CheckedGroup shot(plan);
+    CheckedGroup again(plan);
+    std::vector<Runner> runners;
+    const auto lookouts = shot.freespace().lookouts().positions();
+    for (int i = 0; i < GetParam().members; ++i)
+        runners.emplace_back(plan, lookouts[static_cast<std::size_t>(i) * 3 % lookouts.size()],
+                             static_cast<std::uint32_t>(100 + i));
+    for (int i = 0; i < 240; ++i) {
+        std::vector<Pose> poses;
+        for (Runner& runner : runners)
+            poses.push_back(runner.next(static_cast<float>(group_frame)));
+        poses.front().alive = i % 120 < 100;
+        const Camera camera = shot.step(poses);
+        const Camera twin = again.step(poses);
+        ASSERT_EQ(camera.position, twin.position);
+        ASSERT_EQ(camera.orientation.coeffs(), twin.orientation.coeffs());
+        ASSERT_EQ(camera.flags, twin.flags);
+        if (HasFailure()) return;
+    }
+}
+INSTANTIATE_TEST_SUITE_P(Members, GroupRun,
+                         testing::Values(Run{2, test::figure_eight}, Run{3, test::l_corridor}, Run{4, hall}));
+
+TEST(GroupShot, StaysOnItsSideOfTheLineWherePillarsHideThePlayers) {
+    const test::Plan plan({"############", "#..........#", "#..........#", "#....##....#", "#....##....#",
+                           "#..........#", "#..........#", "############"});
+    const freespace::Freespace freespace = plan.freespace();
+    const MapProfile profile({}, freespace.metadata().metres_per_unit);
+    Members members;
+    members.known = 1;
+    members.at[0].eyes = {plan.eye(2, 3), plan.eye(2, 8)};
+    members.at[0].living = only(0) | only(1);
+    for (const float side : {1.0F, -1.0F}) {
+        const ViewpointSearch search(freespace, profile, members, members.at[0].living,
+                                     {plan.eye(2, 5), side, 0.0F});
+        const auto found = search.cut();
+        ASSERT_TRUE(found);
+        EXPECT_GT(side * side_of(members.now(), found->position), 0.0F);
+    }
+}
+
+TEST(GroupShot, DoesNotAllocateOnAMapWhoseLookoutsAreKnown) {
+    const test::Plan plan = test::figure_eight();
+    const freespace::Freespace freespace = plan.freespace();
+    (void)freespace.octree();
+    (void)freespace.lookouts();
+    Runner a(plan, freespace.lookouts().positions()[0], 1);
+    Runner b(plan, freespace.lookouts().positions()[5], 2);
+    GroupState state;
+    const long before = test::allocations();
+    for (int i = 0; i < 60; ++i) {
+        const double time = group_frame * i;
+        const TimedPose poses[] = {{time, a.next(static_cast<float>(group_frame)), true},
+                                   {time, b.next(static_cast<float>(group_frame)), true}};
+        const Window windows[] = {{poses, 1}, {poses + 1, 1}};
+        (void)step(freespace, {}, windows, time, state);
+    }
+    EXPECT_EQ(test::allocations() - before, 0);
+}
+
+TEST(Framing, LooksAtAllFromTheMiddle) {
+    const Vec3f points[] = {{100.0F, 60.0F, 0.0F}, {100.0F, -20.0F, 40.0F}, {300.0F, 10.0F, -30.0F}};
+    const PictureShape shape = PictureShape::of(1.0F, 0.9F);
+    const auto look = look_at_all(Vec3f::Zero(), points, shape);
+    ASSERT_TRUE(look);
+    const auto extent = extent_of(Vec3f::Zero(), *look, points);
+    ASSERT_TRUE(extent);
+    EXPECT_NEAR(extent->left, -extent->right, 1e-3F);
+    EXPECT_NEAR(extent->bottom, -extent->top, 1e-3F);
+    const Vec3f opposite[] = {{100.0F, 0.0F, 0.0F}, {-100.0F, 0.0F, 0.0F}};
+    EXPECT_FALSE(look_at_all(Vec3f::Zero(), opposite, shape));
+}
+
+TEST(Framing, TurnsNoFurtherThanTheDeadZoneAsks) {
+    const PictureShape zone = PictureShape::of(1.0F, 0.6F);
+    const Look ahead{0.0F, 0.0F};
+    const Vec3f inside[] = {{100.0F, 20.0F, 10.0F}};
+    EXPECT_EQ(look_within(Vec3f::Zero(), ahead, inside, zone).yaw, 0.0F);
+    const Vec3f outside[] = {{100.0F, 90.0F, 0.0F}};
+    const Look turned = look_within(Vec3f::Zero(), ahead, outside, zone);
+    const auto extent = extent_of(Vec3f::Zero(), turned, outside);
+    ASSERT_TRUE(extent);
+    EXPECT_NEAR(extent->left, -zone.half_width, 1e-3F) << "at its edge";
+}
+
+}  // namespace
+}  // namespace camdir::camera
