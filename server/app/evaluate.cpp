@@ -3,6 +3,7 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <set>
 
 #include "app/commands.hpp"
 #include "app/evaluate_cameras.hpp"
@@ -38,6 +39,8 @@ void check_usage(const EvaluateOptions& options) {
         throw CLI::ValidationError("--group", "has neither --terms, --report nor --events");
     if (!options.group.empty() && (options.group.size() < 2 || options.group.size() > camera::max_members))
         throw CLI::ValidationError("--group", "takes two to four players");
+    if (std::set(options.group.begin(), options.group.end()).size() != options.group.size())
+        throw CLI::ValidationError("--group", "names a player twice");
     check_one_standard_output({{"--cameras", options.cameras},
                                {"--terms", options.terms},
                                {"--json", options.json},

@@ -69,6 +69,8 @@ void Match::turn(Turn& turn) noexcept {  // NOLINT(bugprone-exception-escape)
     }
     follow();
     prepare(turn);
+    // A lookout that is asked for the first time takes milliseconds.
+    if (std::ranges::any_of(requests_.shots(), &Shot::is_of_group)) expect_long_turns();
 }
 
 void Match::handle_all(std::span<Message> messages) {

@@ -231,7 +231,7 @@ camera::Camera Match::step_by_pose(Shot& shot, const PlayerPose* seen, double dt
 }
 
 camera::Camera Match::step_by_timeline(Shot& shot, const PlayerPose* seen, camera::Scratch& scratch) {
-    if (after_silence_ && seen != nullptr) shot.restart();
+    if (after_silence_ && (shot.is_of_group() || seen != nullptr)) shot.restart();
     const bool prepared = std::exchange(shot.is_prepared, false) && shot.prepared->time == timeline_.shown();
     if (!prepared)
         return shot.is_of_group() ? step_group_to(timeline_.shown(), shot, shot.group)

@@ -59,6 +59,7 @@ struct Shot {
         state = {};
         state.plan.phase = camera_id;
         group = {};
+        group.phase = camera_id;
         is_prepared = false;
     }
 };

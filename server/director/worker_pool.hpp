@@ -27,6 +27,10 @@ class Strand {
     Strand& operator=(const Strand&) = delete;
     virtual ~Strand() = default;
 
+  protected:
+    // Of a turn that goes on: those that come may be long, however brief the last ones were.
+    void expect_long_turns() { expected_ns_.store(long_turn_ns, std::memory_order_relaxed); }
+
   private:
     friend class WorkerPool;
     friend class BriefTurns;
@@ -39,8 +43,9 @@ class Strand {
     void expect(std::int64_t last_ns);
 
     std::atomic<std::uint32_t> pending_{0};  // schedule() calls not yet covered by a finished turn
+    static constexpr std::int64_t long_turn_ns = 1'000'000;
     // The longest of its last turns, about; long before the first one.
-    std::atomic<std::int64_t> expected_ns_{1'000'000};
+    std::atomic<std::int64_t> expected_ns_{long_turn_ns};
     std::size_t slot_ = 0;
 };
 

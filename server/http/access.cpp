@@ -38,10 +38,13 @@ Result<std::string> read_token(const std::string& file) {
     return token;
 }
 
-// HOST or HOST:PORT; IPv6 in brackets, which are removed.
+// HOST or HOST:PORT; IPv6 in brackets, which are removed. Empty where it is neither.
 std::string_view without_port(std::string_view host) {
-    if (host.starts_with('[')) return host.substr(1, host.find(']') - 1);
-    return host.substr(0, host.find(':'));
+    if (!host.starts_with('[')) return host.substr(0, host.find(':'));
+    const std::size_t end = host.find(']');
+    if (end == std::string_view::npos) return {};
+    const std::string_view port = host.substr(end + 1);
+    return port.empty() || port.front() == ':' ? host.substr(1, end - 1) : std::string_view();
 }
 
 bool is_loopback_name(std::string_view name) {

@@ -195,9 +195,9 @@ Response refusal(const Request& request, Status status) {
 
 std::optional<Response> check(const Request& request, const Page* page, const Access& access) {
     const bool reads = request.method() == verb::get || request.method() == verb::head;
-    if (request.version() >= 11 && request.count(field::host) != 1)
-        return refusal(request, Status::bad_request);
-    if (request.count(field::host) == 1 && !access.serves(view(request[field::host])))
+    const std::size_t hosts = request.count(field::host);
+    if (hosts > 1 || (hosts == 0 && request.version() >= 11)) return refusal(request, Status::bad_request);
+    if (hosts == 1 && !access.serves(view(request[field::host])))
         return answer(request,
                       plain(Status::misdirected_request,
                             "the Host of this request is no name of this host: ask for localhost; the "

@@ -119,6 +119,7 @@ void Loader::open(const config::Map& map, double bake_seconds) {
         if (freespace) {
             static_cast<void>(freespace->octree());
             static_cast<void>(freespace->roadmap());
+            static_cast<void>(freespace->lookouts());
         }
         return freespace;
     });

@@ -161,7 +161,9 @@ export class Playback {
     }
 
     async readState(n) {
-        const found = await readState(await this.broadcast.fragment(n, 'full', this.abort.signal), n);
+        const {signal} = this.abort;
+        const found = await readState(await this.broadcast.fragment(n, 'full', signal), n);
+        signal.throwIfAborted();
         this.keepState(n, found.state);
         return found;
     }
@@ -174,6 +176,7 @@ export class Playback {
             const state = this.states.get(n) ?? (await this.readState(n)).state;
             const bytes = await this.broadcast.fragment(n, 'delta', signal);
             const fragment = await readFragment(bytes, n, state, this.origin, this.roster);
+            signal.throwIfAborted();
             this.index.add(n, fragment.from, fragment.to);
             this.keepState(n + 1, fragment.state);
             this.enter(fragment);

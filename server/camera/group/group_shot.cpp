@@ -16,8 +16,9 @@ namespace {
 
 constexpr float choice_interval = 0.1F;           // s
 constexpr float hurried_choice_interval = 0.03F;  // s: while somebody is not shown
-constexpr float worth_a_move = 0.01F;             // s more that everyone is shown
-constexpr float patience = 0.6F;  // s that somebody is hidden before a cut to others than everyone
+constexpr std::uint32_t phases = 8;
+constexpr float worth_a_move = 0.01F;  // s more that everyone is shown
+constexpr float patience = 0.6F;       // s that somebody is hidden before a cut to others than everyone
 constexpr float shortest_partial_shot = 2.5F;  // s: likewise
 
 constexpr float glide_rate = 3.0F;         // 1/s: of the critically damped motion
@@ -48,6 +49,7 @@ class GroupStep {
         bool cuts = !state_.started;
         if (!state_.started) {
             begin();
+            state_.until_choice += choice_interval * static_cast<float>(state_.phase % phases) / phases;
         } else {
             glide();
             turn();
@@ -137,12 +139,11 @@ class GroupStep {
 
     // Where no lookout sees anybody.
     void land_at_the_most_important() {
-        const std::size_t first =
-            members_.now().living == 0
-                ? 0
-                : max_members - static_cast<std::size_t>(std::bit_width(members_.now().living));
+        const Members::Instant& now = members_.now();
+        const MemberSet some = now.living != 0 ? now.living : now.present;
+        const std::size_t first = max_members - static_cast<std::size_t>(std::bit_width(some));
         Pose pose;
-        pose.eye = members_.now().eyes[first];
+        pose.eye = now.eyes[first];
         PlayerTrack track;
         restart(freespace_, pose, track);
         const Candidate place = landing(freespace_, profile_, track);
@@ -250,7 +251,7 @@ Camera step(const freespace::Freespace& freespace, const Profile& profile, std::
     const Members known = members_at(freespace, members, time);
     GroupStep one(freespace, profile, known, usable_frame(time - state.time), state);
     state.time = time;
-    return known.anyone ? one.with_members() : one.without_members();
+    return known.now().present != 0 ? one.with_members() : one.without_members();
 }
 
 bool go_on_from(const freespace::Freespace& freespace, const View& before, const View& now, double dt,

@@ -27,6 +27,7 @@ struct GroupState {
     float since_cut = 0.0F;       // s
     float incomplete_for = 0.0F;  // s: for so long somebody who lives is not shown
     float until_choice = 0.0F;    // s
+    std::uint32_t phase = 0;      // any number: shots that begin together choose in different frames by it
     double time = 0.0;            // s: of the last step
 };
 

@@ -23,7 +23,7 @@ Vec3f foreseen(const freespace::Freespace& freespace, const Pose& pose, double a
 double known_until(std::span<const Window> windows) {
     double until = std::numeric_limits<double>::infinity();
     for (const Window& window : windows)
-        if (!window.empty()) until = std::min(until, window.back().time);
+        if (!window.empty() && window.back().present) until = std::min(until, window.back().time);
     return until;
 }
 
@@ -41,11 +41,12 @@ Members members_at(const freespace::Freespace& freespace, std::span<const Window
             const Window window = windows[member];
             const auto pose = pose_at(window, time, then);
             if (!pose) continue;
-            members.anyone = members.anyone || i == 0;
+            instant.present |= only(member);
+            instant.eyes[member] = pose->eye;
             if (!pose->alive) continue;
             instant.living |= only(member);
             const double beyond = then - window.back().time;
-            instant.eyes[member] = beyond > 0.0 ? foreseen(freespace, *pose, beyond) : pose->eye;
+            if (beyond > 0.0) instant.eyes[member] = foreseen(freespace, *pose, beyond);
         }
     }
     return members;

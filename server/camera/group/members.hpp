@@ -27,12 +27,12 @@ struct Members {
     static constexpr std::size_t foreseen = 4;
 
     struct Instant {
-        std::array<Vec3f, max_members> eyes;  // of the living ones
+        std::array<Vec3f, max_members> eyes;  // of those who are present
+        MemberSet present = 0;                // dead or alive
         MemberSet living = 0;
     };
     std::array<Instant, instants.size()> at;
     std::size_t known = 0;  // instants
-    bool anyone = false;    // has a usable pose now
 
     [[nodiscard]] const Instant& now() const { return at[0]; }
     // Who lives at some known instant.

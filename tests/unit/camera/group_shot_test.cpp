@@ -104,6 +104,22 @@ TEST(GroupShot, StandsStillWhilePlayersStayInTheMiddleOfThePicture) {
     EXPECT_EQ(shot.cuts(), 1);
 }
 
+TEST(GroupShot, BeginsWhereTheDeadLie) {
+    const test::Plan plan = hall();
+    CheckedGroup shot(plan);
+    Pose a = pose_at(plan.eye(2, 3), 0.0F);
+    Pose b = pose_at(plan.eye(3, 6), 3.0F);
+    a.alive = b.alive = false;
+    const Camera first = shot.step({a, b});
+    EXPECT_TRUE(flagged(first, cut));
+    EXPECT_TRUE(flagged(first, held));
+    EXPECT_LT((first.position - a.eye).norm(), 150.0F) << "at the more important one";
+    a.alive = b.alive = true;
+    for (int i = 0; i < 120; ++i)
+        shot.step({a, b});
+    EXPECT_TRUE(flagged(shot.step({a, b}), target_visible));
+}
+
 TEST(GroupShot, KeepsTheMoreImportantWhereNobodySeesBoth) {
     const test::Plan plan = test::two_rooms();
     CheckedGroup shot(plan);

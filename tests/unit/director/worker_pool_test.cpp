@@ -309,6 +309,28 @@ TEST_F(BriefTurnsTest, WhatIsLongNowAndThenIsTheWorkers) {
     EXPECT_EQ(turns.here, 0);
 }
 
+TEST_F(BriefTurnsTest, WhatMayBeLongIsTheWorkers) {
+    class WarningStrand final : public Strand {
+      public:
+        std::atomic<int> turns{0}, here{0};
+
+      private:
+        void turn(Turn& /*turn*/) noexcept override {
+            ++turns;
+            if (std::this_thread::get_id() == caller_) ++here;
+            expect_long_turns();
+        }
+        const std::thread::id caller_ = std::this_thread::get_id();
+    } strand;
+    ASSERT_TRUE(pool_.attach(strand));
+    for (int i = 0; i < 100; ++i) {
+        BriefTurns(pool_).schedule(strand);
+        WorkerPool::wait_idle(strand);
+    }
+    EXPECT_EQ(strand.turns, 100);
+    EXPECT_EQ(strand.here, 0);
+}
+
 TEST_F(BriefTurnsTest, DoNotWaitForLongOnes) {
     Turns turns, slow_turns;
     std::promise<void> release;

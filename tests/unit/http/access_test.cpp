@@ -100,8 +100,8 @@ TEST_F(AccessTest, OnLoopbackOnlyNamesOfThisHostAreServed) {
                               "[::1]", "[::1]:9464", "match.example", "MATCH.example:8080"})
         EXPECT_EQ(status_for(known).status, 200) << known;
     for (const char* strange : {"evil.example", "localhost.evil.example", "notlocalhost", ".localhost", "",
-                                "127.0.0.1.evil.example", "10.0.0.1", "[::2]", "[", "0", "0.0.0.0:80",
-                                "match.example.evil", "2130706433"}) {
+                                "127.0.0.1.evil.example", "10.0.0.1", "[::2]", "[::1].evil", "[", "0",
+                                "0.0.0.0:80", "match.example.evil", "2130706433"}) {
         const auto refused = status_for(strange);
         EXPECT_EQ(refused.status, 421) << strange;
         EXPECT_THAT(refused.body, HasSubstr("/http/hosts of the configuration")) << strange;
