@@ -2,7 +2,7 @@ import assert from 'node:assert/strict';
 import {test} from 'node:test';
 import {Broadcast} from '../../../server/page/broadcast.js';
 import {Model} from '../../../server/page/model.js';
-import {Playback} from '../../../server/page/playback.js';
+import {kept, Playback} from '../../../server/page/playback.js';
 import * as writer from './recording_writer.mjs';
 
 const patienceMs = 20e3;
@@ -225,4 +225,29 @@ test('answers are not read beyond what a resource may have', async () => {
     const endless = new ReadableStream({pull: controller => controller.enqueue(new Uint8Array(1 << 20))});
     const broadcast = new Broadcast('http://cache/broadcast/m/sync', async () => new Response(endless));
     await assert.rejects(broadcast.sync(), /sync: more than 4096 bytes/);
+});
+
+test('what a closed playback was reading changes nothing', async () => {
+    for (const last of ['0/full', '0/delta', '1/delta']) {
+        const stage = new Stage(writer.recording(6));
+        const {model, playback} = stage;
+        let told = -1;
+        const answer = stage.answer.bind(stage);
+        stage.answer = (url, abort) => {
+            const found = answer(url, abort);
+            if (told < 0 && new URL(url).pathname.endsWith(last))
+                queueMicrotask(() => {
+                    playback.close();
+                    model.begin(kept);  // as the next source does
+                    told = stage.told.length;
+                });
+            return found;
+        };
+        playback.open({t: 0});
+        for (const end = Date.now() + patienceMs; told < 0 && Date.now() < end; await new Promise(resolve => setTimeout(resolve, 2))) stage.play(0);
+        await new Promise(resolve => setTimeout(resolve, 100));
+        assert.equal(stage.told.length, told, `${last} was answered`);
+        assert.deepEqual(model.timeline.cuts, []);
+        assert.deepEqual(model.buffer.frames, []);
+    }
 });
