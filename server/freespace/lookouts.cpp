@@ -92,7 +92,8 @@ const Lookouts::Set& Lookouts::seen_from(const Freespace& freespace, std::uint32
 
 Lookouts::Set Lookouts::seeing(const Freespace& freespace, const Vec3f& point) const {
     Set seeing;
-    for (const std::uint32_t lookout : nearest(freespace, point).span())
+    const Nearest near = nearest(freespace, point);
+    for (const std::uint32_t lookout : near.span())
         seeing |= seen_from(freespace, lookout);
     return seeing;
 }

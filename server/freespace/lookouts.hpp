@@ -24,7 +24,8 @@ class Lookouts {
         std::array<std::uint32_t, 3> lookouts;
         std::uint32_t count = 0;
 
-        [[nodiscard]] std::span<const std::uint32_t> span() const { return {lookouts.data(), count}; }
+        [[nodiscard]] std::span<const std::uint32_t> span() const& { return {lookouts.data(), count}; }
+        std::span<const std::uint32_t> span() const&& = delete;  // of what is gone by then
     };
 
     // Vertices of the roadmap, the roomiest first, that keep 40 units of 0.0254 m from each other, or as much

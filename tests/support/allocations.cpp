@@ -8,9 +8,13 @@ namespace {
 
 std::atomic<long> count = 0;
 
-void* counted(std::size_t size) {
+void* counted_or_null(std::size_t size) {
     ++count;
-    if (void* memory = std::malloc(size)) return memory;
+    return std::malloc(size);
+}
+
+void* counted(std::size_t size) {
+    if (void* memory = counted_or_null(size)) return memory;
     throw std::bad_alloc();
 }
 
@@ -25,6 +29,12 @@ void* operator new(std::size_t size) {
 }
 void* operator new[](std::size_t size) {
     return counted(size);
+}
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+    return counted_or_null(size);
+}
+void* operator new[](std::size_t size, const std::nothrow_t&) noexcept {
+    return counted_or_null(size);
 }
 void operator delete(void* memory) noexcept {
     std::free(memory);

@@ -62,7 +62,8 @@ ViewpointSearch::ViewpointSearch(const freespace::Freespace& freespace, const Ma
     freespace::Lookouts::Set any;
     for (std::size_t i = 0; i < known; ++i) {
         seeing_[i].set();
-        for (const Vec3f& eye : Eyes(members.at[i], set).span())
+        const Eyes eyes(members.at[i], set);
+        for (const Vec3f& eye : eyes.span())
             seeing_[i] &= lookouts.seeing(freespace, eye);
         any |= seeing_[i];
         weight_[i] = (i + 1 < known ? Members::instants[i + 1] - Members::instants[i] : time_after_the_known);

@@ -161,6 +161,7 @@ TEST(GroupShot, WaitsForAFirstPose) {
 }
 
 struct Run {
+    std::string name;
     int members;
     test::Plan (*plan)();
 };
@@ -190,7 +191,10 @@ TEST_P(GroupRun, KeepsItsPromisesAndIsDeterministic) {
     }
 }
 INSTANTIATE_TEST_SUITE_P(Members, GroupRun,
-                         testing::Values(Run{2, test::figure_eight}, Run{3, test::l_corridor}, Run{4, hall}));
+                         testing::Values(Run{"TwoInAFigureEight", 2, test::figure_eight},
+                                         Run{"ThreeInACorridor", 3, test::l_corridor},
+                                         Run{"FourInAHall", 4, hall}),
+                         [](const auto& run) { return run.param.name; });
 
 TEST(GroupShot, StaysOnItsSideOfTheLineWherePillarsHideThePlayers) {
     const test::Plan plan({"############", "#..........#", "#..........#", "#....##....#", "#....##....#",
