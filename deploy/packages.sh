@@ -25,11 +25,12 @@ map_packages=(openarena-081-maps)
 game_packages=(openarena-server openarena xvfb libgl1-mesa-dri)
 # Videos of it.
 film_packages=(ffmpeg)
-# What test.sh needs in addition. Of prometheus it is promtool, which checks the alerts; nginx checks its configuration;
-# iproute2 makes networks that can be cut, libfaketime clocks that can be stepped; nodejs and chromium (400 MB) run the
-# page that shows matches.
+# What test.sh needs in addition. Of prometheus it is promtool, which checks the alerts; nginx is the cache of broadcasts,
+# wrk their viewers; iproute2 makes networks that can be cut, libfaketime clocks that can be stepped; nodejs and chromium
+# (400 MB) run the page that shows matches.
 test_packages=(
     clang-format-14 openarena-088-data prometheus nginx-light iproute2 libfaketime nodejs chromium
+    wrk curl
 )
 # kubectl builds the files for Kubernetes. Where it is another vendor's, Debian's package cannot be installed.
 command -v kubectl >/dev/null || test_packages+=(kubernetes-client)
