@@ -7,6 +7,7 @@ import {findMatches} from './matches.js';
 import {Model} from './model.js';
 import {nameOf} from './palette.js';
 import {Playback, kept} from './playback.js';
+import {Quality, levelOfProcessor, levels} from './quality.js';
 import {attachScrubbing} from './scrubbing.js';
 import * as server from './server.js';
 import {Stage} from './stage.js';
@@ -33,6 +34,7 @@ const feed = new Feed(find('feed'), look);
 const timelineView = new TimelineView(find('timeline'));
 
 let stage = null;
+let quality = null;
 let source = null;        // LiveSource or Playback: what feeds the model
 let watched = null;       // the entry of `matches` that it shows
 let matches = [];         // of findMatches
@@ -44,6 +46,7 @@ let mapShown = null;      // its name
 let obstaclesNote = '';
 let noticeTimer = 0;
 let framesDrawn = 0;
+let framesCounted = 0;  // in drawRate
 let drawRate = 0;
 let dirty = true;
 
@@ -106,27 +109,34 @@ function showMessage(text, asksForToken = false) {
 async function showMap(name) {
     if (mapShown === name) return;
     mapShown = name;
-    stage.clearMap();
+    stage.map.clear();
     let obstacles;
     let mesh;
     try {
         obstacles = await server.model(name, 'obstacles.glb');
+        if (mapShown !== name) return;
+        if (obstacles.file) stage.map.setObstacles(obstacles.file, stage.metre);
+        find('mesh').checked = !obstacles.file;
+        fitView();
         mesh = await server.model(name, 'mesh.glb');
     } catch {
         mapShown = null;  // asked for with the next list
         return;
     }
     if (mapShown !== name) return;
-    if (obstacles.file) stage.setObstacles(obstacles.file);
-    if (mesh.file) stage.setMesh(mesh.file);
+    if (mesh.file) stage.map.setMesh(mesh.file);
+    if (!obstacles.file) fitView();
     obstaclesNote = obstacles.file ? '' : mesh.file
         ? `Only the free space of this map can be shown: ${obstacles.reason}.`
         : `This map cannot be shown: ${mesh.reason}.`;
     find('map-note').textContent = obstaclesNote;
     find('map-note').hidden = obstaclesNote === '';
     if (!mesh.file && !obstacles.file) mapShown = null;  // it may be loading still: asked for with the next list
-    find('mesh').checked = !obstacles.file;
-    if (stage.hasMap) viewpoint.fit(stage.bounds, find('stage').clientWidth / find('stage').clientHeight);
+    dirty = true;
+}
+
+function fitView() {
+    if (stage.map.bounds) viewpoint.fit(stage.map.bounds, find('stage').clientWidth / find('stage').clientHeight);
     dirty = true;
 }
 
@@ -342,9 +352,19 @@ function layPictures(shots) {
     });
 }
 
+const level = () => levels[quality.level];
+const screenRatio = () => Math.min(devicePixelRatio, 2);
+const pixelRatio = () => screenRatio() * level().scale;
+
+function showQuality() {
+    find('quality-note').hidden = level().scale === 1;
+    stage.map.setEdges(level().edges ? level().scale : 0);
+    dirty = true;
+}
+
 function resize() {
     const {clientWidth, clientHeight} = find('stage');
-    const ratio = Math.min(devicePixelRatio, 2);
+    const ratio = pixelRatio();
     const size = `${clientWidth} ${clientHeight} ${ratio}`;
     if (size === resize.last || clientWidth === 0) return;
     resize.last = size;
@@ -353,30 +373,31 @@ function resize() {
 }
 
 function drawStage() {
-    const {clientWidth: width, clientHeight: height} = find('stage');
-    const whole = {x: 0, y: 0, width, height};
-    stage.begin();
     const shots = pictureShots();
     layPictures(shots);
     const shot = shownCamera();
     if (sample) stage.show(sample, camera);
-    if (stage.mesh) stage.mesh.visible = find('mesh').checked;
-    const [low, high] = stage.heights;
+    if (stage.map.mesh) stage.map.mesh.visible = find('mesh').checked;
+    const [low, high] = stage.map.heights;
     stage.cut = low + (high - low) * Number(find('cut').value) + 1;
     if (view !== 'camera' && find('follow').checked && shot) {
         const followed = sample.players.get(shot.target);
         if (followed) viewpoint.centre.set(...followed.position);
     }
-    if (view === 'camera' && shot) stage.drawThrough(shot, whole);
-    else if (view === 'plan') stage.drawPlan(viewpoint, whole);
-    else stage.drawOrbit(viewpoint, whole);
-    const origin = find('stage').getBoundingClientRect();
-    shots.forEach((small, i) => {
-        const place = find('pictures').children[i].getBoundingClientRect();
-        if (place.width === 0) return;
-        stage.drawThrough(small, {x: place.left - origin.left, y: place.top - origin.top, width: place.width, height: place.height}, false);
-    });
+    const places = picturePlaces();
+    places.forEach((place, i) => stage.drawSmall(i, shots[i], place, !level().inTurn || i === framesDrawn % places.length));
+    if (view === 'camera' && shot) stage.drawThrough(shot);
+    else if (view === 'plan') stage.drawPlan(viewpoint);
+    else stage.drawOrbit(viewpoint);
+    places.forEach((place, i) => stage.pasteSmall(i, place));
     ++framesDrawn;
+}
+
+// Where the small pictures are on the stage: the first ones, where the window is too small for all.
+function picturePlaces() {
+    const origin = find('stage').getBoundingClientRect();
+    return [...find('pictures').children].map(button => button.getBoundingClientRect()).filter(({width}) => width > 0)
+        .map(({left, top, width, height}) => ({x: left - origin.left, y: top - origin.top, width, height}));
 }
 
 function drawTimeline() {
@@ -392,12 +413,12 @@ function drawTimeline() {
 }
 
 let lastPanel = 0;
-function frame() {
-    const at = now();
+function frame(at) {
     const shownBefore = model.clock.t;
-    source?.advance(at);
+    source?.advance(now());
     resize();
-    if (model.clock.t !== shownBefore || dirty) {
+    const draws = model.clock.t !== shownBefore || dirty;
+    if (draws) {
         dirty = false;
         sample = source?.state === 'loading' ? sample : model.sample() ?? sample;
         if (!shownCamera()) camera = shownCameras()[0]?.id ?? camera;
@@ -405,9 +426,10 @@ function frame() {
         showCaption();
         feed.show(model.timeline.events, model.clock.t ?? 0);
     }
+    if (quality.frame(at, draws)) showQuality();
     if (at - lastPanel > 120) {
-        drawRate = framesDrawn * 1000 / (at - lastPanel) * 0.2 + drawRate * 0.8;
-        framesDrawn = 0;
+        drawRate = (framesDrawn - framesCounted) * 1000 / (at - lastPanel) * 0.2 + drawRate * 0.8;
+        framesCounted = framesDrawn;
         lastPanel = at;
         showState();
         showLists();
@@ -516,12 +538,15 @@ window.cameraDirector = {
             name: nameOf(model.players.get(player.slot))})) : [],
         cameras: shownCameras().map(shot => ({...shot, target: model.players.get(shot.target)?.id ?? null})),
         cuts: model.timeline.cuts.length, events: model.timeline.events.length,
-        obstacles: Boolean(stage?.obstacles), mesh: Boolean(stage?.mesh), note: obstaclesNote,
+        obstacles: Boolean(stage?.map.hasObstacles), mesh: Boolean(stage?.map.mesh), note: obstaclesNote, quality: quality?.level ?? null,
     }),
 };
 
 try {
     stage = new Stage(find('canvas'));
+    const {clientWidth, clientHeight} = find('stage');
+    quality = new Quality(stage.hasCard ? 0 : levelOfProcessor(clientWidth * clientHeight * screenRatio() ** 2));
+    showQuality();
     attach(find('canvas'), viewpoint, {
         active: () => view !== 'camera' || !shownCamera(),
         isPlan: () => view === 'plan',

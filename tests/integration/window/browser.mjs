@@ -43,9 +43,10 @@ export class Browser {
         if (message.error) answer?.reject(new Error(message.error.message)); else answer?.resolve(message.result);
     }
 
-    send(method, params = {}, limit = 60e3) {
+    // To the page, once there is one; `session` null: to the browser.
+    send(method, params = {}, limit = 60e3, session = this.session) {
         const id = this.last = (this.last ?? 0) + 1;
-        const message = {id, method, params, ...(this.session ? {sessionId: this.session} : {})};
+        const message = {id, method, params, ...(session ? {sessionId: session} : {})};
         return new Promise((resolve, reject) => {
             const timer = setTimeout(() => reject(new Error(`${method}: no answer`)), limit);
             const end = settle => value => { clearTimeout(timer); settle(value); };

@@ -1,0 +1,95 @@
+// The cameras as seen from outside: where they are, what they see, and whom they follow.
+import * as three from './three.js';
+import {cameraFlag} from './protocol.js';
+
+const depth = 1.1;  // m, of a camera's frustum
+const fillOpacity = 0.35;
+const rim = [[1, 1], [-1, 1], [-1, -1], [1, -1]];
+
+const vertexShader = `
+    attribute vec4 tint;
+    varying vec4 paint;
+    void main() {
+        paint = tint;
+        gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+    }`;
+const fragmentShader = `
+    varying vec4 paint;
+    void main() { gl_FragColor = paint; }`;
+
+// Corners of lines or triangles with their colours, written anew for each sample.
+class Strokes {
+    constructor(Type, side) {
+        this.object = new Type(new three.BufferGeometry(),
+            new three.ShaderMaterial({vertexShader, fragmentShader, transparent: true, depthWrite: false, side}));
+        this.object.frustumCulled = false;
+        this.reserve(256);
+    }
+
+    reserve(most) {
+        const {geometry} = this.object;
+        geometry.dispose();
+        this.most = most;
+        this.places = new three.BufferAttribute(new Float32Array(3 * most), 3);
+        this.tints = new three.BufferAttribute(new Float32Array(4 * most), 4);
+        geometry.setAttribute('position', this.places);
+        geometry.setAttribute('tint', this.tints);
+    }
+
+    begin(most) {
+        if (most > this.most) this.reserve(2 * most);
+        this.count = 0;
+    }
+
+    add(place, colour, opacity) {
+        this.places.setXYZ(this.count, place.x, place.y, place.z);
+        this.tints.setXYZW(this.count++, colour.r, colour.g, colour.b, opacity);
+    }
+
+    end() {
+        this.object.geometry.setDrawRange(0, this.count);
+        this.object.visible = this.count > 0;
+        this.places.needsUpdate = this.tints.needsUpdate = true;
+    }
+}
+
+export class Marks {
+    constructor() {
+        this.lines = new Strokes(three.LineSegments);
+        this.fill = new Strokes(three.Mesh, three.DoubleSide);
+        this.group = new three.Group();
+        this.group.add(this.lines.object, this.fill.object);
+    }
+
+    // `looks(slot)`: {colour}.
+    setLooks(looks) {
+        this.looks = looks;
+    }
+
+    // Of a sample, in which the viewer has chosen a camera; metre: in map units.
+    show({cameras, players}, chosen, metre) {
+        this.lines.begin(18 * cameras.size);
+        this.fill.begin(12);
+        for (const camera of cameras.values()) this.add(camera, players.get(camera.target), camera.id === chosen, metre);
+        this.lines.end();
+        this.fill.end();
+    }
+
+    add({target, flags, position, rotation, fov}, followed, chosen, metre) {
+        const colour = new three.Color(this.looks(target).colour);
+        const at = new three.Vector3(...position);
+        const turn = new three.Quaternion(...rotation);
+        const up = Math.tan(fov / 2);
+        const corners = rim.map(([y, z]) =>
+            new three.Vector3(1, y * up * 16 / 9, z * up).multiplyScalar(depth * metre).applyQuaternion(turn).add(at));
+        corners.forEach((corner, i) => {
+            const next = corners[(i + 1) % corners.length];
+            for (const place of [at, corner, corner, next]) this.lines.add(place, colour, 1);
+            if (chosen) for (const place of [at, corner, next]) this.fill.add(place, colour, fillOpacity);
+        });
+        if (!followed) return;
+        const opacity = flags & cameraFlag.visible ? 0.6 : 0.2;
+        this.lines.add(at, colour, opacity);
+        this.lines.add(new three.Vector3(...followed.position), colour, opacity);
+    }
+}

@@ -1,0 +1,87 @@
+// How finely the match is drawn: as finely as this machine draws smoothly, 60 pictures a second.
+
+// From the finest. scale: of the screen's resolution; inTurn: with each picture one of the small ones is drawn, not all;
+// edges: of the map are drawn.
+export const levels = [
+    {scale: 1, inTurn: false, edges: true},
+    {scale: 1, inTurn: true, edges: true},
+    {scale: 0.75, inTurn: true, edges: true},
+    {scale: 0.5, inTurn: true, edges: true},
+    {scale: 0.5, inTurn: true, edges: false},
+    {scale: 0.35, inTurn: true, edges: false},
+];
+
+const processorPixels = 160e3;
+
+// The level to begin with for a picture of so many pixels where no graphics card draws it.
+export function levelOfProcessor(pixels) {
+    const found = levels.findIndex(({scale, inTurn}) => inTurn && scale * scale * pixels <= processorPixels);
+    return found < 0 ? levels.length - 1 : found;
+}
+
+const smoothRate = 57;      // pictures a second
+const tolerance = 0.96;     // of the rate that is wanted
+const windowMs = 1000;      // over which the rate is measured
+const settleMs = 300;       // after a change, which itself takes time
+const firstPatienceMs = 5e3;
+const longestPatienceMs = 300e3;
+
+export class Quality {
+    constructor(level) {
+        this.level = level;
+        this.wantedRate = smoothRate;
+        this.patienceMs = firstPatienceMs;  // how long it is smooth before a finer level is tried
+        this.onTrial = false;               // this level is finer than the last one was
+        this.slowWindows = 0;
+        this.smoothSince = null;
+        this.beginWindow(0);
+    }
+
+    beginWindow(at) {
+        Object.assign(this, {from: at, last: at, frames: 0, drawn: 0});
+    }
+
+    // The browser's next frame, at this time in ms, and whether something is drawn in it. Returns whether the level is
+    // another one from now on.
+    frame(at, drew) {
+        if (at - this.last > windowMs) this.beginWindow(at);  // the page was hidden
+        this.last = at;
+        if (at < this.from) return false;
+        ++this.frames;
+        if (drew) ++this.drawn;
+        if (at - this.from < windowMs) return false;
+        const rate = this.frames * 1000 / (at - this.from);
+        const before = this.level;
+        if (this.drawn > this.frames / 2) if (rate < tolerance * this.wantedRate) this.slow(rate); else this.smooth(rate, at);
+        this.beginWindow(this.level === before ? at : at + settleMs);
+        return this.level !== before;
+    }
+
+    slow(rate) {
+        this.smoothSince = null;
+        const isHalf = rate < this.wantedRate / 2;
+        if (this.level === levels.length - 1) {
+            this.wantedRate = rate;  // this machine or its display has no more
+        } else if (isHalf || ++this.slowWindows > 1) {
+            if (this.onTrial) this.patienceMs = Math.min(2 * this.patienceMs, longestPatienceMs);
+            this.change(isHalf ? 2 : 1);
+            this.onTrial = false;
+        }
+    }
+
+    smooth(rate, at) {
+        this.slowWindows = 0;
+        this.wantedRate = Math.min(Math.max(this.wantedRate, rate), smoothRate);
+        this.smoothSince ??= at;
+        if (at - this.smoothSince < this.patienceMs || this.level === 0) return;
+        if (this.onTrial) this.patienceMs = firstPatienceMs;
+        this.change(-1);
+        this.onTrial = true;
+    }
+
+    change(by) {
+        this.level = Math.min(this.level + by, levels.length - 1);
+        this.slowWindows = 0;
+        this.smoothSince = null;
+    }
+}
