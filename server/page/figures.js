@@ -89,6 +89,7 @@ export class Figures {
     constructor(sides) {
         this.sheet = new NameSheet();
         this.shown = [];
+        this.metre = 1;
         this.attributes = {place: instanced(4), turn: instanced(4), tint: instanced(3), box: instanced(4)};
         this.size = {value: 1};
         this.nameUniforms = {size: {value: new three.Vector2()}, above: {value: 1}, sheet: {value: this.sheet.texture}};
@@ -117,6 +118,7 @@ export class Figures {
     setLooks(looks) {
         this.looks = looks;
         this.sheet.clear();
+        this.shown = [];
         this.tints = new Map();
     }
 

@@ -38,6 +38,7 @@ export class Stage {
         this.eye = new three.PerspectiveCamera(60, 1, 1, 10000);
         this.flat = new three.OrthographicCamera(-1, 1, 1, -1, -1e5, 1e5);
         this.cut = 1e9;
+        this.sample = null;
         this.setScale(0.0254);
     }
 
@@ -49,12 +50,13 @@ export class Stage {
     setLooks(looks) {
         this.figures.setLooks(looks);
         this.marks.setLooks(looks);
+        this.sample = null;
     }
 
     // From now on a sample of the match is drawn, in which the viewer has chosen a camera.
     show(sample, chosen) {
+        Object.assign(this, {sample, chosen});
         this.figures.show(sample.players, this.metre);
-        this.marks.show(sample, chosen, this.metre);
     }
 
     // ratio: pixels of the canvas for each of the page.
@@ -132,7 +134,8 @@ export class Stage {
 
     draw(camera, size, {inside, times = 1, names = true, namesHidden = false}) {
         this.map.show(inside, this.cut);
-        this.marks.group.visible = !inside;
+        this.marks.group.visible = !inside && this.sample !== null;
+        if (this.marks.group.visible) this.marks.show(this.sample, this.chosen, this.metre);
         this.figures.aim(camera, size, {times, names, namesHidden});
         this.renderer.clear();
         this.renderer.render(this.scene, camera);
