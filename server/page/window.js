@@ -306,7 +306,7 @@ function showCaption() {
     if (!shot) return;
     const {name: text, colour} = look(shot.target);
     setText('caption-name', text);
-    name.style.borderColor = colour;
+    if (name.dataset.colour !== colour) name.style.borderColor = name.dataset.colour = colour;
     const mode = modeOf(shot.flags);
     const cut = model.timeline.cutBefore(camera, model.clock.t);
     const fresh = cut && model.clock.t - cut.t < 2500 ? ` · cut: ${reasonText(cut, slot => look(slot).name)}` : '';
@@ -333,7 +333,12 @@ function pictureShots() {
     return shownCameras().filter(shot => view !== 'camera' || shot.id !== camera).slice(0, maxPictures);
 }
 
+// Lays a button over each small picture. Returns where on the stage they are: fewer, where the window is too small for all.
 function layPictures(shots) {
+    const looks = shots.map(shot => look(shot.target));
+    const key = [view, resize.last, ...shots.map(({id}, i) => `${id} ${looks[i].name} ${looks[i].colour}`)].join('\n');
+    if (layPictures.last === key) return layPictures.places;
+    layPictures.last = key;
     const holder = find('pictures');
     while (holder.children.length > shots.length) holder.lastChild.remove();
     while (holder.children.length < shots.length) {
@@ -344,12 +349,14 @@ function layPictures(shots) {
     }
     shots.forEach((shot, i) => {
         const button = holder.children[i];
-        const {name, colour} = look(shot.target);
-        const label = button.firstChild;
-        if (label.textContent !== name) label.textContent = name;
-        label.style.color = colour;
+        button.firstChild.textContent = looks[i].name;
+        button.firstChild.style.color = looks[i].colour;
         button.onclick = () => { chooseCamera(shot.id); setView('camera'); };
     });
+    const origin = find('stage').getBoundingClientRect();
+    layPictures.places = [...holder.children].map(button => button.getBoundingClientRect()).filter(({width}) => width > 0)
+        .map(({left, top, width, height}) => ({x: left - origin.left, y: top - origin.top, width, height}));
+    return layPictures.places;
 }
 
 const level = () => levels[quality.level];
@@ -374,7 +381,7 @@ function resize() {
 
 function drawStage() {
     const shots = pictureShots();
-    layPictures(shots);
+    const places = layPictures(shots);
     const shot = shownCamera();
     if (sample) stage.show(sample, camera);
     if (stage.map.mesh) stage.map.mesh.visible = find('mesh').checked;
@@ -384,20 +391,12 @@ function drawStage() {
         const followed = sample.players.get(shot.target);
         if (followed) viewpoint.centre.set(...followed.position);
     }
-    const places = picturePlaces();
     places.forEach((place, i) => stage.drawSmall(i, shots[i], place, !level().inTurn || i === framesDrawn % places.length));
     if (view === 'camera' && shot) stage.drawThrough(shot);
     else if (view === 'plan') stage.drawPlan(viewpoint);
     else stage.drawOrbit(viewpoint);
     places.forEach((place, i) => stage.pasteSmall(i, place));
     ++framesDrawn;
-}
-
-// Where the small pictures are on the stage: the first ones, where the window is too small for all.
-function picturePlaces() {
-    const origin = find('stage').getBoundingClientRect();
-    return [...find('pictures').children].map(button => button.getBoundingClientRect()).filter(({width}) => width > 0)
-        .map(({left, top, width, height}) => ({x: left - origin.left, y: top - origin.top, width, height}));
 }
 
 function drawTimeline() {
