@@ -47,5 +47,5 @@ cat >"$work/config.json" <<CONFIG
   "log": {"level": "warning"}
 }
 CONFIG
-"$bin/camera-director" bake --config "$work/config.json"
+"$bin/camera-director" bake --config "$work/config.json" >&2
 foreground node "$here/window.mjs" "$bin" "$work" "$domain" "$players" "$cameras" "$seconds" "$pictures"

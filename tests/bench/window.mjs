@@ -14,14 +14,13 @@ const frameCategory = 'disabled-by-default-devtools.timeline.frame';
 const json = path => fetch(url + path).then(answer => answer.json());
 const pause = ms => new Promise(resolve => setTimeout(resolve, ms));
 
-// Runs in the page before its own code: when the match is first seen with its map, and each frame's time.
+// Runs in the page before its own code: when the match is first drawn with its map.
 const observer = `(() => {
-    const seen = window.benchWindow = {times: [], picture: null};
+    const seen = window.benchWindow = {picture: null};
     const frame = at => {
-        seen.times.push(at);
-        const state = seen.picture === null && window.cameraDirector?.state();
+        const state = window.cameraDirector?.state();
         if (state?.obstacles && state.players.length > 0 && state.cameras.length > 0) seen.picture = at;
-        requestAnimationFrame(frame);
+        else requestAnimationFrame(frame);
     };
     requestAnimationFrame(frame);
 })()`;
@@ -38,30 +37,40 @@ async function processorTime(browser) {
     return sum;
 }
 
-// Frames that the browser's compositor has drawn.
-async function countDrawn(browser, during) {
+// When the browser's compositor has drawn a frame, in ms, while `during` goes on.
+async function drawnTimes(browser, during) {
     const from = browser.events.length;
     await browser.send('Tracing.start', {transferMode: 'ReportEvents', traceConfig: {includedCategories: [frameCategory]}});
     await during();
     await browser.send('Tracing.end');
     await eventually('the trace', () => browser.events.slice(from).some(({method}) => method === 'Tracing.tracingComplete'));
     return browser.events.slice(from).filter(({method}) => method === 'Tracing.dataCollected')
-        .flatMap(({params}) => params.value).filter(({name}) => name === 'DrawFrame').length;
+        .flatMap(({params}) => params.value).filter(({name}) => name === 'DrawFrame').map(({ts}) => ts / 1000).sort((a, b) => a - b);
 }
 
 async function measure(browser) {
-    const before = await processorTime(browser);
-    const start = performance.now();
-    await browser.evaluate('benchWindow.times.length = 0');
-    const drawn = await countDrawn(browser, () => pause(seconds * 1000));
-    const elapsed = (performance.now() - start) / 1000;
-    const after = await processorTime(browser);
-    const times = await browser.evaluate('benchWindow.times');
+    let before;
+    let after;
+    const times = await drawnTimes(browser, async () => {
+        before = await processorTime(browser);
+        await pause(seconds * 1000);
+        after = await processorTime(browser);
+    });
     const intervals = times.slice(1).map((at, i) => at - times[i]).sort((a, b) => a - b);
-    const used = type => ((after[type] ?? 0) - (before[type] ?? 0)) / elapsed * 1000 / (drawn / elapsed);
-    return {drawn: drawn / elapsed, called: (times.length - 1) * 1000 / (times[times.length - 1] - times[0]),
-        p50: quantile(intervals, 0.5), p95: quantile(intervals, 0.95), p99: quantile(intervals, 0.99),
-        page: used('renderer'), gpu: used('GPU'), browser: used('browser')};
+    const cost = type => ((after[type] ?? 0) - (before[type] ?? 0)) * 1000 / times.length;
+    return {rate: intervals.length * 1000 / (times[times.length - 1] - times[0]),
+        intervals: [0.5, 0.95, 0.99].map(part => quantile(intervals, part)), costs: ['renderer', 'GPU', 'browser'].map(cost),
+        quality: await browser.evaluate('cameraDirector.state().quality')};
+}
+
+const numbers = values => values.map(value => value.toFixed(1)).join(' / ');
+
+async function measureView(browser, {width, height}, view) {
+    await browser.evaluate(`document.querySelector('[data-view=${view}]').click()`);
+    await pause(settleMs);
+    const {rate, intervals, costs, quality} = await measure(browser);
+    console.log(`| ${width}x${height} | ${view} | ${rate.toFixed(1)} | ${numbers(intervals)} | ${numbers(costs)} | ${quality} |`);
+    if (pictures) writeFileSync(`${pictures}/${width}-${view}.png`, await browser.screenshot());
 }
 
 const bytesLoaded = browser => browser.events.filter(({method}) => method === 'Network.loadingFinished')
@@ -72,8 +81,7 @@ async function firstPicture(browser) {
     await browser.open('about:blank');
     browser.events.length = 0;
     await browser.open(`${url}/`);
-    const ms = await browser.until('window.benchWindow?.picture');
-    return {ms, bytes: bytesLoaded(browser)};
+    return browser.until('window.benchWindow?.picture');
 }
 
 async function main() {
@@ -88,24 +96,16 @@ async function main() {
         await eventually('cameras', () => json('/live').then(live => live.matches[0]?.shots.length === Number(cameras)));
         browser = await Browser.start(sizes[0]);
         await browser.send('Page.addScriptToEvaluateOnNewDocument', {source: observer});
-        console.log('| size | view | frames/s drawn | asked for | interval p50 / p95 / p99, ms | page, ms of processor a frame | GPU process | browser | quality |\n|---|---|---|---|---|---|---|---|---|');
+        console.log('| size | view | frames/s | interval p50 / p95 / p99, ms | page / GPU process / browser, ms a frame | level |');
+        console.log('|---|---|---|---|---|---|');
         const loads = [];
         for (const size of sizes) {
             await browser.resize(size);
-            loads.push({size, ...await firstPicture(browser)});
-            for (const view of views) {
-                await browser.evaluate(`document.querySelector('[data-view=${view}]').click()`);
-                await pause(settleMs);
-                const found = await measure(browser);
-                const quality = await browser.evaluate('JSON.stringify(cameraDirector.state().quality)');
-                console.log(`| ${size.width}x${size.height} | ${view} | ${found.drawn.toFixed(1)} | ${found.called.toFixed(1)} | ` +
-                    `${[found.p50, found.p95, found.p99].map(ms => ms.toFixed(1)).join(' / ')} | ${found.page.toFixed(1)} | ` +
-                    `${found.gpu.toFixed(1)} | ${found.browser.toFixed(1)} | ${quality} |`);
-                if (pictures) writeFileSync(`${pictures}/${size.width}-${view}.png`, await browser.screenshot());
-            }
+            const ms = await firstPicture(browser);
+            for (const view of views) await measureView(browser, size, view);
+            loads.push(`${size.width}x${size.height}: first picture after ${ms.toFixed(0)} ms, ${bytesLoaded(browser)} bytes loaded`);
         }
-        for (const {size, ms, bytes} of loads)
-            console.log(`${size.width}x${size.height}: first picture after ${ms.toFixed(0)} ms, ${bytes} bytes until then`);
+        console.log(`\n${loads.join('\n')}`);
     } catch (error) {
         console.log(error.stack, programs.logs());
         process.exitCode = 1;
