@@ -30,7 +30,7 @@ export class Stage {
         this.renderer.setClearColor(background);
         this.renderer.autoClear = false;
         this.map = new MapView();
-        this.figures = new Figures(this.hasCard ? 20 : 12);
+        this.figures = new Figures(this.hasCard ? 20 : 8);
         this.marks = new Marks();
         this.scene = new three.Scene();
         this.scene.add(this.map.group, this.marks.group, this.figures.group);
