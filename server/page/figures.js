@@ -9,7 +9,7 @@ const nameAbove = 0.3;       // m over the eye
 const reach = 1.5;           // m from the eye, within which figure and name are
 const nameHeight = 0.026;    // of the view's height,
 const minNamePx = 12;        // but at least so many pixels of the page,
-const minNamePixels = 10;    // and so many that are drawn
+const minNamePixels = 9;     // and so many that are drawn
 
 // place: the eye, and 1 or, of the dead, deadHeight. turn: cosine and sine of heading and pitch.
 const figureVertexShader = `

@@ -12,6 +12,12 @@ export const levels = [
 ];
 
 const processorPixels = 160e3;
+const fewestPixels = 90e3;  // below which fewer save nothing
+
+// The scale of a level for a screen of so many pixels.
+export function scaleOf({scale}, pixels) {
+    return Math.max(scale, Math.min(Math.sqrt(fewestPixels / pixels), 1));
+}
 
 // The level to begin with for a picture of so many pixels where no graphics card draws it.
 export function levelOfProcessor(pixels) {
@@ -41,20 +47,18 @@ export class Quality {
         Object.assign(this, {from: at, last: at, frames: 0, drawn: 0});
     }
 
-    // The browser's next frame, at this time in ms, and whether something is drawn in it. Returns whether the level is
-    // another one from now on.
+    // The browser's next frame, at this time in ms, and whether something is drawn in it.
     frame(at, drew) {
         if (at - this.last > windowMs) this.beginWindow(at);  // the page was hidden
         this.last = at;
-        if (at < this.from) return false;
+        if (at < this.from) return;
         ++this.frames;
         if (drew) ++this.drawn;
-        if (at - this.from < windowMs) return false;
+        if (at - this.from < windowMs) return;
         const rate = this.frames * 1000 / (at - this.from);
         const before = this.level;
         if (this.drawn > this.frames / 2) if (rate < tolerance * this.wantedRate) this.slow(rate); else this.smooth(rate, at);
         this.beginWindow(this.level === before ? at : at + settleMs);
-        return this.level !== before;
     }
 
     slow(rate) {

@@ -7,7 +7,7 @@ import {findMatches} from './matches.js';
 import {Model} from './model.js';
 import {nameOf} from './palette.js';
 import {Playback, kept} from './playback.js';
-import {Quality, levelOfProcessor, levels} from './quality.js';
+import {Quality, levelOfProcessor, levels, scaleOf} from './quality.js';
 import {attachScrubbing} from './scrubbing.js';
 import * as server from './server.js';
 import {Stage} from './stage.js';
@@ -361,21 +361,17 @@ function layPictures(shots) {
 
 const level = () => levels[quality.level];
 const screenRatio = () => Math.min(devicePixelRatio, 2);
-const pixelRatio = () => screenRatio() * level().scale;
-
-function showQuality() {
-    find('quality-note').hidden = level().scale === 1;
-    stage.map.setEdges(level().edges ? level().scale : 0);
-    dirty = true;
-}
+const screenPixels = () => find('stage').clientWidth * find('stage').clientHeight * screenRatio() ** 2;
 
 function resize() {
     const {clientWidth, clientHeight} = find('stage');
-    const ratio = pixelRatio();
-    const size = `${clientWidth} ${clientHeight} ${ratio}`;
+    const scale = scaleOf(level(), screenPixels());
+    const size = `${clientWidth} ${clientHeight} ${screenRatio()} ${quality.level}`;
     if (size === resize.last || clientWidth === 0) return;
     resize.last = size;
-    stage.resize(clientWidth, clientHeight, ratio);
+    stage.resize(clientWidth, clientHeight, screenRatio() * scale);
+    stage.map.setEdges(level().edges ? scale : 0);
+    find('quality-note').hidden = scale === 1;
     dirty = true;
 }
 
@@ -425,7 +421,7 @@ function frame(at) {
         showCaption();
         feed.show(model.timeline.events, model.clock.t ?? 0);
     }
-    if (quality.frame(at, draws)) showQuality();
+    quality.frame(at, draws);
     if (at - lastPanel > 120) {
         drawRate = (framesDrawn - framesCounted) * 1000 / (at - lastPanel) * 0.2 + drawRate * 0.8;
         framesCounted = framesDrawn;
@@ -543,9 +539,7 @@ window.cameraDirector = {
 
 try {
     stage = new Stage(find('canvas'));
-    const {clientWidth, clientHeight} = find('stage');
-    quality = new Quality(stage.hasCard ? 0 : levelOfProcessor(clientWidth * clientHeight * screenRatio() ** 2));
-    showQuality();
+    quality = new Quality(stage.hasCard ? 0 : levelOfProcessor(screenPixels()));
     attach(find('canvas'), viewpoint, {
         active: () => view !== 'camera' || !shownCamera(),
         isPlan: () => view === 'plan',

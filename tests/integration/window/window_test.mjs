@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import {spawnSync} from 'node:child_process';
 import {writeFileSync} from 'node:fs';
-import {levels} from '../../../server/page/quality.js';
+import {levels, scaleOf} from '../../../server/page/quality.js';
 import {Browser} from './browser.mjs';
 import {Programs, colours, eventually, hall, isInHall, run, stop} from './stage.mjs';
 
@@ -50,11 +50,13 @@ const tests = {
         }
     },
     async 'it is drawn as finely as its quality says, and a note says where the screen has more'(browser) {
-        await browser.until(`(() => {
-            const canvas = document.getElementById('canvas');
-            const {scale} = ${JSON.stringify(levels)}[cameraDirector.state().quality];
-            return canvas.width === Math.floor(canvas.clientWidth * scale) && document.getElementById('quality-note').hidden === (scale === 1);
-        })()`);
+        await eventually('the quality', async () => {
+            const [quality, drawn, width, height, isNoted] = await browser.evaluate(`(({width, clientWidth, clientHeight}) =>
+                [cameraDirector.state().quality, width, clientWidth, clientHeight, !document.getElementById('quality-note').hidden])
+                (document.getElementById('canvas'))`);
+            const scale = scaleOf(levels[quality], width * height);
+            return drawn === Math.floor(width * scale) && isNoted === scale < 1;
+        });
     },
     async 'it moves with the match, pauses, goes back and comes back'(browser) {
         const time = () => browser.evaluate('cameraDirector.state().time');

@@ -1,7 +1,7 @@
 // The adaptive quality of the window, on simulated machines.
 import assert from 'node:assert/strict';
 import {test} from 'node:test';
-import {Quality, levelOfProcessor, levels} from '../../../server/page/quality.js';
+import {Quality, levelOfProcessor, levels, scaleOf} from '../../../server/page/quality.js';
 
 const worst = levels.length - 1;
 
@@ -70,4 +70,11 @@ test('without a graphics card it begins coarsely, but on a small screen', () => 
     assert.equal(levels[levelOfProcessor(360 * 240)].scale, 1);
     assert.equal(levels[levelOfProcessor(1000 * 600)].scale, 0.5);
     assert.equal(levelOfProcessor(1e9), worst);
+});
+
+test('a small screen is never drawn less finely, a large one as its level says', () => {
+    for (const level of levels) {
+        assert.equal(scaleOf(level, 360 * 240), 1);
+        assert.equal(scaleOf(level, 4e6), level.scale);
+    }
 });
