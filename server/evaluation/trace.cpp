@@ -137,14 +137,6 @@ class Assembly {
 
 }  // namespace
 
-Eigen::Quaterniond quake_orientation(double pitch_degrees, double yaw_degrees, double roll_degrees) {
-    const auto turn = [](double degrees, const Vec3d& axis) {
-        return Eigen::AngleAxisd(std::remainder(degrees, 360.0) * radians_of_a_degree<double>, axis);
-    };
-    return turn(yaw_degrees, Vec3d::UnitZ()) * turn(pitch_degrees, Vec3d::UnitY()) *
-           turn(roll_degrees, Vec3d::UnitX());
-}
-
 std::uint32_t pose_of(const Trace& trace, const TraceFrame& frame, std::uint32_t player) {
     const auto poses = trace.poses_of(frame);
     TracePose key;

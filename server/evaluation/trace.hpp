@@ -11,6 +11,7 @@
 
 #include "base/error.hpp"
 #include "base/geometry.hpp"
+#include "base/view_angles.hpp"
 
 namespace camdir::evaluation {
 
@@ -61,8 +62,5 @@ inline constexpr std::uint32_t absent = 0xffffffffU;
 
 // The trace of a recorded match in any of the formats of read_match().
 [[nodiscard]] Result<Trace> read_trace(const std::filesystem::path& path);
-
-// Quake's view angles, degrees, need not be normalised.
-[[nodiscard]] Eigen::Quaterniond quake_orientation(double pitch, double yaw, double roll);
 
 }  // namespace camdir::evaluation

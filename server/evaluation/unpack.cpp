@@ -99,15 +99,4 @@ Result<std::span<const std::byte>> Unpacker::next() {
     return inflater_ ? inflater_->next() : std::exchange(plain_, {});
 }
 
-Result<Bytes> unpack(std::span<const std::byte> bytes) {
-    Unpacker unpacker(bytes);
-    Bytes content;
-    while (true) {
-        const auto piece = unpacker.next();
-        if (!piece) return tl::unexpected(piece.error());
-        if (piece->empty()) return content;
-        content.insert(content.end(), piece->begin(), piece->end());
-    }
-}
-
 }  // namespace camdir::evaluation

@@ -6,7 +6,6 @@
 #include <span>
 
 #include "base/error.hpp"
-#include "base/file.hpp"
 
 namespace camdir::evaluation {
 
@@ -30,8 +29,5 @@ class Unpacker {
     std::span<const std::byte> plain_;
     std::unique_ptr<Inflater> inflater_;  // of compressed bytes
 };
-
-// All of it, within the limits of Unpacker.
-[[nodiscard]] Result<Bytes> unpack(std::span<const std::byte> bytes);
 
 }  // namespace camdir::evaluation

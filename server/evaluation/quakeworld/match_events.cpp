@@ -64,6 +64,8 @@ class EventBuilder {
             case Occurrence::Kind::item:
                 event.kind = "item";
                 break;
+            default:
+                return;
         }
         if (event.actor || event.subject) events_.push_back(std::move(event));
     }

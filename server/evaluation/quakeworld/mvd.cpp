@@ -23,9 +23,8 @@ bool is_demo(std::span<const std::byte> content) {
 }
 
 Result<RecordedMatch> parse_demo(std::span<const std::byte> bytes, const std::string& name) {
-    const auto content = unpack(bytes);
-    if (!content) return fail(name + ": " + content.error().message);
-    const auto demo = read_demo(*content);
+    Unpacker content(bytes);
+    const auto demo = read_demo(content);
     if (!demo) return fail(name + ": " + demo.error().message);
     RecordedMatch match{trace_of(*demo), {}, {}};
     match.events = events_of(*demo, match.trace);

@@ -12,8 +12,7 @@ namespace camdir::evaluation::quakeworld {
 [[nodiscard]] std::vector<Slot> slots_of(const Demo& demo);
 
 // The trace's poses are those of the demo, one by one; times are the demo's own. What the demo does not say
-// is derived from neighbouring frames: velocities, and where a player respawned or teleported. There, the
-// view that the server sets some frames later holds from the first one on. Precondition: at least one frame.
+// is the Tracker's. Precondition: at least one frame.
 [[nodiscard]] Trace trace_of(const Demo& demo);
 
 }  // namespace camdir::evaluation::quakeworld

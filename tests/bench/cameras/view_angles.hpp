@@ -21,7 +21,7 @@ struct ViewAngles {
 }
 
 [[nodiscard]] inline Eigen::Quaterniond orientation_of(const ViewAngles& angles) {
-    return evaluation::quake_orientation(angles.pitch, angles.yaw, 0.0);
+    return quake_orientation(angles.pitch, angles.yaw, 0.0);
 }
 
 // From `from` to `to` the short way, -180 .. 180 degrees.

@@ -22,7 +22,7 @@ constexpr double tolerance = 0.1;  // Bullet's margin, and floats
 TracePose looking(double yaw_degrees, const Vec3d& eye, bool discontinuity = false) {
     TracePose pose;
     pose.eye = eye;
-    pose.orientation = evaluation::quake_orientation(0.0, yaw_degrees, 0.0);
+    pose.orientation = quake_orientation(0.0, yaw_degrees, 0.0);
     pose.view_height = 26.0F;
     pose.discontinuity = discontinuity;
     return pose;
@@ -48,7 +48,7 @@ TEST_F(Cameras, StandBehindThePlayerWhereThereIsRoom) {
         const CameraSample first = follow(looking(90, {0, 0, 100}, true), 0.0);
         EXPECT_TRUE(first.cut);
         EXPECT_LT((first.position - Vec3d(0, -120, 100)).norm(), tolerance);
-        EXPECT_LT(first.orientation.angularDistance(evaluation::quake_orientation(0, 90, 0)), 1e-6);
+        EXPECT_LT(first.orientation.angularDistance(quake_orientation(0, 90, 0)), 1e-6);
         const CameraSample second = follow(looking(90, {0, 0, 100}), 0.016);
         EXPECT_FALSE(second.cut);
         EXPECT_LT((second.position - first.position).norm(), tolerance);
@@ -119,7 +119,7 @@ TEST_F(Cameras, HltvTurnsAt180DegreesASecondAndRecovers32UnitsASecond) {
     const Follow follow = hltv_chase(bullet_, unit).make();
     (void)follow(looking(0, {0, 0, 100}, true), 0.0);
     const CameraSample turned = follow(looking(90, {0, 0, 100}), 0.1);
-    EXPECT_LT(turned.orientation.angularDistance(evaluation::quake_orientation(0, 18, 0)), 1e-6);
+    EXPECT_LT(turned.orientation.angularDistance(quake_orientation(0, 18, 0)), 1e-6);
 
     const Follow pulled = hltv_chase(bullet_, unit).make();
     const double near = -350.0 - pulled(looking(0, {-350, 0, 100}, true), 0.0).position.x();

@@ -466,7 +466,7 @@ TEST(Demo, ErrorsOfTheContainerNameTheByte) {
                 HasSubstr("a block of type 7, expected 1 to 6"));
     EXPECT_THAT(error_of(DemoWriter(begun()).header(10, 0).bytes()), HasSubstr("(.qwd)"));
     EXPECT_THAT(error_of(DemoWriter(begun()).header(10, 6).number(0xffffffff, 4).bytes()),
-                HasSubstr("a block of 4294967295 bytes, but the demo ends after 0"));
+                HasSubstr("a block of 4294967295 bytes, expected at most 1048576"));
 }
 
 TEST(Demo, MayBeCompressed) {

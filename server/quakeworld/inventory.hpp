@@ -5,9 +5,9 @@
 #include <string_view>
 #include <vector>
 
-#include "evaluation/quakeworld/messages.hpp"
+#include "quakeworld/messages.hpp"
 
-namespace camdir::evaluation::quakeworld {
+namespace camdir::quakeworld {
 
 struct Inventory {
     std::int32_t health = 0;
@@ -21,4 +21,4 @@ struct Inventory {
 // have, or that made them stronger. None in the frame of a respawn, which hands out items.
 [[nodiscard]] std::vector<std::string_view> taken_items(const Inventory& before, const Inventory& after);
 
-}  // namespace camdir::evaluation::quakeworld
+}  // namespace camdir::quakeworld

@@ -1,9 +1,9 @@
-#include "evaluation/quakeworld/messages.hpp"
+#include "quakeworld/messages.hpp"
 
 #include <cmath>
 #include <string>
 
-namespace camdir::evaluation::quakeworld {
+namespace camdir::quakeworld {
 namespace {
 
 enum Number : std::uint8_t {
@@ -328,7 +328,7 @@ Result<Message> MessageReader::begin_level() {
     cursor_.take(4);  // the time
     cursor_.text();   // the level's title
     cursor_.take(movement_variables * 4);
-    return Other{};
+    return BeginLevel{};
 }
 
 Result<Message> MessageReader::entities() {
@@ -417,4 +417,4 @@ std::vector<Damage> damage_in(std::span<const std::byte> content) {
     return damages;
 }
 
-}  // namespace camdir::evaluation::quakeworld
+}  // namespace camdir::quakeworld

@@ -1,8 +1,8 @@
-#include "evaluation/quakeworld/text.hpp"
+#include "quakeworld/text.hpp"
 
 #include <algorithm>
 
-namespace camdir::evaluation::quakeworld {
+namespace camdir::quakeworld {
 namespace {
 
 // The high half of the character set is the low half in another colour; 16 to 27 are golden brackets and
@@ -44,4 +44,4 @@ std::string_view value_of(std::string_view info, std::string_view key) {
     return {};
 }
 
-}  // namespace camdir::evaluation::quakeworld
+}  // namespace camdir::quakeworld

@@ -1,8 +1,8 @@
-#include "evaluation/quakeworld/obituaries.hpp"
+#include "quakeworld/obituaries.hpp"
 
 #include <algorithm>
 
-namespace camdir::evaluation::quakeworld {
+namespace camdir::quakeworld {
 namespace {
 
 constexpr char victim = '<';
@@ -130,4 +130,4 @@ std::optional<Obituary> obituary_of(std::string_view line, std::span<const std::
     return std::nullopt;
 }
 
-}  // namespace camdir::evaluation::quakeworld
+}  // namespace camdir::quakeworld

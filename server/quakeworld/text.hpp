@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace camdir::evaluation::quakeworld {
+namespace camdir::quakeworld {
 
 // The game's character set as ASCII: letters of another colour lose it, signs become '[', ']', '.' or '?'.
 [[nodiscard]] std::string plain(std::string_view text);
@@ -12,4 +12,4 @@ namespace camdir::evaluation::quakeworld {
 // The value of a key in \key\value\key\value, as it is written; empty where there is none.
 [[nodiscard]] std::string_view value_of(std::string_view info, std::string_view key);
 
-}  // namespace camdir::evaluation::quakeworld
+}  // namespace camdir::quakeworld

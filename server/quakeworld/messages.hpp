@@ -12,9 +12,10 @@
 
 #include "base/error.hpp"
 #include "base/geometry.hpp"
-#include "evaluation/quakeworld/blocks.hpp"
+#include "quakeworld/blocks.hpp"
+#include "quakeworld/cursor.hpp"
 
-namespace camdir::evaluation::quakeworld {
+namespace camdir::quakeworld {
 
 // What the server and the demo agreed on when the level began.
 struct Protocol {
@@ -57,8 +58,9 @@ struct ServerKey {
     std::string_view key;
     std::string_view value;
 };
+struct BeginLevel {};  // what was said of the level before is over
 struct Models {
-    std::size_t first = 0;  // number of the first one
+    std::size_t first = 0;  // number of the first one; the map is number 1
     std::vector<std::string_view> names;
 };
 struct TeleportFlash {
@@ -68,7 +70,7 @@ struct Intermission {};
 struct Other {};  // every other message
 
 using Message = std::variant<Other, PlayerInfo, Stat, Print, ClientCommand, UserInfo, UserKey, ServerKey,
-                             Models, TeleportFlash, Intermission>;
+                             BeginLevel, Models, TeleportFlash, Intermission>;
 
 // Hands out the messages of a block for clients.
 class MessageReader {
@@ -111,4 +113,4 @@ struct Damage {
 // Other sections of the block, and damage to what is no client, are skipped; one that is cut off ends it.
 [[nodiscard]] std::vector<Damage> damage_in(std::span<const std::byte> content);
 
-}  // namespace camdir::evaluation::quakeworld
+}  // namespace camdir::quakeworld

@@ -7,7 +7,7 @@
 #include <span>
 #include <string_view>
 
-namespace camdir::evaluation::quakeworld {
+namespace camdir::quakeworld {
 
 // Little-endian fields. After a read past the end everything is 0 and ok() is false.
 class Cursor {
@@ -60,4 +60,4 @@ class Cursor {
     bool ok_ = true;
 };
 
-}  // namespace camdir::evaluation::quakeworld
+}  // namespace camdir::quakeworld

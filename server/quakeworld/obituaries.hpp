@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace camdir::evaluation::quakeworld {
+namespace camdir::quakeworld {
 
 struct Obituary {
     std::string_view cause;  // a weapon, "team", or of a death without a killer: self, fall, liquid, world
@@ -19,4 +19,4 @@ struct Obituary {
 // nobody's. Text and names are plain().
 [[nodiscard]] std::optional<Obituary> obituary_of(std::string_view line, std::span<const std::string> names);
 
-}  // namespace camdir::evaluation::quakeworld
+}  // namespace camdir::quakeworld

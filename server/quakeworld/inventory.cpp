@@ -1,6 +1,6 @@
-#include "evaluation/quakeworld/inventory.hpp"
+#include "quakeworld/inventory.hpp"
 
-namespace camdir::evaluation::quakeworld {
+namespace camdir::quakeworld {
 namespace {
 
 constexpr std::uint8_t stat_health = 0;
@@ -40,4 +40,4 @@ std::vector<std::string_view> taken_items(const Inventory& before, const Invento
     return names;
 }
 
-}  // namespace camdir::evaluation::quakeworld
+}  // namespace camdir::quakeworld
