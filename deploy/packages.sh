@@ -21,8 +21,9 @@ build_packages=(
 )
 # The map of the demo.
 map_packages=(openarena-081-maps)
-# A real game: server and client, and a display in memory with Mesa's software renderer.
-game_packages=(openarena-server openarena xvfb libgl1-mesa-dri)
+# Real games: OpenArena's server and client, and a display in memory with Mesa's software renderer; QuakeWorld's server
+# and its mod with bots, for which Debian has no maps.
+game_packages=(openarena-server openarena xvfb libgl1-mesa-dri mvdsv ktx)
 # Videos of it.
 film_packages=(ffmpeg)
 # What test.sh needs in addition. Of prometheus it is promtool, which checks the alerts; nginx is the cache of broadcasts,

@@ -82,6 +82,7 @@ foreground debootstrap --variant=minbase bookworm "$root" >"$work/debootstrap.lo
 step "Install"
 install_package "$server" systemd-standalone-sysusers
 inside getent passwd camera-director
+inside qtv-publisher --version
 expect "$(stat -c %U:%a "$config")" = root:644
 as_service $(of_unit ExecStartPre) || fail "the configuration of the package is not valid"
 
@@ -111,6 +112,7 @@ grep -q 'libcamera-director-client.so.1 ' "$work/libraries" || fail "the client 
 step "Remove and purge"
 inside apt-get remove -y -q camera-director >/dev/null 2>&1
 expect ! -e "$root/usr/bin/camera-director"
+expect ! -e "$root/usr/bin/qtv-publisher"
 expect -s "$config"
 expect -s "$root/var/lib/camera-director/room.vfs"
 inside apt-get purge -y -q camera-director camera-director-client-sdk >/dev/null 2>&1
