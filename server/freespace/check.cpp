@@ -1,5 +1,6 @@
 #include "freespace/check.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace camdir::freespace {
@@ -12,6 +13,10 @@ std::string at(const char* what, std::size_t index, const char* flaw) {
 // False for NaN and infinity too.
 bool within_limit(float value) {
     return std::abs(value) <= coordinate_limit;
+}
+
+bool within_limit(const Vec3f& point) {
+    return within_limit(point.x()) && within_limit(point.y()) && within_limit(point.z());
 }
 
 std::string flaw_of_vertices(std::span<const Vertex> vertices) {
@@ -34,6 +39,36 @@ std::string flaw_of_triangles(std::span<const Triangle> triangles, std::size_t v
     return {};
 }
 
+// Of the rounding of single-precision normals, and no more.
+constexpr float length_tolerance = 1e-4F;
+
+const char* flaw_of_hull(const ConvexHull& hull) {
+    if (hull.half_spaces.size() < 4 || hull.half_spaces.size() > max_half_spaces)
+        return "has a hull with too few or too many half spaces";
+    for (const auto& [normal, distance] : hull.half_spaces)
+        if (!(std::abs(normal.norm() - 1.0F) <= length_tolerance) || !within_limit(distance))
+            return "has a half space whose normal has not length 1 or whose distance is out of range";
+    if (!within_limit(hull.bounds.min()) || !within_limit(hull.bounds.max()) || hull.bounds.isEmpty())
+        return "has a hull whose bounds are empty, not finite or out of range";
+    return nullptr;
+}
+
+// Null: none.
+const char* flaw_of_mover(const MoverShape& mover) {
+    if (mover.name.empty() || mover.name.size() > max_mover_name || mover.kind.size() > max_mover_name)
+        return "has no name, or a name or a kind that is too long";
+    if (mover.hulls.size() > max_hulls || mover.balls.size() > max_hulls)
+        return "has too many hulls or balls";
+    if (mover.hulls.empty() && mover.balls.empty()) return "has no hull and no ball";
+    if (!within_limit(mover.rest)) return "rests at a position that is not finite or out of range";
+    for (const ConvexHull& hull : mover.hulls)
+        if (const char* const flaw = flaw_of_hull(hull)) return flaw;
+    for (const auto& [centre, radius] : mover.balls)
+        if (!within_limit(centre) || !(radius > 0.0F) || !within_limit(radius))
+            return "has a ball that is not finite, out of range or without a radius";
+    return nullptr;
+}
+
 }  // namespace
 
 std::string find_metadata_flaw(const Metadata& metadata, std::span<const SpawnPoint> spawn_points) {
@@ -45,6 +80,18 @@ std::string find_metadata_flaw(const Metadata& metadata, std::span<const SpawnPo
     for (std::size_t i = 0; i < spawn_points.size(); ++i)
         if (!spawn_points[i].eye.allFinite() || !std::isfinite(spawn_points[i].yaw))
             return at("spawn point", i, "is not finite");
+    return {};
+}
+
+std::string find_movers_flaw(std::span<const MoverShape> movers) {
+    if (movers.size() > max_movers) return "there are too many movers";
+    for (std::size_t i = 0; i < movers.size(); ++i) {
+        if (const char* const flaw = flaw_of_mover(movers[i])) return at("mover", i, flaw);
+        const auto before = movers.first(i);
+        if (std::any_of(before.begin(), before.end(),
+                        [&](const MoverShape& other) { return other.name == movers[i].name; }))
+            return at("mover", i, "has the name of another");
+    }
     return {};
 }
 

@@ -13,10 +13,16 @@ namespace camdir::freespace {
 // Files hold fewer counts than this.
 inline constexpr std::uint32_t count_limit = 10'000;
 
+// Bytes of a mover's name and kind.
+inline constexpr std::size_t max_mover_name = 64;
+
 [[nodiscard]] std::string find_metadata_flaw(const Metadata& metadata,
                                              std::span<const SpawnPoint> spawn_points);
 [[nodiscard]] std::string find_mesh_flaw(std::span<const Vertex> vertices,
                                          std::span<const Triangle> triangles);
+
+// Not checked: that a hull is bounded, and that its box encloses it.
+[[nodiscard]] std::string find_movers_flaw(std::span<const MoverShape> movers);
 
 // Of the box that a file states around its vertices.
 [[nodiscard]] std::string find_bounds_flaw(const Box3f& bounds, std::span<const Vertex> vertices);

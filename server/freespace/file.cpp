@@ -19,14 +19,16 @@
 namespace camdir::freespace {
 
 static_assert(sizeof(Vertex) == sizeof(wire::Vertex) && sizeof(Triangle) == sizeof(wire::Triangle));
+static_assert(sizeof(HalfSpace) == sizeof(wire::HalfSpace) && sizeof(MoverBall) == sizeof(wire::Ball));
 static_assert(FLATBUFFERS_MAX_BUFFER_SIZE / sizeof(Triangle) < IndexChild::triangle_limit);
 
 namespace {
 
-constexpr std::uint32_t format_version = 2;
+constexpr std::uint32_t format_version = 3;
 constexpr flatbuffers::uoffset_t table_depth_limit = 4;
-constexpr flatbuffers::uoffset_t table_limit = count_limit + 1;  // the root and the counts
-constexpr float smallest_cell = 3.0F;                            // of the octree, in d0
+constexpr flatbuffers::uoffset_t table_limit =
+    1 + count_limit + max_movers;      // the root, its counts and movers
+constexpr float smallest_cell = 3.0F;  // of the octree, in d0
 
 // ---- Writing ----
 
@@ -82,8 +84,42 @@ auto copy_counts(flatbuffers::FlatBufferBuilder& builder, std::span<const Count>
     return builder.CreateVector(copies);
 }
 
-flatbuffers::DetachedBuffer build_file(const Metadata& metadata, std::span<const SpawnPoint> spawn_points,
-                                       const std::vector<Vertex>& vertices,
+wire::Box to_wire(const Box3f& box) {
+    return {to_wire(box.min()), to_wire(box.max())};
+}
+
+struct WireMovers {
+    flatbuffers::Offset<flatbuffers::Vector<flatbuffers::Offset<wire::Mover>>> movers;
+    flatbuffers::Offset<flatbuffers::Vector<const wire::Hull*>> hulls;
+    flatbuffers::Offset<flatbuffers::Vector<const wire::HalfSpace*>> half_spaces;
+    flatbuffers::Offset<flatbuffers::Vector<const wire::Ball*>> balls;
+};
+
+WireMovers copy_movers(flatbuffers::FlatBufferBuilder& builder, std::span<const MoverShape> movers) {
+    std::vector<flatbuffers::Offset<wire::Mover>> copies;
+    std::vector<wire::Hull> hulls;
+    std::vector<HalfSpace> half_spaces;
+    std::vector<MoverBall> balls;
+    for (const MoverShape& mover : movers) {
+        for (const ConvexHull& hull : mover.hulls) {
+            hulls.emplace_back(to_wire(hull.bounds), static_cast<std::uint32_t>(hull.half_spaces.size()));
+            half_spaces.insert(half_spaces.end(), hull.half_spaces.begin(), hull.half_spaces.end());
+        }
+        balls.insert(balls.end(), mover.balls.begin(), mover.balls.end());
+        const auto name = builder.CreateString(mover.name);
+        const auto kind = builder.CreateString(mover.kind);
+        const wire::Point rest = to_wire(mover.rest);
+        copies.push_back(wire::CreateMover(builder, name, kind, &rest,
+                                           static_cast<std::uint32_t>(mover.hulls.size()),
+                                           static_cast<std::uint32_t>(mover.balls.size())));
+    }
+    const auto wire_balls = copy_structs<wire::Ball>(builder, balls);
+    const auto wire_half_spaces = copy_structs<wire::HalfSpace>(builder, half_spaces);
+    const auto wire_hulls = builder.CreateVectorOfStructs(hulls);
+    return {builder.CreateVector(copies), wire_hulls, wire_half_spaces, wire_balls};
+}
+
+flatbuffers::DetachedBuffer build_file(const Contents& contents, const std::vector<Vertex>& vertices,
                                        const std::vector<Triangle>& triangles, const Hints& hints) {
     flatbuffers::FlatBufferBuilder builder;
     // A buffer is written back to front: the large arrays go last in the file, behind the root.
@@ -91,18 +127,19 @@ flatbuffers::DetachedBuffer build_file(const Metadata& metadata, std::span<const
     const wire::Extent extent(hints.extent[0], hints.extent[1], hints.extent[2]);
     const auto wire_triangles = copy_structs<wire::Triangle>(builder, triangles);
     const auto wire_vertices = copy_structs<wire::Vertex>(builder, vertices);
-    const auto wire_spawn_points = copy_spawn_points(builder, spawn_points);
+    const Metadata& metadata = contents.metadata;
+    const WireMovers movers = copy_movers(builder, contents.movers);
+    const auto wire_spawn_points = copy_spawn_points(builder, contents.spawn_points);
     const auto counts = copy_counts(builder, metadata.counts);
     const auto parameters = builder.CreateString(metadata.parameters);
     const auto source_name = builder.CreateString(metadata.source_name);
     const auto map_name = builder.CreateString(metadata.map_name);
     const wire::Header header(format_version, 0, 0);
-    const Box3f box = bounds_of(vertices);
-    const wire::Box bounds(to_wire(box.min()), to_wire(box.max()));
-    const auto root = wire::CreateFreespace(builder, &header, map_name, source_name, metadata.source_hash,
-                                            metadata.metres_per_unit, metadata.d0, parameters, &bounds,
-                                            wire_vertices, wire_triangles, hints.cell_size, &extent,
-                                            wire_hints, wire_spawn_points, counts);
+    const wire::Box bounds = to_wire(bounds_of(vertices));
+    const auto root = wire::CreateFreespace(
+        builder, &header, map_name, source_name, metadata.source_hash, metadata.metres_per_unit, metadata.d0,
+        parameters, &bounds, wire_vertices, wire_triangles, hints.cell_size, &extent, wire_hints,
+        wire_spawn_points, counts, movers.movers, movers.hulls, movers.half_spaces, movers.balls);
     wire::FinishFreespaceBuffer(builder, root);
     return builder.Release();
 }
@@ -199,6 +236,48 @@ std::vector<SpawnPoint> read_spawn_points(const wire::Freespace& root) {
     return spawn_points;
 }
 
+Box3f to_box(const wire::Box& box) {
+    return {to_vector(box.min()), to_vector(box.max())};
+}
+
+// Takes `count` elements from the front of `rest`; false when there are not so many.
+template <class Element>
+bool take(std::span<const Element>& rest, std::size_t count, std::vector<Element>& to) {
+    if (count > rest.size()) return false;
+    to.assign(rest.begin(), rest.begin() + static_cast<std::ptrdiff_t>(count));
+    rest = rest.subspan(count);
+    return true;
+}
+
+// What is wrong with the numbers of hulls, half spaces and balls; if empty, `movers` are all of the file's.
+std::string read_movers(const wire::Freespace& root, std::vector<MoverShape>& movers) {
+    auto hulls = view<wire::Hull>(root.hulls());
+    auto half_spaces = view<HalfSpace>(root.half_spaces());
+    auto balls = view<MoverBall>(root.balls());
+    if (root.movers()->size() > max_movers) return "there are too many movers";
+    for (const wire::Mover* stored : *root.movers()) {
+        // Names may be shared, and are limited before they are copied.
+        if (stored->name()->size() > max_mover_name || stored->kind()->size() > max_mover_name)
+            return "a mover has a name or a kind that is too long";
+        MoverShape& mover = movers.emplace_back();
+        mover.name = stored->name()->str();
+        mover.kind = stored->kind()->str();
+        mover.rest = to_vector(*stored->rest());
+        std::vector<wire::Hull> own_hulls;
+        if (!take(hulls, stored->hulls(), own_hulls) || !take(balls, stored->balls(), mover.balls))
+            return "a mover has hulls or balls that do not exist";
+        for (const wire::Hull& hull : own_hulls) {
+            ConvexHull& copy = mover.hulls.emplace_back();
+            copy.bounds = to_box(hull.bounds());
+            if (!take(half_spaces, hull.half_spaces(), copy.half_spaces))
+                return "a hull has half spaces that do not exist";
+        }
+    }
+    if (!hulls.empty() || !half_spaces.empty() || !balls.empty())
+        return "there are hulls, half spaces or balls of no mover";
+    return {};
+}
+
 }  // namespace
 
 struct Freespace::Storage {
@@ -206,6 +285,7 @@ struct Freespace::Storage {
     Metadata metadata;
     Box3f bounds;
     std::vector<SpawnPoint> spawn_points;
+    std::vector<MoverShape> movers;
     MeshView mesh;  // in file
     Incidence incidence;
     Lazy<SlabOctree> octree;
@@ -227,11 +307,13 @@ Result<Freespace> Freespace::read(std::shared_ptr<Storage> storage, const std::s
     const wire::Freespace& root = *wire::GetFreespace(bytes.data());
     storage->metadata = read_metadata(root);
     storage->spawn_points = read_spawn_points(root);
-    storage->bounds = {to_vector(root.bounds()->min()), to_vector(root.bounds()->max())};
+    storage->bounds = to_box(*root.bounds());
     const auto vertices = view<Vertex>(root.vertices());
     const auto triangles = view<Triangle>(root.triangles());
     const HintView hints = view_hints(root);
     std::string flaw = find_metadata_flaw(storage->metadata, storage->spawn_points);
+    if (flaw.empty()) flaw = read_movers(root, storage->movers);
+    if (flaw.empty()) flaw = find_movers_flaw(storage->movers);
     if (flaw.empty()) flaw = find_mesh_flaw(vertices, triangles);
     if (flaw.empty()) flaw = find_bounds_flaw(storage->bounds, vertices);
     if (flaw.empty()) flaw = find_hints_flaw(hints, triangles.size());
@@ -264,6 +346,10 @@ std::span<const SpawnPoint> Freespace::spawn_points() const {
     return storage_->spawn_points;
 }
 
+std::span<const MoverShape> Freespace::movers() const {
+    return storage_->movers;
+}
+
 const SlabOctree& Freespace::octree() const {
     return storage_->octree.get(
         [&] { return SlabOctree(mesh_.vertices, mesh_.triangles, smallest_cell * metadata().d0); });
@@ -284,6 +370,7 @@ std::size_t Freespace::byte_size() const {
 std::vector<std::byte> encode(const Contents& contents) {
     assert(contents.triangles.size() < IndexChild::triangle_limit);
     assert(find_metadata_flaw(contents.metadata, contents.spawn_points).empty());
+    assert(find_movers_flaw(contents.movers).empty());
     assert(find_mesh_flaw(contents.vertices, contents.triangles).empty());
     const std::vector<std::uint32_t> order = index_order(contents.vertices, contents.triangles);
     std::vector<std::uint32_t> new_number;
@@ -296,7 +383,7 @@ std::vector<std::byte> encode(const Contents& contents) {
     }
     const std::vector<IndexNode> index = build_index(vertices, triangles);
     const Hints hints = build_hints({vertices, triangles}, index, bounds_of(vertices));
-    const auto buffer = build_file(contents.metadata, contents.spawn_points, vertices, triangles, hints);
+    const auto buffer = build_file(contents, vertices, triangles, hints);
     const auto built = std::as_bytes(std::span(buffer.data(), buffer.size()));
     std::vector<std::byte> file(built.begin(), built.end());
     seal(file);

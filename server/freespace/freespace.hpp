@@ -23,6 +23,7 @@
 
 #include "base/error.hpp"
 #include "base/geometry.hpp"
+#include "freespace/mover_shape.hpp"
 
 namespace camdir::freespace {
 
@@ -73,6 +74,7 @@ struct Contents {
     std::vector<Vertex> vertices;
     std::vector<Triangle> triangles;
     std::vector<SpawnPoint> spawn_points;
+    std::vector<MoverShape> movers;
 };
 
 class Lookouts;
@@ -104,6 +106,8 @@ class Freespace {
     // As the file says: of all vertices; without any, the origin.
     [[nodiscard]] const Box3f& bounds() const;
     [[nodiscard]] std::span<const SpawnPoint> spawn_points() const;
+    // What moves in the map, in the order of the bake's contents; the mesh is baked as if it were not there.
+    [[nodiscard]] std::span<const MoverShape> movers() const;
     // Bytes of the file that the representation was read from.
     [[nodiscard]] std::size_t byte_size() const;
 
@@ -137,8 +141,8 @@ class Freespace {
 // The bytes of a MAP.vfs, which `parse` accepts: adds bounds, hints, size and hash, and puts triangles and
 // vertices in the order of the query index, so that what is near in space is near in memory. The same
 // contents give the same bytes. Thread-safe. Preconditions (asserted): a file below 2 GiB, indices in range,
-// three different corners a triangle, vertices within +-coordinate_limit, finite spawn points, metadata in
-// the ranges given there.
+// three different corners a triangle, vertices within +-coordinate_limit, finite spawn points, metadata and
+// movers in the ranges given there.
 [[nodiscard]] std::vector<std::byte> encode(const Contents& contents);
 
 }  // namespace camdir::freespace

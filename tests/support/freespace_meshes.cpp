@@ -61,6 +61,15 @@ void add_loose(Contents& contents, std::mt19937& random, int count, const Vec3f&
 
 }  // namespace
 
+freespace::ConvexHull box_hull(const Box3f& box) {
+    freespace::ConvexHull hull{{}, box};
+    for (int axis = 0; axis < 3; ++axis) {
+        hull.half_spaces.push_back({Vec3f::Unit(axis), box.max()[axis]});
+        hull.half_spaces.push_back({-Vec3f::Unit(axis), -box.min()[axis]});
+    }
+    return hull;
+}
+
 Contents empty_contents() {
     Contents contents;
     contents.metadata.map_name = "made_up";
@@ -71,6 +80,13 @@ Contents empty_contents() {
     contents.metadata.parameters = R"({"d0":16})";
     contents.metadata.counts = {{"sample", "points", 1234.0}, {"voronoi", "vertices", 5678.0}};
     contents.spawn_points = {{Vec3f(1.0F, 2.0F, 3.0F), 0.5F}, {Vec3f(-4.0F, 5.0F, -6.0F), -1.5F}};
+    contents.movers = {{"*1",
+                        "func_door",
+                        {box_hull({Vec3f(-8.0F, -32.0F, 0.0F), Vec3f(8.0F, 32.0F, 64.0F)}),
+                         box_hull({Vec3f(-4.0F, -4.0F, 64.0F), Vec3f(4.0F, 4.0F, 70.0F)})},
+                        {},
+                        Vec3f(200.0F, 0.0F, -16.0F)},
+                       {"boulder", "", {}, {{Vec3f(0.0F, 0.0F, 24.0F), 24.0F}}}};
     return contents;
 }
 

@@ -7,7 +7,10 @@
 
 namespace camdir::test {
 
-// Contents without a mesh, every field of the metadata set.
+// A box as a hull of six half spaces.
+[[nodiscard]] freespace::ConvexHull box_hull(const Box3f& box);
+
+// Contents without a mesh, every field of the metadata set; a door of two boxes, and a sphere.
 [[nodiscard]] freespace::Contents empty_contents();
 
 // Two triangles over the square [0, 100] x [0, 100] at z = 0, free distance 40 at every corner.

@@ -79,6 +79,53 @@ TEST_F(CheckTest, Metadata) {
     EXPECT_EQ(find_metadata_flaw(good.metadata, spawn_points), "spawn point 1 is not finite");
 }
 
+TEST_F(CheckTest, Movers) {
+    const std::vector<MoverShape> good = test::empty_contents().movers;
+    EXPECT_EQ(find_movers_flaw(good), "");
+    const auto flaw = [&](auto damage) {
+        std::vector<MoverShape> movers = good;
+        damage(movers[1], movers[0].hulls[1]);
+        return find_movers_flaw(movers);
+    };
+    const std::string of_name = "mover 1 has no name, or a name or a kind that is too long";
+    EXPECT_EQ(flaw([](MoverShape& mover, ConvexHull&) { mover.name = ""; }), of_name);
+    EXPECT_EQ(flaw([](MoverShape& mover, ConvexHull&) { mover.name.assign(65, 'n'); }), of_name);
+    EXPECT_EQ(flaw([](MoverShape& mover, ConvexHull&) { mover.kind.assign(65, 'n'); }), of_name);
+    EXPECT_EQ(flaw([](MoverShape& mover, ConvexHull&) { mover.name = "*1"; }),
+              "mover 1 has the name of another");
+    EXPECT_EQ(flaw([](MoverShape& mover, ConvexHull&) { mover.balls.clear(); }),
+              "mover 1 has no hull and no ball");
+    EXPECT_EQ(flaw([](MoverShape& mover, ConvexHull&) { mover.balls.resize(257, mover.balls[0]); }),
+              "mover 1 has too many hulls or balls");
+    EXPECT_EQ(flaw([](MoverShape& mover, ConvexHull& hull) { mover.hulls.resize(257, hull); }),
+              "mover 1 has too many hulls or balls");
+    for (const float bad : {NAN, INFINITY, 2.0F * coordinate_limit}) {
+        EXPECT_EQ(flaw([&](MoverShape& mover, ConvexHull&) { mover.rest.y() = bad; }),
+                  "mover 1 rests at a position that is not finite or out of range");
+        EXPECT_EQ(flaw([&](MoverShape& mover, ConvexHull&) { mover.balls[0].radius = bad; }),
+                  "mover 1 has a ball that is not finite, out of range or without a radius");
+        EXPECT_EQ(flaw([&](MoverShape& mover, ConvexHull&) { mover.balls[0].centre.z() = bad; }),
+                  "mover 1 has a ball that is not finite, out of range or without a radius");
+        EXPECT_EQ(flaw([&](MoverShape&, ConvexHull& hull) { hull.bounds.max().x() = bad; }),
+                  "mover 0 has a hull whose bounds are empty, not finite or out of range");
+        const std::string of_half_space =
+            "mover 0 has a half space whose normal has not length 1 or whose distance is out of range";
+        EXPECT_EQ(flaw([&](MoverShape&, ConvexHull& hull) { hull.half_spaces[5].distance = bad; }),
+                  of_half_space);
+        EXPECT_EQ(flaw([&](MoverShape&, ConvexHull& hull) { hull.half_spaces[5].normal.y() = bad; }),
+                  of_half_space);
+    }
+    EXPECT_EQ(flaw([](MoverShape& mover, ConvexHull&) { mover.balls[0].radius = 0.0F; }),
+              "mover 1 has a ball that is not finite, out of range or without a radius");
+    EXPECT_EQ(flaw([](MoverShape&, ConvexHull& hull) { hull.bounds.setEmpty(); }),
+              "mover 0 has a hull whose bounds are empty, not finite or out of range");
+    for (const std::size_t count : {3U, 65U})
+        EXPECT_EQ(
+            flaw([&](MoverShape&, ConvexHull& hull) { hull.half_spaces.resize(count, hull.half_spaces[0]); }),
+            "mover 0 has a hull with too few or too many half spaces");
+    EXPECT_EQ(find_movers_flaw(std::vector(257, good[0])), "there are too many movers");
+}
+
 TEST_F(CheckTest, NumbersThatAreNotFiniteOrTooLarge) {
     for (const float bad : {NAN, INFINITY, -INFINITY, 2.0F * coordinate_limit}) {
         Mesh broken = mesh;

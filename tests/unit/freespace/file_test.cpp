@@ -8,9 +8,12 @@
 #include <array>
 #include <cstring>
 #include <filesystem>
+#include <sstream>
 
+#include "freespace/check.hpp"
 #include "freespace/freespace.hpp"
 #include "support/freespace_meshes.hpp"
+#include "support/vfs_seal.hpp"
 
 namespace camdir::freespace {
 namespace {
@@ -40,8 +43,27 @@ std::vector<std::array<Corner, 3>> shapes(std::span<const Vertex> vertices,
     return shapes;
 }
 
-// The offset of the eight bytes of `value` in `bytes`.
-std::size_t position_of(const Bytes& bytes, std::uint64_t value) {
+// Every field of every mover.
+std::vector<std::string> described(std::span<const MoverShape> movers) {
+    std::vector<std::string> texts;
+    for (const MoverShape& mover : movers) {
+        std::ostringstream text;
+        text << mover.name << '|' << mover.kind << '|' << mover.rest.transpose();
+        for (const ConvexHull& hull : mover.hulls) {
+            text << " hull " << hull.bounds.min().transpose() << " to " << hull.bounds.max().transpose();
+            for (const auto& [normal, distance] : hull.half_spaces)
+                text << ", " << normal.transpose() << ": " << distance;
+        }
+        for (const auto& [centre, radius] : mover.balls)
+            text << " ball " << centre.transpose() << ": " << radius;
+        texts.push_back(text.str());
+    }
+    return texts;
+}
+
+// The offset of the bytes of `value` in `bytes`.
+template <class Value>
+std::size_t position_of(const Bytes& bytes, const Value& value) {
     std::array<std::byte, sizeof value> pattern;
     std::memcpy(pattern.data(), &value, sizeof value);
     return static_cast<std::size_t>(std::search(bytes.begin(), bytes.end(), pattern.begin(), pattern.end()) -
@@ -66,6 +88,7 @@ TEST(File, KeepsEverything) {
     ASSERT_EQ(freespace.spawn_points().size(), 2U);
     EXPECT_EQ(freespace.spawn_points()[1].eye, Vec3f(-4.0F, 5.0F, -6.0F));
     EXPECT_EQ(freespace.spawn_points()[1].yaw, -1.5F);
+    EXPECT_THAT(described(freespace.movers()), testing::ElementsAreArray(described(contents.movers)));
     EXPECT_EQ(freespace.vertices().size(), contents.vertices.size());
     EXPECT_EQ(shapes(freespace.vertices(), freespace.triangles()),
               shapes(contents.vertices, contents.triangles));
@@ -82,6 +105,56 @@ TEST(File, TheLongestReportIsRead) {
     Contents contents = square_contents();
     contents.metadata.counts.resize(9'999, {"stage", "what", 1.0});
     EXPECT_EQ(make_freespace(contents).metadata().counts.size(), 9'999U);
+}
+
+TEST(File, HoldsAsManyMoversAsTheLimitsAllow) {
+    Contents contents = square_contents();
+    const ConvexHull hull{std::vector(max_half_spaces, HalfSpace{Vec3f::UnitX(), 1.0F}),
+                          contents.movers[0].hulls[0].bounds};
+    contents.movers.assign(max_movers, {"", std::string(64, 'k'), {hull}, {}, Vec3f::Zero()});
+    for (std::size_t i = 0; i < max_movers; ++i)
+        contents.movers[i].name = "*" + std::to_string(i);
+    contents.movers.back().hulls.assign(max_hulls, hull);
+    contents.movers.back().balls.assign(max_hulls, {Vec3f::Ones(), 1.0F});
+    contents.metadata.counts.resize(9'999, {"stage", "what", 1.0});
+    EXPECT_EQ(described(make_freespace(contents).movers()), described(contents.movers));
+}
+
+TEST(File, MayHoldNoMovers) {
+    Contents contents = square_contents();
+    contents.movers.clear();
+    EXPECT_TRUE(make_freespace(contents).movers().empty());
+}
+
+TEST(File, MoversHaveNoMoreAndNoLessThanTheFile) {
+    const Contents contents = empty_contents();
+    const Box3f& box = contents.movers[0].hulls[0].bounds;
+    const std::array<float, 6> stored = {box.min().x(), box.min().y(), box.min().z(),
+                                         box.max().x(), box.max().y(), box.max().z()};
+    const Bytes good = encode(contents);
+    const auto error_with = [&](std::uint32_t half_spaces) {
+        Bytes bytes = good;
+        std::memcpy(bytes.data() + position_of(good, stored) + sizeof stored, &half_spaces,
+                    sizeof half_spaces);
+        test::reseal(bytes);
+        return error_of(std::move(bytes));
+    };
+    EXPECT_EQ(error_with(6), "");
+    EXPECT_THAT(error_with(7), HasSubstr("a hull has half spaces that do not exist"));
+    EXPECT_THAT(error_with(0xffffffffU), HasSubstr("a hull has half spaces that do not exist"));
+    EXPECT_THAT(error_with(5), HasSubstr("there are hulls, half spaces or balls of no mover"));
+}
+
+TEST(File, MoversOfDamagedFilesAreValid) {
+    const Bytes good = encode(empty_contents());
+    std::mt19937 random(6);
+    for (std::size_t i = 0; i < good.size(); ++i) {
+        Bytes bad = good;
+        bad[i] ^= static_cast<std::byte>(1 + random() % 255);
+        test::reseal(bad);
+        const auto freespace = Freespace::parse(std::move(bad), "some.vfs");
+        EXPECT_TRUE(!freespace || find_movers_flaw(freespace->movers()).empty()) << "byte " << i;
+    }
 }
 
 TEST(File, MayHoldNoMesh) {
@@ -144,11 +217,11 @@ TEST(File, ErrorsSayWhatIsWrong) {
     EXPECT_THAT(error_of(Bytes(1'000, std::byte{'x'})), HasSubstr("is not a baked map"));
     const Bytes good = encode(square_contents());
     Bytes newer = good;
-    newer[position_of(good, good.size()) - 8] = std::byte{3};
-    EXPECT_THAT(error_of(newer), HasSubstr("was written by a newer version: format 3, this program reads 2"));
+    newer[position_of(good, std::uint64_t{good.size()}) - 8] = std::byte{4};
+    EXPECT_THAT(error_of(newer), HasSubstr("was written by a newer version: format 4, this program reads 3"));
     Bytes older = good;
-    older[position_of(good, good.size()) - 8] = std::byte{1};
-    EXPECT_THAT(error_of(older), HasSubstr("was written by an older version: format 1, this program reads 2; "
+    older[position_of(good, std::uint64_t{good.size()}) - 8] = std::byte{2};
+    EXPECT_THAT(error_of(older), HasSubstr("was written by an older version: format 2, this program reads 3; "
                                            "bake the map again"));
     Bytes damaged = good;
     damaged.back() ^= std::byte{1};
@@ -165,6 +238,9 @@ TEST(FileDeathTest, ContentsThatBreakTheirPromisesAreABug) {
     Contents not_finite = square_contents();
     not_finite.vertices[0].free_distance = NAN;
     EXPECT_DEATH(static_cast<void>(encode(not_finite)), "find_mesh_flaw");
+    Contents namesakes = square_contents();
+    namesakes.movers[1].name = namesakes.movers[0].name;
+    EXPECT_DEATH(static_cast<void>(encode(namesakes)), "find_movers_flaw");
 }
 
 }  // namespace
