@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "camera/reach.hpp"
-#include "freespace/distance.hpp"
 #include "freespace/slab.hpp"
 
 namespace camdir::camera {
@@ -48,14 +47,9 @@ float& FreeLengths::at(const Vec3f& eye, std::size_t bin, float cell) {
     return entry.length;
 }
 
-Beams::Beams(const freespace::Freespace& freespace, const MapProfile& profile, const Future& future,
-             FreeBeams& known, FreeLengths& lengths, freespace::RecentBalls& balls)
-    : freespace_(freespace),
-      profile_(profile),
-      future_(future),
-      known_(known),
-      lengths_(lengths),
-      balls_(balls) {
+Beams::Beams(const freespace::Space& space, const MapProfile& profile, const Future& future, FreeBeams& known,
+             FreeLengths& lengths, freespace::RecentBalls& balls)
+    : space_(space), profile_(profile), future_(future), known_(known), lengths_(lengths), balls_(balls) {
     std::fill_n(radius_.begin(), future.count, -1.0F);
     lengths_.use(profile.distance, profile.minimum_clearance);
 }
@@ -71,27 +65,57 @@ float Beams::radius_from(const Vec3f& eye) {
     const float least_clearance = clearance_ - (eye - clear_eye_).norm();
     if (inside_eye_ball * least_clearance >= widest_radius) return widest_radius;
     clear_eye_ = eye;
-    clearance_ = freespace::distance(freespace_, eye).value;
+    clearance_ = freespace::distance(space_.map(), eye).value;
     return std::max(0.0F, std::min(widest_radius, inside_eye_ball * clearance_));
 }
 
 freespace::Sight Beams::sight(std::size_t i, const Vec3f& goal) {
-    return freespace::sight(freespace_, future_[i].eye, goal, radius(i), balls_);
+    return freespace::sight(space_.map(), future_[i].eye, goal, radius(i), balls_);
 }
 
-float Beams::free_length(std::size_t i, const Vec3f& direction, float length) {
+float Beams::length_on_map(std::size_t i, const Vec3f& direction, float length) {
     const Vec3f& eye = future_[i].eye;
     const freespace::Sight beam = sight(i, eye + length * direction);
     return beam.clear ? length : std::max(0.0F, beam.free_length - inside_beam * profile_.unit);
 }
 
+std::optional<BeamEnd> Beams::end_at_mover(std::size_t i, const Vec3f& direction, float length) {
+    if (!space_.has_movers()) return std::nullopt;
+    const freespace::Space then = space_.at(future_.start + static_cast<double>(i) * future_.step);
+    const Vec3f& eye = future_[i].eye;
+    const Vec3f goal = eye + length * direction;
+    freespace::MoverSweep beam = then.mover_sweep(eye, goal, widest(profile_));
+    if (beam.clear) return std::nullopt;
+    // No wider than the eye's own distance from them.
+    const float around_eye = inside_eye_ball * then.mover_distance(eye, widest(profile_)).value;
+    beam = then.mover_sweep(eye, goal, std::clamp(around_eye, 0.0F, radius(i)));
+    if (beam.clear) return std::nullopt;
+    return BeamEnd{std::max(0.0F, beam.free_share * length - inside_beam * profile_.unit), -beam.normal};
+}
+
+float Beams::length_among_movers(std::size_t i, const Vec3f& direction, float length) {
+    const auto end = end_at_mover(i, direction, length);
+    return end ? end->free_length : length;
+}
+
+float Beams::free_length(std::size_t i, const Vec3f& direction, float length) {
+    return length_among_movers(i, direction, length_on_map(i, direction, length));
+}
+
 float Beams::free_length(std::size_t i, std::size_t bin) {
+    const Vec3f& direction = DirectionGrid::directions()[bin];
     float& length = lengths_.at(future_[i].eye, bin, cell_size * profile_.unit);
-    if (length < 0.0F) length = free_length(i, DirectionGrid::directions()[bin], profile_.distance);
-    return length;
+    if (length < 0.0F) length = length_on_map(i, direction, profile_.distance);
+    return length_among_movers(i, direction, length);
 }
 
 std::optional<BeamEnd> Beams::end(std::size_t i, const Vec3f& direction, float length) {
+    const auto on_map = end_on_map(i, direction, length);
+    const auto at_mover = end_at_mover(i, direction, on_map ? on_map->free_length : length);
+    return at_mover ? at_mover : on_map;
+}
+
+std::optional<BeamEnd> Beams::end_on_map(std::size_t i, const Vec3f& direction, float length) {
     const Vec3f& eye = future_[i].eye;
     const Vec3f goal = eye + length * direction;
     FreeBeam& known = known_.of_sample(i);
@@ -105,9 +129,9 @@ std::optional<BeamEnd> Beams::end(std::size_t i, const Vec3f& direction, float l
     if (beam.triangle == freespace::none) return end;
     const Vec3f point = eye + beam.free_length * direction;
     freespace::SlabPoint last;
-    freespace::improve_range(freespace_.mesh(), point, beam.triangle, 1, last);
+    freespace::improve_range(space_.map().mesh(), point, beam.triangle, 1, last);
     if (last.triangle == freespace::none) return end;
-    const Vec3d out = point.cast<double>() - freespace::ball_at(freespace_.mesh(), last).centre;
+    const Vec3d out = point.cast<double>() - freespace::ball_at(space_.map().mesh(), last).centre;
     if (out.norm() > 0.0) end.normal = out.normalized().cast<float>();
     return end;
 }

@@ -8,7 +8,7 @@
 #include "camera/directions.hpp"
 #include "camera/future.hpp"
 #include "camera/profile.hpp"
-#include "freespace/visibility.hpp"
+#include "freespace/space.hpp"
 
 namespace camdir::camera {
 
@@ -66,12 +66,13 @@ struct BeamEnd {
     Vec3f normal;  // roughly of the obstacle: the way out of the last free ball, length 1
 };
 
-// Beams from the eyes of a future. Their radius is 4/3 of the clearance that the camera keeps, but less than
+// Beams from the eyes of a future, among the movers as they are at the time of the sample. What is remembered
+// is of the map alone. Their radius is 4/3 of the clearance that the camera keeps, but less than
 // the eye's own clearance.
 class Beams {
   public:
-    Beams(const freespace::Freespace& freespace, const MapProfile& profile, const Future& future,
-          FreeBeams& known, FreeLengths& lengths, freespace::RecentBalls& balls);
+    Beams(const freespace::Space& space, const MapProfile& profile, const Future& future, FreeBeams& known,
+          FreeLengths& lengths, freespace::RecentBalls& balls);
 
     // The clearance of a place near the eyes. Spares looking it up.
     void set_clearance(const Vec3f& place, float clearance) {
@@ -95,8 +96,14 @@ class Beams {
     float radius(std::size_t i);
     float radius_from(const Vec3f& eye);
     freespace::Sight sight(std::size_t i, const Vec3f& goal);
+    // On the map, among movers that are not there.
+    float length_on_map(std::size_t i, const Vec3f& direction, float length);
+    std::optional<BeamEnd> end_on_map(std::size_t i, const Vec3f& direction, float length);
+    // Where a mover ends a beam of `length`.
+    std::optional<BeamEnd> end_at_mover(std::size_t i, const Vec3f& direction, float length);
+    float length_among_movers(std::size_t i, const Vec3f& direction, float length);
 
-    const freespace::Freespace& freespace_;
+    const freespace::Space space_;
     const MapProfile& profile_;
     const Future& future_;
     FreeBeams& known_;

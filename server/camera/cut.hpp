@@ -4,14 +4,14 @@
 #include "camera/objective.hpp"
 #include "camera/player.hpp"
 #include "camera/profile.hpp"
-#include "freespace/freespace.hpp"
+#include "freespace/space.hpp"
 
 namespace camdir::camera {
 
 // The best spot now: the least costly one that sees the anchor, with kept_clearance() where there is
 // such a spot; else a place on the roadmap near the anchor that sees it; else the anchor itself, which is in
 // freespace if any place is.
-[[nodiscard]] Candidate landing(const freespace::Freespace& freespace, const MapProfile& profile,
+[[nodiscard]] Candidate landing(const freespace::Space& space, const MapProfile& profile,
                                 const PlayerTrack& track);
 
 }  // namespace camdir::camera

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "freespace/visibility.hpp"
-
 namespace camdir::camera {
 namespace {
 
@@ -140,13 +138,14 @@ Vec3f travel(const Rates& rates, float seconds) {
 
 }  // namespace
 
-void foresee(const freespace::Freespace& freespace, const MapProfile& profile, Window window, double start,
+void foresee(const freespace::Space& space, const MapProfile& profile, Window window, double start,
              double step, double horizon, float yaw, freespace::RecentBalls& balls, Future& future) {
     const Stretch stretch(window, static_cast<std::size_t>(index_at(window, start)));
     const double known = std::clamp(stretch.end() - start, 0.0, horizon);
     const double predicted =
         std::clamp(prediction_share * profile.motion_smoothing, least_prediction, most_prediction);
     const double whole = known + predicted;
+    future.start = start;
     future.step = step;
     future.count = std::min(Future::capacity, static_cast<std::size_t>(whole / step + 1e-6) + 1);
     future.known = std::min(future.count, static_cast<std::size_t>(known / step + 1e-6) + 1);
@@ -165,7 +164,8 @@ void foresee(const freespace::Freespace& freespace, const MapProfile& profile, W
     float share = 1.0F;  // of the way that walls leave
     const float length = way.norm();
     if (length > profile.unit) {
-        const freespace::Sight free = freespace::sight(freespace, last.eye, last.eye + way, 0.0F, balls);
+        const freespace::Sight free =
+            freespace::sight(space.at(last_time), last.eye, last.eye + way, 0.0F, balls);
         if (!free.clear) share = std::max(0.0F, free.free_length - from_wall * profile.unit) / length;
     }
     for (std::size_t i = future.known; i < future.count; ++i) {

@@ -7,8 +7,7 @@
 #include "camera/profile.hpp"
 #include "camera/view.hpp"
 #include "camera/window.hpp"
-#include "freespace/freespace.hpp"
-#include "freespace/visibility.hpp"
+#include "freespace/space.hpp"
 
 namespace camdir::camera {
 
@@ -19,6 +18,7 @@ struct Future {
         Look view;  // yaw without jumps by a whole turn from one sample to the next
     };
 
+    double start = 0.0;     // s, of the first sample
     double step = 0.0;      // s
     std::size_t count = 0;  // >= 1
     std::size_t known = 0;  // samples from recorded poses
@@ -31,7 +31,7 @@ struct Future {
 // of the continuous stretch, but no further than `horizon`, and from there a prediction: the velocity fades,
 // falling sooner than running, and so does the turning; walls stop it. `yaw` is a yaw that the first one
 // should be near to.
-void foresee(const freespace::Freespace& freespace, const MapProfile& profile, Window window, double start,
+void foresee(const freespace::Space& space, const MapProfile& profile, Window window, double start,
              double step, double horizon, float yaw, freespace::RecentBalls& balls, Future& future);
 
 }  // namespace camdir::camera

@@ -4,7 +4,6 @@
 #include <array>
 
 #include "camera/regain.hpp"
-#include "freespace/visibility.hpp"
 
 namespace camdir::camera {
 namespace {
@@ -13,10 +12,10 @@ constexpr std::array pulled_in = {1.0F, 0.9F, 0.75F};  // shares of the free lin
 
 }  // namespace
 
-std::optional<Candidate> guarded(const freespace::Freespace& freespace, const MapProfile& profile,
+std::optional<Candidate> guarded(const freespace::Space& space, const MapProfile& profile,
                                  const PlayerTrack& track, const Motion& motion, const Vec3f& wanted) {
     const auto fine = [&](const Vec3f& target) {
-        auto place = reach(freespace, profile, track, motion.position,
+        auto place = reach(space, profile, track, motion.position,
                            within_step(motion.position, target, profile.step_limit));
         if (place && !acceptable(profile, track, *place)) place.reset();
         return place;
@@ -26,14 +25,14 @@ std::optional<Candidate> guarded(const freespace::Freespace& freespace, const Ma
     const float length = arm.norm();
     if (length > profile.unit) {
         const freespace::Sight beam =
-            freespace::sight(freespace, track.anchor, wanted, beam_radius(profile, track));
+            freespace::sight(space, track.anchor, wanted, beam_radius(profile, track));
         const float free =
             beam.clear ? length : std::max(0.0F, beam.free_length - inside_beam * profile.unit);
         for (const float share : pulled_in) {
             if (auto place = fine(track.anchor + arm * (share * free / length))) return place;
         }
     }
-    return regain_sight(freespace, profile, track, motion, wanted);
+    return regain_sight(space, profile, track, motion, wanted);
 }
 
 }  // namespace camdir::camera

@@ -46,13 +46,13 @@ float inertia_weight(const MapProfile& profile) {
 
 }  // namespace
 
-Vec3f move_to_safety(const freespace::Freespace& freespace, const Vec3f& position, std::uint32_t slab) {
+Vec3f move_to_safety(const freespace::Space& space, const Vec3f& position, std::uint32_t slab) {
     if (slab == freespace::none) return Vec3f::Zero();
-    const freespace::Triangle& triangle = freespace.triangles()[slab];
+    const freespace::Triangle& triangle = space.map().triangles()[slab];
     Vec3f safest = Vec3f::Zero();
     float least = std::numeric_limits<float>::infinity();
     for (const std::uint32_t corner : {triangle.a, triangle.b, triangle.c}) {
-        const freespace::Vertex& vertex = freespace.vertices()[corner];
+        const freespace::Vertex& vertex = space.map().vertices()[corner];
         if (!freespace::on_roadmap(vertex)) continue;
         const Vec3f move = vertex.position() - position;
         const float danger = move.norm() / vertex.free_distance;

@@ -5,7 +5,7 @@
 #include "camera/objective.hpp"
 #include "camera/player.hpp"
 #include "camera/profile.hpp"
-#include "freespace/freespace.hpp"
+#include "freespace/space.hpp"
 
 namespace camdir::camera {
 
@@ -17,8 +17,7 @@ struct Moves {
 };
 
 // T_safe: to the vertex v of the slab that minimises w(|v - position|) / d_f(v). Zero without a slab.
-[[nodiscard]] Vec3f move_to_safety(const freespace::Freespace& freespace, const Vec3f& position,
-                                   std::uint32_t slab);
+[[nodiscard]] Vec3f move_to_safety(const freespace::Space& space, const Vec3f& position, std::uint32_t slab);
 
 // The weighted average while the player is seen. With unit weights and away from T_safe it is the exact step
 // of a critically damped spring of time constant profile.motion_smoothing between the camera and its spot,

@@ -14,6 +14,8 @@ struct Candidate {
     float clearance = 0.0F;  // free distance at the position
     // Lower bound of the clearance along the line of sight to the anchor; 0: the player is not seen.
     float sight_clearance = 0.0F;
+    // The clearance, but no more than the profile's, and less what movers take of it in the next moment.
+    float room = 0.0F;
 };
 
 // How the camera came to where it is.

@@ -35,17 +35,17 @@ bool as_foreseen(const MapProfile& profile, const PlayerTrack& track, const Plan
            angle_between(track.view, foreseen.view) <= view_as_foreseen;
 }
 
-void make_plan(const freespace::Freespace& freespace, const MapProfile& profile, const PlayerTrack& track,
+void make_plan(const freespace::Space& space, const MapProfile& profile, const PlayerTrack& track,
                Window window, double time, PlanState& state, PlanScratch& scratch) {
     Plan& plan = scratch.plan;
-    foresee(freespace, profile, window, time, state.step, horizon,
+    foresee(space, profile, window, time, state.step, horizon,
             static_cast<float>(state.history[1].heading_yaw), state.balls, plan.future);
     plan.ahead = static_cast<double>(plan.future.known) * state.step > least_ahead;
     plan.knot_spacing = plan.samples_in(plan.ahead ? knot_interval_ahead : knot_interval);
 
     plan.find_views();
     smooth_heading(profile, state.history, plan);
-    Beams beams(freespace, profile, plan.future, state.free_beams, state.free_lengths, state.balls);
+    Beams beams(space, profile, plan.future, state.free_beams, state.free_lengths, state.balls);
     beams.set_clearance(track.anchor, track.clearance);
     choose_vantages(profile, state.history, beams, plan, scratch.candidates, state.vantages);
     set_goals(profile, state.vantages, beams, plan);
@@ -127,7 +127,7 @@ void deviate(PlanState& state, const Vec3f& position, const Vec3f& velocity, con
     begin_anew(state);
 }
 
-const PlannedSample& next_sample(const freespace::Freespace& freespace, const MapProfile& profile,
+const PlannedSample& next_sample(const freespace::Space& space, const MapProfile& profile,
                                  const PlayerTrack& track, Window window, double time, double dt,
                                  PlanState& state, PlanScratch& scratch) {
     const double tolerance = state.next < state.count ? same_step_while_planned : same_step;
@@ -142,7 +142,7 @@ const PlannedSample& next_sample(const freespace::Freespace& freespace, const Ma
     if (is_left) {
         discard(state);
         unwind(state.history);
-        make_plan(freespace, profile, track, window, time, state, scratch);
+        make_plan(space, profile, track, window, time, state, scratch);
     }
     state.history[0] = state.history[1];
     state.history[1] = state.samples[state.next++];

@@ -59,9 +59,8 @@ void deviate(PlanState& state, const Vec3f& position, const Vec3f& velocity, con
 
 // The next sample of the plan, `dt` after the last one, at `time`, at which the window has a usable pose of a
 // living player, `track`. The planned positions are wishes: see guard.hpp. Does not allocate.
-[[nodiscard]] const PlannedSample& next_sample(const freespace::Freespace& freespace,
-                                               const MapProfile& profile, const PlayerTrack& track,
-                                               Window window, double time, double dt, PlanState& state,
-                                               PlanScratch& scratch);
+[[nodiscard]] const PlannedSample& next_sample(const freespace::Space& space, const MapProfile& profile,
+                                               const PlayerTrack& track, Window window, double time,
+                                               double dt, PlanState& state, PlanScratch& scratch);
 
 }  // namespace camdir::camera

@@ -5,8 +5,6 @@
 #include <limits>
 
 #include "camera/view.hpp"
-#include "freespace/distance.hpp"
-#include "freespace/visibility.hpp"
 
 namespace camdir::camera {
 namespace {
@@ -53,23 +51,31 @@ Vec3f rotation_between(const Vec3f& from, const Vec3f& to) {
     return sine > 1e-6F ? Vec3f(axis * (angle_between(from, to) / sine)) : Vec3f::Zero();
 }
 
-void settle(const freespace::Freespace& freespace, const Vec3f& anchor, PlayerTrack& track) {
-    const freespace::Distance found = freespace::distance(freespace, anchor);
+void settle(const freespace::Space& space, const Vec3f& anchor, PlayerTrack& track) {
+    const freespace::Distance found = freespace::distance(space, anchor);
     if (!found.covered()) return;
     track.anchor = anchor;
     track.slab = found.triangle;
     track.clearance = found.value;
 }
 
+// Out of the mover that is over the anchor, if there is room beside it.
+void leave_mover(const freespace::Space& space, PlayerTrack& track) {
+    const freespace::MoverDistance over = space.mover_distance(track.anchor, 0.0F);
+    if (over.mover == freespace::none) return;
+    const MapProfile usual(Profile{}, space.map().metadata().metres_per_unit);
+    settle(space, track.anchor + (usual.minimum_clearance - over.value) * over.way_out, track);
+}
+
 // The point of the representation's balls at its vertices that is nearest to `point`; `point` itself when
 // there is no ball.
-Vec3f nearest_free_point(const freespace::Freespace& freespace, const Vec3f& point) {
+Vec3f nearest_free_point(const freespace::Space& space, const Vec3f& point) {
     Vec3f nearest = point;
     float least = std::numeric_limits<float>::infinity();
-    const auto vertices = freespace.vertices();
+    const auto vertices = space.map().vertices();
     for (std::uint32_t i = 0; i < vertices.size(); ++i) {
         const float radius = vertices[i].free_distance;
-        if (radius <= 0.0F || freespace.incident(i).empty()) continue;
+        if (radius <= 0.0F || space.map().incident(i).empty()) continue;
         const Vec3f offset = point - vertices[i].position();
         const float gap = offset.norm() - radius;
         if (gap >= least) continue;
@@ -82,19 +88,20 @@ Vec3f nearest_free_point(const freespace::Freespace& freespace, const Vec3f& poi
 
 }  // namespace
 
-void restart(const freespace::Freespace& freespace, const Pose& pose, PlayerTrack& track) {
+void restart(const freespace::Space& space, const Pose& pose, PlayerTrack& track) {
     track = PlayerTrack();
     track.eye = pose.eye;
     track.anchor = pose.eye;
     track.velocity = limited(pose.velocity);
     track.heading = view_direction(pose);
     track.view = track.heading;
-    settle(freespace, pose.eye, track);
+    settle(space, pose.eye, track);
     track.covered = track.slab != freespace::none;
-    if (!track.covered) settle(freespace, nearest_free_point(freespace, pose.eye), track);
+    if (!track.covered) settle(space, nearest_free_point(space, pose.eye), track);
+    if (track.slab == freespace::none) leave_mover(space, track);
 }
 
-void follow(const freespace::Freespace& freespace, const MapProfile& profile, const Pose& pose, float dt,
+void follow(const freespace::Space& space, const MapProfile& profile, const Pose& pose, float dt,
             PlayerTrack& track) {
     const Vec3f before = track.anchor;
     const Vec3f velocity = limited((pose.eye - track.eye) / dt);
@@ -106,16 +113,17 @@ void follow(const freespace::Freespace& freespace, const MapProfile& profile, co
     track.view = view;
     track.heading = rotated_towards(track.heading, view, smoothing_share(dt, profile.heading_smoothing));
 
-    const freespace::Distance found = freespace::distance(freespace, pose.eye);
+    const freespace::Distance found = freespace::distance(space, pose.eye);
     track.covered = found.covered();
     if (track.covered) {
         track.anchor = pose.eye;
         track.slab = found.triangle;
         track.clearance = found.value;
     } else {
-        const freespace::Sight way = freespace::sight(freespace, track.anchor, pose.eye);
+        const freespace::Sight way = freespace::sight(space, track.anchor, pose.eye);
         const Vec3f direction = (pose.eye - track.anchor).normalized();
-        settle(freespace, track.anchor + inside_surface * way.free_length * direction, track);
+        settle(space, track.anchor + inside_surface * way.free_length * direction, track);
+        if (way.free_length == 0.0F) leave_mover(space, track);
     }
     track.move = track.anchor - before;
 }
@@ -127,8 +135,7 @@ Vec3f predicted_heading(const PlayerTrack& track, float ahead) {
     return Eigen::AngleAxisf(angle, rotation / angle) * track.heading;
 }
 
-Vec3f predicted_anchor(const freespace::Freespace& freespace, const MapProfile& profile,
-                       const PlayerTrack& track) {
+Vec3f predicted_anchor(const freespace::Space& space, const MapProfile& profile, const PlayerTrack& track) {
     const auto travel = [&](float persistence) {
         return persistence * (1.0F - std::exp(-profile.prediction / persistence));
     };
@@ -137,7 +144,7 @@ Vec3f predicted_anchor(const freespace::Freespace& freespace, const MapProfile& 
     const Vec3f way = track.velocity.cwiseProduct(times);
     const float length = way.norm();
     if (!(length > 1e-3F)) return track.anchor;
-    const freespace::Sight free = freespace::sight(freespace, track.anchor, track.anchor + way);
+    const freespace::Sight free = freespace::sight(space, track.anchor, track.anchor + way);
     return track.anchor + way * (inside_surface * std::min(free.free_length, length) / length);
 }
 

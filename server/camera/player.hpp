@@ -3,7 +3,7 @@
 
 #include "camera/camera.hpp"
 #include "camera/profile.hpp"
-#include "freespace/freespace.hpp"
+#include "freespace/space.hpp"
 
 namespace camdir::camera {
 
@@ -23,17 +23,17 @@ struct PlayerTrack {
 
 // Begins anew at `pose`: after a cut in the player's motion. An eye in no slab is sought at the nearest free
 // point of the representation.
-void restart(const freespace::Freespace& freespace, const Pose& pose, PlayerTrack& track);
+void restart(const freespace::Space& space, const Pose& pose, PlayerTrack& track);
 
 // Follows the player to `pose`, `dt` seconds later.
-void follow(const freespace::Freespace& freespace, const MapProfile& profile, const Pose& pose, float dt,
+void follow(const freespace::Space& space, const MapProfile& profile, const Pose& pose, float dt,
             PlayerTrack& track);
 
 // Where the heading will probably point `ahead` seconds later: players stop turning soon.
 [[nodiscard]] Vec3f predicted_heading(const PlayerTrack& track, float ahead);
 
 // Where the anchor will probably be after profile.prediction seconds, no further than free space goes.
-[[nodiscard]] Vec3f predicted_anchor(const freespace::Freespace& freespace, const MapProfile& profile,
+[[nodiscard]] Vec3f predicted_anchor(const freespace::Space& space, const MapProfile& profile,
                                      const PlayerTrack& track);
 
 }  // namespace camdir::camera

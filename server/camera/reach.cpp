@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include "freespace/distance.hpp"
-#include "freespace/visibility.hpp"
+#include "camera/evade.hpp"
 
 namespace camdir::camera {
 namespace {
@@ -13,20 +12,21 @@ constexpr float share_of_room = 0.675F;
 
 // A beam knows the clearance around a line of sight far better than a line does: the widest beam that matters
 // first, then the narrowest that counts.
-float sight_clearance(const freespace::Freespace& freespace, const MapProfile& profile,
-                      const PlayerTrack& track, const Vec3f& position) {
+float sight_clearance(const freespace::Space& space, const MapProfile& profile, const PlayerTrack& track,
+                      const Vec3f& position) {
     const float wide = beam_radius(profile, track);
-    if (freespace::sight(freespace, position, track.anchor, wide).clear) {
+    if (freespace::sight(space, position, track.anchor, wide).clear) {
         return wide;
     }
     const float narrow = std::min(profile.visibility_threshold, wide);
-    const freespace::Sight line = freespace::sight(freespace, position, track.anchor, narrow);
+    const freespace::Sight line = freespace::sight(space, position, track.anchor, narrow);
     return line.clear ? std::max(line.clearance, narrow) : 0.0F;
 }
 
-Candidate candidate(const freespace::Freespace& freespace, const MapProfile& profile,
-                    const PlayerTrack& track, const Vec3f& position, const freespace::Distance& free) {
-    return {position, free.triangle, free.value, sight_clearance(freespace, profile, track, position)};
+Candidate candidate(const freespace::Space& space, const MapProfile& profile, const PlayerTrack& track,
+                    const Vec3f& position, const freespace::Distance& free) {
+    return {position, free.triangle, free.value, sight_clearance(space, profile, track, position),
+            room_soon(space, position, std::min(free.value, profile.minimum_clearance))};
 }
 
 }  // namespace
@@ -41,28 +41,32 @@ float kept_clearance(const MapProfile& profile, const PlayerTrack& track) {
     return std::min(profile.minimum_clearance, std::max(usual, share_of_room * track.clearance));
 }
 
-std::optional<Candidate> reach(const freespace::Freespace& freespace, const MapProfile& profile,
+std::optional<Candidate> reach(const freespace::Space& space, const MapProfile& profile,
                                const PlayerTrack& track, const Vec3f& start, const Vec3f& target) {
-    const freespace::Distance free = freespace::distance(freespace, target);
+    const freespace::Distance free = freespace::distance(space, target);
     if (!free.covered()) return std::nullopt;
     const bool near = (target - start).norm() < inside_ball * free.value;
-    if (!near && !freespace::sight(freespace, start, target).clear) return std::nullopt;
-    return candidate(freespace, profile, track, target, free);
+    if (!near && !freespace::sight(space.map(), start, target).clear) return std::nullopt;
+    if (!space.lets_pass(start, target)) return std::nullopt;
+    return candidate(space, profile, track, target, free);
 }
 
-std::optional<Candidate> reach_shortened(const freespace::Freespace& freespace, const MapProfile& profile,
+std::optional<Candidate> reach_shortened(const freespace::Space& space, const MapProfile& profile,
                                          const PlayerTrack& track, const Vec3f& start, const Vec3f& target) {
-    const freespace::Sight way = freespace::sight(freespace, start, target);
-    if (way.clear) return look_up(freespace, profile, track, target);
+    const freespace::Sight way = freespace::sight(space.map(), start, target);
+    const freespace::MoverSweep step = space.step(start, target);
+    if (way.clear && step.clear) return look_up(space, profile, track, target);
     const Vec3f direction = (target - start).normalized();
-    return reach(freespace, profile, track, start, start + 0.5F * way.free_length * direction);
+    const float until_mover = step.free_share * (target - start).norm();
+    const float free = step.clear ? way.free_length : std::min(way.free_length, until_mover);
+    return reach(space, profile, track, start, start + 0.5F * free * direction);
 }
 
-std::optional<Candidate> look_up(const freespace::Freespace& freespace, const MapProfile& profile,
+std::optional<Candidate> look_up(const freespace::Space& space, const MapProfile& profile,
                                  const PlayerTrack& track, const Vec3f& position) {
-    const freespace::Distance free = freespace::distance(freespace, position);
+    const freespace::Distance free = freespace::distance(space, position);
     if (!free.covered()) return std::nullopt;
-    return candidate(freespace, profile, track, position, free);
+    return candidate(space, profile, track, position, free);
 }
 
 }  // namespace camdir::camera

@@ -6,7 +6,7 @@
 #include "camera/objective.hpp"
 #include "camera/player.hpp"
 #include "camera/profile.hpp"
-#include "freespace/freespace.hpp"
+#include "freespace/space.hpp"
 
 namespace camdir::camera {
 
@@ -22,18 +22,17 @@ namespace camdir::camera {
 inline constexpr float inside_beam = 2.0F;
 
 // `target`, if the whole step from `start` to it is free.
-[[nodiscard]] std::optional<Candidate> reach(const freespace::Freespace& freespace, const MapProfile& profile,
+[[nodiscard]] std::optional<Candidate> reach(const freespace::Space& space, const MapProfile& profile,
                                              const PlayerTrack& track, const Vec3f& start,
                                              const Vec3f& target);
 
 // The same, and when the step leaves the freespace on its way the point half-way to where it leaves.
-[[nodiscard]] std::optional<Candidate> reach_shortened(const freespace::Freespace& freespace,
+[[nodiscard]] std::optional<Candidate> reach_shortened(const freespace::Space& space,
                                                        const MapProfile& profile, const PlayerTrack& track,
                                                        const Vec3f& start, const Vec3f& target);
 
 // The candidate with its distances looked up; none when no slab covers it.
-[[nodiscard]] std::optional<Candidate> look_up(const freespace::Freespace& freespace,
-                                               const MapProfile& profile, const PlayerTrack& track,
-                                               const Vec3f& position);
+[[nodiscard]] std::optional<Candidate> look_up(const freespace::Space& space, const MapProfile& profile,
+                                               const PlayerTrack& track, const Vec3f& position);
 
 }  // namespace camdir::camera

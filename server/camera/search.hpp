@@ -10,7 +10,7 @@ namespace camdir::camera {
 // Where the way to the player leads next: the furthest of the first vertices of the shortest roadmap path
 // that the camera sees; the paper's second vertex when it sees no further. The camera's own position when
 // there is no way.
-[[nodiscard]] Vec3f next_on_the_way(const freespace::Freespace& freespace, const MapProfile& profile,
+[[nodiscard]] Vec3f next_on_the_way(const freespace::Space& space, const MapProfile& profile,
                                     const PlayerTrack& track, const Vec3f& start,
                                     freespace::RoadmapSearch& roadmap);
 

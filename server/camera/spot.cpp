@@ -8,7 +8,6 @@
 
 #include "camera/reach.hpp"
 #include "camera/view.hpp"
-#include "freespace/visibility.hpp"
 
 namespace camdir::camera {
 namespace {
@@ -86,23 +85,24 @@ class Fan {
     std::size_t count_ = 0;
 };
 
-// A place that spots must be joined to by a free beam.
+// A place that spots must be joined to by a free beam, at its time.
 struct Origin {
+    freespace::Space space;
     Vec3f position;
     freespace::SightOrigin beams;
 };
 
 class SpotSearch {
   public:
-    SpotSearch(const freespace::Freespace& freespace, const MapProfile& profile, const PlayerTrack& track)
-        : freespace_(freespace),
+    SpotSearch(const freespace::Space& space, const MapProfile& profile, const PlayerTrack& track)
+        : space_(space),
           profile_(profile),
           distance_weight_(profile.weight_distance),
           beam_radius_(beam_radius(profile, track)),
-          now_(origin_at(track.anchor)) {}
+          now_(origin_at(space, track.anchor)) {}
     // A cut has no motion to pay for: nothing keeps it from a spot further round the player.
     void for_a_cut() { distance_weight_ *= cut_distance_weight; }
-    void foresee(const Vec3f& anchor) { later_ = origin_at(anchor); }
+    void foresee(const Vec3f& anchor, double time) { later_.emplace(origin_at(space_.at(time), anchor)); }
 
     // Considers it; whether nothing is in its way at all.
     bool is_free(const FanDirection& candidate) {
@@ -126,11 +126,13 @@ class SpotSearch {
     [[nodiscard]] const Spot& best() const { return best_; }
 
   private:
-    [[nodiscard]] Origin origin_at(const Vec3f& anchor) const {
-        return {anchor, freespace::SightOrigin(freespace_, anchor, beam_radius_)};
+    [[nodiscard]] Origin origin_at(const freespace::Space& space, const Vec3f& anchor) const {
+        return {space, anchor, freespace::SightOrigin(space.map(), anchor, beam_radius_)};
     }
     [[nodiscard]] float free_length(const Origin& from, const Vec3f& direction) const {
-        const freespace::Sight beam = from.beams.to(from.position + profile_.distance * direction);
+        const Vec3f end = from.position + profile_.distance * direction;
+        const freespace::Sight beam =
+            from.space.shortened(from.beams.to(end), from.position, end, beam_radius_);
         return beam.clear ? profile_.distance
                           : std::max(0.0F, beam.free_length - inside_beam * profile_.unit);
     }
@@ -138,7 +140,7 @@ class SpotSearch {
         return distance_weight_ * squared((profile_.distance - length) / profile_.distance_tolerance);
     }
 
-    const freespace::Freespace& freespace_;
+    const freespace::Space space_;
     const MapProfile& profile_;
     float distance_weight_;
     float beam_radius_;
@@ -156,13 +158,13 @@ void consider_all(const Fan& fan, SpotSearch& search) {
 
 }  // namespace
 
-Spot spot_to_move_to(const freespace::Freespace& freespace, const MapProfile& profile,
-                     const PlayerTrack& track, const Vec3f& camera, float dt, SpotMemory& memory) {
+Spot spot_to_move_to(const freespace::Space& space, const MapProfile& profile, const PlayerTrack& track,
+                     const Vec3f& camera, float dt, SpotMemory& memory) {
     const Vec3f offset = camera - track.anchor;
     const Vec3f towards_camera = offset.normalized();
     Fan fan(profile, track, offset.norm() > profile.unit ? &towards_camera : nullptr);
-    SpotSearch search(freespace, profile, track);
-    search.foresee(predicted_anchor(freespace, profile, track));
+    SpotSearch search(space, profile, track);
+    search.foresee(predicted_anchor(space, profile, track), space.time() + profile.prediction);
     memory.age += dt;
     if (!search.is_free(fan.behind())) {
         if (memory.age >= fan_interval) {
@@ -178,10 +180,9 @@ Spot spot_to_move_to(const freespace::Freespace& freespace, const MapProfile& pr
     return search.best();
 }
 
-Spot spot_to_cut_to(const freespace::Freespace& freespace, const MapProfile& profile,
-                    const PlayerTrack& track) {
+Spot spot_to_cut_to(const freespace::Space& space, const MapProfile& profile, const PlayerTrack& track) {
     Fan fan(profile, track, nullptr);
-    SpotSearch search(freespace, profile, track);
+    SpotSearch search(space, profile, track);
     search.for_a_cut();
     fan.fill(std::numbers::pi_v<float>);
     consider_all(fan, search);

@@ -5,7 +5,7 @@
 
 #include "camera/player.hpp"
 #include "camera/profile.hpp"
-#include "freespace/freespace.hpp"
+#include "freespace/space.hpp"
 
 namespace camdir::camera {
 
@@ -24,12 +24,12 @@ struct SpotMemory {
 // the least costly spot within profile.swing of behind, directions other than the one to `camera` costing
 // more; the whole fan is looked through at most 16 times a second, in between only the last choice is
 // compared. `dt` is the time since the last call.
-[[nodiscard]] Spot spot_to_move_to(const freespace::Freespace& freespace, const MapProfile& profile,
+[[nodiscard]] Spot spot_to_move_to(const freespace::Space& space, const MapProfile& profile,
                                    const PlayerTrack& track, const Vec3f& camera, float dt,
                                    SpotMemory& memory);
 
 // The least costly spot of all directions that a free beam joins to the anchor, wherever the camera is.
-[[nodiscard]] Spot spot_to_cut_to(const freespace::Freespace& freespace, const MapProfile& profile,
+[[nodiscard]] Spot spot_to_cut_to(const freespace::Space& space, const MapProfile& profile,
                                   const PlayerTrack& track);
 
 }  // namespace camdir::camera

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "camera/cut.hpp"
+#include "camera/evade.hpp"
 #include "camera/guard.hpp"
 #include "camera/moves.hpp"
 #include "camera/objective.hpp"
@@ -25,10 +26,10 @@ constexpr float quarter_turn = std::numbers::pi_v<float> / 2.0F;
 // One step of one shot.
 class Step {
   public:
-    Step(const freespace::Freespace& freespace, const Profile& profile, double dt, ShotState& state,
-         Scratch& scratch, Window window, double time)
-        : freespace_(freespace),
-          profile_(profile, freespace.metadata().metres_per_unit),
+    Step(const freespace::Space& space, const Profile& profile, double dt, ShotState& state, Scratch& scratch,
+         Window window, double time)
+        : space_(space.in_step(state.time, time)),
+          profile_(profile, space.map().metadata().metres_per_unit),
           dt_(usable_frame(dt)),
           look_before_(state.look),
           state_(state),
@@ -39,10 +40,10 @@ class Step {
 
     Camera with_pose(const Pose& pose) {
         if (!state_.started || pose.discontinuity) {
-            restart(freespace_, pose, player_);
+            restart(space_, pose, player_);
             return cut_to_player();
         }
-        follow(freespace_, profile_, pose, dt_, player_);
+        follow(space_, profile_, pose, dt_, player_);
         if (!pose.alive) return come_to_rest();
         if (state_.lost_for > profile_.search_time_limit && player_.covered) return cut_to_player();
         if (state_.lost_for > 0.0F) return search();
@@ -59,11 +60,11 @@ class Step {
     // The planner's step.
     Camera follow_plan() {
         const PlannedSample& planned =
-            next_sample(freespace_, profile_, player_, window_, time_, dt_, state_.plan, scratch_.plan);
+            next_sample(space_, profile_, player_, window_, time_, dt_, state_.plan, scratch_.plan);
         const Vec3f wanted = planned.position.cast<float>();
         const Look look{wrapped(static_cast<float>(planned.look_yaw)),
                         static_cast<float>(planned.look_pitch)};
-        const auto place = guarded(freespace_, profile_, player_, motion(), wanted);
+        const auto place = guarded(space_, profile_, player_, motion(), wanted);
         if (!place) return search();
         const bool as_planned = place->position == wanted;
         const Motion before = motion();
@@ -79,18 +80,18 @@ class Step {
 
     // The paper's step.
     Camera keep_in_sight() {
-        const Spot spot = spot_to_move_to(freespace_, profile_, player_, state_.position, dt_, state_.spot);
+        const Spot spot = spot_to_move_to(space_, profile_, player_, state_.position, dt_, state_.spot);
         Vec3f position = state_.position;
         Vec3f wanted = position;
         for (int i = 0; i < static_cast<int>(profile_.iterations); ++i) {
             wanted =
                 within_reach(position + average_when_seen(profile_, moves(spot, position), speed(), dt_));
-            const auto reached = reach_shortened(freespace_, profile_, player_, state_.position, wanted);
+            const auto reached = reach_shortened(space_, profile_, player_, state_.position, wanted);
             if (!reached) break;
             if (acceptable(profile_, player_, *reached)) return move_to(*reached);
             position = reached->position;
         }
-        const auto seen = regain_sight(freespace_, profile_, player_, motion(), wanted);
+        const auto seen = regain_sight(space_, profile_, player_, motion(), wanted);
         if (!seen) return search();
         const Camera camera = move_to(*seen);
         state_.velocity = player_.velocity;  // a rescue is no motion to go on with
@@ -98,21 +99,22 @@ class Step {
     }
 
     Camera search() {
-        const Spot spot = spot_to_move_to(freespace_, profile_, player_, state_.position, dt_, state_.spot);
+        const Spot spot = spot_to_move_to(space_, profile_, player_, state_.position, dt_, state_.spot);
         Moves all = moves(spot, state_.position);
-        all.visibility = next_on_the_way(freespace_, profile_, player_, state_.position, scratch_.roadmap) -
-                         state_.position;
+        all.visibility =
+            next_on_the_way(space_, profile_, player_, state_.position, scratch_.roadmap) - state_.position;
         const float urgency = std::min(greatest_urgency, std::exp(profile_.search_growth * state_.lost_for));
         const Vec3f move = average_when_lost(profile_, all, urgency, dt_);
         // Where the average would scrape along an obstacle, straight to the roadmap, however narrow its way
         // is.
+        const float kept = kept_clearance(profile_, player_);
         std::optional<Candidate> next;
         for (const Vec3f& wanted : {move, all.visibility}) {
-            next = reach_shortened(freespace_, profile_, player_, state_.position,
+            next = reach_shortened(space_, profile_, player_, state_.position,
                                    within_reach(state_.position + wanted));
-            if (next && next->clearance >= kept_clearance(profile_, player_)) break;
+            if (next && next->room >= kept) break;
         }
-        if (next) return move_to(*next);
+        if (next && room_soon(space_, next->position, kept) >= kept) return move_to(*next);
         state_.lost_for += dt_;
         turn();
         return hold(searching);
@@ -123,15 +125,15 @@ class Step {
         const Vec3f velocity = state_.velocity * std::exp(-dt_ / profile_.motion_smoothing);
         if (velocity.norm() > at_rest * profile_.unit) {
             const Vec3f wanted = within_reach(state_.position + velocity * dt_);
-            const auto reached = reach(freespace_, profile_, player_, state_.position, wanted);
-            if (reached && reached->clearance >= kept_clearance(profile_, player_)) return move_to(*reached);
+            const auto reached = reach(space_, profile_, player_, state_.position, wanted);
+            if (reached && reached->room >= kept_clearance(profile_, player_)) return move_to(*reached);
         }
         turn();
         return hold(0);
     }
 
     Camera cut_to_player() {
-        const Candidate spot = landing(freespace_, profile_, player_);
+        const Candidate spot = landing(space_, profile_, player_);
         state_.started = true;
         settle(spot);
         state_.velocity = player_.velocity;
@@ -162,22 +164,36 @@ class Step {
         state_.slab = place.slab;
     }
 
+    // It keeps its place, unless a mover comes there.
     Camera hold(std::uint32_t flags) {
         state_.velocity = Vec3f::Zero();
+        const float kept = kept_clearance(profile_, player_);
+        if (is_threatened(space_, state_.position, kept)) flags |= make_way(kept);
         plan_from_here();
-        const auto place = look_up(freespace_, profile_, player_, state_.position);
-        const Candidate uncovered{state_.position, freespace::none, 0.0F, 0.0F};
+        const auto place = look_up(space_, profile_, player_, state_.position);
+        const Candidate uncovered{state_.position};
         return frame(place ? *place : uncovered, standing(), flags | held);
+    }
+
+    // For a mover. Returns the flag of the step, if any.
+    std::uint32_t make_way(float clearance) {
+        if (const auto place = evade(space_, state_.position, clearance, profile_.step_limit)) {
+            state_.position = *place;
+            state_.slab = freespace::distance(space_, *place).triangle;
+            return 0;
+        }
+        settle(landing(space_, profile_, player_));
+        return cut;
     }
 
     // Before the first pose: at the map's first spawn point, looking as its players do.
     void wait_at_spawn_point() {
         state_.waiting = true;
-        if (freespace_.spawn_points().empty()) return;
-        const freespace::SpawnPoint& spawn = freespace_.spawn_points().front();
+        if (space_.map().spawn_points().empty()) return;
+        const freespace::SpawnPoint& spawn = space_.map().spawn_points().front();
         Pose pose;
         pose.eye = spawn.eye;
-        restart(freespace_, pose, player_);
+        restart(space_, pose, player_);
         state_.position = player_.anchor;
         state_.slab = player_.slab;
         state_.look = {spawn.yaw, 0.0F};
@@ -199,7 +215,7 @@ class Step {
         Moves all;
         all.spot = player_.anchor + spot.offset - position;
         all.inertia = state_.velocity * dt_;
-        all.safety = move_to_safety(freespace_, position, state_.slab);
+        all.safety = move_to_safety(space_, position, state_.slab);
         all.visibility = player_.move;
         return all;
     }
@@ -238,7 +254,7 @@ class Step {
         return within_step(state_.position, target, profile_.step_limit);
     }
 
-    const freespace::Freespace& freespace_;
+    const freespace::Space space_;
     const MapProfile profile_;
     const float dt_;
     const Look look_before_;
@@ -251,27 +267,27 @@ class Step {
 
 }  // namespace
 
-Camera step(const freespace::Freespace& freespace, const Profile& profile, Window window, double time,
+Camera step(const freespace::Space& space, const Profile& profile, Window window, double time,
             ShotState& state, Scratch& scratch) {
     const auto pose = pose_at(window, state.time, time);
-    Step one(freespace, profile, time - state.time, state, scratch, window, time);
+    Step one(space, profile, time - state.time, state, scratch, window, time);
     state.time = time;
     return pose ? one.with_pose(*pose) : one.without_pose();
 }
 
-Camera step(const freespace::Freespace& freespace, const Profile& profile, const Pose* pose, double dt,
+Camera step(const freespace::Space& space, const Profile& profile, const Pose* pose, double dt,
             ShotState& state, Scratch& scratch) {
     const double time = state.time + usable_frame(dt);
     state.recent.add(time, pose);
-    Step one(freespace, profile, dt, state, scratch, state.recent.window(), time);
+    Step one(space, profile, dt, state, scratch, state.recent.window(), time);
     state.time = time;
     return pose != nullptr && usable(*pose) ? one.with_pose(*pose) : one.without_pose();
 }
 
-bool go_on_from(const freespace::Freespace& freespace, const Profile& profile, const View& before,
-                const View& now, double dt, ShotState& state) {
-    const MapProfile on_map(profile, freespace.metadata().metres_per_unit);
-    const auto place = look_up(freespace, on_map, state.player, now.position);
+bool go_on_from(const freespace::Space& space, const Profile& profile, const View& before, const View& now,
+                double dt, ShotState& state) {
+    const MapProfile on_map(profile, space.map().metadata().metres_per_unit);
+    const auto place = look_up(space.at(state.time), on_map, state.player, now.position);
     if (!state.started || !place) return false;
     const Look look_before = look_along(before.orientation * Vec3f::UnitX(), state.look.yaw);
     state.position = place->position;

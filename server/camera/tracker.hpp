@@ -11,8 +11,8 @@
 #include "camera/spot.hpp"
 #include "camera/view.hpp"
 #include "camera/window.hpp"
-#include "freespace/freespace.hpp"
 #include "freespace/roadmap.hpp"
+#include "freespace/space.hpp"
 
 namespace camdir::camera {
 
@@ -55,19 +55,19 @@ class Scratch {
 //   dead player                glides to a stop, keeps looking; held once it stands
 //   eye in no slab             follows the last free point on the way to the eye
 //   not seen                   searches along the roadmap, after profile.search_time_limit a cut
-[[nodiscard]] Camera step(const freespace::Freespace& freespace, const Profile& profile, Window window,
-                          double time, ShotState& state, Scratch& scratch);
+[[nodiscard]] Camera step(const freespace::Space& space, const Profile& profile, Window window, double time,
+                          ShotState& state, Scratch& scratch);
 
 // The same by one pose, `dt` seconds after the last step, for a causal shot: the state keeps what history it
 // needs. `pose` is null when the player has none in this frame. A `dt` that is not finite counts as one frame
 // too.
-[[nodiscard]] Camera step(const freespace::Freespace& freespace, const Profile& profile, const Pose* pose,
-                          double dt, ShotState& state, Scratch& scratch);
+[[nodiscard]] Camera step(const freespace::Space& space, const Profile& profile, const Pose* pose, double dt,
+                          ShotState& state, Scratch& scratch);
 
 // The shot goes on from `now`, of the time of the last step, and not from where that step came to; `before`
 // was `dt` seconds earlier, without a cut between. Returns false, and changes nothing, when no slab covers
 // the place or the shot has not had a usable pose yet.
-[[nodiscard]] bool go_on_from(const freespace::Freespace& freespace, const Profile& profile,
-                              const View& before, const View& now, double dt, ShotState& state);
+[[nodiscard]] bool go_on_from(const freespace::Space& space, const Profile& profile, const View& before,
+                              const View& now, double dt, ShotState& state);
 
 }  // namespace camdir::camera

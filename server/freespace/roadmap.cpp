@@ -51,7 +51,7 @@ RoadmapSearch::EntryVertices RoadmapSearch::entry_vertices(const Vec3f& point) c
 }
 
 // The entry vertices of a point are corners of one slab and so in one component.
-const RoadmapPath& RoadmapSearch::find(const Vec3f& from, const Vec3f& to) {
+const RoadmapPath& RoadmapSearch::find(const Vec3f& from, const Vec3f& to, const Space& space) {
     path_.found = false;
     path_.length = 0.0F;
     path_.vertices.clear();
@@ -64,7 +64,8 @@ const RoadmapPath& RoadmapSearch::find(const Vec3f& from, const Vec3f& to) {
     begin_round();
     const Goal bounds = goal_at(to, goal);
     for (const std::uint32_t vertex : start.span())
-        reach(vertex, none, (freespace_.vertices()[vertex].position() - from).norm(), bounds);
+        if (is_free(space, from, vertex))
+            reach(vertex, none, (freespace_.vertices()[vertex].position() - from).norm(), bounds);
     float best_length = std::numeric_limits<float>::infinity();
     std::uint32_t last = none;
     while (!open_.empty()) {
@@ -75,7 +76,7 @@ const RoadmapPath& RoadmapSearch::find(const Vec3f& from, const Vec3f& to) {
         labels_[vertex].closed = true;
         // No open vertex promises less than the best way to the goal yet.
         if (estimate >= best_length) break;
-        if (std::ranges::find(goal.span(), vertex) != goal.span().end()) {
+        if (std::ranges::find(goal.span(), vertex) != goal.span().end() && is_free(space, to, vertex)) {
             const float length =
                 labels_[vertex].cost + (freespace_.vertices()[vertex].position() - to).norm();
             if (length < best_length) {
@@ -83,7 +84,7 @@ const RoadmapPath& RoadmapSearch::find(const Vec3f& from, const Vec3f& to) {
                 last = vertex;
             }
         }
-        expand(vertex, bounds);
+        expand(vertex, bounds, space);
     }
     if (last != none) trace(last, best_length);
     return path_;
@@ -133,10 +134,16 @@ void RoadmapSearch::reach(std::uint32_t vertex, std::uint32_t parent, float cost
     std::push_heap(open_.begin(), open_.end(), later);
 }
 
-void RoadmapSearch::expand(std::uint32_t vertex, const Goal& goal) {
+void RoadmapSearch::expand(std::uint32_t vertex, const Goal& goal, const Space& space) {
     const float cost = labels_[vertex].cost;
+    const Vec3f position = freespace_.vertices()[vertex].position();
     for (const RoadmapGraph::Arc& arc : freespace_.roadmap().arcs(vertex))
-        reach(arc.to, vertex, cost + arc.length, goal);
+        if (is_free(space, position, arc.to)) reach(arc.to, vertex, cost + arc.length, goal);
+}
+
+bool RoadmapSearch::is_free(const Space& space, const Vec3f& point, std::uint32_t vertex) const {
+    return !space.has_movers() ||
+           space.mover_sweep(point, freespace_.vertices()[vertex].position(), 0.0F).clear;
 }
 
 void RoadmapSearch::trace(std::uint32_t last, float length) {

@@ -9,6 +9,7 @@
 
 #include "freespace/freespace.hpp"
 #include "freespace/roadmap_graph.hpp"
+#include "freespace/space.hpp"
 
 namespace camdir::freespace {
 
@@ -46,7 +47,12 @@ class RoadmapSearch {
 
     // The shortest path between two covered points; not found when one of them is not covered or the roadmap
     // does not join them. Ties are broken by vertex number. The result is valid until the next call.
-    [[nodiscard]] const RoadmapPath& find(const Vec3f& from, const Vec3f& to);
+    [[nodiscard]] const RoadmapPath& find(const Vec3f& from, const Vec3f& to) {
+        return find(from, to, Space(freespace_));
+    }
+    // The same over what the movers of the space, which is of the same map, leave of the roadmap and of the
+    // ways to it: over no line that goes through one.
+    [[nodiscard]] const RoadmapPath& find(const Vec3f& from, const Vec3f& to, const Space& space);
 
   private:
     struct Label {
@@ -80,7 +86,8 @@ class RoadmapSearch {
     [[nodiscard]] float least_rest(std::uint32_t vertex, const Goal& goal) const;
     void begin_round();
     void reach(std::uint32_t vertex, std::uint32_t parent, float cost, const Goal& goal);
-    void expand(std::uint32_t vertex, const Goal& goal);
+    void expand(std::uint32_t vertex, const Goal& goal, const Space& space);
+    [[nodiscard]] bool is_free(const Space& space, const Vec3f& point, std::uint32_t vertex) const;
     void trace(std::uint32_t last, float length);
 
     Freespace freespace_;

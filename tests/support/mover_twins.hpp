@@ -29,6 +29,11 @@ class PlacedMover {
     PlacedMover(const freespace::MoverShape& shape, const Vec3d& position,
                 const Eigen::Quaterniond& orientation);
 
+    void place(const Vec3d& position, const Eigen::Quaterniond& orientation) {
+        position_ = position;
+        orientation_ = orientation;
+    }
+
     [[nodiscard]] bool contains(const Vec3d& point) const;
     // 0 inside.
     [[nodiscard]] double distance(const Vec3d& point) const;

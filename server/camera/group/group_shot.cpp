@@ -6,10 +6,9 @@
 #include <cmath>
 
 #include "camera/cut.hpp"
+#include "camera/evade.hpp"
 #include "camera/group/framing.hpp"
 #include "camera/group/viewpoint.hpp"
-#include "freespace/distance.hpp"
-#include "freespace/visibility.hpp"
 
 namespace camdir::camera {
 namespace {
@@ -35,10 +34,10 @@ MemberSet without_the_last(MemberSet set) {
 // One step of one shot.
 class GroupStep {
   public:
-    GroupStep(const freespace::Freespace& freespace, const Profile& profile, const Members& members, float dt,
+    GroupStep(const freespace::Space& space, const Profile& profile, const Members& members, float dt,
               GroupState& state)
-        : freespace_(freespace),
-          profile_(profile, freespace.metadata().metres_per_unit),
+        : space_(space),
+          profile_(profile, space.map().metadata().metres_per_unit),
           members_(members),
           dt_(dt),
           state_(state) {}
@@ -51,10 +50,10 @@ class GroupStep {
             begin();
             state_.until_choice += choice_interval * static_cast<float>(state_.phase % phases) / phases;
         } else {
-            glide();
+            cuts = is_threatened() ? make_way() : (glide(), false);
             turn();
             judge();
-            cuts = state_.until_choice <= 0.0F && members_.now().living != 0 && choose();
+            cuts = cuts || (state_.until_choice <= 0.0F && members_.now().living != 0 && choose());
         }
         state_.side = side_of(members_.now(), state_.position);
         if (cuts) judge();
@@ -62,10 +61,13 @@ class GroupStep {
     }
 
     Camera without_members() {
-        if (state_.started || state_.waiting) return frame(target_absent | held);
+        if (state_.started || state_.waiting) {
+            const bool cuts = is_threatened() && make_way();
+            return frame(target_absent | held | (cuts ? std::uint32_t{cut} : 0U));
+        }
         state_.waiting = true;
-        if (!freespace_.spawn_points().empty()) {
-            const freespace::SpawnPoint& spawn = freespace_.spawn_points().front();
+        if (!space_.map().spawn_points().empty()) {
+            const freespace::SpawnPoint& spawn = space_.map().spawn_points().front();
             state_.position = spawn.eye;
             state_.look.yaw = spawn.yaw;
         }
@@ -82,7 +84,7 @@ class GroupStep {
             const auto extent = extent_of(state_.position, state_.look, eye.span());
             if (extent && extent->within(safe_area(profile_))) shown_ |= only(member);
         }
-        shown_ &= seen_from(freespace_, state_.position, now);
+        shown_ &= seen_from(space_, state_.position, now);
         const bool complete = shown_ == now.living;
         state_.incomplete_for = complete ? 0.0F : state_.incomplete_for + dt_;
         flags_ = now.living == 0 ? std::uint32_t{held}
@@ -96,7 +98,7 @@ class GroupStep {
         const bool complete = shown_ == members_.now().living;
         state_.until_choice = complete ? choice_interval : hurried_choice_interval;
         const Standpoint from = standpoint();
-        const ViewpointSearch search(freespace_, profile_, members_, all, from);
+        const ViewpointSearch search(space_, profile_, members_, all, from);
         const float staying = search.worth_of_staying(state_.goal, from.cut_in);
         const auto near = search.glide();
         const bool glides = near && near->worth > staying + worth_a_move;
@@ -118,7 +120,7 @@ class GroupStep {
         if (state_.since_cut < shortest_partial_shot || state_.incomplete_for < patience) return false;
         for (MemberSet set = without_the_last(members_.now().living); set > shown_;
              set = without_the_last(set))
-            if (const auto found = ViewpointSearch(freespace_, profile_, members_, set, standpoint()).cut()) {
+            if (const auto found = ViewpointSearch(space_, profile_, members_, set, standpoint()).cut()) {
                 cut_to(*found);
                 return true;
             }
@@ -132,7 +134,7 @@ class GroupStep {
     void begin() {
         state_.started = true;
         for (MemberSet set = members_.now().living; set != 0; set = without_the_last(set))
-            if (const auto found = ViewpointSearch(freespace_, profile_, members_, set, {}).cut())
+            if (const auto found = ViewpointSearch(space_, profile_, members_, set, {}).cut())
                 return cut_to(*found);
         land_at_the_most_important();
     }
@@ -142,13 +144,33 @@ class GroupStep {
         const Members::Instant& now = members_.now();
         const MemberSet some = now.living != 0 ? now.living : now.present;
         const std::size_t first = max_members - static_cast<std::size_t>(std::bit_width(some));
+        const Vec3f& eye = now.eyes[first];
+        const Vec3f place = landing_near(eye);
+        cut_to({place, look_along(eye - place, state_.look.yaw), now.living & only(first), 0.0F});
+    }
+
+    [[nodiscard]] Vec3f landing_near(const Vec3f& point) const {
         Pose pose;
-        pose.eye = now.eyes[first];
+        pose.eye = point;
         PlayerTrack track;
-        restart(freespace_, pose, track);
-        const Candidate place = landing(freespace_, profile_, track);
-        cut_to({place.position, look_along(pose.eye - place.position, state_.look.yaw),
-                members_.now().living & only(first), 0.0F});
+        restart(space_, pose, track);
+        return landing(space_, profile_, track).position;
+    }
+
+    [[nodiscard]] bool is_threatened() const {
+        return camera::is_threatened(space_, state_.position, gliding_clearance());
+    }
+
+    // For a mover. True when it cuts.
+    bool make_way() {
+        const auto place = evade(space_, state_.position, gliding_clearance(), profile_.step_limit);
+        if (!place && members_.now().present != 0) {
+            begin();
+            return true;
+        }
+        state_.position = state_.goal = place ? *place : landing_near(state_.position);
+        state_.velocity.setZero();
+        return !place;
     }
 
     void cut_to(const Viewpoint& viewpoint) {
@@ -187,7 +209,9 @@ class GroupStep {
 
     bool move_by(const Vec3f& velocity) {
         const Vec3f next = state_.position + velocity * dt_;
-        if (!freespace::sight(freespace_, state_.position, next, 0.5F * profile_.minimum_clearance).clear)
+        const float clearance = gliding_clearance();
+        if (!freespace::sight(space_.map(), state_.position, next, clearance).clear ||
+            !space_.lets_pass(state_.position, next) || room_soon(space_, next, clearance) < clearance)
             return false;
         state_.position = next;
         state_.velocity = velocity;
@@ -198,7 +222,7 @@ class GroupStep {
     // is seen and finds room.
     [[nodiscard]] MemberSet wanted_in_picture() const {
         const Members::Instant& now = members_.now();
-        const MemberSet seen = seen_from(freespace_, state_.position, now);
+        const MemberSet seen = seen_from(space_, state_.position, now);
         const MemberSet more = (state_.framed & now.living) | seen;
         if (seen == 0) return 0;
         if (look_at_all(state_.position, Eyes(now, more).span(), safe_area(profile_))) return more;
@@ -224,17 +248,19 @@ class GroupStep {
         state_.look = turned(state_.look, next, 1.0F, profile_.turn_limit * dt_);
     }
 
+    [[nodiscard]] float gliding_clearance() const { return 0.5F * profile_.minimum_clearance; }
+
     [[nodiscard]] Camera frame(std::uint32_t flags) const {
         Camera camera;
         camera.position = state_.position;
         camera.orientation = orientation_of(state_.look);
         camera.vertical_fov = profile_.vertical_fov;
-        camera.clearance = std::max(freespace::distance(freespace_, state_.position).value, 0.0F);
+        camera.clearance = std::max(freespace::distance(space_, state_.position).value, 0.0F);
         camera.flags = flags;
         return camera;
     }
 
-    const freespace::Freespace& freespace_;
+    const freespace::Space space_;
     const MapProfile profile_;
     const Members& members_;
     float dt_;
@@ -245,18 +271,19 @@ class GroupStep {
 
 }  // namespace
 
-Camera step(const freespace::Freespace& freespace, const Profile& profile, std::span<const Window> members,
+Camera step(const freespace::Space& space, const Profile& profile, std::span<const Window> members,
             double time, GroupState& state) {
     assert(members.size() <= max_members);
-    const Members known = members_at(freespace, members, time);
-    GroupStep one(freespace, profile, known, usable_frame(time - state.time), state);
+    const freespace::Space now = space.in_step(state.time, time);
+    const Members known = members_at(now, members, time);
+    GroupStep one(now, profile, known, usable_frame(time - state.time), state);
     state.time = time;
     return known.now().present != 0 ? one.with_members() : one.without_members();
 }
 
-bool go_on_from(const freespace::Freespace& freespace, const View& before, const View& now, double dt,
+bool go_on_from(const freespace::Space& space, const View& before, const View& now, double dt,
                 GroupState& state) {
-    if (!state.started || !freespace::distance(freespace, now.position).covered()) return false;
+    if (!state.started || !freespace::distance(space.at(state.time), now.position).covered()) return false;
     const float frame = usable_frame(dt);
     const Look look_before = look_along(before.orientation * Vec3f::UnitX(), state.look.yaw);
     state.look = look_along(now.orientation * Vec3f::UnitX(), look_before.yaw);

@@ -9,7 +9,7 @@
 #include "camera/profile.hpp"
 #include "camera/view.hpp"
 #include "camera/window.hpp"
-#include "freespace/freespace.hpp"
+#include "freespace/space.hpp"
 
 namespace camdir::camera {
 
@@ -45,11 +45,11 @@ struct GroupState {
 //
 // Flags: target_visible, all living members are in sight and in the picture; searching, not all of them;
 // held, nobody lives or is in sight; target_absent, no member has a pose.
-[[nodiscard]] Camera step(const freespace::Freespace& freespace, const Profile& profile,
+[[nodiscard]] Camera step(const freespace::Space& space, const Profile& profile,
                           std::span<const Window> members, double time, GroupState& state);
 
 // The same as go_on_from() of the tracker.
-[[nodiscard]] bool go_on_from(const freespace::Freespace& freespace, const View& before, const View& now,
-                              double dt, GroupState& state);
+[[nodiscard]] bool go_on_from(const freespace::Space& space, const View& before, const View& now, double dt,
+                              GroupState& state);
 
 }  // namespace camdir::camera

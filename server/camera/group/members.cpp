@@ -3,19 +3,17 @@
 #include <algorithm>
 #include <limits>
 
-#include "freespace/visibility.hpp"
-
 namespace camdir::camera {
 namespace {
 
 // Running fades: nobody is taken to run on for longer.
 constexpr float longest_run = 0.5F;  // s
 
-Vec3f foreseen(const freespace::Freespace& freespace, const Pose& pose, double ahead) {
+Vec3f foreseen(const freespace::Space& space, const Pose& pose, double ahead) {
     const Vec3f end = pose.eye + pose.velocity * std::min(static_cast<float>(ahead), longest_run);
     const float way = (end - pose.eye).norm();
     if (way < 1e-3F) return pose.eye;
-    const float free = freespace::sight(freespace, pose.eye, end).free_length;
+    const float free = freespace::sight(space, pose.eye, end).free_length;
     return pose.eye + (end - pose.eye) * (free / way);
 }
 
@@ -29,7 +27,7 @@ double known_until(std::span<const Window> windows) {
 
 }  // namespace
 
-Members members_at(const freespace::Freespace& freespace, std::span<const Window> windows, double time) {
+Members members_at(const freespace::Space& space, std::span<const Window> windows, double time) {
     Members members;
     const double until = known_until(windows);
     for (std::size_t i = 0; i < Members::instants.size(); ++i) {
@@ -46,7 +44,7 @@ Members members_at(const freespace::Freespace& freespace, std::span<const Window
             if (!pose->alive) continue;
             instant.living |= only(member);
             const double beyond = then - window.back().time;
-            if (beyond > 0.0) instant.eyes[member] = foreseen(freespace, *pose, beyond);
+            if (beyond > 0.0) instant.eyes[member] = foreseen(space.at(then), *pose, beyond);
         }
     }
     return members;

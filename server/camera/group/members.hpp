@@ -7,7 +7,7 @@
 #include <span>
 
 #include "camera/window.hpp"
-#include "freespace/freespace.hpp"
+#include "freespace/space.hpp"
 
 namespace camdir::camera {
 
@@ -60,7 +60,6 @@ class Eyes {
 
 // What the windows, of at most max_members, say of `time` and after; without a future the players are
 // taken to run on, as far as is free.
-[[nodiscard]] Members members_at(const freespace::Freespace& freespace, std::span<const Window> windows,
-                                 double time);
+[[nodiscard]] Members members_at(const freespace::Space& space, std::span<const Window> windows, double time);
 
 }  // namespace camdir::camera

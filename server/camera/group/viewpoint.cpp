@@ -4,8 +4,6 @@
 #include <bit>
 #include <cmath>
 
-#include "freespace/visibility.hpp"
-
 namespace camdir::camera {
 namespace {
 
@@ -43,28 +41,28 @@ float side_of(const Members::Instant& members, const Vec3f& position) {
     return line.cross(position - eyes.span()[0]).z();
 }
 
-MemberSet seen_from(const freespace::Freespace& freespace, const Vec3f& position,
-                    const Members::Instant& members) {
-    const freespace::SightOrigin origin(freespace, position, 0.0F);
+MemberSet seen_from(const freespace::Space& space, const Vec3f& position, const Members::Instant& members) {
+    const freespace::SightOrigin origin(space.map(), position, 0.0F);
     MemberSet seen = 0;
     for (std::size_t member = 0; member < max_members; ++member)
-        if ((members.living & only(member)) != 0 && origin.to(members.eyes[member]).clear)
+        if ((members.living & only(member)) != 0 && origin.to(members.eyes[member]).clear &&
+            space.mover_sweep(position, members.eyes[member], 0.0F).clear)
             seen |= only(member);
     return seen;
 }
 
 // Who dies or leaves meanwhile need not be seen then.
-ViewpointSearch::ViewpointSearch(const freespace::Freespace& freespace, const MapProfile& profile,
+ViewpointSearch::ViewpointSearch(const freespace::Space& space, const MapProfile& profile,
                                  const Members& members, MemberSet set, const Standpoint& from)
-    : freespace_(freespace), profile_(profile), members_(members), set_(set), from_(from) {
-    const freespace::Lookouts& lookouts = freespace.lookouts();
+    : space_(space), profile_(profile), members_(members), set_(set), from_(from) {
+    const freespace::Lookouts& lookouts = space.map().lookouts();
     const std::size_t known = members.known;
     freespace::Lookouts::Set any;
     for (std::size_t i = 0; i < known; ++i) {
         seeing_[i].set();
         const Eyes eyes(members.at[i], set);
         for (const Vec3f& eye : eyes.span())
-            seeing_[i] &= lookouts.seeing(freespace, eye);
+            seeing_[i] &= lookouts.seeing(space.map(), eye);
         any |= seeing_[i];
         weight_[i] = (i + 1 < known ? Members::instants[i + 1] - Members::instants[i] : time_after_the_known);
     }
@@ -87,7 +85,8 @@ ViewpointSearch::ViewpointSearch(const freespace::Freespace& freespace, const Ma
 ViewpointSearch::Shows ViewpointSearch::shows_from(std::uint32_t lookout) const {
     Shows shows = 0;
     for (std::size_t i = 0; i < members_.known; ++i)
-        if (seeing_[i].test(lookout) && fits(freespace_.lookouts().positions()[lookout], i)) shows |= 1U << i;
+        if (seeing_[i].test(lookout) && fits(space_.map().lookouts().positions()[lookout], i))
+            shows |= 1U << i;
     return shows;
 }
 
@@ -102,7 +101,11 @@ ViewpointSearch::Shows ViewpointSearch::shows_from(const Vec3f& position) const 
 bool ViewpointSearch::shows_at(const Vec3f& position, std::size_t instant) const {
     const MemberSet wanted = set_ & members_.at[instant].living;
     return fits(position, instant) &&
-           (seen_from(freespace_, position, members_.at[instant]) & wanted) == wanted;
+           (seen_from(at_instant(instant), position, members_.at[instant]) & wanted) == wanted;
+}
+
+freespace::Space ViewpointSearch::at_instant(std::size_t instant) const {
+    return space_.at(space_.time() + static_cast<double>(Members::instants[instant]));
 }
 
 // Whether the directions to the members are near enough to each other for one picture.
@@ -154,7 +157,7 @@ std::optional<Viewpoint> ViewpointSearch::find(Approach approach) const {
     for (std::size_t i = 0; i < std::min(count, most_looked_at) && timed < most_timed_sights; ++i) {
         const Hope& hope = hopes[i];
         if (best && hope.worth <= best->worth) break;
-        const Vec3f& position = freespace_.lookouts().positions()[hope.lookout];
+        const Vec3f& position = space_.map().lookouts().positions()[hope.lookout];
         const std::size_t first = first_shown(position, begins);
         if (first == members_.known || (approach == Approach::glide && !can_glide(position))) continue;
         ++timed;
@@ -178,7 +181,7 @@ float ViewpointSearch::shortest_stay(Approach approach) const {
 std::size_t ViewpointSearch::collect(Approach approach, Shows begins, Hopes& hopes) const {
     std::size_t count = 0;
     for (const auto& [lookout, shows, cost_of_cut] : std::span(candidates_).first(candidate_count_)) {
-        const Vec3f& position = freespace_.lookouts().positions()[lookout];
+        const Vec3f& position = space_.map().lookouts().positions()[lookout];
         const bool too_far =
             approach == Approach::glide && (position - from_.position).norm() > longest_glide * profile_.unit;
         if ((shows & begins) == 0 || too_far) continue;
@@ -202,9 +205,9 @@ std::size_t ViewpointSearch::first_shown(const Vec3f& position, Shows instants) 
 
 bool ViewpointSearch::can_glide(const Vec3f& position) const {
     const float radius = profile_.minimum_clearance;
-    if (!freespace::sight(freespace_, from_.position, position, radius).clear) return false;
+    if (!freespace::sight(space_, from_.position, position, radius).clear) return false;
     const Vec3f middle = (from_.position + position) / 2.0F;
-    return (seen_from(freespace_, middle, members_.now()) & set_) == set_;
+    return (seen_from(space_, middle, members_.now()) & set_) == set_;
 }
 
 float ViewpointSearch::picture_cost(const Vec3f& position) const {

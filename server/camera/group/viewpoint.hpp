@@ -7,8 +7,8 @@
 #include "camera/group/framing.hpp"
 #include "camera/group/members.hpp"
 #include "camera/profile.hpp"
-#include "freespace/freespace.hpp"
 #include "freespace/lookouts.hpp"
+#include "freespace/space.hpp"
 
 namespace camdir::camera {
 
@@ -38,7 +38,7 @@ inline constexpr float shortest_group_shot = 0.8F;
 [[nodiscard]] float side_of(const Members::Instant& members, const Vec3f& position);
 
 // The living members whose eyes a sight from `position` reaches.
-[[nodiscard]] MemberSet seen_from(const freespace::Freespace& freespace, const Vec3f& position,
+[[nodiscard]] MemberSet seen_from(const freespace::Space& space, const Vec3f& position,
                                   const Members::Instant& members);
 
 // The search for viewpoints of some of the members, among the lookouts that probably see them.
@@ -50,7 +50,7 @@ inline constexpr float shortest_group_shot = 0.8F;
 // part of a second each.
 class ViewpointSearch {
   public:
-    ViewpointSearch(const freespace::Freespace& freespace, const MapProfile& profile, const Members& members,
+    ViewpointSearch(const freespace::Space& space, const MapProfile& profile, const Members& members,
                     MemberSet set, const Standpoint& from);
 
     // Of staying at `position`.
@@ -79,6 +79,7 @@ class ViewpointSearch {
     [[nodiscard]] Shows shows_from(const Vec3f& position) const;
     [[nodiscard]] bool shows_at(const Vec3f& position, std::size_t instant) const;
     [[nodiscard]] bool fits(const Vec3f& position, std::size_t instant) const;
+    [[nodiscard]] freespace::Space at_instant(std::size_t instant) const;
     [[nodiscard]] float time_of(Shows shows, std::size_t first, std::size_t end) const;
     [[nodiscard]] float time_with_a_cut(Shows shows, float cut_in) const;
     [[nodiscard]] float picture_cost(const Vec3f& position) const;
@@ -90,7 +91,7 @@ class ViewpointSearch {
     [[nodiscard]] std::size_t first_shown(const Vec3f& position, Shows instants) const;
     [[nodiscard]] bool can_glide(const Vec3f& position) const;
 
-    const freespace::Freespace& freespace_;
+    const freespace::Space space_;
     const MapProfile& profile_;
     const Members& members_;
     MemberSet set_;
