@@ -29,6 +29,21 @@ struct Brush {
     Box3d bounds;
 };
 
+// Like Brush, with planes of its own.
+struct ConvexPart {
+    std::vector<Plane> planes;
+    Box3d bounds;
+};
+
+// A brush model that moves during the game: no obstacle of the scene. Its solid parts are where they are
+// before a position is added.
+struct Mover {
+    std::string name;               // "*3": the third brush model
+    std::string kind;               // the entity's class, at most 64 bytes
+    std::vector<ConvexPart> parts;  // at least one
+    Vec3d rest;                     // the position that the map gives the entity
+};
+
 struct SpawnPoint {
     Vec3d eye;         // where a spawned player's eye is
     double yaw = 0.0;  // radians, 0 looks along x, counter-clockwise seen from above
@@ -37,7 +52,7 @@ struct SpawnPoint {
 
 // Something the reader found in the source and skipped on purpose; `inspect` shows the reasons.
 struct Skipped {
-    std::string reason;       // liquid, not solid, mover: func_door, outside the world's box, ...
+    std::string reason;       // liquid, not solid, kept as a mover: func_door, outside the world's box, ...
     std::string what;         // the texture or shader, the class of spawn points; empty: all with this reason
     std::uint64_t count = 0;  // surfaces; spawn points where the reason says so
     double area = 0.0;        // of those surfaces, square map units
@@ -65,6 +80,8 @@ struct Scene {
     // Quake's and GoldSrc's trees.
     std::vector<Plane> planes;
     std::vector<Brush> brushes;
+
+    std::vector<Mover> movers;  // names are different; where the format knows volumes
 
     Box3d bounds;  // of the playable world; encloses `vertices` and `points`
     std::vector<SpawnPoint> spawn_points;

@@ -24,6 +24,11 @@ inline void check(const Result<scene::Scene>& scene) {
     for (const auto& brush : scene->brushes) {
         if (std::size_t{brush.first_plane} + brush.plane_count > scene->planes.size()) std::abort();
     }
+    for (const auto& mover : scene->movers) {
+        if (mover.parts.empty() || !mover.rest.allFinite()) std::abort();
+        for (const auto& part : mover.parts)
+            if (part.planes.empty() || part.bounds.isEmpty()) std::abort();
+    }
 }
 
 }  // namespace camdir::fuzz

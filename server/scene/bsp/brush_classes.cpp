@@ -27,7 +27,7 @@ constexpr std::array table = {
     BrushClasses{"func_pushable", yes, no, BrushUse::obstacle,
                  "a crate, taken where the map puts it"},
     BrushClasses{"func_button", no, yes, BrushUse::mover,
-                 "sinks into its wall when touched; skipped like every moving model of Quake 3"},
+                 "sinks into its wall when touched; a mover like every moving model of Quake 3"},
     BrushClasses{"func_door", yes, yes, BrushUse::mover,
                  "opens a way"},
     BrushClasses{"func_door_rotating func_door_secret func_door_nzp momentary_door", yes, no, BrushUse::mover,

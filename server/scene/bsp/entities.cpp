@@ -76,6 +76,12 @@ std::optional<Vec3d> three_numbers(std::string_view text) {
     return numbers;
 }
 
+// Of entities with the same model, one of a higher rank is taken as well.
+int rank_of(BrushUse use) {
+    if (use == BrushUse::obstacle) return 3;
+    return use == BrushUse::mover ? 2 : 1;
+}
+
 }  // namespace
 
 std::string_view Entity::value(std::string_view key) const {
@@ -124,8 +130,7 @@ Result<std::vector<Entity>> parse_entities(std::string_view text) {
 
 Result<std::vector<PlacedModel>> placed_models(const std::vector<Entity>& entities, std::size_t model_count,
                                                BspFamily family) {
-    enum class Use { none, skipped, obstacle };
-    std::vector<Use> uses(model_count, Use::none);
+    std::vector<int> ranks(model_count, 0);
     std::vector<PlacedModel> placed = {{0, "worldspawn", BrushUse::obstacle, Vec3d::Zero()}};
     for (const Entity& entity : entities) {
         const std::optional<std::size_t> model = entity.brush_model();
@@ -134,30 +139,35 @@ Result<std::vector<PlacedModel>> placed_models(const std::vector<Entity>& entiti
             "entity " + std::to_string(entity.number) + ": model *" + std::to_string(*model);
         if (*model >= model_count)
             return fail(who + " does not exist; expected a number below " + std::to_string(model_count));
-        Use& use = uses[*model];
         PlacedModel found{*model, entity.class_name(), brush_use(family, entity.class_name()), Vec3d::Zero()};
-        if (found.use != BrushUse::obstacle) {
-            if (use == Use::none) placed.push_back(found);
-            use = std::max(use, Use::skipped);
-            continue;
+        const int rank = rank_of(found.use);
+        int& highest = ranks[*model];
+        if (rank == highest && found.use == BrushUse::obstacle)
+            return fail(who + " belongs to another entity already");
+        if (rank <= highest) continue;
+        highest = rank;
+        if (found.use == BrushUse::obstacle || found.use == BrushUse::mover) {
+            const Result<Vec3d> origin = entity.origin();
+            if (!origin) return tl::unexpected(origin.error());
+            found.origin = *origin;
         }
-        if (use == Use::obstacle) return fail(who + " belongs to another entity already");
-        use = Use::obstacle;
-        const Result<Vec3d> origin = entity.origin();
-        if (!origin) return tl::unexpected(origin.error());
-        found.origin = *origin;
         placed.push_back(found);
     }
     return placed;
 }
 
-std::string skip_reason(const PlacedModel& placed) {
+std::string class_text(const PlacedModel& placed) {
     constexpr std::size_t max_class_bytes = 64;
     // A few bytes more than are kept, so that the last character is whole.
     const std::string class_name = to_utf8(placed.class_name.substr(0, max_class_bytes + 4));
-    return std::string(name_of(placed.use)) + ": " +
-           (class_name.empty() ? "without a name"
-                               : class_name.substr(0, utf8_prefix(class_name, max_class_bytes)));
+    return class_name.substr(0, utf8_prefix(class_name, max_class_bytes));
+}
+
+std::string skip_reason(const PlacedModel& placed, bool has_parts) {
+    const std::string class_name = class_text(placed);
+    std::string what(name_of(placed.use));
+    if (placed.use == BrushUse::mover) what = has_parts ? "kept as a mover" : "mover without a solid part";
+    return what + ": " + (class_name.empty() ? "without a name" : class_name);
 }
 
 bool is_spawn_point(std::string_view class_name) {

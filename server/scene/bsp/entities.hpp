@@ -45,13 +45,18 @@ struct PlacedModel {
     Vec3d origin;
 };
 
-// The world, then the models of all entities, each once. Fails when a model is not below `model_count`, or
-// when an obstacle has no valid origin or shares its model with another.
+// The world, then the models of all entities. A model that several entities have is there for the first of
+// them, and again for a mover where that is none and for an obstacle where none is. Fails when a model is not
+// below `model_count`, when an obstacle or a mover has no valid origin, or when obstacles share a model.
 [[nodiscard]] Result<std::vector<PlacedModel>> placed_models(const std::vector<Entity>& entities,
                                                              std::size_t model_count, BspFamily family);
 
-// Why a model that is no obstacle is skipped: "mover: func_door". Valid UTF-8, and short whatever the class.
-[[nodiscard]] std::string skip_reason(const PlacedModel& placed);
+// The class as valid UTF-8 of at most 64 bytes.
+[[nodiscard]] std::string class_text(const PlacedModel& placed);
+
+// Why a model that is no obstacle is skipped: "no obstacle: trigger_once". With `has_parts` a mover is kept
+// as such.
+[[nodiscard]] std::string skip_reason(const PlacedModel& placed, bool has_parts);
 
 // Players appear here: deathmatch, single player, cooperative and team spawn points.
 [[nodiscard]] bool is_spawn_point(std::string_view class_name);

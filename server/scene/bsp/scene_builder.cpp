@@ -52,6 +52,11 @@ bool SceneBuilder::add_volume(const Solid& solid) {
     return true;
 }
 
+void SceneBuilder::add_mover(const PlacedModel& placed, std::vector<ConvexPart> parts) {
+    scene_.movers.push_back(
+        {"*" + std::to_string(placed.model), class_text(placed), std::move(parts), placed.origin});
+}
+
 void SceneBuilder::skip(const std::string& reason, std::string_view what, double area, std::uint64_t count) {
     Skipped& entry = skipped_[{reason, std::string(what)}];
     entry.count += count;

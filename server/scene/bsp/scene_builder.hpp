@@ -37,9 +37,10 @@ class SceneBuilder {
     // The volume of an obstacle, without its surface. False, and counted, when it lies outside the world.
     bool add_volume(const Solid& solid);
 
-    void skip(const std::string& reason, std::string_view what, double area, std::uint64_t count = 1);
+    // What is solid of it, at least one part, before `placed.origin` is added.
+    void add_mover(const PlacedModel& placed, std::vector<ConvexPart> parts);
 
-    [[nodiscard]] std::size_t plane_count() const { return scene_.planes.size(); }
+    void skip(const std::string& reason, std::string_view what, double area, std::uint64_t count = 1);
 
   private:
     [[nodiscard]] Result<void> add_spawn_points(const std::vector<Entity>& entities, int eye_height);

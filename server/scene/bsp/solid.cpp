@@ -1,5 +1,6 @@
 #include "scene/bsp/solid.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <limits>
 #include <utility>
@@ -80,6 +81,17 @@ Solid clip(const Solid& solid, const Plane& plane) {
     }
     add_side(behind, plane, std::move(section));
     return behind;
+}
+
+ConvexPart convex_part(const Solid& solid) {
+    ConvexPart part{{}, solid.bounds};
+    for (const SolidFace& face : solid.faces) {
+        double distance = -std::numeric_limits<double>::infinity();
+        for (const Vec3d& corner : face.polygon)
+            distance = std::max(distance, face.normal.dot(corner));
+        part.planes.push_back({face.normal, distance});
+    }
+    return part;
 }
 
 double area(const Polygon& polygon) {

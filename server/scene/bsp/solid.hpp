@@ -28,6 +28,9 @@ struct Solid {
 // result has the same property, and no planes when nothing is left.
 [[nodiscard]] Solid clip(const Solid& solid, const Plane& plane);
 
+// Its half spaces, of its faces alone. There must be some.
+[[nodiscard]] ConvexPart convex_part(const Solid& solid);
+
 [[nodiscard]] double area(const Polygon& polygon);
 
 }  // namespace camdir::scene

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
+#include <functional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "scene/bsp/lumps.hpp"
@@ -57,7 +60,12 @@ class QuakeReader {
   private:
     [[nodiscard]] Result<void> add_model(std::size_t number, const Vec3d& translation);
     [[nodiscard]] Result<void> add_volumes(const quake::Model& model, const Vec3d& translation);
-    void skip_model(const PlacedModel& placed);
+    // Each solid leaf of the model as a volume. Fails when all volumes have too many planes.
+    [[nodiscard]] Result<void> for_each_volume(const quake::Model& model,
+                                               const std::function<Result<void>(const Solid&)>& visit);
+    [[nodiscard]] Result<void> skip_model(const PlacedModel& placed);
+    // What is solid of a mover.
+    [[nodiscard]] Result<std::vector<ConvexPart>> parts_of(const PlacedModel& placed);
     // Behind the face lies a solid leaf of its model.
     [[nodiscard]] bool closes_solid(const quake::Model& model, const quake::Face& face,
                                     const Polygon& polygon) const;
@@ -69,16 +77,15 @@ class QuakeReader {
     const quake::Bsp& bsp_;
     quake::Tree tree_;
     SceneBuilder builder_;
+    std::size_t volume_planes_ = 0;
 };
 
 Result<Scene> QuakeReader::read() {
     const int eye_height = bsp_.version == quake::version_quake ? eye_height_quake : eye_height_goldsrc;
     return builder_.build(bsp_.entities, bsp_.models.size(), BspFamily::quake, eye_height,
                           [&](const PlacedModel& placed) -> Result<void> {
-                              if (placed.use == BrushUse::obstacle)
-                                  return add_model(placed.model, placed.origin);
-                              skip_model(placed);
-                              return {};
+                              return placed.use == BrushUse::obstacle ? add_model(placed.model, placed.origin)
+                                                                      : skip_model(placed);
                           });
 }
 
@@ -106,12 +113,9 @@ Result<void> QuakeReader::add_model(std::size_t number, const Vec3d& translation
 }
 
 Result<void> QuakeReader::add_volumes(const quake::Model& model, const Vec3d& translation) {
-    Box3d box = to_box(model.mins, model.maxs);
-    box.min() -= Vec3d::Ones();
-    box.max() += Vec3d::Ones();
     const std::int32_t root = model.head_nodes[0];
     const auto add_part = [&](const Polygon& part) { builder_.add_surface(translated(part, translation)); };
-    return tree_.for_each_solid_leaf(root, box, [&](const Solid& leaf) -> Result<void> {
+    return for_each_volume(model, [&](const Solid& leaf) -> Result<void> {
         for (const SolidFace& face : leaf.faces) {
             const Result<void> added = tree_.for_each_open_part(root, face, add_part);
             if (!added) return added;
@@ -121,17 +125,50 @@ Result<void> QuakeReader::add_volumes(const quake::Model& model, const Vec3d& tr
         for (Plane& plane : moved.planes)
             plane.distance += plane.normal.dot(translation);
         builder_.add_volume(moved);
-        if (builder_.plane_count() <= bsp_.max_volume_planes()) return {};
+        return {};
+    });
+}
+
+Result<void> QuakeReader::for_each_volume(const quake::Model& model,
+                                          const std::function<Result<void>(const Solid&)>& visit) {
+    Box3d box = to_box(model.mins, model.maxs);
+    box.min() -= Vec3d::Ones();
+    box.max() += Vec3d::Ones();
+    return tree_.for_each_solid_leaf(model.head_nodes[0], box, [&](const Solid& leaf) -> Result<void> {
+        volume_planes_ += leaf.planes.size();
+        if (volume_planes_ <= bsp_.max_volume_planes()) return visit(leaf);
         return fail("lump 5 (nodes): the solid leaves have more than " +
                     std::to_string(bsp_.max_volume_planes()) +
                     " planes, which is the limit for a file of this size");
     });
 }
 
-void QuakeReader::skip_model(const PlacedModel& placed) {
-    const std::string reason = skip_reason(placed);
+Result<void> QuakeReader::skip_model(const PlacedModel& placed) {
+    Result<std::vector<ConvexPart>> parts = parts_of(placed);
+    if (!parts) return tl::unexpected(parts.error());
+    const std::string reason = skip_reason(placed, !parts->empty());
+    if (!parts->empty()) builder_.add_mover(placed, std::move(*parts));
     for (const quake::Face& face : faces_of(bsp_.models[placed.model]))
         builder_.skip(reason, "", area(polygon_of(face)));
+    return {};
+}
+
+// As of an obstacle: nothing where all faces are liquid or of tool textures.
+Result<std::vector<ConvexPart>> QuakeReader::parts_of(const PlacedModel& placed) {
+    std::vector<ConvexPart> parts;
+    const quake::Model& model = bsp_.models[placed.model];
+    const auto faces = faces_of(model);
+    const bool has_body = std::any_of(faces.begin(), faces.end(), [&](const quake::Face& face) {
+        const std::string texture = lower_case(std::string(texture_of(face)));
+        return !is_liquid(texture) && !is_tool(texture);
+    });
+    if (placed.use != BrushUse::mover || !has_body) return parts;
+    const Result<void> visited = for_each_volume(model, [&](const Solid& leaf) -> Result<void> {
+        parts.push_back(convex_part(leaf));
+        return {};
+    });
+    if (!visited) return tl::unexpected(visited.error());
+    return parts;
 }
 
 bool QuakeReader::closes_solid(const quake::Model& model, const quake::Face& face,

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cstring>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "scene/bsp/lumps.hpp"
@@ -66,9 +68,14 @@ class Quake3Reader {
 
   private:
     [[nodiscard]] Result<void> add_model(const PlacedModel& placed);
-    void add_brush(const q3::Brush& brush, const PlacedModel& placed);
-    [[nodiscard]] Result<void> add_face(const q3::Face& face, const PlacedModel& placed);
+    // True when the model is a mover with a solid part.
+    [[nodiscard]] bool keep_mover(const PlacedModel& placed);
+    // With a reason, why all of the model is no obstacle.
+    void add_brush(const q3::Brush& brush, const PlacedModel& placed, const std::string& reason);
+    [[nodiscard]] Result<void> add_face(const q3::Face& face, const PlacedModel& placed,
+                                        const std::string& reason);
     [[nodiscard]] Result<std::vector<Polygon>> triangles_of(const q3::Face& face);
+    [[nodiscard]] std::span<const q3::Brush> brushes_of(const PlacedModel& placed) const;
     [[nodiscard]] const q3::Shader& shader(std::int32_t number) const {
         return bsp_.shaders[static_cast<std::size_t>(number)];
     }
@@ -85,18 +92,32 @@ Result<Scene> Quake3Reader::read() {
 }
 
 Result<void> Quake3Reader::add_model(const PlacedModel& placed) {
+    const std::string reason =
+        placed.use == BrushUse::obstacle ? std::string() : skip_reason(placed, keep_mover(placed));
+    for (const q3::Brush& brush : brushes_of(placed))
+        add_brush(brush, placed, reason);
     const q3::Model& model = bsp_.models[placed.model];
-    for (std::int32_t i = 0; i < model.brush_count; ++i) {
-        add_brush(bsp_.brushes[static_cast<std::size_t>(model.first_brush + i)], placed);
-    }
     for (std::int32_t i = 0; i < model.face_count; ++i) {
         const q3::Face& face = bsp_.faces[static_cast<std::size_t>(model.first_face + i)];
-        if (const Result<void> added = add_face(face, placed); !added) return added;
+        if (const Result<void> added = add_face(face, placed, reason); !added) return added;
     }
     return {};
 }
 
-void Quake3Reader::add_brush(const q3::Brush& brush, const PlacedModel& placed) {
+bool Quake3Reader::keep_mover(const PlacedModel& placed) {
+    if (placed.use != BrushUse::mover) return false;
+    std::vector<ConvexPart> parts;
+    for (const q3::Brush& brush : brushes_of(placed)) {
+        if (!is_obstacle(shader(brush.shader))) continue;
+        const Solid solid = make_solid(planes_of(bsp_, brush, Vec3d::Zero()));
+        if (!solid.faces.empty()) parts.push_back(convex_part(solid));
+    }
+    if (parts.empty()) return false;
+    builder_.add_mover(placed, std::move(parts));
+    return true;
+}
+
+void Quake3Reader::add_brush(const q3::Brush& brush, const PlacedModel& placed, const std::string& reason) {
     const q3::Shader& kind = shader(brush.shader);
     const Solid solid = make_solid(planes_of(bsp_, brush, placed.origin));
     if (!is_obstacle(kind)) {
@@ -104,9 +125,9 @@ void Quake3Reader::add_brush(const q3::Brush& brush, const PlacedModel& placed) 
             builder_.skip(why_no_obstacle(kind), name_of(kind), area(face.polygon));
         return;
     }
-    if (placed.use != BrushUse::obstacle) {
+    if (!reason.empty()) {
         for (const SolidFace& face : solid.faces)
-            builder_.skip(skip_reason(placed), "", area(face.polygon));
+            builder_.skip(reason, "", area(face.polygon));
         return;
     }
     if (solid.faces.empty()) return builder_.skip("brush without volume", name_of(kind), 0.0);
@@ -119,7 +140,8 @@ void Quake3Reader::add_brush(const q3::Brush& brush, const PlacedModel& placed) 
     }
 }
 
-Result<void> Quake3Reader::add_face(const q3::Face& face, const PlacedModel& placed) {
+Result<void> Quake3Reader::add_face(const q3::Face& face, const PlacedModel& placed,
+                                    const std::string& reason) {
     const Result<std::vector<Polygon>> triangles = triangles_of(face);
     if (!triangles) return tl::unexpected(triangles.error());
     const q3::Shader& kind = shader(face.shader);
@@ -128,12 +150,18 @@ Result<void> Quake3Reader::add_face(const q3::Face& face, const PlacedModel& pla
             corner += placed.origin;
         if (!is_obstacle(kind))
             builder_.skip(why_no_obstacle(kind), name_of(kind), area(triangle));
-        else if (placed.use != BrushUse::obstacle)
-            builder_.skip(skip_reason(placed), "", area(triangle));
+        else if (!reason.empty())
+            builder_.skip(reason, "", area(triangle));
         else
             builder_.add_surface(triangle);
     }
     return {};
+}
+
+std::span<const q3::Brush> Quake3Reader::brushes_of(const PlacedModel& placed) const {
+    const q3::Model& model = bsp_.models[placed.model];
+    return std::span(bsp_.brushes)
+        .subspan(static_cast<std::size_t>(model.first_brush), static_cast<std::size_t>(model.brush_count));
 }
 
 // None for brush faces, which the brushes give, and for flares.

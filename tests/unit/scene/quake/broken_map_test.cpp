@@ -103,7 +103,10 @@ INSTANTIATE_TEST_SUITE_P(
                "belongs to another entity"},
         Damage{"EntityOrigin",
                [](quake::Bsp& b) { b.entities += R"({"classname" "info_player_start" "origin" "1 nan 3"})"; },
-               "origin '1 nan 3': expected three numbers"}),
+               "origin '1 nan 3': expected three numbers"},
+        Damage{"MoverOrigin",
+               [](quake::Bsp& b) { b.entities = R"({"classname" "func_door" "model" "*1" "origin" "4 x"})"; },
+               "origin '4 x': expected three numbers"}),
     [](const auto& test) { return test.param.name; });
 
 TEST(BrokenQuakeMap, OtherVersionsAreNamed) {

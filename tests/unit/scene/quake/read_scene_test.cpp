@@ -93,14 +93,53 @@ TEST_P(QuakeScene, OtherEntitiesAreSkippedByClass) {
     const Scene scene = test::scene_of(map);
     EXPECT_NEAR(area_of(scene), surface_of(hall), 1e-6);
     EXPECT_LT(depth_in_solid(scene, crate.center()), 0.0);
-    EXPECT_THAT(
-        skipped_counts(scene),
-        testing::UnorderedElementsAre(
-            testing::Pair("mover: func_door", 6), testing::Pair("mover: func_rotating", 6),
-            testing::Pair("mover: func_wall_toggle", 6), testing::Pair("no obstacle: func_illusionary", 6),
-            testing::Pair("no obstacle: func_detail_illusionary", 6),
-            testing::Pair("no obstacle: trigger_once", 6), testing::Pair("unknown class: func_of_a_mod", 6)));
-    EXPECT_NEAR(test::skipped_areas(scene)["mover: func_door"], surface_of(crate), 1e-3);
+    EXPECT_THAT(skipped_counts(scene),
+                testing::UnorderedElementsAre(testing::Pair("kept as a mover: func_door", 6),
+                                              testing::Pair("kept as a mover: func_rotating", 6),
+                                              testing::Pair("kept as a mover: func_wall_toggle", 6),
+                                              testing::Pair("no obstacle: func_illusionary", 6),
+                                              testing::Pair("no obstacle: func_detail_illusionary", 6),
+                                              testing::Pair("no obstacle: trigger_once", 6),
+                                              testing::Pair("unknown class: func_of_a_mod", 6)));
+    EXPECT_NEAR(test::skipped_areas(scene)["kept as a mover: func_door"], surface_of(crate), 1e-3);
+}
+
+TEST_P(QuakeScene, MoversAreTheirSolidLeavesInTheirOwnFrame) {
+    const Vec3d origin(64.0, -32.0, 100.0);
+    const Box3d shelf(Vec3d(-64.0, 0.0, 0.0), Vec3d(-32.0, 32.0, 8.0));
+    QuakeMap map = room();
+    map.entities = {{"func_door", origin, {{crate}, {shelf}}},
+                    {"func_wall", Vec3d(150.0, 0.0, 0.0), {{crate}}}};
+    const Scene scene = test::scene_of(map);
+    ASSERT_EQ(scene.movers.size(), 1U);
+    const Mover& door = scene.movers[0];
+    EXPECT_EQ(door.name, "*1");
+    EXPECT_EQ(door.kind, "func_door");
+    EXPECT_EQ(door.rest, origin);
+    const auto is_solid_at = [&](const Vec3d& point) {
+        return std::any_of(door.parts.begin(), door.parts.end(), [&](const ConvexPart& part) {
+            return part.bounds.contains(point) &&
+                   std::all_of(part.planes.begin(), part.planes.end(),
+                               [&](const Plane& plane) { return plane.normal.dot(point) <= plane.distance; });
+        });
+    };
+    for (const Box3d& box : {crate, shelf}) {
+        EXPECT_TRUE(is_solid_at(box.center()));
+        EXPECT_TRUE(is_solid_at(box.min() + Vec3d::Constant(0.1)));
+        EXPECT_TRUE(is_solid_at(box.max() - Vec3d::Constant(0.1)));
+        EXPECT_FALSE(is_solid_at(box.max() + Vec3d::Constant(0.1)));
+    }
+    EXPECT_FALSE(is_solid_at((crate.center() + shelf.center()) / 2.0));
+}
+
+TEST_P(QuakeScene, MoversWithoutASolidPartAreSkippedByClass) {
+    QuakeMap map = room();
+    map.entities = {{"func_door", Vec3d::Zero(), {{crate, "trigger"}}},
+                    {"func_plat", Vec3d::Zero(), {{crate, "!water", quake::Contents(-3)}}}};
+    const Scene scene = test::scene_of(map);
+    EXPECT_TRUE(scene.movers.empty());
+    EXPECT_EQ(skipped_counts(scene)["mover without a solid part: func_door"], 6U);
+    EXPECT_EQ(skipped_counts(scene)["mover without a solid part: func_plat"], 6U);
 }
 
 TEST_P(QuakeScene, ClassNamesFromTheFileAreReportedAsShortText) {

@@ -97,7 +97,10 @@ INSTANTIATE_TEST_SUITE_P(
                "belongs to another entity"},
         Damage{"EntityOrigin",
                [](q3::Bsp& b) { b.entities += R"({"classname" "info_player_start" "origin" "1 nan 3"})"; },
-               "origin '1 nan 3': expected three numbers"}),
+               "origin '1 nan 3': expected three numbers"},
+        Damage{"MoverOrigin",
+               [](q3::Bsp& b) { b.entities = R"({"classname" "func_door" "model" "*1" "origin" "4 x"})"; },
+               "origin '4 x': expected three numbers"}),
     [](const auto& test) { return test.param.name; });
 
 TEST(BrokenMap, OtherVersionsAreNamed) {

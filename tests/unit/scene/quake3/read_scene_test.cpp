@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
 #include "support/oracle_twins.hpp"
@@ -58,11 +59,11 @@ TEST(Q3Scene, SkippedIsCounted) {
     const auto counts = skipped_counts(scene);
     EXPECT_THAT(counts, testing::IsSupersetOf({testing::Pair("clip: test/clip", 6),
                                                testing::Pair("liquid: test/water", 6),
-                                               testing::Pair("mover: func_door", 6)}));
+                                               testing::Pair("kept as a mover: func_door", 6)}));
     EXPECT_GE(counts.at("not solid: test/ghost"), 2U) << "the soup and the patch";
     const auto areas = test::skipped_areas(scene);
     EXPECT_NEAR(areas.at("liquid: test/water"), surface_of(crate), 1e-6);
-    EXPECT_NEAR(areas.at("mover: func_door"), surface_of(crate), 1e-6);
+    EXPECT_NEAR(areas.at("kept as a mover: func_door"), surface_of(crate), 1e-6);
     EXPECT_NEAR(areas.at("not solid: test/ghost"), 40.5, 1e-6);
     EXPECT_NEAR(area_of(scene), surface_of(hall), 1e-6);
 }
@@ -88,10 +89,63 @@ TEST(Q3Scene, OtherModelsAreSkippedByClass) {
     const Scene scene = test::scene_of(bsp);
     EXPECT_NEAR(area_of(scene), surface_of(hall), 1e-6);
     EXPECT_THAT(skipped_counts(scene),
-                testing::IsSupersetOf({testing::Pair("mover: func_button", 6),
-                                       testing::Pair("mover: func_bobbing", 6),
+                testing::IsSupersetOf({testing::Pair("kept as a mover: func_button", 6),
+                                       testing::Pair("kept as a mover: func_bobbing", 6),
                                        testing::Pair("unknown class: func_of_a_mod", 6),
                                        testing::Pair("unknown class: without a name", 6)}));
+}
+
+TEST(Q3Scene, MoversAreTheirSolidBrushesInTheirOwnFrame) {
+    q3::Bsp bsp = test::room_map(hall);
+    test::add_entity_model(bsp, "func_static", Vec3d::Zero());
+    test::add_box(bsp, crate, test::stone);
+    const Vec3d origin(64.0, -32.0, 100.0);
+    test::add_entity_model(bsp, "func_door", origin);
+    test::add_box(bsp, crate, test::stone);
+    test::add_box(bsp, crate, test::clip);
+    // A wedge, one side of which no other leaves a part of.
+    const double s = std::sqrt(0.5);
+    test::add_brush(bsp,
+                    {{{0, 0, 1}, 8},
+                     {{0, 0, -1}, 0},
+                     {{0, -1, 0}, 0},
+                     {{-1, 0, 0}, 0},
+                     {{s, s, 0}, s * 8},
+                     {{1, 0, 0}, 90}},
+                    test::stone);
+    test::add_entity_model(bsp, "func_plat", Vec3d::Zero());
+    test::add_box(bsp, crate, test::water);
+    const Scene scene = test::scene_of(bsp);
+    ASSERT_EQ(scene.movers.size(), 1U);
+    const Mover& door = scene.movers[0];
+    EXPECT_EQ(door.name, "*2");
+    EXPECT_EQ(door.kind, "func_door");
+    EXPECT_EQ(door.rest, origin);
+    ASSERT_EQ(door.parts.size(), 2U) << "clip is not solid";
+    EXPECT_EQ(door.parts[0].planes.size(), 6U);
+    EXPECT_TRUE(door.parts[0].bounds.isApprox(crate));
+    EXPECT_EQ(door.parts[1].planes.size(), 5U);
+    EXPECT_TRUE(door.parts[1].bounds.isApprox(Box3d(Vec3d::Zero(), Vec3d(8.0, 8.0, 8.0)), 1e-5));
+    EXPECT_FALSE(has_surface_at(scene, Vec3d(32.0, 32.0, 64.0) + origin));
+}
+
+TEST(Q3Scene, MoversWithoutASolidPartAreSkippedByClass) {
+    q3::Bsp bsp = test::room_map(hall);
+    test::add_entity_model(bsp, "func_door", Vec3d::Zero());
+    test::add_soup(bsp, {{0, 0, 9}, {9, 0, 9}, {0, 9, 9}}, test::stone);
+    const Scene scene = test::scene_of(bsp);
+    EXPECT_TRUE(scene.movers.empty());
+    EXPECT_EQ(skipped_counts(scene)["mover without a solid part: func_door"], 1U);
+}
+
+TEST(Q3Scene, AModelOfSeveralEntitiesIsOneMover) {
+    q3::Bsp bsp = test::room_map(hall);
+    bsp.entities += R"({"classname" "trigger_once" "model" "*1"} {"classname" "func_plat" "model" "*1"})";
+    test::add_entity_model(bsp, "func_door", Vec3d::Ones());
+    test::add_box(bsp, crate, test::stone);
+    const Scene scene = test::scene_of(bsp);
+    ASSERT_EQ(scene.movers.size(), 1U);
+    EXPECT_EQ(scene.movers[0].kind, "func_plat");
 }
 
 TEST(Q3Scene, PatchesAndSoupsAreObstacles) {
