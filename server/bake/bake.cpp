@@ -19,7 +19,7 @@ namespace {
 using Run = Result<void> (Pipeline::*)(Stage&);
 using NamedStage = std::pair<const char*, Run>;
 
-constexpr std::array<NamedStage, 14> of_surfaces{{
+constexpr std::array<NamedStage, 15> of_surfaces{{
     {"medial axis", &Pipeline::medial_axis},
     {"forecast", &Pipeline::forecast},
     {"sample", &Pipeline::sample},
@@ -34,6 +34,7 @@ constexpr std::array<NamedStage, 14> of_surfaces{{
     {"reduce", &Pipeline::reduce},
     {"pack", &Pipeline::pack},
     {"recertify", &Pipeline::recertify},
+    {"movers", &Pipeline::movers},
 }};
 
 // Points are their own samples, and nothing crosses a point. What is connected depends on the free distances.

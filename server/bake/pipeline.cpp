@@ -9,6 +9,7 @@
 #include "bake/forecast.hpp"
 #include "bake/inside.hpp"
 #include "bake/medial_axis.hpp"
+#include "bake/movers.hpp"
 #include "bake/pack.hpp"
 #include "bake/recertify.hpp"
 #include "bake/reduce.hpp"
@@ -165,6 +166,11 @@ Result<void> Pipeline::pack(Stage& stage) {
 
 Result<void> Pipeline::recertify(Stage& stage) {
     return bake::recertify(contents_, obstacles_, offset_radius(), 0.001 * unit_, scene_.source, stage);
+}
+
+Result<void> Pipeline::movers(Stage& stage) {
+    contents_.movers = mover_shapes(scene_, stage);
+    return {};
 }
 
 }  // namespace camdir::bake

@@ -319,7 +319,7 @@ TEST(Bake, ReportsEveryStageAndItsProgress) {
     EXPECT_EQ(shown, finished);
     EXPECT_THAT(finished, testing::ElementsAre("medial axis", "forecast", "sample", "weld", "delaunay",
                                                "voronoi", "triangulate", "clearance", "crossing", "inside",
-                                               "certify", "reduce", "pack", "recertify"));
+                                               "certify", "reduce", "pack", "recertify", "movers"));
     const auto& counts = result->contents.metadata.counts;
     const auto covered_spawns = std::find_if(counts.begin(), counts.end(), [](const freespace::Count& count) {
         return count.stage == "pack" && count.what == "covered spawn points";
