@@ -14,6 +14,8 @@ struct CameraSample {
     Vec3d position = Vec3d::Zero();
     Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  // x forward, y left, z up
     bool cut = false;  // a declared jump: not continuous with the sample before
+    // The camera does not call its target hidden. In no table: cameras that are read claim it always.
+    bool claims_sight = true;
 };
 
 // cameras[i] follows the player of trace.poses[i], at that frame's time.

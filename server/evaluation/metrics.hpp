@@ -11,6 +11,7 @@
 #include <stop_token>
 
 #include "evaluation/judgement.hpp"
+#include "evaluation/mover_figures.hpp"
 
 namespace camdir::evaluation {
 
@@ -54,9 +55,11 @@ struct Metrics {
     double cuts_at_events = unmeasured;  // declared, up to 100 ms after a respawn or teleport, a minute
 
     std::optional<double> kill_in_view;  // % of the followed players' kills: kill_in_view(); none: not asked
+    std::optional<MoverFigures>
+        movers;  // judge_movers(); none: not asked. The rest is of the map without them
 };
 
-// All but kill_in_view, of any set of judgements: all players together, or some.
+// All but kill_in_view and movers, of any set of judgements: all players together, or some.
 [[nodiscard]] Metrics summarise(std::span<const Judgement> judgements);
 
 // The same of the cameras of a trace, as judge(). Explores the scene first, with `progress`; fails as

@@ -41,7 +41,8 @@ camera::Window KnownPoses::at(double time) {
 }
 
 CameraSample sampled(const camera::Camera& camera, bool cut) {
-    return {camera.position.cast<double>(), camera.orientation.cast<double>().normalized(), cut};
+    return {camera.position.cast<double>(), camera.orientation.cast<double>().normalized(), cut,
+            (camera.flags & camera::target_visible) != 0};
 }
 
 double cpu_nanoseconds() {
