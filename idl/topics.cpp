@@ -40,6 +40,10 @@ const std::array<Contract, topic_count> contracts = {{
      1, 0, DDS_LIVELINESS_AUTOMATIC, forever, DDS_OWNERSHIP_EXCLUSIVE},
     {"DirectorSign", &camera_director_DirectorSign_desc, DDS_RELIABILITY_RELIABLE,
      DDS_DURABILITY_TRANSIENT_LOCAL, 1, 0, DDS_LIVELINESS_AUTOMATIC, forever, DDS_OWNERSHIP_SHARED},
+    {"MoverInfo", &camera_director_MoverInfo_desc, DDS_RELIABILITY_RELIABLE, DDS_DURABILITY_TRANSIENT_LOCAL,
+     1, 0, DDS_LIVELINESS_AUTOMATIC, forever, DDS_OWNERSHIP_SHARED},
+    {"MoverFrame", &camera_director_MoverFrame_desc, DDS_RELIABILITY_RELIABLE, DDS_DURABILITY_TRANSIENT_LOCAL,
+     1, 0, DDS_LIVELINESS_AUTOMATIC, forever, DDS_OWNERSHIP_SHARED},
 }};
 
 const Contract& contract(Topic topic) {

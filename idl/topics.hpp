@@ -1,4 +1,4 @@
-// The eight topics' names, types and QoS as camera_director.idl documents them, for the server and the client
+// The ten topics' names, types and QoS as camera_director.idl documents them, for the server and the client
 // library.
 #pragma once
 
@@ -19,8 +19,10 @@ enum class Topic : std::size_t {
     observer_status,
     shown_match,
     director_sign,
+    mover_info,
+    mover_frame,
 };
-inline constexpr std::size_t topic_count = 8;
+inline constexpr std::size_t topic_count = 10;
 
 [[nodiscard]] const char* topic_name(Topic topic);
 [[nodiscard]] const dds_topic_descriptor_t& topic_type(Topic topic);

@@ -126,7 +126,7 @@ XML
 # What a role writes and reads: idl/camera_director.idl says who of a match does.
 published_by() {
     case "$1" in
-        game-server) echo MatchInfo PoseFrame MatchEvent ;;
+        game-server) echo MatchInfo PoseFrame MatchEvent MoverInfo MoverFrame ;;
         director) echo ShownMatch CameraFrame ObserverStatus DirectorSign ;;
         observer) echo ObserverRequest ;;
     esac
@@ -134,7 +134,7 @@ published_by() {
 subscribed_by() {
     case "$1" in
         game-server) ;;
-        director) echo MatchInfo PoseFrame MatchEvent ObserverRequest CameraFrame DirectorSign ;;
+        director) echo MatchInfo PoseFrame MatchEvent MoverInfo MoverFrame ObserverRequest CameraFrame DirectorSign ;;
         observer) echo ShownMatch CameraFrame ObserverStatus ;;
     esac
 }

@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 #include <span>
+#include <utility>
+
+#include "freespace/shape_checks.hpp"
 
 namespace camdir::dds {
 namespace {
@@ -91,6 +95,71 @@ std::optional<ValidationError> check(const camera_director_CameraFrame& sample) 
     return std::nullopt;
 }
 
+std::optional<ValidationError> check(const camera_director_MoverFrame& sample) {
+    const std::size_t count = sample.mover_id._length;
+    if (count > freespace::max_movers) return ValidationError::too_many;
+    if (sample.position._length != 3 * count || sample.orientation._length != 4 * count)
+        return ValidationError::array_length;
+    if (!finite(elements(sample.position)) || !finite(elements(sample.orientation)))
+        return ValidationError::not_finite;
+    if (!unit_length(elements(sample.orientation))) return ValidationError::not_unit;
+    return std::nullopt;
+}
+
+// Whether the counts, of `owners` or of none, share out `total` elements.
+bool shares_out(std::span<const std::uint32_t> counts, std::size_t owners, std::size_t total) {
+    const std::uint64_t sum = std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
+    return (counts.size() == owners || counts.empty()) && sum == total;
+}
+
+bool exceeds(std::span<const std::uint32_t> counts, std::size_t most) {
+    return std::ranges::any_of(counts, [most](std::uint32_t count) { return count > most; });
+}
+
+std::optional<ValidationError> check_counts(const camera_director_MoverInfo& sample) {
+    const std::size_t count = sample.mover_id._length;
+    const std::size_t planes = sample.planes._length / 4;
+    const std::size_t spheres = sample.spheres._length / 4;
+    if (count > freespace::max_movers || planes > director::max_half_spaces ||
+        spheres > director::max_balls || exceeds(elements(sample.hulls), freespace::max_hulls) ||
+        exceeds(elements(sample.balls), freespace::max_hulls) ||
+        exceeds(elements(sample.half_spaces), freespace::max_half_spaces)) {
+        return ValidationError::too_many;
+    }
+    const auto fits = [count](std::size_t length) { return length == count || length == 0; };
+    if (!fits(sample.model._length) || !fits(sample.kind._length) || sample.planes._length % 4 != 0 ||
+        sample.spheres._length % 4 != 0 ||
+        !shares_out(elements(sample.hulls), count, sample.half_spaces._length) ||
+        !shares_out(elements(sample.half_spaces), sample.half_spaces._length, planes) ||
+        !shares_out(elements(sample.balls), count, spheres)) {
+        return ValidationError::array_length;
+    }
+    return std::nullopt;
+}
+
+std::optional<ValidationError> check(const camera_director_MoverInfo& sample) {
+    if (const auto error = check_counts(sample)) return error;
+    const auto planes = elements(sample.planes);
+    const auto spheres = elements(sample.spheres);
+    if (!finite(planes) || !finite(spheres)) return ValidationError::not_finite;
+    for (std::size_t i = 0; i < planes.size(); i += 4)
+        if (!(std::abs(Vec3f(&planes[i]).norm() - 1.0F) <= unit_tolerance)) return ValidationError::not_unit;
+    for (std::size_t i = 0; i < spheres.size(); i += 4)
+        if (!freespace::is_ball({Vec3f(&spheres[i]), spheres[i + 3]})) return ValidationError::out_of_range;
+    return std::nullopt;
+}
+
+// The next hull of the sample, whose half spaces are the first of `planes`; takes them off.
+std::optional<freespace::ConvexHull> take_hull(std::size_t half_spaces, std::span<const float>& planes) {
+    freespace::ConvexHull hull;
+    for (std::size_t i = 0; i < half_spaces; ++i, planes = planes.subspan(4))
+        hull.half_spaces.push_back({Vec3f(planes.data()).normalized(), planes[3]});
+    const auto bounds = freespace::bounds_of(hull.half_spaces);
+    if (!bounds) return std::nullopt;
+    hull.bounds = *bounds;
+    return hull;
+}
+
 }  // namespace
 
 bool valid_match_id(std::string_view match_id) {
@@ -151,6 +220,45 @@ std::optional<ValidationError> decode(const camera_director_MatchEvent& sample,
                .subject = sample.subject,
                .value = sample.value,
                .detail = sample.detail};
+    return std::nullopt;
+}
+
+std::optional<ValidationError> decode(const camera_director_MoverInfo& sample, director::MoverInfo& message) {
+    if (const auto error = check(sample)) return error;
+    message.epoch = sample.epoch;
+    message.movers.assign(sample.mover_id._length, {});
+    auto half_spaces = elements(sample.half_spaces);
+    std::span<const float> planes = elements(sample.planes);
+    std::span<const float> spheres = elements(sample.spheres);
+    for (std::uint32_t i = 0; i < sample.mover_id._length; ++i) {
+        director::Mover& mover = message.movers[i];
+        mover.id = sample.mover_id._buffer[i];
+        if (sample.model._length != 0) mover.shape.name = sample.model._buffer[i];
+        if (sample.kind._length != 0) mover.shape.kind = sample.kind._buffer[i];
+        const std::size_t hulls = sample.hulls._length != 0 ? sample.hulls._buffer[i] : 0;
+        for (const std::size_t count : half_spaces.first(hulls)) {
+            auto hull = take_hull(count, planes);
+            if (!hull) return ValidationError::bad_hull;
+            mover.shape.hulls.push_back(std::move(*hull));
+        }
+        half_spaces = half_spaces.subspan(hulls);
+        const std::size_t balls = sample.balls._length != 0 ? sample.balls._buffer[i] : 0;
+        for (std::size_t ball = 0; ball < balls; ++ball, spheres = spheres.subspan(4))
+            mover.shape.balls.push_back({Vec3f(spheres.data()), spheres[3]});
+    }
+    return std::nullopt;
+}
+
+std::optional<ValidationError> decode(const camera_director_MoverFrame& sample,
+                                      director::MoverFrame& message) {
+    if (const auto error = check(sample)) return error;
+    message.epoch = sample.epoch;
+    message.frame_time = sample.frame_time;
+    message.source_time = sample.source_time;
+    message.poses.resize(sample.mover_id._length);
+    for (std::uint32_t i = 0; i < sample.mover_id._length; ++i)
+        message.poses[i] = {sample.mover_id._buffer[i], vector(elements(sample.position), i),
+                            quaternion(elements(sample.orientation), i)};
     return std::nullopt;
 }
 

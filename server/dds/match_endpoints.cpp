@@ -64,13 +64,20 @@ Result<void> MatchEndpoints::open_readers(const Participant& participant) {
          {std::pair{Topic::pose_frame, &pose_reader_}, std::pair{Topic::match_event, &event_reader_},
           std::pair{Topic::observer_request, &request_reader_},
           std::pair{Topic::camera_frame, &camera_reader_}, std::pair{Topic::director_sign, &sign_reader_}}) {
-        *reader = dds_create_reader(subscriber_.handle(), participant.topic(topic), reader_qos(topic).get(),
-                                    nullptr);
-        if (*reader < 0) {
-            return dds_failure("creating the reader of " + partition + " " + topic_name(topic), *reader);
-        }
+        if (auto opened = open_reader(participant, topic, *reader); !opened) return opened;
     }
-    return {};
+    if (!participant.has_movers()) return {};
+    auto opened = open_reader(participant, Topic::mover_info, mover_info_reader_);
+    if (opened) opened = open_reader(participant, Topic::mover_frame, mover_frame_reader_);
+    return opened;
+}
+
+Result<void> MatchEndpoints::open_reader(const Participant& participant, Topic topic, dds_entity_t& reader) {
+    reader =
+        dds_create_reader(subscriber_.handle(), participant.topic(topic), reader_qos(topic).get(), nullptr);
+    if (reader >= 0) return {};
+    return dds_failure("creating the reader of " + match_partition(match_id_) + " " + topic_name(topic),
+                       reader);
 }
 
 Result<void> MatchEndpoints::open_writers(const Participant& participant, const Leadership& leadership) {

@@ -35,6 +35,9 @@ class MatchEndpoints {
     [[nodiscard]] dds_entity_t pose_reader() const { return pose_reader_; }
     [[nodiscard]] dds_entity_t event_reader() const { return event_reader_; }
     [[nodiscard]] dds_entity_t request_reader() const { return request_reader_; }
+    // 0 where this director's identity may not read them: the match is served without movers.
+    [[nodiscard]] dds_entity_t mover_info_reader() const { return mover_info_reader_; }
+    [[nodiscard]] dds_entity_t mover_frame_reader() const { return mover_frame_reader_; }
     // Of other directors.
     [[nodiscard]] dds_entity_t camera_reader() const { return camera_reader_; }
     [[nodiscard]] dds_entity_t sign_reader() const { return sign_reader_; }
@@ -81,6 +84,7 @@ class MatchEndpoints {
     MatchEndpoints(std::string match_id, const Leadership& leadership, std::uint64_t director_id,
                    WireCounters& counters);
     [[nodiscard]] Result<void> open_readers(const Participant& participant);
+    [[nodiscard]] Result<void> open_reader(const Participant& participant, Topic topic, dds_entity_t& reader);
     [[nodiscard]] Result<void> open_writers(const Participant& participant, const Leadership& leadership);
 
     // Calls change(succession, now) and puts into effect what follows from it.
@@ -117,6 +121,8 @@ class MatchEndpoints {
     dds_entity_t pose_reader_ = 0;
     dds_entity_t event_reader_ = 0;
     dds_entity_t request_reader_ = 0;
+    dds_entity_t mover_info_reader_ = 0;
+    dds_entity_t mover_frame_reader_ = 0;
     dds_entity_t camera_reader_ = 0;
     dds_entity_t sign_reader_ = 0;
     dds_entity_t camera_writer_ = 0;

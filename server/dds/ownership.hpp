@@ -54,7 +54,8 @@ class Ownership {
     [[nodiscard]] bool knows(const SenderId& sender) const {
         return std::ranges::find(claims_, sender, &Claim::sender) != claims_.end();
     }
-    [[nodiscard]] bool has_live_owner() const { return !claims_.empty() && !lost_; }
+    [[nodiscard]] bool has_owner() const { return !claims_.empty(); }
+    [[nodiscard]] bool has_live_owner() const { return has_owner() && !lost_; }
     // The following are to be called while there has been an owner since the last `ended`.
     [[nodiscard]] const Claim& owner() const { return claims_.front(); }
     [[nodiscard]] const director::MatchInfo& info() const { return owner().info; }

@@ -34,8 +34,14 @@ class Participant {
         return topics_[static_cast<std::size_t>(topic)].handle();
     }
 
+    // False where the identity is of an authority that knew no movers yet.
+    [[nodiscard]] bool has_movers() const {
+        return topic(Topic::mover_info) > 0 && topic(Topic::mover_frame) > 0;
+    }
+
   private:
     Participant() = default;
+    [[nodiscard]] Result<void> create_topic(Topic topic, const std::string& where);
 
     bool open_ = true;
     std::optional<Identity> identity_;

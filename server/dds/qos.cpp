@@ -25,7 +25,8 @@ Qos reader_qos(Topic topic) {
     dds_liveliness_kind_t kind = DDS_LIVELINESS_AUTOMATIC;
     dds_qget_liveliness(qos.get(), &kind, nullptr);
     dds_qset_liveliness(qos.get(), kind, DDS_INFINITY);
-    if (topic == Topic::match_info || topic == Topic::pose_frame || topic == Topic::observer_request)
+    if (topic == Topic::match_info || topic == Topic::pose_frame || topic == Topic::observer_request ||
+        topic == Topic::mover_info || topic == Topic::mover_frame)
         dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, kept_until_taken);
     // A director does not receive its own samples.
     dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cassert>
 #include <chrono>
+#include <map>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -16,6 +17,9 @@ namespace camdir::dds {
 namespace {
 
 constexpr std::size_t samples_per_take = 32;
+// The shapes of a sample take up to 30 ms to check: what comes faster waits in its reader, which keeps the
+// newest.
+constexpr std::chrono::milliseconds mover_info_interval{250};
 
 }  // namespace
 
@@ -32,6 +36,8 @@ Subscriber::Subscriber(const Participant& participant, Options options, MatchTab
       removal_(options_.matches),
       match_info_samples_(topic_type(Topic::match_info), samples_per_take),
       pose_samples_(topic_type(Topic::pose_frame), samples_per_take),
+      mover_info_samples_(topic_type(Topic::mover_info), samples_per_take),
+      mover_frame_samples_(topic_type(Topic::mover_frame), samples_per_take),
       event_samples_(topic_type(Topic::match_event), samples_per_take),
       request_samples_(topic_type(Topic::observer_request), samples_per_take),
       camera_samples_(topic_type(Topic::camera_frame), samples_per_take),
@@ -105,6 +111,7 @@ void Subscriber::run() noexcept {
         take_signs_of_new_matches();  // an assertion decides too
         if (Clock::now() >= next_assertion_.load()) {
             assert_liveliness();
+            take_waiting_mover_infos();
             leave_matches();
             admit_waiting();
             take_signs_of_new_matches();
@@ -216,6 +223,10 @@ bool Subscriber::is_of_owner(Match& match, const dds_sample_info_t& info) {
 }
 
 void Subscriber::take_poses(Match& match) {
+    if (!match.movers.empty()) {  // they are written before the poses
+        take_mover_infos(match);
+        take_mover_frames(match);
+    }
     take(pose_samples_, match.endpoints->pose_reader(), match.poses,
          [&](const auto& sample, const auto& info) {
              if (!info.valid_data || !is_valid(match, Topic::pose_frame, sample, pose_frame_)) return;
@@ -227,7 +238,55 @@ void Subscriber::take_poses(Match& match) {
              director::PoseArrival& arrival = arrivals_[arrived_++];
              arrival.match_id = match.id();
              std::swap(arrival.frame, pose_frame_);
+             arrival.frame.movers = match.movers.at(match.ownership.owner().sender, arrival.frame.epoch,
+                                                    arrival.frame.frame_time);
          });
+}
+
+void Subscriber::take_mover_infos(Match& match) {
+    const auto now = Clock::now();
+    match.mover_infos_wait = now < match.next_mover_infos;
+    if (match.mover_infos_wait) return;
+    const dds_entity_t reader = match.endpoints->mover_info_reader();
+    std::map<WriterHandle, const camera_director_MoverInfo*> newest;  // valid until the next take
+    take(mover_info_samples_, reader, match.mover_infos, [&](const auto& sample, const auto& info) {
+        if (info.valid_data) newest[info.publication_handle] = &sample;
+    });
+    for (const auto& [writer, sample] : newest) {
+        match.next_mover_infos = now + mover_info_interval;
+        auto described = std::make_shared<director::MoverInfo>();
+        if (is_valid(match, Topic::mover_info, *sample, *described))
+            keep(match, Topic::mover_info, match.mover_info_senders.find(reader, writer),
+                 std::move(described));
+    }
+}
+
+void Subscriber::take_waiting_mover_infos() {
+    for (const auto& [id, match] : matches_)
+        if (match->mover_infos_wait) take_mover_infos(*match);
+}
+
+void Subscriber::take_mover_frames(Match& match) {
+    const dds_entity_t reader = match.endpoints->mover_frame_reader();
+    take(mover_frame_samples_, reader, match.mover_frames, [&](const auto& sample, const auto& info) {
+        if (!info.valid_data) return;
+        auto frame = std::make_shared<director::MoverFrame>();
+        if (!is_valid(match, Topic::mover_frame, sample, *frame)) return;
+        keep(match, Topic::mover_frame, match.mover_frame_senders.find(reader, info.publication_handle),
+             std::move(frame));
+    });
+}
+
+template <class Movers>
+void Subscriber::keep(Match& match, Topic topic, const SenderId* sender, std::shared_ptr<Movers> movers) {
+    const bool has_owner = match.ownership.has_owner();
+    if (sender != nullptr && has_owner) {
+        match.movers.admit(*sender, match.ownership.owner().sender);
+        match.movers.put(*sender, std::move(movers));
+    }
+    if (sender == nullptr || !match.ownership.owns(*sender))
+        return drop(topic, ValidationError::not_owner, match.id());
+    ++counters_.of(topic).accepted;
 }
 
 void Subscriber::hand_on_poses() {

@@ -23,6 +23,7 @@
 #include "dds/ready_list.hpp"
 #include "dds/request_owners.hpp"
 #include "dds/sender.hpp"
+#include "dds/sent_movers.hpp"
 #include "dds/shards.hpp"
 #include "dds/take_buffer.hpp"
 #include "dds/waiting_matches.hpp"
@@ -85,8 +86,13 @@ class Subscriber {
         RequestOwners request_owners;
         bool forgotten = false;  // by the director; reintroduced when a sample arrives
         bool is_of_shard = true;
-        SenderLookup pose_senders, event_senders;
+        SenderLookup pose_senders, event_senders, mover_info_senders, mover_frame_senders;
+        SentMovers movers;
+        Clock::time_point next_mover_infos{};  // not before
+        bool mover_infos_wait = false;         // for that
         Source poses{*this, &Subscriber::take_poses};
+        Source mover_infos{*this, &Subscriber::take_mover_infos};
+        Source mover_frames{*this, &Subscriber::take_mover_frames};
         Source events{*this, &Subscriber::take_events};
         Source requests{*this, &Subscriber::take_requests};
         Source requesters{*this, &Subscriber::notice_unmatched_requests};
@@ -120,6 +126,12 @@ class Subscriber {
     void take_poses(Match& match);
     void hand_on_poses();
     void take_waiting_poses();
+    void take_mover_infos(Match& match);
+    void take_mover_frames(Match& match);
+    void take_waiting_mover_infos();
+    // Also of who does not own the match, which counts as dropped.
+    template <class Movers>
+    void keep(Match& match, Topic topic, const SenderId* sender, std::shared_ptr<Movers> movers);
     void take_events(Match& match);
     void take_requests(Match& match);
     void request_found(Match& match, WriterHandle writer);
@@ -191,6 +203,8 @@ class Subscriber {
     Clock::time_point next_decision_ = Clock::time_point::max();  // when matches may change hands
     TakeBuffer<camera_director_MatchInfo> match_info_samples_;
     TakeBuffer<camera_director_PoseFrame> pose_samples_;
+    TakeBuffer<camera_director_MoverInfo> mover_info_samples_;
+    TakeBuffer<camera_director_MoverFrame> mover_frame_samples_;
     TakeBuffer<camera_director_MatchEvent> event_samples_;
     TakeBuffer<camera_director_ObserverRequest> request_samples_;
     TakeBuffer<camera_director_CameraFrame> camera_samples_;

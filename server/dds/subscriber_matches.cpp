@@ -185,6 +185,9 @@ Result<void> Subscriber::watch(Match& match) {
     if (watched) watched = ready_.watch(endpoints.request_reader(), match.requests, &match.requesters);
     if (watched) watched = ready_.watch(endpoints.camera_reader(), match.cameras);
     if (watched) watched = ready_.watch(endpoints.sign_reader(), match.signs);
+    if (!participant_.has_movers()) return watched;
+    if (watched) watched = ready_.watch(endpoints.mover_info_reader(), match.mover_infos);
+    if (watched) watched = ready_.watch(endpoints.mover_frame_reader(), match.mover_frames);
     return watched;
 }
 
@@ -195,6 +198,9 @@ void Subscriber::unwatch(Match& match) {
     ready_.unwatch(endpoints.request_reader(), match.requests, &match.requesters);
     ready_.unwatch(endpoints.camera_reader(), match.cameras);
     ready_.unwatch(endpoints.sign_reader(), match.signs);
+    if (!participant_.has_movers()) return;
+    ready_.unwatch(endpoints.mover_info_reader(), match.mover_infos);
+    ready_.unwatch(endpoints.mover_frame_reader(), match.mover_frames);
 }
 
 void Subscriber::remove_match(const std::string& match_id) {

@@ -4,11 +4,13 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/geometry.hpp"
+#include "freespace/mover_shape.hpp"
 
 namespace camdir::director {
 
@@ -16,6 +18,9 @@ inline constexpr std::uint32_t no_player = 0xffffffffU;    // as a target: the d
 inline constexpr std::uint32_t whole_group = 0xfffffffeU;  // as a target: the players of the group together
 inline constexpr std::size_t max_players = 256;
 inline constexpr std::size_t max_cameras = 256;
+// Of all movers of a match together: enough for its vehicles, and checked in milliseconds.
+inline constexpr std::size_t max_half_spaces = 2048;
+inline constexpr std::size_t max_balls = 2048;
 
 struct Player {
     std::uint32_t id = 0;
@@ -48,12 +53,45 @@ struct PlayerPose {
     std::optional<std::uint32_t> discontinuities = {};  // in this epoch, modulo 2^32
 };
 
+// A moving obstacle as the game server describes it: `shape.name` is a model of the map, or empty; its own
+// hulls, with bounds, and balls count where the map has no such model.
+struct Mover {
+    std::uint32_t id = 0;
+    freespace::MoverShape shape;
+};
+
+struct MoverInfo {
+    std::uint64_t epoch = 0;
+    std::vector<Mover> movers;
+};
+
+struct MoverPose {
+    std::uint32_t mover_id = 0;
+    Vec3f position = Vec3f::Zero();
+    Quatf orientation = Quatf::Identity();
+};
+
+struct MoverFrame {
+    std::uint64_t epoch = 0;
+    std::int64_t frame_time = 0;
+    std::int64_t source_time = 0;
+    std::vector<MoverPose> poses;
+};
+
+// The movers as of one pose frame, of its epoch. Both are never null.
+struct MatchMovers {
+    std::shared_ptr<const MoverInfo> info;
+    std::shared_ptr<const MoverFrame> frame;
+};
+
 struct PoseFrame {
     std::uint64_t epoch = 0;
     std::uint32_t frame_number = 0;
     std::int64_t frame_time = 0;   // ns, the game's clock within the epoch
     std::int64_t source_time = 0;  // ns, CLOCK_REALTIME of the sender
     std::vector<PlayerPose> poses;
+    // Null: the match has none. The same object as before where nothing has changed.
+    std::shared_ptr<const MatchMovers> movers = {};
 };
 
 // A pose frame that has arrived.

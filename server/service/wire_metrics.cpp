@@ -8,8 +8,9 @@
 namespace camdir::service {
 namespace {
 
-constexpr dds::Topic received_topics[] = {dds::Topic::match_info, dds::Topic::pose_frame,
-                                          dds::Topic::match_event, dds::Topic::observer_request};
+constexpr dds::Topic received_topics[] = {dds::Topic::match_info,  dds::Topic::pose_frame,
+                                          dds::Topic::match_event, dds::Topic::mover_info,
+                                          dds::Topic::mover_frame, dds::Topic::observer_request};
 
 prometheus::MetricFamily counter(const std::string& name, const std::string& help,
                                  const dds::WireCounter& value) {

@@ -7,6 +7,7 @@
 
 #include "dds/decode.hpp"
 #include "dds/encode.hpp"
+#include "dds/sent_movers.hpp"
 #include "director/director.hpp"
 #include "support/descriptions.hpp"
 #include "support/freespace_meshes.hpp"
@@ -67,9 +68,11 @@ const director::MapLibrary& maps() {
 // A director that takes what is valid, from whatever match.
 class Receiver {
   public:
+    Receiver() { movers_.admit(sender_, sender_); }
+
     void take(const fuzz::WireRecord& record) {
         const std::span fields = record.fields;
-        switch (record.topic % 6) {
+        switch (record.topic % 8) {
             case 0:
                 return take<camera_director_MatchInfo, director::MatchInfo>(
                     camera_director_MatchInfo_desc, fields, [&](const auto& /*match_id*/, const auto& info) {
@@ -79,6 +82,7 @@ class Receiver {
                 return take<camera_director_PoseFrame, director::PoseFrame>(
                     camera_director_PoseFrame_desc, fields, [&](const auto& match_id, const auto& frame) {
                         director::PoseArrival arrival{match_id, frame};
+                        arrival.frame.movers = movers_.at(sender_, frame.epoch, frame.frame_time);
                         director_.receive({&arrival, 1});
                     });
             case 2:
@@ -93,6 +97,17 @@ class Receiver {
                 return take<camera_director_CameraFrame, director::CameraFrame>(
                     camera_director_CameraFrame_desc, fields,
                     [&](const auto& match_id, const auto& shown) { director_.follow(match_id, shown); });
+            case 6:
+                return take<camera_director_MoverInfo, director::MoverInfo>(
+                    camera_director_MoverInfo_desc, fields, [&](const auto& /*match_id*/, const auto& info) {
+                        movers_.put(sender_, std::make_shared<director::MoverInfo>(info));
+                    });
+            case 7:
+                return take<camera_director_MoverFrame, director::MoverFrame>(
+                    camera_director_MoverFrame_desc, fields,
+                    [&](const auto& /*match_id*/, const auto& frame) {
+                        movers_.put(sender_, std::make_shared<director::MoverFrame>(frame));
+                    });
             default:
                 return take<camera_director_DirectorSign, dds::Sign>(
                     camera_director_DirectorSign_desc, fields,
@@ -119,6 +134,8 @@ class Receiver {
         assert(succession_.next_change(now_) >= now_);
     }
 
+    static constexpr dds::SenderId sender_{1};
+    dds::SentMovers movers_;  // of whatever match
     Encoder encoder_;
     director::Director director_{configuration(), maps(), encoder_};
     dds::Succession::Time now_{};

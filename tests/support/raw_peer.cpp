@@ -132,6 +132,8 @@ RawPeer::RawPeer(std::uint32_t domain, const std::string& match_id, std::vector<
     match_info_ = add_writer(camera_director_MatchInfo_desc, "MatchInfo", match_info_qos());
     pose_frame_ = add_writer(camera_director_PoseFrame_desc, "PoseFrame", pose_frame_qos());
     match_event_ = add_writer(camera_director_MatchEvent_desc, "MatchEvent", match_event_qos());
+    mover_info_ = add_writer(camera_director_MoverInfo_desc, "MoverInfo", newest_for_late_joiners());
+    mover_frame_ = add_writer(camera_director_MoverFrame_desc, "MoverFrame", newest_for_late_joiners());
     observer_request_ =
         add_writer(camera_director_ObserverRequest_desc, "ObserverRequest", observer_request_qos());
     sign_ = add_writer(camera_director_DirectorSign_desc, "DirectorSign", newest_for_late_joiners());
@@ -172,6 +174,12 @@ void RawPeer::write(const camera_director_PoseFrame& sample) {
 }
 void RawPeer::write(const camera_director_MatchEvent& sample) {
     check(dds_write(match_event_, &sample), "writing a MatchEvent");
+}
+void RawPeer::write(const camera_director_MoverInfo& sample) {
+    check(dds_write(mover_info_, &sample), "writing a MoverInfo");
+}
+void RawPeer::write(const camera_director_MoverFrame& sample) {
+    check(dds_write(mover_frame_, &sample), "writing a MoverFrame");
 }
 void RawPeer::write(const camera_director_ObserverRequest& sample) {
     check(dds_write(observer_request_, &sample), "writing an ObserverRequest");
@@ -304,6 +312,68 @@ const camera_director_PoseFrame& RawPoseFrame::sample() {
     point(sample_.velocity, velocity);
     point(sample_.flags, flags);
     point(sample_.discontinuities, discontinuities);
+    return sample_;
+}
+
+RawMoverInfo::RawMoverInfo(const std::string& match_id, std::uint64_t epoch) {
+    copy(sample_.match_id, match_id);
+    sample_.epoch = epoch;
+}
+
+void RawMoverInfo::add_mover(std::uint32_t id, const std::string& name) {
+    mover_id.push_back(id);
+    copy(reinterpret_cast<char(&)[64]>(model.emplace_back()), name);
+    hulls.push_back(0);
+    balls.push_back(0);
+}
+
+void RawMoverInfo::add_box(const float (&minimum)[3], const float (&maximum)[3]) {
+    ++hulls.back();
+    half_spaces.push_back(6);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        float up[4] = {0.0F, 0.0F, 0.0F, maximum[axis]};
+        float down[4] = {0.0F, 0.0F, 0.0F, -minimum[axis]};
+        up[axis] = 1.0F;
+        down[axis] = -1.0F;
+        planes.insert(planes.end(), up, up + 4);
+        planes.insert(planes.end(), down, down + 4);
+    }
+}
+
+void RawMoverInfo::add_ball(const float (&centre)[3], float radius) {
+    ++balls.back();
+    spheres.insert(spheres.end(), centre, centre + 3);
+    spheres.push_back(radius);
+}
+
+const camera_director_MoverInfo& RawMoverInfo::sample() {
+    point(sample_.mover_id, mover_id);
+    sample_.model._buffer = reinterpret_cast<char(*)[64]>(model.data());
+    sample_.model._length = sample_.model._maximum = static_cast<std::uint32_t>(model.size());
+    point(sample_.hulls, hulls);
+    point(sample_.half_spaces, half_spaces);
+    point(sample_.planes, planes);
+    point(sample_.balls, balls);
+    point(sample_.spheres, spheres);
+    return sample_;
+}
+
+RawMoverFrame::RawMoverFrame(const std::string& match_id, std::uint64_t epoch, std::int64_t frame_time) {
+    copy(sample_.match_id, match_id);
+    sample_.epoch = epoch;
+    sample_.frame_time = frame_time;
+}
+
+void RawMoverFrame::add(std::uint32_t id, const float (&at)[3]) {
+    mover_id.push_back(id);
+    position.insert(position.end(), at, at + 3);
+    orientation.insert(orientation.end(), {0.0F, 0.0F, 0.0F, 1.0F});
+}
+
+const camera_director_MoverFrame& RawMoverFrame::sample() {
+    point(sample_.mover_id, mover_id);
+    point(sample_.position, position);
+    point(sample_.orientation, orientation);
     return sample_;
 }
 

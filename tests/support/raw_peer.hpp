@@ -4,6 +4,7 @@
 #include <camera_director.h>
 #include <dds/dds.h>
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -26,6 +27,8 @@ class RawPeer {
     void write(const camera_director_MatchInfo& sample);
     void write(const camera_director_PoseFrame& sample);
     void write(const camera_director_MatchEvent& sample);
+    void write(const camera_director_MoverInfo& sample);
+    void write(const camera_director_MoverFrame& sample);
     void write(const camera_director_ObserverRequest& sample);
     void write(const camera_director_DirectorSign& sample);
     // As a director of the third term.
@@ -68,6 +71,7 @@ class RawPeer {
     dds_entity_t participant_ = 0;
     std::vector<std::string> partitions_;
     dds_entity_t match_info_ = 0, pose_frame_ = 0, match_event_ = 0, observer_request_ = 0;
+    dds_entity_t mover_info_ = 0, mover_frame_ = 0;
     dds_entity_t sign_ = 0, shown_camera_ = 0;
     dds_entity_t camera_frame_ = 0, observer_status_ = 0, shown_match_ = 0;
     std::map<std::string, camera_director_ObserverStatus> statuses_;
@@ -94,6 +98,44 @@ class RawPoseFrame {
 
   private:
     camera_director_PoseFrame sample_{};
+};
+
+// A valid description of movers, without any at first.
+class RawMoverInfo {
+  public:
+    RawMoverInfo(const std::string& match_id, std::uint64_t epoch);
+
+    // The next mover; what is added after it is its.
+    void add_mover(std::uint32_t id, const std::string& model = {});
+    // Six half spaces.
+    void add_box(const float (&minimum)[3], const float (&maximum)[3]);
+    void add_ball(const float (&centre)[3], float radius);
+
+    // As RawPoseFrame's.
+    std::vector<std::uint32_t> mover_id, hulls, half_spaces, balls;
+    std::vector<std::array<char, 64>> model;
+    std::vector<float> planes, spheres;
+    [[nodiscard]] const camera_director_MoverInfo& sample();
+
+  private:
+    camera_director_MoverInfo sample_{};
+};
+
+// A valid frame without movers at first.
+class RawMoverFrame {
+  public:
+    RawMoverFrame(const std::string& match_id, std::uint64_t epoch, std::int64_t frame_time);
+
+    // Unrotated.
+    void add(std::uint32_t id, const float (&at)[3]);
+
+    // As RawPoseFrame's.
+    std::vector<std::uint32_t> mover_id;
+    std::vector<float> position, orientation;
+    [[nodiscard]] const camera_director_MoverFrame& sample();
+
+  private:
+    camera_director_MoverFrame sample_{};
 };
 
 }  // namespace camdir::test

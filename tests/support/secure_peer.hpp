@@ -13,7 +13,8 @@ namespace camdir::test {
 inline constexpr std::array<wire::Topic, wire::topic_count> all_topics = {
     wire::Topic::match_info,   wire::Topic::pose_frame,       wire::Topic::match_event,
     wire::Topic::camera_frame, wire::Topic::observer_request, wire::Topic::observer_status,
-    wire::Topic::shown_match,  wire::Topic::director_sign};
+    wire::Topic::shown_match,  wire::Topic::director_sign,    wire::Topic::mover_info,
+    wire::Topic::mover_frame};
 
 // For several identities in one process, of which Cyclone DDS allows one in a domain: its configuration for a
 // domain of any number that has this one's number on the wire. Participants of such domains meet over

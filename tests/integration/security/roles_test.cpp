@@ -19,11 +19,14 @@ struct Role {
     std::vector<Topic> writes, reads;
 };
 
-const Role game_server{"game-server", {Topic::match_info, Topic::pose_frame, Topic::match_event}, {}};
+const Role game_server{
+    "game-server",
+    {Topic::match_info, Topic::pose_frame, Topic::match_event, Topic::mover_info, Topic::mover_frame},
+    {}};
 const Role director{"director",
                     {Topic::shown_match, Topic::camera_frame, Topic::observer_status, Topic::director_sign},
                     {Topic::match_info, Topic::pose_frame, Topic::match_event, Topic::observer_request,
-                     Topic::camera_frame, Topic::director_sign}};
+                     Topic::camera_frame, Topic::director_sign, Topic::mover_info, Topic::mover_frame}};
 const Role observer{
     "observer", {Topic::observer_request}, {Topic::shown_match, Topic::camera_frame, Topic::observer_status}};
 

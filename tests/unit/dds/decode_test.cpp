@@ -221,5 +221,160 @@ TEST(DecodeObserverRequest, KeepsTheGroupAndTheStrings) {
     EXPECT_EQ(decode(sample, message), ValidationError::too_many);
 }
 
+test::RawMoverInfo door_and_cart() {
+    test::RawMoverInfo info("m", 7);
+    info.add_mover(40, "*3");
+    info.add_mover(41);
+    info.add_box({-4.0F, -32.0F, 0.0F}, {4.0F, 32.0F, 96.0F});
+    info.add_box({-1.0F, -1.0F, -1.0F}, {1.0F, 1.0F, 1.0F});
+    info.add_ball({0.0F, 0.0F, 100.0F}, 12.5F);
+    return info;
+}
+
+TEST(DecodeMoverInfo, SharesTheShapesOutToTheirMovers) {
+    test::RawMoverInfo info = door_and_cart();
+    info.add_mover(7);
+    info.add_ball({1.0F, 2.0F, 3.0F}, 4.0F);
+    director::MoverInfo message;
+    message.movers.resize(9);  // left over from another sample
+    ASSERT_FALSE(decode(info.sample(), message));
+    EXPECT_EQ(message.epoch, 7U);
+    ASSERT_EQ(message.movers.size(), 3U);
+    EXPECT_EQ(message.movers[0].id, 40U);
+    EXPECT_EQ(message.movers[0].shape.name, "*3");
+    EXPECT_TRUE(message.movers[0].shape.hulls.empty());
+    const freespace::MoverShape& cart = message.movers[1].shape;
+    EXPECT_EQ(cart.name, "");
+    ASSERT_EQ(cart.hulls.size(), 2U);
+    ASSERT_EQ(cart.hulls[0].half_spaces.size(), 6U);
+    EXPECT_TRUE(cart.hulls[0].bounds.min().isApprox(Vec3f(-4.0F, -32.0F, 0.0F), 1e-3F));
+    EXPECT_TRUE(cart.hulls[0].bounds.max().isApprox(Vec3f(4.0F, 32.0F, 96.0F), 1e-3F));
+    ASSERT_EQ(cart.balls.size(), 1U);
+    EXPECT_EQ(cart.balls[0].radius, 12.5F);
+    ASSERT_EQ(message.movers[2].shape.balls.size(), 1U);
+    EXPECT_EQ(message.movers[2].shape.balls[0].centre, Vec3f(1.0F, 2.0F, 3.0F));
+}
+
+TEST(DecodeMoverInfo, ListsThatAllLackMayBeLeftOut) {
+    test::RawMoverInfo info("m", 1);
+    info.add_mover(1);
+    info.add_mover(2);
+    info.model.clear();
+    info.hulls.clear();
+    info.balls.clear();
+    director::MoverInfo message;
+    EXPECT_FALSE(decode(info.sample(), message));
+    EXPECT_EQ(message.movers.size(), 2U);
+}
+
+TEST(DecodeMoverInfo, RefusesWhatIsMalformed) {
+    const auto verdict = [](const auto& spoil) {
+        test::RawMoverInfo info = door_and_cart();
+        spoil(info);
+        director::MoverInfo message;
+        return decode(info.sample(), message);
+    };
+    using Info = test::RawMoverInfo;
+    EXPECT_EQ(verdict([](Info& info) { info.model.pop_back(); }), ValidationError::array_length);
+    EXPECT_EQ(verdict([](Info& info) { info.hulls[0] = 1; }), ValidationError::array_length);
+    EXPECT_EQ(verdict([](Info& info) { info.hulls.pop_back(); }), ValidationError::array_length);
+    EXPECT_EQ(verdict([](Info& info) { info.half_spaces[1] = 7; }), ValidationError::array_length);
+    EXPECT_EQ(verdict([](Info& info) { info.planes.pop_back(); }), ValidationError::array_length);
+    EXPECT_EQ(verdict([](Info& info) { info.balls[0] = 0xffffffffU; }), ValidationError::too_many);
+    EXPECT_EQ(verdict([](Info& info) { info.spheres.clear(); }), ValidationError::array_length);
+    EXPECT_EQ(verdict([](Info& info) { info.half_spaces = {3, 9}; }), ValidationError::bad_hull);
+    EXPECT_EQ(verdict([](Info& info) { info.half_spaces = {0, 12}; }), ValidationError::bad_hull);
+    EXPECT_EQ(verdict([](Info& info) { info.planes[3] = nan; }), ValidationError::not_finite);
+    EXPECT_EQ(verdict([](Info& info) { info.spheres[1] = infinity; }), ValidationError::not_finite);
+    EXPECT_EQ(verdict([](Info& info) { info.planes[0] = 1.01F; }), ValidationError::not_unit);
+    EXPECT_EQ(verdict([](Info& info) { info.spheres[3] = 0.0F; }), ValidationError::out_of_range);
+    EXPECT_EQ(verdict([](Info& info) { info.spheres[0] = 1e9F; }), ValidationError::out_of_range);
+    EXPECT_EQ(verdict([](Info& info) { info.planes[3] = -5.0F; }), ValidationError::bad_hull) << "empty";
+    EXPECT_EQ(verdict([](Info& info) { info.planes[4] = 1.0F; }), ValidationError::bad_hull) << "unbounded";
+}
+
+TEST(DecodeMoverInfo, RefusesMoreThanItsLimits) {
+    const auto verdict = [](const auto& fill) {
+        test::RawMoverInfo info("m", 1);
+        fill(info);
+        director::MoverInfo message;
+        return decode(info.sample(), message);
+    };
+    const auto movers = [](std::uint32_t count) {
+        return [=](test::RawMoverInfo& info) {
+            for (std::uint32_t id = 0; id < count; ++id)
+                info.add_mover(id, "*1");
+        };
+    };
+    EXPECT_EQ(verdict(movers(256)), std::nullopt);
+    EXPECT_EQ(verdict(movers(257)), ValidationError::too_many);
+    const auto balls = [](std::uint32_t of_each, std::uint32_t count) {
+        return [=](test::RawMoverInfo& info) {
+            for (std::uint32_t id = 0; id < count; ++id) {
+                info.add_mover(id);
+                for (std::uint32_t i = 0; i < of_each; ++i)
+                    info.add_ball({0.0F, 0.0F, 0.0F}, 1.0F);
+            }
+        };
+    };
+    EXPECT_EQ(verdict(balls(256, 8)), std::nullopt);
+    EXPECT_EQ(verdict(balls(257, 1)), ValidationError::too_many);
+    EXPECT_EQ(verdict(balls(228, 9)), ValidationError::too_many);
+    const auto boxes = [](std::uint32_t count) {
+        return [=](test::RawMoverInfo& info) {
+            for (std::uint32_t i = 0; i < count; ++i) {
+                if (i % 256 == 0) info.add_mover(i);
+                info.add_box({0.0F, 0.0F, 0.0F}, {1.0F, 1.0F, 1.0F});
+            }
+        };
+    };
+    EXPECT_EQ(verdict(boxes(341)), std::nullopt);
+    EXPECT_EQ(verdict(boxes(342)), ValidationError::too_many);
+    EXPECT_EQ(verdict([](test::RawMoverInfo& info) {
+                  info.add_mover(1);
+                  info.hulls[0] = 1;
+                  info.half_spaces = {65};
+                  for (int i = 0; i < 65; ++i)
+                      info.planes.insert(info.planes.end(), {1.0F, 0.0F, 0.0F, 1.0F});
+              }),
+              ValidationError::too_many);
+}
+
+TEST(DecodeMoverFrame, KeepsTheNumbersOfAValidFrame) {
+    test::RawMoverFrame frame("m", 7, 1234);
+    frame.add(40, {1.0F, 2.0F, 3.0F});
+    frame.add(41, {4.0F, 5.0F, 6.0F});
+    frame.orientation = {0.0F, 0.0F, 0.6F, 0.8F, 0.0F, 0.0F, 0.0F, 1.0F};
+    director::MoverFrame message;
+    ASSERT_FALSE(decode(frame.sample(), message));
+    EXPECT_EQ(message.epoch, 7U);
+    EXPECT_EQ(message.frame_time, 1234);
+    ASSERT_EQ(message.poses.size(), 2U);
+    EXPECT_EQ(message.poses[1].mover_id, 41U);
+    EXPECT_EQ(message.poses[1].position, Vec3f(4.0F, 5.0F, 6.0F));
+    EXPECT_EQ(message.poses[0].orientation.z(), 0.6F);
+}
+
+TEST(DecodeMoverFrame, RefusesWhatIsMalformed) {
+    const auto verdict = [](const auto& spoil) {
+        test::RawMoverFrame frame("m", 7, 1234);
+        frame.add(40, {1.0F, 2.0F, 3.0F});
+        spoil(frame);
+        director::MoverFrame message;
+        return decode(frame.sample(), message);
+    };
+    using Frame = test::RawMoverFrame;
+    EXPECT_EQ(verdict([](Frame&) {}), std::nullopt);
+    EXPECT_EQ(verdict([](Frame& frame) { frame.position.pop_back(); }), ValidationError::array_length);
+    EXPECT_EQ(verdict([](Frame& frame) { frame.orientation.clear(); }), ValidationError::array_length);
+    EXPECT_EQ(verdict([](Frame& frame) { frame.position[2] = nan; }), ValidationError::not_finite);
+    EXPECT_EQ(verdict([](Frame& frame) { frame.orientation[3] = 0.5F; }), ValidationError::not_unit);
+    EXPECT_EQ(verdict([](Frame& frame) {
+                  for (std::uint32_t id = 0; id < 256; ++id)
+                      frame.add(id, {0.0F, 0.0F, 0.0F});
+              }),
+              ValidationError::too_many);
+}
+
 }  // namespace
 }  // namespace camdir::dds

@@ -43,8 +43,10 @@ class Recorder final : public director::Ingress {
     void server_lost(const std::string& match_id) override { note("silent " + match_id); }
     void match_ended(const std::string& match_id) override { note("over " + match_id); }
     void receive(std::span<director::PoseArrival> arrivals) override {
-        for (const auto& [match_id, frame] : arrivals)
+        for (const auto& [match_id, frame] : arrivals) {
             note("pose " + match_id + " " + std::to_string(frame.frame_number));
+            if (frame.movers) note("movers " + match_id + " " + in_words(*frame.movers));
+        }
     }
     void receive(const std::string& match_id, const director::MatchEvent& event) override {
         note("event " + match_id + " " + std::to_string(event.kind) + " " + event.detail);
@@ -80,6 +82,13 @@ class Recorder final : public director::Ingress {
     std::atomic<director::Publisher*> shows_at_once{nullptr};
 
   private:
+    // The shapes' names, and the time of the frame.
+    static std::string in_words(const director::MatchMovers& movers) {
+        std::string text;
+        for (const director::Mover& mover : movers.info->movers)
+            text += mover.shape.name + " ";
+        return text + "at " + std::to_string(movers.frame->frame_time);
+    }
     void note(std::string line) {
         const std::lock_guard lock(mutex_);
         lines_.push_back(std::move(line));

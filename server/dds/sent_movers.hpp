@@ -1,0 +1,50 @@
+// What the participants of a match have said of its movers.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "dds/sender.hpp"
+#include "director/messages.hpp"
+
+namespace camdir::dds {
+
+// Keeps it for each sender, because who does not own the match now may own it later. Movers and poses are of
+// different topics, so that either may arrive first: each pose frame gets the movers of the newest frame_time
+// up to its own. One thread at a time.
+class SentMovers {
+  public:
+    static constexpr std::size_t max_senders = 8;
+    static constexpr std::size_t max_waiting = 8;  // mover frames of a sender whose poses are awaited
+
+    [[nodiscard]] bool empty() const { return senders_.empty(); }
+
+    // For `sender` there is a place; where all are taken the one that was longest without a sample leaves,
+    // but for the owner's.
+    void admit(const SenderId& sender, const SenderId& owner);
+    // Of a sender that has been admitted since others were. Not null.
+    void put(const SenderId& sender, std::shared_ptr<const director::MoverInfo> info);
+    void put(const SenderId& sender, std::shared_ptr<const director::MoverFrame> frame);
+
+    // The movers of this sender as of a pose frame of its. Null where they are of another epoch, or not
+    // complete yet. The same object as before where nothing has changed.
+    [[nodiscard]] std::shared_ptr<const director::MatchMovers> at(const SenderId& sender, std::uint64_t epoch,
+                                                                  std::int64_t frame_time);
+
+  private:
+    using Frame = std::shared_ptr<const director::MoverFrame>;
+    struct Sent {
+        SenderId sender{};
+        std::shared_ptr<const director::MoverInfo> info;
+        Frame frame;                 // as of the last poses
+        std::vector<Frame> waiting;  // in the order of arrival
+        std::shared_ptr<const director::MatchMovers> both;
+    };
+    [[nodiscard]] Sent* find(const SenderId& sender);
+
+    std::vector<Sent> senders_;  // who has sent last is the last
+};
+
+}  // namespace camdir::dds

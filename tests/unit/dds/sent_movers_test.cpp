@@ -1,0 +1,103 @@
+#include "dds/sent_movers.hpp"
+
+#include <gtest/gtest.h>
+
+namespace camdir::dds {
+namespace {
+
+constexpr SenderId owner{1}, other{2};
+
+std::shared_ptr<const director::MoverInfo> movers_in(std::uint64_t epoch) {
+    auto info = std::make_shared<director::MoverInfo>();
+    info->epoch = epoch;
+    return info;
+}
+
+std::shared_ptr<const director::MoverFrame> places_in(std::uint64_t epoch, std::int64_t time) {
+    auto frame = std::make_shared<director::MoverFrame>();
+    frame->epoch = epoch;
+    frame->frame_time = time;
+    return frame;
+}
+
+class SentMoversTest : public testing::Test {
+  protected:
+    template <class Movers>
+    void sends(const SenderId& sender, std::shared_ptr<Movers> movers) {
+        movers_.admit(sender, owner);
+        movers_.put(sender, std::move(movers));
+    }
+    // Of the mover frame that the owner's poses of this time are seen with; -1: none.
+    std::int64_t time_at(std::int64_t time, std::uint64_t epoch = 1) {
+        const auto movers = movers_.at(owner, epoch, time);
+        return movers ? movers->frame->frame_time : -1;
+    }
+
+    SentMovers movers_;
+};
+
+TEST_F(SentMoversTest, PosesAreSeenAmongTheMoversOfTheNewestFrameUpToTheirs) {
+    sends(owner, movers_in(1));
+    EXPECT_EQ(time_at(10), -1) << "no frame yet";
+    sends(owner, places_in(1, 20));
+    EXPECT_EQ(time_at(10), -1);
+    sends(owner, places_in(1, 30));
+    EXPECT_EQ(time_at(29), 20);
+    EXPECT_EQ(time_at(30), 30);
+    EXPECT_EQ(time_at(90), 30) << "nothing has moved since";
+}
+
+TEST_F(SentMoversTest, WhatHasNotChangedIsTheSameObject) {
+    sends(owner, movers_in(1));
+    sends(owner, places_in(1, 20));
+    const auto first = movers_.at(owner, 1, 20);
+    ASSERT_TRUE(first);
+    EXPECT_EQ(movers_.at(owner, 1, 21), first);
+    sends(owner, movers_in(1));
+    const auto second = movers_.at(owner, 1, 22);
+    EXPECT_NE(second, first);
+    EXPECT_EQ(second->frame, first->frame);
+}
+
+TEST_F(SentMoversTest, AnotherEpochForgetsThem) {
+    sends(owner, movers_in(1));
+    sends(owner, places_in(1, 20));
+    EXPECT_EQ(time_at(30), 20);
+    EXPECT_EQ(time_at(30, 2), -1);
+    sends(owner, places_in(2, 5));
+    EXPECT_EQ(time_at(30, 2), -1) << "of unknown shapes";
+    sends(owner, movers_in(2));
+    EXPECT_EQ(time_at(30, 2), 5);
+}
+
+TEST_F(SentMoversTest, FramesOfAClockThatPosesNeverReachWaitInABoundedQueue) {
+    sends(owner, movers_in(1));
+    for (std::int64_t i = 0; i < 20; ++i)
+        sends(owner, places_in(1, 1000 + i));
+    EXPECT_EQ(time_at(1), 1000 + 20 - static_cast<std::int64_t>(SentMovers::max_waiting) - 1);
+}
+
+TEST_F(SentMoversTest, WhoDoesNotOwnTheMatchIsKeptForLater) {
+    sends(owner, movers_in(1));
+    sends(owner, places_in(1, 20));
+    sends(other, movers_in(1));
+    sends(other, places_in(1, 7));
+    EXPECT_EQ(time_at(30), 20);
+    EXPECT_EQ(movers_.at(other, 1, 30)->frame->frame_time, 7);
+    EXPECT_EQ(movers_.at(SenderId{3}, 1, 30), nullptr);
+}
+
+TEST_F(SentMoversTest, ACrowdOfStrangersTakesNoOwnersPlace) {
+    sends(owner, movers_in(1));
+    sends(owner, places_in(1, 20));
+    for (unsigned char i = 2; i < 100; ++i)
+        sends(SenderId{i}, movers_in(1));
+    EXPECT_EQ(time_at(30), 20);
+    sends(SenderId{99}, places_in(1, 8));
+    EXPECT_TRUE(movers_.at(SenderId{99}, 1, 30)) << "the last ones are kept";
+    sends(SenderId{2}, places_in(1, 8));
+    EXPECT_FALSE(movers_.at(SenderId{2}, 1, 30)) << "the first are not";
+}
+
+}  // namespace
+}  // namespace camdir::dds
