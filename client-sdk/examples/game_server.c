@@ -1,11 +1,13 @@
 /*
- * A game server: one player walks in a circle, and its pose is published once per server frame. play() is
- * what a game has to do; the rest is command line.
+ * A game server: one player walks in a circle, and its pose is published once per server frame. With --door
+ * a door slides across the circle's middle. announce_door() and play() are what a game has to do; the rest is
+ * command line.
  */
 #define _GNU_SOURCE
 
 #include <getopt.h>
 #include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -37,8 +39,47 @@ static void walk_at(const struct walk* walk, double seconds, float eye[3], float
     velocity[2] = 0.0f;
 }
 
+/* Slides up and down, a board of 8 by 2 * radius by 128 units. */
+struct door {
+    bool exists;
+    double period; /* seconds from open to open */
+};
+static const uint32_t door_id = 1;
+static const double door_height = 128;
+
+/* A game whose map has brush models names one instead: strcpy(door.model, "*3"). */
+static void announce_door(cdir_match match, const struct walk* walk) {
+    const float half = (float)door_height / 2, width = (float)walk->radius;
+    const float box[] = {1, 0, 0, 4,     -1, 0,  0, 4, /* normal, distance */
+                         0, 1, 0, width, 0,  -1, 0, width, 0, 0, 1, half, 0, 0, -1, half};
+    const uint32_t box_size = 6;
+    cdir_mover door = cdir_mover_default();
+    door.id = door_id;
+    strcpy(door.kind, "func_door");
+    door.half_spaces = box;
+    door.hull_sizes = &box_size;
+    door.hull_count = 1;
+    check("announcing the door", cdir_match_set_movers(match, &door, 1));
+}
+
+static void publish_door(cdir_match match, const struct walk* walk, const struct door* door,
+                         int64_t frame_time) {
+    const double opened = (1 - cos(two_pi * (double)frame_time / 1e9 / door->period)) / 2;
+    const float position[3] = {(float)walk->centre[0], (float)walk->centre[1],
+                               (float)(walk->centre[2] + opened * door_height)};
+    const float orientation[4] = {0, 0, 0, 1};
+    cdir_mover_frame frame = cdir_mover_frame_default();
+    frame.frame_time = frame_time;
+    frame.mover_count = 1;
+    frame.mover_id = &door_id;
+    frame.position = position;
+    frame.orientation = orientation;
+    check("publishing the door", cdir_match_publish_movers(match, &frame));
+}
+
 /* Publishes frames for `seconds` (0 = without limit) or until the user stops the program. */
-static void play(cdir_match match, const struct walk* walk, double rate, double seconds) {
+static void play(cdir_match match, const struct walk* walk, const struct door* door, double rate,
+                 double seconds) {
     const int64_t start = monotonic_ns();
     const int64_t period = (int64_t)(1e9 / rate);
     uint32_t director_count = 0;
@@ -46,6 +87,7 @@ static void play(cdir_match match, const struct walk* walk, double rate, double 
         const int64_t frame_time = number * period; /* the game's own clock */
         if (seconds > 0 && (double)frame_time > seconds * 1e9) break;
 
+        if (door->exists) publish_door(match, walk, door, frame_time); /* before the poses */
         const uint32_t player_id = 1;
         float eye[3];
         float orientation[4];
@@ -80,6 +122,7 @@ static void print_usage(FILE* to) {
             "  --map NAME            the map's name in the director's configuration (default oa_dm1)\n"
             "  --centre X,Y,Z        of the circle, at eye height (default 0,0,64)\n"
             "  --radius R            of the circle, map units (default 128)\n"
+            "  --door S              a door slides up and down across the circle, once in S seconds\n"
             "  --rate HZ             frames per second (default 60)\n"
             "  --seconds S           duration (default 0: until Ctrl-C)\n" CONNECTION_USAGE);
 }
@@ -99,17 +142,24 @@ static void copy_string(char* to, size_t size, const char* from) {
 }
 
 int main(int argc, char** argv) {
-    static const struct option known[] = {
-        {"match", required_argument, NULL, 0},     {"map", required_argument, NULL, 0},
-        {"centre", required_argument, NULL, 0},    {"radius", required_argument, NULL, 0},
-        {"rate", required_argument, NULL, 0},      {"seconds", required_argument, NULL, 0},
-        {"domain", required_argument, NULL, 0},    {"interface", required_argument, NULL, 0},
-        {"directors", required_argument, NULL, 0}, {"security", required_argument, NULL, 0},
-        {"help", no_argument, NULL, 'h'},          {NULL, 0, NULL, 0}};
+    static const struct option known[] = {{"match", required_argument, NULL, 0},
+                                          {"map", required_argument, NULL, 0},
+                                          {"centre", required_argument, NULL, 0},
+                                          {"radius", required_argument, NULL, 0},
+                                          {"rate", required_argument, NULL, 0},
+                                          {"seconds", required_argument, NULL, 0},
+                                          {"door", required_argument, NULL, 0},
+                                          {"domain", required_argument, NULL, 0},
+                                          {"interface", required_argument, NULL, 0},
+                                          {"directors", required_argument, NULL, 0},
+                                          {"security", required_argument, NULL, 0},
+                                          {"help", no_argument, NULL, 'h'},
+                                          {NULL, 0, NULL, 0}};
 
     cdir_context_options options = cdir_context_options_default();
     cdir_match_info info = cdir_match_info_default();
     struct walk walk = {{0, 0, 64}, 128, 200};
+    struct door door = {false, 1};
     double seconds = 0;
     double rate = info.rate_hz;
     const char* match_id = "example";
@@ -128,6 +178,7 @@ int main(int argc, char** argv) {
         if (strcmp(name, "map") == 0) map_name = optarg;
         if (strcmp(name, "centre") == 0) parse_centre(optarg, walk.centre);
         if (strcmp(name, "radius") == 0) walk.radius = number_option(name, optarg, 1, 1e6);
+        if (strcmp(name, "door") == 0) door = (struct door){true, number_option(name, optarg, 0.1, 1e6)};
         if (strcmp(name, "rate") == 0) rate = number_option(name, optarg, 1, 1000);
         if (strcmp(name, "seconds") == 0) seconds = number_option(name, optarg, 0, 1e9);
     }
@@ -147,7 +198,8 @@ int main(int argc, char** argv) {
     cdir_match match;
     check("joining the domain", cdir_context_open(&options, &context));
     check("opening the match", cdir_match_open(context, &info, &walker, 1, &match));
-    play(match, &walk, rate, seconds);
+    if (door.exists) announce_door(match, &walk);
+    play(match, &walk, &door, rate, seconds);
     check("closing", cdir_context_close(context)); /* closes the match too */
     return EXIT_SUCCESS;
 }

@@ -210,6 +210,21 @@ cdir_status cdir_match_publish_event(cdir_match match, const cdir_match_event* e
     });
 }
 
+cdir_status cdir_match_set_movers(cdir_match match, const cdir_mover* movers, uint32_t mover_count) noexcept {
+    return guarded([&] {
+        require(mover_count <= CDIR_MAX_MOVERS, "mover_count is greater than CDIR_MAX_MOVERS");
+        find(match)->set_movers(read_array("movers", movers, mover_count));
+        return CDIR_OK;
+    });
+}
+
+cdir_status cdir_match_publish_movers(cdir_match match, const cdir_mover_frame* frame) noexcept {
+    return guarded([&] {
+        find(match)->publish(read_struct("frame", frame));
+        return CDIR_OK;
+    });
+}
+
 cdir_status cdir_match_director_count(cdir_match match, uint32_t* count) noexcept {
     return guarded([&] {
         require(count != nullptr, "count is null");

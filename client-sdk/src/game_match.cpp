@@ -6,8 +6,10 @@
 #include <cstring>
 #include <vector>
 
+#include "borrow.hpp"
 #include "checks.hpp"
 #include "fixed_string.hpp"
+#include "mover_columns.hpp"
 
 namespace camdir::sdk {
 
@@ -27,14 +29,6 @@ std::uint64_t choose_epoch(std::uint64_t previous) {
     const std::lock_guard lock(mutex);
     last = std::max(static_cast<std::uint64_t>(realtime_ns() / 1000), last + 1);
     return std::max(last, previous + 1);
-}
-
-// Lets a sequence use an array for one write.
-template <class Sequence, class Element>
-void borrow(Sequence& sequence, const Element* elements, std::size_t count) {
-    sequence._buffer = const_cast<Element*>(elements);
-    sequence._length = sequence._maximum = static_cast<std::uint32_t>(count);
-    sequence._release = false;
 }
 
 // The four parallel arrays of MatchInfo.
@@ -110,6 +104,8 @@ void GameMatch::restart(const cdir_match_info& info, std::span<const cdir_player
     next_frame_number_ = 0;
     last_frame_time_.reset();
     discontinuities_.clear();
+    movers_ = {};
+    last_mover_time_.reset();
 }
 
 void GameMatch::announce(cdir_match_info& info, std::span<const cdir_player> players) {
@@ -181,6 +177,38 @@ void GameMatch::publish(const cdir_match_event& event) {
     sample.value = event.value;
     copy_string(sample.detail, event.detail);
     check_written("MatchEvent", dds_write(event_writer_.get(), &sample));
+}
+
+void GameMatch::set_movers(std::span<const cdir_mover> movers) {
+    const MoverColumns columns(movers);
+    camera_director_MoverInfo sample = columns.sample();
+    copy_string(sample.match_id, match_id_.c_str());
+    const std::lock_guard lock(mutex_);
+    sample.epoch = info_.epoch;
+    write(mover_info_writer_, Topic::mover_info, &sample);
+    movers_.set_known(columns.ids());
+}
+
+void GameMatch::publish(const cdir_mover_frame& frame) {
+    check_frame_time(frame.frame_time);
+    const std::lock_guard lock(mutex_);
+    require(!last_mover_time_ || frame.frame_time >= *last_mover_time_,
+            "frame_time went back within the epoch: restart the match");
+    movers_.move(frame);
+    last_mover_time_ = frame.frame_time;
+    if (!movers_.have_moved()) return;
+    camera_director_MoverFrame sample = movers_.sample();
+    copy_string(sample.match_id, match_id_.c_str());
+    sample.epoch = info_.epoch;
+    sample.frame_time = frame.frame_time;
+    sample.source_time = frame.source_time != 0 ? frame.source_time : realtime_ns();
+    write(mover_frame_writer_, Topic::mover_frame, &sample);
+    movers_.forget_moves();
+}
+
+void GameMatch::write(Entity& writer, Topic topic, const void* sample) {
+    if (writer.get() == 0) writer = context_->topics().make_writer(publisher_.get(), topic);
+    check_written(wire::topic_name(topic), dds_write(writer.get(), sample));
 }
 
 std::uint32_t GameMatch::director_count() const {

@@ -13,6 +13,7 @@
 
 #include "context.hpp"
 #include "memory.hpp"
+#include "mover_places.hpp"
 #include "pose_arrays.hpp"
 
 namespace camdir::sdk {
@@ -33,9 +34,13 @@ class GameMatch {
     [[nodiscard]] std::uint64_t epoch() const;
     void publish(const cdir_pose_frame& frame);
     void publish(const cdir_match_event& event);
+    void set_movers(std::span<const cdir_mover> movers);
+    void publish(const cdir_mover_frame& frame);
     [[nodiscard]] std::uint32_t director_count() const;
 
   private:
+    // With a writer that is made when it is first used.
+    void write(Entity& writer, Topic topic, const void* sample);
     void announce(cdir_match_info& info, std::span<const cdir_player> players);
     // The player's, up to and with a pose with these flags.
     [[nodiscard]] std::uint32_t count_discontinuities(std::uint32_t player, std::uint32_t flags);
@@ -47,6 +52,8 @@ class GameMatch {
     PoseArrays poses_;      // of the last frame
     std::uint32_t next_frame_number_ = 0;
     std::optional<std::int64_t> last_frame_time_;  // in this epoch
+    MoverPlaces movers_;                           // in this epoch
+    std::optional<std::int64_t> last_mover_time_;  // likewise
     // By player, in this epoch.
     std::unordered_map<std::uint32_t, std::uint32_t, std::hash<std::uint32_t>, std::equal_to<>,
                        Allocator<std::pair<const std::uint32_t, std::uint32_t>>>
@@ -55,6 +62,9 @@ class GameMatch {
     Entity info_writer_;
     Entity pose_writer_;
     Entity event_writer_;
+    // Made when they are first used: an identity may be older than movers, and most matches have none.
+    Entity mover_info_writer_;
+    Entity mover_frame_writer_;
 };
 
 }  // namespace camdir::sdk

@@ -1,31 +1,9 @@
 #include "pose_arrays.hpp"
 
-#include <cstring>
-#include <string>
-
 #include "checks.hpp"
+#include "gather.hpp"
 
 namespace camdir::sdk {
-
-namespace {
-
-// Elements of `width` numbers, which need not be aligned.
-template <std::size_t width, class Number>
-void gather_array(const std::string& name, const Number* from, std::size_t stride, std::size_t count,
-                  Number* to) {
-    constexpr std::size_t size = width * sizeof(Number);
-    if (from == nullptr) throw Failure{CDIR_INVALID_ARGUMENT, name + " is null"};
-    if (stride == 0) stride = size;
-    if (stride < size) {
-        throw Failure{CDIR_INVALID_ARGUMENT, name + "_stride is " + std::to_string(stride) +
-                                                 ", neither 0 nor at least " + std::to_string(size)};
-    }
-    const auto* bytes = reinterpret_cast<const unsigned char*>(from);
-    for (std::size_t i = 0; i < count; ++i)
-        std::memcpy(to + i * width, bytes + i * stride, size);
-}
-
-}  // namespace
 
 void PoseArrays::gather(const cdir_pose_frame& frame) {
     require(frame.player_count <= CDIR_MAX_PLAYERS, "player_count is greater than CDIR_MAX_PLAYERS");

@@ -89,6 +89,12 @@ void cdir_pose_frame_init(cdir_pose_frame* to, uint32_t struct_size) noexcept {
 void cdir_match_event_init(cdir_match_event* to, uint32_t struct_size) noexcept {
     initialise(to, struct_size);
 }
+void cdir_mover_init(cdir_mover* to, uint32_t struct_size) noexcept {
+    initialise(to, struct_size);
+}
+void cdir_mover_frame_init(cdir_mover_frame* to, uint32_t struct_size) noexcept {
+    initialise(to, struct_size);
+}
 void cdir_observer_options_init(cdir_observer_options* to, uint32_t struct_size) noexcept {
     initialise(to, struct_size);
 }

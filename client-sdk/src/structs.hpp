@@ -32,6 +32,10 @@ inline constexpr std::uint32_t least_size<cdir_pose_frame> = 88;
 template <>
 inline constexpr std::uint32_t least_size<cdir_match_event> = 64;
 template <>
+inline constexpr std::uint32_t least_size<cdir_mover> = 136;
+template <>
+inline constexpr std::uint32_t least_size<cdir_mover_frame> = 64;
+template <>
 inline constexpr std::uint32_t least_size<cdir_observer_options> = 16;
 template <>
 inline constexpr std::uint32_t least_size<cdir_shot_request> = 40;

@@ -130,6 +130,10 @@ CDIR_API const char* cdir_last_error(void) CDIR_NOEXCEPT;
 
 #define CDIR_MAX_PLAYERS 256u
 #define CDIR_MAX_CAMERAS 256u
+#define CDIR_MAX_MOVERS 256u
+#define CDIR_MAX_HULLS 256u            /* of one mover, and as many balls */
+#define CDIR_MAX_HALF_SPACES 64u       /* of one hull */
+#define CDIR_MAX_SHAPES 2048u          /* half spaces of all movers of a match, and as many balls */
 #define CDIR_NO_PLAYER 0xffffffffu     /* in events: no player */
 #define CDIR_CHOOSE_TARGET 0xffffffffu /* as a shot's target: the director chooses */
 #define CDIR_SHOW_GROUP 0xfffffffeu    /* as a shot's target: the players of its group together */
@@ -396,6 +400,60 @@ CDIR_DEFAULTS(cdir_match_event)
 /* Publishes one event, reliably.
  * CDIR_BUSY: a director is so far behind that the send queue of 256 events is full. */
 CDIR_API cdir_status cdir_match_publish_event(cdir_match match, const cdir_match_event* event) CDIR_NOEXCEPT;
+
+/* Doors, lifts, platforms and vehicles: what moves and is in the way of cameras and views. A mover has the
+ * shape of the map's brush model of this name where the director's map has it, and otherwise the union of the
+ * hulls and balls given here: map units, in the mover's own axes, from where its position is. A hull is an
+ * intersection of half spaces, bounded and not empty: the points p with normal . p <= distance. */
+typedef struct cdir_mover {
+    uint32_t struct_size;
+    uint32_t id;    /* unique within the match */
+    char model[64]; /* "*3"; empty = none */
+    char kind[32];  /* what it is, by the game's name, such as "func_door"; may be empty */
+    CDIR_POINTER(const float*, half_spaces); /* 4 each, hull after hull: normal, of length 1, and distance */
+    CDIR_POINTER(const uint32_t*,
+                 hull_sizes);          /* hull_count: half spaces of each, 4 .. CDIR_MAX_HALF_SPACES */
+    CDIR_POINTER(const float*, balls); /* ball_count times 4: centre, and radius > 0 */
+    uint32_t hull_count;               /* <= CDIR_MAX_HULLS; for 0 the arrays may be null */
+    uint32_t ball_count;               /* <= CDIR_MAX_HULLS; for 0 the array may be null */
+} cdir_mover;
+
+/* Mover 0, without model and shape: no obstacle. */
+CDIR_DEFAULTS(cdir_mover)
+
+/* Says which movers the match has, instead of those before; what is gone is no obstacle any more. Those that
+ * stay are where they were. To be called again after cdir_match_restart(). movers: mover_count <=
+ * CDIR_MAX_MOVERS elements; may be null for 0. Publishes reliably, also to directors that come later.
+ * CDIR_INVALID_ARGUMENT: cdir_last_error() names the field that is out of its range. Whether a hull is
+ * bounded is for the director to check, which drops all that was published with one that is not.
+ * CDIR_NETWORK: the identity for DDS Security does not allow it: it is older than movers. */
+CDIR_API cdir_status cdir_match_set_movers(cdir_match match, const cdir_mover* movers,
+                                           uint32_t mover_count) CDIR_NOEXCEPT;
+
+/* Where movers are at one instant. Strides are as in cdir_pose_frame. */
+typedef struct cdir_mover_frame {
+    uint32_t struct_size;
+    uint32_t mover_count; /* n <= CDIR_MAX_MOVERS; for 0 the arrays may be null */
+    int64_t frame_time;   /* not less than that of the epoch's previous frame of movers */
+    int64_t source_time;  /* when the movers were sampled, since 1970-01-01 00:00 UTC; 0 = now */
+    CDIR_POINTER(const uint32_t*, mover_id); /* n, distinct, of those in cdir_match_set_movers() */
+    CDIR_POINTER(const float*, position);    /* n times 3: map units, finite */
+    CDIR_POINTER(const float*, orientation); /* n times 4: quaternions, of length 1 within 1e-3 */
+    uint32_t mover_id_stride;
+    uint32_t position_stride;
+    uint32_t orientation_stride;
+    uint32_t reserved;
+} cdir_mover_frame;
+
+/* No movers, and packed arrays. */
+CDIR_DEFAULTS(cdir_mover_frame)
+
+/* Publishes where movers are, reliably, also to directors that come later. Those that the frame does not name
+ * are where they were; one that no frame has named is no obstacle. To be called before
+ * cdir_match_publish_poses() of the same frame_time, in every frame or in those in which something moves:
+ * where nothing is elsewhere than before, nothing is sent. Never waits for a receiver.
+ * CDIR_INVALID_ARGUMENT: cdir_last_error() names what is wrong. */
+CDIR_API cdir_status cdir_match_publish_movers(cdir_match match, const cdir_mover_frame* frame) CDIR_NOEXCEPT;
 
 /* Stores how many directors receive this match's poses now. */
 CDIR_API cdir_status cdir_match_director_count(cdir_match match, uint32_t* count) CDIR_NOEXCEPT;

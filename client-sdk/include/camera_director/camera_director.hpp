@@ -237,6 +237,26 @@ struct PoseFrame {
     std::span<const std::uint32_t> flags = {};
 };
 
+// Of its hulls' half spaces 4 numbers each, hull after hull; hull_sizes: how many half spaces each has. Of
+// its balls 4 numbers each.
+struct Mover {
+    std::uint32_t id = 0;
+    std::string model = {};
+    std::string kind = {};
+    std::vector<float> half_spaces = {};
+    std::vector<std::uint32_t> hull_sizes = {};
+    std::vector<float> balls = {};
+};
+
+// For n movers: mover_id has n elements, position 3n, orientation 4n.
+struct MoverFrame {
+    std::int64_t frame_time = 0;
+    std::int64_t source_time = 0;
+    std::span<const std::uint32_t> mover_id = {};
+    std::span<const float> position = {};
+    std::span<const float> orientation = {};
+};
+
 struct MatchEvent {
     std::uint32_t kind = CDIR_EVENT_KILL;
     std::int64_t frame_time = 0;
@@ -275,6 +295,26 @@ inline Result<RawMatchInfo> raw_info(const MatchInfo& from) {
     if (copied) copied = copy_text(raw.info.map_name, from.map_name, "map_name");
     for (std::size_t i = 0; copied && i < from.players.size(); ++i)
         copied = add_player(raw, from.players[i]);
+    if (!copied) return copied.error();
+    return raw;
+}
+
+// It points into `from`.
+inline Result<cdir_mover> raw_mover(const Mover& from) {
+    std::size_t half_spaces = 0;
+    for (const std::uint32_t size : from.hull_sizes)
+        half_spaces += size;
+    if (from.half_spaces.size() != 4 * half_spaces || from.balls.size() % 4 != 0)
+        return Error(CDIR_INVALID_ARGUMENT, "the arrays of a mover differ in length");
+    cdir_mover raw = cdir_mover_default();
+    raw.id = from.id;
+    raw.half_spaces = from.half_spaces.data();
+    raw.hull_sizes = from.hull_sizes.data();
+    raw.balls = from.balls.data();
+    raw.hull_count = static_cast<std::uint32_t>(from.hull_sizes.size());
+    raw.ball_count = static_cast<std::uint32_t>(from.balls.size() / 4);
+    Outcome copied = copy_text(raw.model, from.model, "a mover's model");
+    if (copied) copied = copy_text(raw.kind, from.kind, "a mover's kind");
     if (!copied) return copied.error();
     return raw;
 }
@@ -335,6 +375,36 @@ class Match {
     // For arrays with strides.
     Outcome publish(const cdir_pose_frame& frame) {
         return detail::outcome(cdir_match_publish_poses(owner_.get(), &frame));
+    }
+
+    Outcome set_movers(std::span<const Mover> movers) {
+        std::vector<cdir_mover> raw;
+        for (const Mover& mover : movers) {
+            const auto made = detail::raw_mover(mover);
+            if (!made) return made.error();
+            raw.push_back(*made);
+        }
+        return detail::outcome(
+            cdir_match_set_movers(owner_.get(), raw.data(), static_cast<std::uint32_t>(raw.size())));
+    }
+
+    Outcome publish(const MoverFrame& frame) {
+        const std::size_t n = frame.mover_id.size();
+        if (frame.position.size() != 3 * n || frame.orientation.size() != 4 * n)
+            return Error(CDIR_INVALID_ARGUMENT, "the arrays of a mover frame differ in length");
+        cdir_mover_frame raw = cdir_mover_frame_default();
+        raw.mover_count = static_cast<std::uint32_t>(n);
+        raw.frame_time = frame.frame_time;
+        raw.source_time = frame.source_time;
+        raw.mover_id = frame.mover_id.data();
+        raw.position = frame.position.data();
+        raw.orientation = frame.orientation.data();
+        return publish(raw);
+    }
+
+    // For arrays with strides.
+    Outcome publish(const cdir_mover_frame& frame) {
+        return detail::outcome(cdir_match_publish_movers(owner_.get(), &frame));
     }
 
     Outcome publish(const MatchEvent& event) {

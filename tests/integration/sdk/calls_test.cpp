@@ -57,6 +57,8 @@ class Calls : public testing::Test {
             {"match_epoch", [&] { return cdir_match_epoch(match_, &epoch_); }},
             {"match_publish_poses", [&] { return cdir_match_publish_poses(match_, &poses_); }},
             {"match_publish_event", [&] { return cdir_match_publish_event(match_, &event_); }},
+            {"match_set_movers", [&] { return cdir_match_set_movers(match_, &mover_, 1); }},
+            {"match_publish_movers", [&] { return cdir_match_publish_movers(match_, &movers_); }},
             {"match_director_count", [&] { return cdir_match_director_count(match_, &count_); }},
             {"observer_request", [&] { return cdir_observer_request(observer_, &request_); }},
             {"observer_wait", [&] { return cdir_observer_wait(observer_, 0); }},
@@ -83,6 +85,8 @@ class Calls : public testing::Test {
     cdir_match_info info_ = some_info();
     cdir_match_info received_ = cdir_match_info_default();
     cdir_pose_frame poses_ = cdir_pose_frame_default();
+    cdir_mover mover_ = cdir_mover_default();
+    cdir_mover_frame movers_ = cdir_mover_frame_default();
     cdir_match_event event_ = cdir_match_event_default();
     cdir_shot_request request_ = cdir_shot_request_default();
     cdir_camera_frame frame_ = cdir_camera_frame_default();
@@ -152,6 +156,8 @@ TEST_F(Calls, NullPointersAreRefused) {
     cdir_observer observer{};
     cdir_pose_frame poses = poses_;
     poses.player_count = 1;
+    cdir_mover_frame movers = movers_;
+    movers.mover_count = 1;
     cdir_shot_request request = request_;
     request.group_count = 1;
     cdir_context_options no_interface = options;
@@ -173,6 +179,9 @@ TEST_F(Calls, NullPointersAreRefused) {
         {"match_epoch", [&] { return cdir_match_epoch(match_, nullptr); }},
         {"publish_poses", [&] { return cdir_match_publish_poses(match_, nullptr); }},
         {"publish_poses arrays", [&] { return cdir_match_publish_poses(match_, &poses); }},
+        {"set_movers", [&] { return cdir_match_set_movers(match_, nullptr, 1); }},
+        {"publish_movers", [&] { return cdir_match_publish_movers(match_, nullptr); }},
+        {"publish_movers arrays", [&] { return cdir_match_publish_movers(match_, &movers); }},
         {"publish_event", [&] { return cdir_match_publish_event(match_, nullptr); }},
         {"director_count", [&] { return cdir_match_director_count(match_, nullptr); }},
         {"observer_open match",
@@ -202,9 +211,10 @@ TEST_F(Calls, NullPointersAreRefused) {
 }
 
 TEST_F(Calls, StructsThatWereNotInitialisedAreRefused) {
-    for (std::uint32_t* size : {&info_.struct_size, &poses_.struct_size, &event_.struct_size,
-                                &request_.struct_size, &frame_.struct_size, &status_.struct_size,
-                                &view_.struct_size, &received_.struct_size, &counters_.struct_size}) {
+    for (std::uint32_t* size :
+         {&info_.struct_size, &poses_.struct_size, &event_.struct_size, &mover_.struct_size,
+          &movers_.struct_size, &request_.struct_size, &frame_.struct_size, &status_.struct_size,
+          &view_.struct_size, &received_.struct_size, &counters_.struct_size}) {
         *size = 0;
     }
     std::size_t refused = 0;
@@ -213,7 +223,7 @@ TEST_F(Calls, StructsThatWereNotInitialisedAreRefused) {
         EXPECT_THAT(cdir_last_error(), HasSubstr("struct_size")) << call.name;
         ++refused;
     }
-    EXPECT_EQ(refused, 11U);
+    EXPECT_EQ(refused, 13U);
 }
 
 TEST_F(Calls, WrongArgumentsAreRefusedAndNamed) {
@@ -263,6 +273,11 @@ TEST_F(Calls, WrongArgumentsAreRefusedAndNamed) {
     poses_.reserved = 1;
     EXPECT_EQ(cdir_match_publish_poses(match_, &poses_), CDIR_INVALID_ARGUMENT);
     EXPECT_THAT(cdir_last_error(), HasSubstr("frame.reserved"));
+    const std::vector<cdir_mover> fleet(CDIR_MAX_MOVERS + 1, cdir_mover_default());
+    EXPECT_EQ(cdir_match_set_movers(match_, fleet.data(), CDIR_MAX_MOVERS + 1), CDIR_INVALID_ARGUMENT);
+    EXPECT_THAT(cdir_last_error(), HasSubstr("CDIR_MAX_MOVERS"));
+    EXPECT_EQ(cdir_match_set_movers(match_, fleet.data(), 2), CDIR_INVALID_ARGUMENT);
+    EXPECT_THAT(cdir_last_error(), HasSubstr("two movers have the same id"));
     EXPECT_EQ(match.id + observer.id, 0U);
 }
 

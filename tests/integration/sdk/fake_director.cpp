@@ -93,6 +93,8 @@ FakeDirector::FakeDirector(std::uint32_t domain, const std::string& match_id, st
     pose_reader_ = reader(camera_director_PoseFrame_desc, "PoseFrame", best_effort);
     event_reader_ = reader(camera_director_MatchEvent_desc, "MatchEvent", all);
     request_reader_ = reader(camera_director_ObserverRequest_desc, "ObserverRequest", newest);
+    mover_info_reader_ = reader(camera_director_MoverInfo_desc, "MoverInfo", newest);
+    mover_frame_reader_ = reader(camera_director_MoverFrame_desc, "MoverFrame", newest);
 
     Qos cameras(DDS_RELIABILITY_RELIABLE, 32);
     cameras.exclusive(strength);
@@ -155,6 +157,33 @@ std::optional<ReceivedInfo> FakeDirector::take_info() {
 std::optional<camera_director_MatchEvent> FakeDirector::take_event() {
     const auto use = [](const camera_director_MatchEvent& sample) { return sample; };
     return take<camera_director_MatchEvent>(event_reader_, camera_director_MatchEvent_desc, use);
+}
+
+std::optional<ReceivedMovers> FakeDirector::take_movers() {
+    const auto use = [](const camera_director_MoverInfo& sample) {
+        return ReceivedMovers{sample.epoch,
+                              copied(sample.mover_id),
+                              copied_strings(sample.model),
+                              copied_strings(sample.kind),
+                              copied(sample.hulls),
+                              copied(sample.half_spaces),
+                              copied(sample.balls),
+                              copied(sample.planes),
+                              copied(sample.spheres)};
+    };
+    return take<camera_director_MoverInfo>(mover_info_reader_, camera_director_MoverInfo_desc, use);
+}
+
+std::optional<ReceivedMoverFrame> FakeDirector::take_mover_frame() {
+    const auto use = [](const camera_director_MoverFrame& sample) {
+        return ReceivedMoverFrame{sample.epoch,
+                                  sample.frame_time,
+                                  sample.source_time,
+                                  copied(sample.mover_id),
+                                  copied(sample.position),
+                                  copied(sample.orientation)};
+    };
+    return take<camera_director_MoverFrame>(mover_frame_reader_, camera_director_MoverFrame_desc, use);
 }
 
 std::optional<ReceivedRequest> FakeDirector::take_request() {
@@ -230,7 +259,8 @@ std::uint32_t FakeDirector::observer_count() const {
 
 void FakeDirector::with_offered_qos(const char* topic,
                                     const std::function<void(const dds_qos_t*)>& look) const {
-    for (const dds_entity_t reader : {info_reader_, pose_reader_, event_reader_, request_reader_}) {
+    for (const dds_entity_t reader : {info_reader_, pose_reader_, event_reader_, request_reader_,
+                                      mover_info_reader_, mover_frame_reader_}) {
         dds_instance_handle_t writer = 0;
         if (dds_get_matched_publications(reader, &writer, 1) < 1) continue;
         dds_builtintopic_endpoint_t* endpoint = dds_get_matched_publication_data(reader, writer);

@@ -43,6 +43,22 @@ struct ReceivedInfo {
     std::vector<std::uint8_t> player_team;
 };
 
+struct ReceivedMovers {
+    std::uint64_t epoch;
+    std::vector<std::uint32_t> mover_id;
+    std::vector<std::string> model, kind;
+    std::vector<std::uint32_t> hulls, half_spaces, balls;
+    std::vector<float> planes, spheres;
+};
+
+struct ReceivedMoverFrame {
+    std::uint64_t epoch;
+    std::int64_t frame_time;
+    std::int64_t source_time;
+    std::vector<std::uint32_t> mover_id;
+    std::vector<float> position, orientation;
+};
+
 struct ReceivedRequest {
     std::string observer_id;
     std::uint32_t target;
@@ -62,6 +78,8 @@ class FakeDirector {
     [[nodiscard]] std::optional<ReceivedPoses> take_poses();
     [[nodiscard]] std::optional<ReceivedInfo> take_info();
     [[nodiscard]] std::optional<camera_director_MatchEvent> take_event();
+    [[nodiscard]] std::optional<ReceivedMovers> take_movers();
+    [[nodiscard]] std::optional<ReceivedMoverFrame> take_mover_frame();
     [[nodiscard]] std::optional<ReceivedRequest> take_request();
     // True when the instance has no live writer.
     [[nodiscard]] bool info_has_ended() { return has_ended(info_reader_); }
@@ -92,6 +110,8 @@ class FakeDirector {
     dds_entity_t pose_reader_;
     dds_entity_t event_reader_;
     dds_entity_t request_reader_;
+    dds_entity_t mover_info_reader_;
+    dds_entity_t mover_frame_reader_;
     dds_entity_t camera_writer_;
     dds_entity_t status_writer_;
     dds_entity_t shown_writer_;

@@ -121,6 +121,71 @@ TEST_F(GameServer, DiscontinuitiesAreCountedByPlayerWithinAnEpoch) {
     EXPECT_THAT(publish({7, 300}, {jumped, alive}), ElementsAre(1, 0));
 }
 
+TEST_F(GameServer, MoversArriveAsTheyWerePublishedAlsoAtALateDirector) {
+    cd::MatchInfo match_info = info();
+    match_info.epoch = 9;
+    cd::Match match = cd::Match::open(context_, match_info).value();
+    const std::vector<cd::Mover> movers = {
+        {.id = 30, .model = "*3", .kind = "func_door"},
+        {.id = 31,
+         .half_spaces = {1, 0, 0, 4, -1, 0, 0, 4, 0, 1, 0, 9, 0, -1, 0, 9, 0, 0, 1, 2, 0, 0, -1, 2},
+         .hull_sizes = {6},
+         .balls = {0, 0, 20, 30}}};
+    match.set_movers(movers).value();
+    const std::uint32_t both[2] = {30, 31};
+    const float positions[6] = {0, 0, 8, 100, 200, 300};
+    const float orientations[8] = {0, 0, 0, 1, 0.6F, 0, 0.8F, 0};
+    match
+        .publish(cd::MoverFrame{.frame_time = 50,
+                                .source_time = 12345,
+                                .mover_id = both,
+                                .position = positions,
+                                .orientation = orientations})
+        .value();
+
+    FakeDirector director(shared_domain, match_id_);
+    std::optional<ReceivedMovers> received;
+    ASSERT_TRUE(eventually([&] { return (received = director.take_movers()).has_value(); }));
+    EXPECT_EQ(received->epoch, 9U);
+    EXPECT_THAT(received->mover_id, ElementsAre(30, 31));
+    EXPECT_THAT(received->model, ElementsAre("*3", ""));
+    EXPECT_THAT(received->kind, ElementsAre("func_door", ""));
+    EXPECT_THAT(received->hulls, ElementsAre(0, 1));
+    EXPECT_THAT(received->half_spaces, ElementsAre(6));
+    EXPECT_EQ(received->planes, movers[1].half_spaces);
+    EXPECT_THAT(received->balls, ElementsAre(0, 1));
+    EXPECT_EQ(received->spheres, movers[1].balls);
+    std::optional<ReceivedMoverFrame> frame;
+    ASSERT_TRUE(eventually([&] { return (frame = director.take_mover_frame()).has_value(); }));
+    EXPECT_EQ(frame->epoch, 9U);
+    EXPECT_EQ(frame->frame_time, 50);
+    EXPECT_EQ(frame->source_time, 12345);
+    EXPECT_THAT(frame->mover_id, ElementsAre(30, 31));
+    EXPECT_THAT(frame->position, testing::ElementsAreArray(positions));
+    EXPECT_THAT(frame->orientation, testing::ElementsAreArray(orientations));
+
+    const float up[3] = {0, 0, 16};
+    const cd::MoverFrame door_alone = {.frame_time = 60,
+                                       .mover_id = std::span(both).first(1),
+                                       .position = up,
+                                       .orientation = std::span(orientations).first(4)};
+    match.publish(door_alone).value();
+    match.publish(door_alone).value();
+    ASSERT_TRUE(eventually([&] { return (frame = director.take_mover_frame()).has_value(); }));
+    EXPECT_THAT(frame->position, ElementsAre(0, 0, 16, 100, 200, 300)) << "says where all are";
+    match.publish(cd::MoverFrame{.frame_time = 70}).value();
+    EXPECT_THROW(match.publish(door_alone).value(), cd::Error) << "the game's clock went back";
+
+    match_info.epoch = 10;
+    match.restart(match_info).value();
+    EXPECT_THROW(match.publish(door_alone).value(), cd::Error) << "the epoch has no movers yet";
+    match.set_movers(movers).value();
+    match.publish(door_alone).value();
+    ASSERT_TRUE(eventually([&] { return (frame = director.take_mover_frame()).has_value(); }));
+    EXPECT_EQ(frame->epoch, 10U) << "nothing was sent in between: nothing had moved";
+    EXPECT_THAT(frame->mover_id, ElementsAre(30));
+}
+
 TEST_F(GameServer, RefusedFrameIsNotCounted) {
     cd::Match match = cd::Match::open(context_, info()).value();
     FakeDirector director(shared_domain, match_id_);
@@ -283,6 +348,19 @@ TEST_F(GameServer, WritersOfferTheContractsQualityOfService) {
     ASSERT_TRUE(eventually([&] { return match.director_count().value() == 1 && director.take_info(); }));
     observer.request({}).value();
     ASSERT_TRUE(eventually([&] { return director.take_request().has_value(); }));
+    const std::vector<cd::Mover> mover = {{.id = 1, .model = "*1"}};
+    const std::uint32_t id = 1;
+    const float pose[] = {0, 0, 0, 1};
+    match.set_movers(mover).value();
+    match
+        .publish(
+            cd::MoverFrame{.mover_id = {&id, 1}, .position = std::span(pose).first(3), .orientation = pose})
+        .value();
+    ASSERT_TRUE(eventually([&] { return director.take_movers().has_value(); }));
+    ASSERT_TRUE(eventually([&] { return director.take_mover_frame().has_value(); }));
+    for (const char* topic : {"MoverInfo", "MoverFrame"})
+        expect(topic, DDS_RELIABILITY_RELIABLE, DDS_DURABILITY_TRANSIENT_LOCAL, DDS_HISTORY_KEEP_LAST, 1,
+               DDS_INFINITY);
     expect("MatchInfo", DDS_RELIABILITY_RELIABLE, DDS_DURABILITY_TRANSIENT_LOCAL, DDS_HISTORY_KEEP_LAST, 1,
            DDS_SECS(2));
     expect("PoseFrame", DDS_RELIABILITY_BEST_EFFORT, DDS_DURABILITY_VOLATILE, DDS_HISTORY_KEEP_LAST, 1,
@@ -291,7 +369,7 @@ TEST_F(GameServer, WritersOfferTheContractsQualityOfService) {
            DDS_INFINITY);
     expect("ObserverRequest", DDS_RELIABILITY_RELIABLE, DDS_DURABILITY_TRANSIENT_LOCAL, DDS_HISTORY_KEEP_LAST,
            1, DDS_SECS(10));
-    EXPECT_EQ(looked, 4);
+    EXPECT_EQ(looked, 6);
 }
 
 }  // namespace
