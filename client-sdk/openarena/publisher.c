@@ -67,6 +67,56 @@ static bool send_poses(struct publisher* publisher, const struct server_frame* f
     return cdir_match_publish_poses(publisher->match.handle, &poses) >= 0;
 }
 
+void publisher_note_movers(struct publisher* publisher, const struct server_frame* frame) {
+    if (publisher->movers_life != frame->life) publisher->mover_count = 0;
+    publisher->movers_life = frame->life;
+    for (uint32_t i = 0; i < frame->mover_count; ++i) {
+        uint32_t place = 0;
+        while (place < publisher->mover_count && publisher->movers[place].model != frame->movers[i].model)
+            ++place;
+        if (place == CDIR_MAX_MOVERS) continue;
+        publisher->movers[place] = frame->movers[i];
+        if (place == publisher->mover_count) ++publisher->mover_count;
+    }
+}
+
+/* By the number of their brush model. */
+static bool announce_movers(struct publisher* publisher) {
+    cdir_mover movers[CDIR_MAX_MOVERS];
+    for (uint32_t i = 0; i < publisher->mover_count; ++i) {
+        movers[i] = cdir_mover_default();
+        movers[i].id = (uint32_t)publisher->movers[i].model;
+        snprintf(movers[i].model, sizeof movers[i].model, "*%d", publisher->movers[i].model);
+    }
+    if (cdir_match_set_movers(publisher->match.handle, movers, publisher->mover_count) < 0) return false;
+    publisher->announced_movers = publisher->mover_count;
+    publisher->movers_epoch = publisher->match.epoch;
+    return true;
+}
+
+static bool send_movers(struct publisher* publisher, const struct server_frame* frame) {
+    if (publisher->mover_count == 0) return true;
+    const bool announced = publisher->movers_epoch == publisher->match.epoch &&
+                           publisher->announced_movers == publisher->mover_count;
+    if (!announced && !announce_movers(publisher)) return false;
+    uint32_t ids[CDIR_MAX_MOVERS];
+    float positions[3 * CDIR_MAX_MOVERS], orientations[4 * CDIR_MAX_MOVERS];
+    for (uint32_t i = 0; i < publisher->mover_count; ++i) {
+        const struct mover_pose* mover = &publisher->movers[i];
+        ids[i] = (uint32_t)mover->model;
+        memcpy(positions + 3 * i, mover->origin, sizeof mover->origin);
+        (void)cdir_orientation_from_angles(mover->angles, orientations + 4 * i);
+    }
+    cdir_mover_frame movers = cdir_mover_frame_default();
+    movers.frame_time = frame->level_time * ns_per_ms;
+    movers.source_time = frame->source_time;
+    movers.mover_count = publisher->mover_count;
+    movers.mover_id = ids;
+    movers.position = positions;
+    movers.orientation = orientations;
+    return cdir_match_publish_movers(publisher->match.handle, &movers) >= 0;
+}
+
 static uint32_t player_id(uint8_t slot) {
     return slot == no_slot ? CDIR_NO_PLAYER : slot;
 }
@@ -88,7 +138,7 @@ static void send_event(struct publisher* publisher, int32_t level_time, const st
 }
 
 bool publisher_send(struct publisher* publisher, const struct server_frame* frame) {
-    if (!send_poses(publisher, frame)) {
+    if (!send_movers(publisher, frame) || !send_poses(publisher, frame)) {
         ++publisher->failures;
         published_match_close(&publisher->match);
         return false;

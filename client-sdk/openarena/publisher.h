@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-2.0-or-later */
-/* The match towards the directors, on the worker: its description, poses and events. */
+/* The match towards the directors, on the worker: its description, poses, movers and events. */
 #ifndef CAMERA_DIRECTOR_OPENARENA_PUBLISHER_H
 #define CAMERA_DIRECTOR_OPENARENA_PUBLISHER_H
 
@@ -11,12 +11,18 @@ struct publisher {
     struct published_match match;
     uint32_t last_life; /* of the poses below */
     struct player_pose last_poses[max_slots];
+    /* Where the movers of a life were last; announced to the directors in an epoch. */
+    uint32_t movers_life, mover_count, announced_movers;
+    uint64_t movers_epoch;
+    struct mover_pose movers[CDIR_MAX_MOVERS];
     uint64_t frames, events, failures; /* since the module was loaded */
 };
 
 /* As published_match_announce(). */
 bool publisher_announce(struct publisher* publisher, const struct match_state* state);
-/* The frame's poses and events. Must be open. Returns false when that failed: it is closed then, and
+/* Takes note of which movers have moved: of every frame, also of one that is not sent. */
+void publisher_note_movers(struct publisher* publisher, const struct server_frame* frame);
+/* The frame's movers, poses and events. Must be open. Returns false when that failed: it is closed then, and
  * cdir_last_error() says why. */
 bool publisher_send(struct publisher* publisher, const struct server_frame* frame);
 /* Its events alone. Must be open. */

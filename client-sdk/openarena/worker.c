@@ -122,6 +122,7 @@ static void announce(void) {
 }
 
 static void send_frame(const struct server_frame* frame) {
+    publisher_note_movers(&worker.publisher, frame);
     if (worker.retry_time != 0 && worker.now >= worker.retry_time) announce();
     if (!worker.publisher.match.open) {
         ++worker.report.skipped_frames;

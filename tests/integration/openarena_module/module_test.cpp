@@ -159,6 +159,49 @@ TEST_F(OpenArenaModule, ShotsAreOpenedServedRefusedWithTheReasonAndClosed) {
     EXPECT_TRUE(until([&] { return shot(8) != nullptr && shot(8)->state == CDIR_SHOT_NOT_REQUESTED; }));
 }
 
+TEST_F(OpenArenaModule, DoorsArePublishedByTheirModels) {
+    const auto place = [&](int number, int model, float height) {
+        std::uint8_t* entity = engine_.entity(number);
+        const float origin[3] = {0.0F, 0.0F, height}, angles[3] = {0.0F, 90.0F, 0.0F};
+        write_int(entity, ENTITY_IN_USE, 1);
+        write_int(entity, ENTITY_TYPE, ENTITY_TYPE_MOVER);
+        write_int(entity, ENTITY_BRUSH_MODEL, 1);
+        write_int(entity, ENTITY_MODEL_INDEX, model);
+        write_vector(entity, ENTITY_ORIGIN, origin);
+        write_vector(entity, ENTITY_ANGLES, angles);
+    };
+    std::optional<ReceivedMovers> movers;
+    std::optional<ReceivedMoverFrame> frame;
+    const auto announced = [&](std::size_t count) {
+        if (auto taken = director_->director().take_movers()) movers = taken;
+        return movers && movers->mover_id.size() == count;
+    };
+    const auto published = [&](std::vector<float> positions) {
+        if (auto taken = director_->director().take_mover_frame()) frame = taken;
+        return frame && frame->position == positions;
+    };
+    place(70, 3, 0.0F);
+    ASSERT_TRUE(until([&] { return announced(1) && published({0, 0, 0}); }));
+    EXPECT_THAT(movers->model, testing::ElementsAre("*3"));
+    EXPECT_EQ(movers->mover_id, frame->mover_id);
+    EXPECT_NEAR(frame->orientation[2], 0.7071F, 1e-4F);
+    EXPECT_EQ(frame->epoch, movers->epoch);
+    place(70, 3, 64.0F);
+    EXPECT_TRUE(until([&] { return published({0, 0, 64}); }));
+    place(71, 5, 8.0F);
+    ASSERT_TRUE(until([&] { return announced(2) && published({0, 0, 64, 0, 0, 8}); }));
+    EXPECT_THAT(movers->model, testing::ElementsAre("*3", "*5"));
+
+    const std::uint64_t epoch = movers->epoch;
+    engine_.level_time = 1000;
+    engine_.start_map("oa_dm2");
+    place(70, 4, 1.0F);
+    write_int(engine_.entity(71), ENTITY_IN_USE, 0);
+    ASSERT_TRUE(until([&] { return announced(1) && published({0, 0, 1}); }));
+    EXPECT_THAT(movers->model, testing::ElementsAre("*4"));
+    EXPECT_GT(movers->epoch, epoch);
+}
+
 TEST_F(OpenArenaModule, EveryLifeIsAnEpochOfTheSameMatchAndIsServedAgain) {
     engine_.connect(8);
     ASSERT_TRUE(until([&] { return sees_camera(8); }));
