@@ -1,6 +1,9 @@
 #include "recording/fragment.hpp"
 
+#include <algorithm>
 #include <cmath>
+
+#include "freespace/shape_checks.hpp"
 
 namespace camdir::recording {
 namespace {
@@ -70,6 +73,12 @@ Floats<9> floats_of(const director::ShotCamera& camera) {
             bits(camera.clearance)};
 }
 
+Floats<7> floats_of(const director::MoverPose& pose) {
+    const Vec3f& at = pose.position;
+    const Quatf& q = pose.orientation;
+    return {bits(at.x()), bits(at.y()), bits(at.z()), bits(q.x()), bits(q.y()), bits(q.z()), bits(q.w())};
+}
+
 void put_info(ByteSink& sink, const director::MatchInfo& info) {
     sink.text(info.match_id);
     sink.varint(info.epoch);
@@ -107,7 +116,16 @@ bool get_info(ByteSource& source, director::MatchInfo& info) {
 // Of the last frame and of the match's list: see State.
 constexpr std::size_t max_poses = 2 * director::max_players;
 
-enum class RecordKind : std::uint64_t { info = 1, poses, event, request, withdrawal, cameras };
+enum class RecordKind : std::uint64_t {
+    info = 1,
+    poses,
+    event,
+    request,
+    withdrawal,
+    cameras,
+    movers,
+    mover_frame
+};
 
 void put_reasons(ByteSink& sink, const std::vector<director::ShotReason>& reasons) {
     sink.varint(reasons.size());
@@ -139,6 +157,96 @@ void put_request(ByteSink& sink, const director::ObserverRequest& request) {
     sink.text(request.overrides);
 }
 
+void put_vector(ByteSink& sink, const Vec3f& vector) {
+    for (const float value : {vector.x(), vector.y(), vector.z()})
+        sink.fixed(bits(value), 4);
+}
+
+void put_movers(ByteSink& sink, const director::MoverInfo& info) {
+    sink.varint(info.epoch);
+    sink.varint(info.movers.size());
+    for (const auto& [id, shape] : info.movers) {
+        sink.varint(id);
+        sink.text(shape.name);
+        sink.text(shape.kind);
+        sink.varint(shape.hulls.size());
+        for (const freespace::ConvexHull& hull : shape.hulls) {
+            sink.varint(hull.half_spaces.size());
+            for (const auto& [normal, distance] : hull.half_spaces) {
+                put_vector(sink, normal);
+                sink.fixed(bits(distance), 4);
+            }
+        }
+        sink.varint(shape.balls.size());
+        for (const auto& [centre, radius] : shape.balls) {
+            put_vector(sink, centre);
+            sink.fixed(bits(radius), 4);
+        }
+    }
+}
+
+// Decodes the movers of a match; leaves `valid` false where a shape is none that they may have.
+class MoversDecoder {
+  public:
+    MoversDecoder(ByteSource& source, bool& valid) : source_(source), valid_(valid) {}
+
+    director::MoverInfo decode() {
+        director::MoverInfo info;
+        info.epoch = source_.varint();
+        info.movers.resize(source_.count(5, freespace::max_movers));
+        for (auto& [id, shape] : info.movers) {
+            id = source_.number();
+            shape.name = source_.text();
+            shape.kind = source_.text();
+            shape.hulls.resize(source_.count(1, freespace::max_hulls));
+            for (freespace::ConvexHull& hull : shape.hulls)
+                decode(hull);
+            shape.balls.resize(take(16, freespace::max_hulls, balls_left_));
+            for (auto& [centre, radius] : shape.balls) {
+                centre = vector();
+                radius = number();
+                valid_ = valid_ && freespace::is_ball({centre, radius});
+            }
+        }
+        return info;
+    }
+
+  private:
+    void decode(freespace::ConvexHull& hull) {
+        hull.half_spaces.resize(take(16, freespace::max_half_spaces, half_spaces_left_));
+        for (auto& [normal, distance] : hull.half_spaces) {
+            normal = vector();
+            distance = number();
+            valid_ = valid_ && std::abs(normal.norm() - 1.0F) <= 1e-3F;
+        }
+        if (!valid_ || !source_.ok()) return;
+        const auto bounds = freespace::bounds_of(hull.half_spaces);
+        valid_ = bounds.has_value();
+        if (bounds) hull.bounds = *bounds;
+    }
+
+    // How many elements follow: no more than are left of all.
+    std::size_t take(std::size_t size, std::size_t max, std::size_t& left) {
+        const std::size_t count = source_.count(size, std::min(max, left));
+        left -= count;
+        return count;
+    }
+    float number() {
+        const float value = real(source_.fixed(4));
+        valid_ = valid_ && std::isfinite(value);
+        return value;
+    }
+    Vec3f vector() {
+        const float x = number(), y = number(), z = number();
+        return {x, y, z};
+    }
+
+    ByteSource& source_;
+    bool& valid_;
+    std::size_t half_spaces_left_ = director::max_half_spaces;
+    std::size_t balls_left_ = director::max_balls;
+};
+
 // Decodes the records of one resource, which start from no poses and no cameras.
 class RecordDecoder {
   public:
@@ -161,6 +269,10 @@ class RecordDecoder {
                 return Withdrawal{source.text()};
             case RecordKind::cameras:
                 return cameras(source, valid);
+            case RecordKind::movers:
+                return MoversDecoder(source, valid).decode();
+            case RecordKind::mover_frame:
+                return mover_frame(source, valid);
         }
         return std::nullopt;
     }
@@ -211,6 +323,23 @@ class RecordDecoder {
         return frame;
     }
 
+    director::MoverFrame mover_frame(ByteSource& source, bool& valid) {
+        director::MoverFrame frame;
+        frame.epoch = source.varint();
+        frame.frame_time = source.difference();
+        frame.source_time = source.difference();
+        frame.poses.resize(source.count(8, freespace::max_movers));
+        for (director::MoverPose& pose : frame.poses) {
+            pose.mover_id = source.number();
+            Floats<7>& values = movers_[pose.mover_id];
+            valid = get(source, values) && valid;
+            pose.position = vector_at(values, 0);
+            pose.orientation = quaternion_at(values, 3);
+            valid = valid && is_unit(pose.orientation);
+        }
+        return frame;
+    }
+
     static std::vector<director::ShotReason> reasons(ByteSource& source) {
         std::vector<director::ShotReason> reasons(source.count(4, director::max_cameras));
         for (auto& [camera_id, reason] : reasons) {
@@ -249,6 +378,7 @@ class RecordDecoder {
 
     std::map<std::uint32_t, Floats<10>> poses_;
     std::map<std::uint32_t, Floats<9>> cameras_;
+    std::map<std::uint32_t, Floats<7>> movers_;
 };
 
 }  // namespace
@@ -313,6 +443,17 @@ void RecordEncoder::add(std::int64_t time, const Message& message) {
         }
         put_reasons(body, frame->reasons);
     }
+    if (const auto* movers = std::get_if<director::MoverInfo>(&message)) put_movers(body, *movers);
+    if (const auto* frame = std::get_if<director::MoverFrame>(&message)) {
+        body.varint(frame->epoch);
+        body.difference(frame->frame_time);
+        body.difference(frame->source_time);
+        body.varint(frame->poses.size());
+        for (const director::MoverPose& pose : frame->poses) {
+            body.varint(pose.mover_id);
+            put(body, floats_of(pose), movers_[pose.mover_id]);
+        }
+    }
     sink_.varint(message.index() + 1);  // RecordKind has the variant's order
     sink_.varint(body.bytes.size());
     sink_.append(body.bytes);
@@ -334,8 +475,10 @@ Result<std::vector<Record>> decode_records(const Resource& resource, const std::
         bool valid = step >= 0 && !__builtin_add_overflow(time, step, &time);
         auto message = decoder.message(kind, body, valid);
         if (!body.ok() || !valid)
-            return fail(where + "expected a whole record of kind " + std::to_string(kind) +
-                        " with finite numbers, unit quaternions and a time not before the last one");
+            return fail(
+                where + "expected a whole record of kind " + std::to_string(kind) +
+                " with finite numbers, unit quaternions, bounded hulls and a time not before the last "
+                "one");
         if (!message) continue;
         if (records.size() == max_records)
             return fail(where + "expected at most " + std::to_string(max_records) + " records");

@@ -32,6 +32,7 @@ class RecordEncoder {
     std::size_t count_ = 0;
     std::map<std::uint32_t, std::array<std::uint32_t, 10>> poses_;
     std::map<std::uint32_t, std::array<std::uint32_t, 9>> cameras_;
+    std::map<std::uint32_t, std::array<std::uint32_t, 7>> movers_;
     ByteSink sink_;
 };
 
@@ -39,7 +40,8 @@ class RecordEncoder {
 inline constexpr std::size_t max_records = 1U << 17U;
 
 // Unknown kinds of records are skipped, and so is what a newer minor version appends to a record. Floats
-// are finite, quaternions of length 1 within 1e-3 and known records at most max_records, or it is an error.
+// are finite, quaternions and normals of length 1 within 1e-3, hulls bounded and known records at most
+// max_records, or it is an error.
 [[nodiscard]] Result<std::vector<Record>> decode_records(const Resource& resource, const std::string& name);
 
 }  // namespace camdir::recording

@@ -153,8 +153,20 @@ void Recorder::write(const std::string& match_id, Match& match, const Record& re
         match.requests[request->observer_id] = *request;
     if (const auto* withdrawal = std::get_if<Withdrawal>(&record.message))
         match.requests.erase(withdrawal->observer_id);
+    const auto* poses = std::get_if<director::PoseFrame>(&record.message);
+    if (done && match.recording && poses != nullptr && poses->movers)
+        done = append_movers(match, *poses->movers, record.time);
     if (done && match.recording) done = match.recording->writer.append(record);
     if (!done) fail(match_id, match, done.error());
+}
+
+Result<void> Recorder::append_movers(Match& match, const director::MatchMovers& movers, std::int64_t time) {
+    Result<void> done;
+    Writer& writer = match.recording->writer;
+    if (movers.info != match.movers.info) done = writer.append({time, *movers.info});
+    if (done && movers.frame != match.movers.frame) done = writer.append({time, *movers.frame});
+    match.movers = movers;
+    return done;
 }
 
 Result<void> Recorder::begin(const std::string& match_id, Match& match, std::int64_t time) {
@@ -171,6 +183,7 @@ Result<void> Recorder::begin(const std::string& match_id, Match& match, std::int
     if (!writer) return tl::unexpected(writer.error());
     match.recording.emplace(Recording{id, name, std::move(*writer)});
     match.failed = false;
+    match.movers = {};
     Result<void> done;
     for (auto request = match.requests.begin(); done && request != match.requests.end(); ++request)
         done = match.recording->writer.append({time, request->second});

@@ -87,7 +87,8 @@ class Recorder final : public director::Audience {
         std::map<std::string, director::ObserverRequest> requests;  // by observer; they may precede it
         director::MatchInfo info;                                   // the last one
         std::optional<Recording> recording;
-        bool failed = false;  // in this epoch
+        director::MatchMovers movers;  // the last ones of the recording
+        bool failed = false;           // in this epoch
     };
 
     struct Waiting {  // of a match
@@ -106,6 +107,9 @@ class Recorder final : public director::Audience {
     [[nodiscard]] std::vector<Shown> take(const std::stop_token& stop);
     void write(Shown shown);
     void write(const std::string& match_id, Match& match, const Record& record);
+    // Before the poses that are among them, where they are others than before.
+    [[nodiscard]] static Result<void> append_movers(Match& match, const director::MatchMovers& movers,
+                                                    std::int64_t time);
     // Also appends the requests that preceded the match.
     [[nodiscard]] Result<void> begin(const std::string& match_id, Match& match, std::int64_t time);
     void finish(const std::string& match_id, Match& match);

@@ -17,6 +17,8 @@ void apply_info(State& state, const director::MatchInfo& info) {
     if (state.info && state.info->epoch != info.epoch) {
         state.poses.reset();
         state.cameras.reset();
+        state.movers.reset();
+        state.mover_frame.reset();
     }
     state.info = info;
 }
@@ -34,6 +36,7 @@ void apply_poses(State& state, const director::PoseFrame& frame) {
         last[pose.player_id] = pose;
     state.poses = frame;
     state.poses->poses.clear();
+    state.poses->movers.reset();
     for (const auto& [id, pose] : last)
         state.poses->poses.push_back(pose);
 }
@@ -48,6 +51,8 @@ void State::apply(const Message& message) {
                    [&](const director::ObserverRequest& request) { requests[request.observer_id] = request; },
                    [&](const Withdrawal& withdrawal) { requests.erase(withdrawal.observer_id); },
                    [&](const director::CameraFrame& frame) { cameras = frame; },
+                   [&](const director::MoverInfo& described) { movers = described; },
+                   [&](const director::MoverFrame& frame) { mover_frame = frame; },
                },
                message);
 }
@@ -55,6 +60,8 @@ void State::apply(const Message& message) {
 std::vector<Message> State::messages() const {
     std::vector<Message> all;
     if (info) all.emplace_back(*info);
+    if (movers) all.emplace_back(*movers);
+    if (mover_frame) all.emplace_back(*mover_frame);
     if (poses) all.emplace_back(*poses);
     for (const auto& [observer, request] : requests)
         all.emplace_back(request);

@@ -18,9 +18,12 @@ struct Withdrawal {
     std::string observer_id;
 };
 
-using Message = std::variant<director::MatchInfo, director::PoseFrame, director::MatchEvent,
-                             director::ObserverRequest, Withdrawal, director::CameraFrame>;
+using Message =
+    std::variant<director::MatchInfo, director::PoseFrame, director::MatchEvent, director::ObserverRequest,
+                 Withdrawal, director::CameraFrame, director::MoverInfo, director::MoverFrame>;
 
+// The poses of a record are among the movers of the records before it, of the same epoch, and have none
+// themselves.
 struct Record {
     std::int64_t time = 0;  // ns, of the recorder's clock; never descends
     Message message;
@@ -33,8 +36,10 @@ struct State {
     std::optional<director::PoseFrame> poses;
     std::map<std::string, director::ObserverRequest> requests;  // by observer
     std::optional<director::CameraFrame> cameras;               // the last frame's
+    std::optional<director::MoverInfo> movers;
+    std::optional<director::MoverFrame> mover_frame;
 
-    // A new epoch in a MatchInfo forgets poses and cameras.
+    // A new epoch in a MatchInfo forgets poses, cameras and movers.
     void apply(const Message& message);
 
     // The messages that make this state from an empty one.

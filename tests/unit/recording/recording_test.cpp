@@ -4,6 +4,7 @@
 #include <limits>
 #include <random>
 
+#include "freespace/shape_checks.hpp"
 #include "recording/bytes.hpp"
 #include "recording/reader.hpp"
 #include "recording/writer.hpp"
@@ -37,7 +38,7 @@ Message random_message(std::mt19937& random) {
     const auto number = [&] { return std::uniform_real_distribution<float>(-4096.0F, 4096.0F)(random); };
     const auto vector = [&] { return Vec3f(number(), number(), number()); };
     const auto direction = [&] { return Quatf(number(), number(), number(), number()).normalized(); };
-    switch (random() % 6) {
+    switch (random() % 8) {
         case 0: {
             director::MatchInfo info = start_of_match().match;
             info.epoch = random() % 2;
@@ -57,6 +58,21 @@ Message random_message(std::mt19937& random) {
             return director::ObserverRequest{"m", std::to_string(random() % 3), 1, {1, 2}, "default", "{}"};
         case 4:
             return Withdrawal{std::to_string(random() % 3)};
+        case 5: {
+            director::MoverInfo info{random() % 2, {{3, {"*3", "func_door", {}, {}}}, {200, {}}}};
+            freespace::MoverShape& cart = info.movers[1].shape;
+            cart.balls.push_back({vector(), 1.0F + std::abs(number())});
+            cart.hulls.push_back({});
+            for (int axis = 0; axis < 3; ++axis)
+                for (const float side : {-1.0F, 1.0F})
+                    cart.hulls[0].half_spaces.push_back(
+                        {side * Vec3f::Unit(axis), 1.0F + std::abs(number())});
+            cart.hulls[0].bounds = *freespace::bounds_of(cart.hulls[0].half_spaces);
+            return info;
+        }
+        case 6:
+            return director::MoverFrame{
+                random() % 2, -7, 8, {{3, vector(), direction()}, {200, vector(), direction()}}};
         default: {
             director::CameraFrame frame{1, static_cast<std::uint32_t>(random()), 3, 4, 5, {}, {}};
             frame.cameras.push_back({8, 1, vector(), direction(), 1.5F, number(), 3});

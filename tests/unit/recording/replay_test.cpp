@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -45,9 +47,31 @@ class Recorded {
     std::unique_ptr<Recorder> recorder_;
 };
 
+// A ball that comes and goes between the players, and rests at times; a wall of an unknown model.
+std::shared_ptr<const MatchMovers> movers_at(std::uint32_t number) {
+    static const auto info = [] {
+        MoverInfo described{1, {{7, {"*9", "func_door", {}, {}}}, {8, {}}}};
+        described.movers[1].shape.balls.push_back({Vec3f::Zero(), 9.0F});
+        return std::make_shared<const MoverInfo>(described);
+    }();
+    static std::map<std::uint32_t, std::shared_ptr<const MatchMovers>> known;
+    if (number < 5) return nullptr;
+    const std::uint32_t place = std::min(number % 40, 20U);  // the same at the end of each 40 frames
+    auto& movers = known[place];
+    if (!movers) {
+        auto frame = std::make_shared<MoverFrame>(MoverFrame{1, 50 * ms * number, 77, {}});
+        const float x = 30.0F + 2.0F * static_cast<float>(place);
+        for (const std::uint32_t id : {7U, 8U})
+            frame->poses.push_back({id, Vec3f(x, 50.0F, 0.0F), Quatf::Identity()});
+        movers = std::make_shared<const MatchMovers>(MatchMovers{info, frame});
+    }
+    return movers;
+}
+
 // With a respawn that is only counted.
 PoseFrame walk(std::uint32_t number) {
     PoseFrame frame = Stage::poses(number);
+    frame.movers = movers_at(number);
     for (PlayerPose& pose : frame.poses)
         pose.discontinuities = pose.player_id == 2 && number > 40 ? 1U : 0U;
     return frame;
@@ -89,6 +113,23 @@ void expect_same(const std::vector<CameraFrame>& a, const std::vector<CameraFram
         ASSERT_EQ(bits_of({a[i]}), bits_of({b[i]})) << "frame " << i;
 }
 
+// Puts the movers of records into the poses among them.
+class WithMovers {
+  public:
+    [[nodiscard]] Message operator()(Message message) {
+        if (const auto* info = std::get_if<MoverInfo>(&message)) info_ = std::make_shared<MoverInfo>(*info);
+        if (const auto* frame = std::get_if<MoverFrame>(&message))
+            movers_ =
+                std::make_shared<const MatchMovers>(MatchMovers{info_, std::make_shared<MoverFrame>(*frame)});
+        if (auto* poses = std::get_if<PoseFrame>(&message)) poses->movers = movers_;
+        return message;
+    }
+
+  private:
+    std::shared_ptr<const MoverInfo> info_;
+    std::shared_ptr<const MatchMovers> movers_;
+};
+
 void give(Director& director, const Message& message) {
     if (const auto* info = std::get_if<MatchInfo>(&message)) director.receive(*info);
     if (const auto* frame = std::get_if<PoseFrame>(&message)) receive(director, "m", *frame);
@@ -113,9 +154,28 @@ TEST(Replay, MakesTheCamerasOfALiveMatch) {
     const auto records = recorded.records();
     expect_same(cameras_in(records), stage.publisher.frames(), 120);
     Stage again;
+    WithMovers with_movers;
     for (const Record& record : records)
-        give(again.director, record.message);
+        give(again.director, with_movers(record.message));
     expect_same(again.publisher.frames(), stage.publisher.frames(), 120);
+}
+
+TEST(Replay, HasTheMoversBeforeTheFirstPosesAmongThem) {
+    Recorded recorded;
+    Stage stage(Stage::default_config(), recorded.audiences());
+    stage.start();
+    for (std::uint32_t number = 0; number < 45; ++number)
+        stage.send(walk(number));
+    std::size_t infos = 0, frames = 0, before_poses = 0;
+    for (const Record& record : recorded.records()) {
+        infos += std::holds_alternative<MoverInfo>(record.message) ? 1 : 0;
+        frames += std::holds_alternative<MoverFrame>(record.message) ? 1 : 0;
+        const auto* poses = std::get_if<PoseFrame>(&record.message);
+        if (poses != nullptr && poses->frame_number == 5) before_poses = infos + frames;
+    }
+    EXPECT_EQ(before_poses, 2U);
+    EXPECT_EQ(infos, 1U);
+    EXPECT_EQ(frames, 16U + 5U) << "those in which something has moved";
 }
 
 TEST(Replay, MakesTheCamerasOfADelayedMatch) {
@@ -135,10 +195,12 @@ TEST(Replay, MakesTheCamerasOfADelayedMatch) {
     expect_same(cameras_in(records), match.publisher.frames(), 120);
 
     Delayed again;  // has the description and the request of "a"
+    WithMovers with_movers;
     std::uint32_t next = 0;
     for (const Record& record : records) {
-        if (const auto* event = std::get_if<MatchEvent>(&record.message)) again.put(*event, received(next));
-        if (const auto* frame = std::get_if<PoseFrame>(&record.message)) {
+        const Message message = with_movers(record.message);
+        if (const auto* event = std::get_if<MatchEvent>(&message)) again.put(*event, received(next));
+        if (const auto* frame = std::get_if<PoseFrame>(&message)) {
             again.put_frame(*frame);
             next = frame->frame_number + 1;
         }
