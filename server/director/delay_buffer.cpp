@@ -26,6 +26,15 @@ std::size_t bytes_of(const Message& message) {
     return info == nullptr ? 0 : info->players.size() * (sizeof(Player) + bytes_of_name);
 }
 
+// Of what the frame before has not.
+std::size_t bytes_of(const PoseFrame& frame, const MatchMovers* movers_before) {
+    std::size_t bytes = frame.poses.size() * sizeof(PlayerPose);
+    if (frame.movers && frame.movers.get() != movers_before)
+        bytes +=
+            sizeof(MatchMovers) + sizeof(MoverFrame) + frame.movers->frame->poses.size() * sizeof(MoverPose);
+    return bytes;
+}
+
 // Clocks are arbitrary: modulo 2^64.
 std::int64_t difference(std::int64_t a, std::int64_t b) {
     return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) - static_cast<std::uint64_t>(b));
@@ -112,7 +121,8 @@ DelayBuffer::Admission DelayBuffer::put(const PoseFrame& frame, std::int64_t now
     if (passes()) return Admission::undelayed;
     const std::int64_t received = punctual_receipt(frame, now);
     const Admission admission =
-        keep(frame, frame.poses.size() * sizeof(PlayerPose), due_of(frame, received), received);
+        keep(frame, bytes_of(frame, last_movers_.get()), due_of(frame, received), received);
+    last_movers_ = frame.movers;
     last_frame_due_ = last_due_;
     last_frame_epoch_ = frame.epoch;
     last_frame_time_ = frame.frame_time;

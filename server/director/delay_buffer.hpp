@@ -149,6 +149,7 @@ class DelayBuffer {
     std::int64_t last_frame_due_ = 0;  // 0: no frame yet
     std::uint64_t last_frame_epoch_ = 0;
     std::int64_t last_frame_time_ = 0;
+    std::shared_ptr<const MatchMovers> last_movers_;
 };
 
 }  // namespace camdir::director

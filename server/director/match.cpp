@@ -111,6 +111,7 @@ void Match::begin_epoch() {
     edit_.clear();
     last_event_.reset();
     timeline_.clear();
+    obstacles_.clear();
     foreseen_ = 0;
     requests_.restart_shots();
     has_last_frame_ = false;
@@ -224,6 +225,7 @@ void Match::attach_map() {
     if (freespace_ && entry->generation == map_generation_) return;
     freespace_ = entry->freespace;
     map_generation_ = entry->generation;
+    obstacles_.set_map(&*freespace_);
     scratch_.clear();
     edit_.clear();
     requests_.restart_shots();
@@ -256,6 +258,16 @@ void Match::check_scale(const MapEntry& entry) {
         match_id_, sent, info_->map_name, baked);
 }
 
+void Match::report_unknown_movers() {
+    const std::vector<std::string>& unknown = obstacles_.unknown();
+    counters_.add(Counter::unknown_movers, unknown.size());
+    if (unknown.empty()) return;
+    spdlog::warn(
+        "match {}: {} of its movers are no obstacles: map {} has no such model, and they have no shape of "
+        "their own: {}",
+        match_id_, unknown.size(), info_->map_name, joined(unknown));
+}
+
 void Match::wait_for_map(std::string reason) {
     if (reason != missing_map_) spdlog::warn("match {}: no cameras: {}", match_id_, reason);
     detach_map(std::move(reason));
@@ -263,6 +275,7 @@ void Match::wait_for_map(std::string reason) {
 
 void Match::detach_map(std::string reason) {
     missing_map_ = std::move(reason);
+    obstacles_.set_map(nullptr);
     freespace_.reset();
     scratch_.clear();
     edit_.clear();
@@ -346,6 +359,8 @@ void Match::handle(const ViewRequest& wanted) {
         view.last_event = last_event_;
     }
     view.last_pose_number = last_number_;
+    view.movers = obstacles_.count();
+    view.unknown_movers = obstacles_.unknown();
     view.shots = requests_.shot_views();
     view.observers = requests_.observer_views();
     wanted.answer->set_value(std::move(view));

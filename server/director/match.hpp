@@ -16,11 +16,13 @@
 #include "director/edit.hpp"
 #include "director/inbox.hpp"
 #include "director/map_library.hpp"
+#include "director/match_obstacles.hpp"
 #include "director/ports.hpp"
 #include "director/requests.hpp"
 #include "director/roster.hpp"
 #include "director/timeline.hpp"
 #include "director/worker_pool.hpp"
+#include "freespace/space.hpp"
 
 namespace camdir::director {
 
@@ -99,6 +101,10 @@ class Match final : public Strand {
     void mark_discontinuities(PoseFrame& frame);
     void record(const PoseFrame& frame);
     bool extend_timeline(std::uint64_t epoch, std::int64_t frame_time);
+    void place_obstacles(const PoseFrame& frame);
+    // Of the map and the obstacles. There is a map.
+    [[nodiscard]] freespace::Space space() const { return {*freespace_, &obstacles_.movers()}; }
+    void report_unknown_movers();
     [[nodiscard]] bool foresee(const PoseFrame& frame);
     // Makes the steps of the next frame, whose poses wait, so that its cameras leave when it is due.
     void prepare(Turn& turn);
@@ -166,6 +172,10 @@ class Match final : public Strand {
     std::uint32_t last_number_ = 0;
     std::int64_t last_time_ = 0;
     Timeline timeline_;
+    std::shared_ptr<const MatchMovers> shown_movers_;  // of the last frame
+    // How long the frames took until now, as trackers count it that do not move over the timeline.
+    double causal_time_ = 0.0;
+    MatchObstacles obstacles_;    // over the timeline, or that time
     std::uint64_t foreseen_ = 0;  // position in the delay buffer of what follows in the timeline
     bool by_timeline_ = false;    // the cameras move over the timeline
     std::uint32_t next_camera_frame_ = 0;

@@ -81,8 +81,8 @@ void Match::follow(const Disagreement& disagreement) {
     };
     const bool goes_on =
         shot->is_of_group()
-            ? camera::go_on_from(*freespace_, since(*before), since(shown), dt, shot->group)
-            : camera::go_on_from(*freespace_, shot->profile, since(*before), since(shown), dt, shot->state);
+            ? camera::go_on_from(space(), since(*before), since(shown), dt, shot->group)
+            : camera::go_on_from(space(), shot->profile, since(*before), since(shown), dt, shot->state);
     if (goes_on) shot->is_prepared = false;
 }
 

@@ -57,12 +57,15 @@ void Match::process(PoseFrame& frame, std::int64_t received_ns, Turn& turn) {
     if (!accept(frame)) return;
     mark_discontinuities(frame);
     const double dt = has_last_frame_ ? seconds_between(last_time_, frame.frame_time) : 0.0;
+    causal_time_ += camera::usable_frame(dt);
     record(frame);
     if (reconcile_needed_ || waits_for_delay_) reconcile();
     if (foresee(frame) != by_timeline_) {
         by_timeline_ = !by_timeline_;
         requests_.restart_shots();
+        obstacles_.clear();
     }
+    place_obstacles(frame);
     if (!freespace_) {
         counters_.add(Counter::drop_waiting);
         return show(frame, no_cameras(frame));
@@ -144,11 +147,20 @@ bool Match::foresee(const PoseFrame& frame) {
     if (!timeline_.covers(frame.frame_time)) {  // the game's clock has jumped
         if (!timeline_.empty()) requests_.restart_shots();
         timeline_.clear();
+        obstacles_.clear();
         extend_timeline(frame.epoch, frame.frame_time);
     }
     if (!timeline_.covers(frame.frame_time)) return false;
     timeline_.show(frame.frame_time);
     return true;
+}
+
+void Match::place_obstacles(const PoseFrame& frame) {
+    const bool changed =
+        by_timeline_ ? obstacles_.follow(timeline_) : obstacles_.add(causal_time_, frame.movers);
+    if (frame.movers != shown_movers_) counters_.add(Counter::mover_frames);
+    shown_movers_ = frame.movers;
+    if (changed) report_unknown_movers();
 }
 
 void Match::move_cameras(const PoseFrame& frame, double dt, CameraFrame& cameras, Turn& turn) {
@@ -186,6 +198,7 @@ void Match::prepare(Turn& turn) {
     extend_timeline(next->epoch, next->frame_time);
     const double time = timeline_.seconds(next->frame_time);
     if (!timeline_.covers(next->frame_time) || time <= timeline_.shown()) return;
+    if (obstacles_.follow(timeline_)) report_unknown_movers();
     unprepared_.clear();
     for (Shot& shot : requests_.shots())
         if (shot.target != no_player && !(shot.is_prepared && shot.prepared->time == time))
@@ -225,9 +238,9 @@ ShotCamera Match::move_camera(Shot& shot, double dt, camera::Scratch& scratch) {
 
 camera::Camera Match::step_by_pose(Shot& shot, const PlayerPose* seen, double dt, camera::Scratch& scratch) {
     const Timed timed(counters_.step);
+    if (!shot.state.started) shot.state.time = causal_time_ - camera::usable_frame(dt);
     const camera::Pose pose = seen != nullptr ? tracker_pose(*seen, after_silence_) : camera::Pose{};
-    return camera::step(*freespace_, shot.profile, seen != nullptr ? &pose : nullptr, dt, shot.state,
-                        scratch);
+    return camera::step(space(), shot.profile, seen != nullptr ? &pose : nullptr, dt, shot.state, scratch);
 }
 
 camera::Camera Match::step_by_timeline(Shot& shot, const PlayerPose* seen, camera::Scratch& scratch) {
@@ -244,17 +257,17 @@ camera::Camera Match::step_by_timeline(Shot& shot, const PlayerPose* seen, camer
 camera::Camera Match::step_group_by_poses(Shot& shot, double dt) {
     const Timed timed(counters_.step);
     if (after_silence_) shot.restart();
-    const double time = shot.group.time + dt;
+    if (!shot.group.started) shot.group.time = causal_time_ - camera::usable_frame(dt);
     std::array<camera::TimedPose, camera::max_members> poses;
     std::array<camera::Window, camera::max_members> windows;
     const std::size_t count = shot.key.group.size();
     for (std::size_t i = 0; i < count; ++i) {
         const PlayerPose* seen = roster_.pose(shot.key.group[i]);
         if (seen == nullptr) continue;
-        poses[i] = {time, tracker_pose(*seen, false), true};
+        poses[i] = {causal_time_, tracker_pose(*seen, false), true};
         windows[i] = {&poses[i], 1};
     }
-    return camera::step(*freespace_, shot.profile, std::span(windows).first(count), time, shot.group);
+    return camera::step(space(), shot.profile, std::span(windows).first(count), causal_time_, shot.group);
 }
 
 camera::Camera Match::step_group_to(double time, const Shot& shot, camera::GroupState& state) {
@@ -264,14 +277,14 @@ camera::Camera Match::step_group_to(double time, const Shot& shot, camera::Group
     const std::size_t count = shot.key.group.size();
     for (std::size_t i = 0; i < count; ++i)
         windows[i] = timeline_.window(shot.key.group[i]);
-    return camera::step(*freespace_, shot.profile, std::span(windows).first(count), time, state);
+    return camera::step(space(), shot.profile, std::span(windows).first(count), time, state);
 }
 
 camera::Camera Match::step_to(double time, const Shot& shot, camera::ShotState& state,
                               camera::Scratch& scratch) {
     const Timed timed(counters_.step);
     if (!state.started) state.time = time - first_step_s;
-    return camera::step(*freespace_, shot.profile, timeline_.window(shot.target), time, state, scratch);
+    return camera::step(space(), shot.profile, timeline_.window(shot.target), time, state, scratch);
 }
 
 }  // namespace camdir::director

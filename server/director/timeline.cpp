@@ -23,6 +23,7 @@ void Timeline::clear() {
     shown_ = newest_ = 0.0;
     continuity_.clear();
     players_.clear();
+    movers_.clear();
 }
 
 double Timeline::seconds(std::int64_t frame_time) const {
@@ -42,6 +43,7 @@ bool Timeline::add(const PoseFrame& frame, std::span<const PlayerPose> poses) {
         if (track.empty() || track.back().time < time)
             track.push_back({time, camera_pose(pose, continuity_.broken(pose)), true});
     }
+    if (frame.movers || !movers_.empty()) movers_.push_back({time, frame.movers});
     for (auto& [player, track] : players_)
         if (track.back().time < time && track.back().present) track.push_back({time, {}, false});
     return true;
@@ -55,6 +57,8 @@ bool Timeline::covers(std::int64_t frame_time) const {
 void Timeline::show(std::int64_t frame_time) {
     shown_ = std::max(shown_, seconds(frame_time));
     const double oldest = shown_ - history_s;
+    const auto kept = std::ranges::upper_bound(movers_, oldest, {}, &TimedMovers::time);
+    if (kept - movers_.begin() > worth_moving) movers_.erase(movers_.begin(), kept - 1);  // one before stays
     for (auto player = players_.begin(); player != players_.end();) {
         auto& track = player->second;
         const std::ptrdiff_t stale = camera::index_at(track, oldest);  // the one before `oldest` stays

@@ -1,8 +1,9 @@
-// What a delay lets be known of a match: its players' poses around the time that is shown.
+// What a delay lets be known of a match: its players' poses and movers around the time that is shown.
 #pragma once
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -11,6 +12,12 @@
 #include "director/messages.hpp"
 
 namespace camdir::director {
+
+// Null: the match has no movers.
+struct TimedMovers {
+    double time;
+    std::shared_ptr<const MatchMovers> movers;
+};
 
 // Times are seconds of the game's clock since the first frame. One thread at a time.
 class Timeline {
@@ -32,6 +39,8 @@ class Timeline {
     [[nodiscard]] double seconds(std::int64_t frame_time) const;
     // Valid until the next add(), show() or clear().
     [[nodiscard]] camera::Window window(std::uint32_t player) const;
+    // Ascending, likewise; empty before the first.
+    [[nodiscard]] std::span<const TimedMovers> movers() const { return movers_; }
 
   private:
     bool empty_ = true;
@@ -40,6 +49,7 @@ class Timeline {
     double shown_ = 0.0;
     Continuity continuity_;
     std::map<std::uint32_t, std::vector<camera::TimedPose>> players_;
+    std::vector<TimedMovers> movers_;
 };
 
 }  // namespace camdir::director

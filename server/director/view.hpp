@@ -39,6 +39,8 @@ enum class Counter : std::size_t {
     refused_requests,
     map_hash_mismatches,
     scale_mismatches,  // of metres_per_unit
+    mover_frames,      // frames in which movers were elsewhere than before, or others
+    unknown_movers,    // without a shape: of a model that the map does not have
     count
 };
 inline constexpr std::size_t counter_count = static_cast<std::size_t>(Counter::count);
@@ -105,6 +107,8 @@ struct MatchView {
     std::vector<Player> players;           // as the game server lists them
     std::optional<MatchEvent> last_event;  // of this epoch
     std::uint32_t last_pose_number = 0;
+    std::size_t movers = 0;                   // that are obstacles
+    std::vector<std::string> unknown_movers;  // that are none: their models, or ids
     std::vector<ShotView> shots;
     std::vector<ObserverView> observers;
 };

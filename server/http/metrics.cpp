@@ -97,38 +97,43 @@ void add_metric(MetricFamily& family, double value, std::vector<prometheus::Clie
 }
 
 std::vector<MetricFamily> director_metrics(const Statistics& s) {
-    return {counter("match_infos_total", "MatchInfo samples received.", s[Counter::match_infos]),
-            counter("pose_frames_total", "Pose frames of running matches.", s[Counter::pose_frames]),
-            counter("events_total", "Match events.", s[Counter::events]),
-            counter("requests_total", "Observer requests, new or changed.", s[Counter::requests]),
-            counter("camera_frames_total", "Camera frames published.", s[Counter::camera_frames]),
-            counter("cameras_total", "Cameras in them.", s[Counter::cameras]),
-            counter("cuts_total", "Declared jumps of cameras.", s[Counter::cuts]),
-            counter("searches_total", "Searches of a camera for its lost player.", s[Counter::searches]),
-            counter("silences_total", "Matches that became silent.", s[Counter::silences]),
-            counter("refused_matches_total", "Matches above the limit.", s[Counter::refused_matches]),
-            counter("refused_requests_total", "Requests refused.", s[Counter::refused_requests]),
-            counter("map_hash_mismatches_total", "Matches whose map file differs from the baked one.",
-                    s[Counter::map_hash_mismatches]),
-            counter("scale_mismatches_total", "Matches whose metres_per_unit differs from the baked map's.",
-                    s[Counter::scale_mismatches]),
-            drops(s),
-            gauge("matches", "Matches that have a game server.", s.matches),
-            gauge("silent_matches", "Matches that are silent.", s.silent_matches),
-            gauge("observers", "Observers.", s.observers),
-            gauge("shots", "Shots, each with a camera.", s.shots),
-            gauge("frames_per_camera",
-                  "Of so many pose frames of a match one becomes cameras; more than 1: the machine is too "
-                  "slow.",
-                  s.frames_per_camera),
-            gauge("delayed_bytes", "Memory of what waits for its delay.", s.delayed_bytes),
-            histogram("step_seconds",
-                      "Duration of one tracker step of one shot, also of steps made ahead in vain.", s.step),
-            histogram(
-                "latency_seconds",
-                "Time from receiving a pose frame, or from when it is due after the delay, to publishing its "
-                "cameras.",
-                s.latency)};
+    return {
+        counter("match_infos_total", "MatchInfo samples received.", s[Counter::match_infos]),
+        counter("pose_frames_total", "Pose frames of running matches.", s[Counter::pose_frames]),
+        counter("events_total", "Match events.", s[Counter::events]),
+        counter("requests_total", "Observer requests, new or changed.", s[Counter::requests]),
+        counter("camera_frames_total", "Camera frames published.", s[Counter::camera_frames]),
+        counter("cameras_total", "Cameras in them.", s[Counter::cameras]),
+        counter("cuts_total", "Declared jumps of cameras.", s[Counter::cuts]),
+        counter("searches_total", "Searches of a camera for its lost player.", s[Counter::searches]),
+        counter("silences_total", "Matches that became silent.", s[Counter::silences]),
+        counter("refused_matches_total", "Matches above the limit.", s[Counter::refused_matches]),
+        counter("refused_requests_total", "Requests refused.", s[Counter::refused_requests]),
+        counter("map_hash_mismatches_total", "Matches whose map file differs from the baked one.",
+                s[Counter::map_hash_mismatches]),
+        counter("scale_mismatches_total", "Matches whose metres_per_unit differs from the baked map's.",
+                s[Counter::scale_mismatches]),
+        counter("mover_frames_total", "Frames in which a match's doors and lifts were elsewhere than before.",
+                s[Counter::mover_frames]),
+        counter("unknown_movers_total", "Movers whose model the match's map does not have.",
+                s[Counter::unknown_movers]),
+        drops(s),
+        gauge("matches", "Matches that have a game server.", s.matches),
+        gauge("silent_matches", "Matches that are silent.", s.silent_matches),
+        gauge("observers", "Observers.", s.observers),
+        gauge("shots", "Shots, each with a camera.", s.shots),
+        gauge("frames_per_camera",
+              "Of so many pose frames of a match one becomes cameras; more than 1: the machine is too "
+              "slow.",
+              s.frames_per_camera),
+        gauge("delayed_bytes", "Memory of what waits for its delay.", s.delayed_bytes),
+        histogram("step_seconds",
+                  "Duration of one tracker step of one shot, also of steps made ahead in vain.", s.step),
+        histogram(
+            "latency_seconds",
+            "Time from receiving a pose frame, or from when it is due after the delay, to publishing its "
+            "cameras.",
+            s.latency)};
 }
 
 std::vector<MetricFamily> match_metrics(const std::vector<director::MatchStatistics>& matches) {

@@ -71,6 +71,7 @@ json page_of(const director::MatchView& match) {
                  {"epoch", match.epoch},       {"map", match.map_name},
                  {"rate_hz", match.rate_hz},   {"camera_rate_hz", match.camera_rate_hz},
                  {"delay_s", match.delay_s},   {"last_pose_number", match.last_pose_number},
+                 {"movers", match.movers},     {"unknown_movers", match.unknown_movers},
                  {"players", json::array()},   {"shots", json::array()},
                  {"observers", json::array()}};
     for (const auto& player : match.players)
@@ -112,7 +113,7 @@ std::string live_page(const director::View& view, bool broadcasts) {
     for (const auto& match : view.matches) {
         if (!match.answered || match.map_name.empty()) continue;
         json entry = page_of(match);
-        for (const char* key : {"observers", "last_event", "last_pose_number"})
+        for (const char* key : {"observers", "last_event", "last_pose_number", "movers", "unknown_movers"})
             entry.erase(key);
         page["matches"].push_back(std::move(entry));
     }

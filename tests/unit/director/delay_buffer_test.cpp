@@ -374,6 +374,29 @@ TEST_F(DelayBufferTest, ItsMemoryIsBoundedByTheDelay) {
     EXPECT_EQ(buffer_.state().bytes, 0U);
 }
 
+TEST_F(DelayBufferTest, MoversTakeMemoryWhereTheyAreElsewhereThanBefore) {
+    buffer_.announce(1, 2.0, 0);
+    MoverFrame places;
+    places.poses.resize(100);
+    const auto movers = [&] {
+        return std::make_shared<const MatchMovers>(
+            MatchMovers{std::make_shared<MoverInfo>(), std::make_shared<MoverFrame>(places)});
+    };
+    std::uint32_t number = 0;
+    const auto bytes_with = [&](std::shared_ptr<const MatchMovers> among) {
+        PoseFrame frame = Stage::poses(number++);
+        frame.movers = std::move(among);
+        const std::size_t before = buffer_.state().bytes;
+        EXPECT_EQ(buffer_.put(frame, 0), Admission::delayed);
+        return buffer_.state().bytes - before;
+    };
+    const std::size_t without = bytes_with(nullptr);
+    const auto resting = movers();
+    EXPECT_GE(bytes_with(resting), without + 100 * sizeof(MoverPose));
+    EXPECT_EQ(bytes_with(resting), without);
+    EXPECT_GE(bytes_with(movers()), without + 100 * sizeof(MoverPose));
+}
+
 TEST_F(DelayBufferTest, WhatIsToComeCanBeRead) {
     buffer_.announce(1, 1.0, 0);
     for (std::uint32_t number = 0; number < 30; ++number)

@@ -92,6 +92,30 @@ TEST_F(TimelineTest, KnowsOfATeleportWhoseFrameWasLost) {
     EXPECT_FALSE(timeline_.window(1)[0].pose.discontinuity);
 }
 
+TEST_F(TimelineTest, HoldsTheMoversFromTheFirstFrameThatHasSome) {
+    const auto movers = std::make_shared<const MatchMovers>();
+    const auto add_with = [&](std::int64_t time_ms, std::shared_ptr<const MatchMovers> among) {
+        PoseFrame frame;
+        frame.frame_time = time_ms * ms;
+        frame.movers = std::move(among);
+        return timeline_.add(frame, frame.poses);
+    };
+    add_with(0, nullptr);
+    EXPECT_TRUE(timeline_.movers().empty());
+    for (std::int64_t time = 50; time <= 10000; time += 50)
+        add_with(time, movers);
+    add_with(10050, nullptr);
+    ASSERT_EQ(timeline_.movers().size(), 201U);
+    EXPECT_DOUBLE_EQ(timeline_.movers().front().time, 0.05);
+    EXPECT_EQ(timeline_.movers().front().movers, movers);
+    EXPECT_EQ(timeline_.movers().back().movers, nullptr);
+    timeline_.show(9000 * ms);
+    EXPECT_LE(timeline_.movers().front().time, 9.0 - 0.25);
+    EXPECT_LT(timeline_.movers().size(), 80U);
+    timeline_.clear();
+    EXPECT_TRUE(timeline_.movers().empty());
+}
+
 TEST_F(TimelineTest, AClockThatStandsStillAddsNothing) {
     EXPECT_TRUE(add(5000));
     EXPECT_TRUE(add(5000));
