@@ -12,6 +12,7 @@
 #include "app/progress.hpp"
 #include "app/recorded_match.hpp"
 #include "base/file.hpp"
+#include "camera/view.hpp"
 #include "config/config.hpp"
 #include "direction/baselines.hpp"
 #include "direction/figures.hpp"
@@ -20,6 +21,7 @@
 #include "director/edit.hpp"
 #include "evaluation/figures.hpp"
 #include "evaluation/recording.hpp"
+#include "freespace/fixed_shots.hpp"
 #include "freespace/visibility.hpp"
 #include "oracle/oracle.hpp"
 #include "report/programme_page.hpp"
@@ -71,7 +73,9 @@ Result<Inputs> read_inputs(const DirectOptions& options, ProgressLine& line) {
 
 // The rushes of a match, as the editor sees them through the freespace, and as the judge sees them.
 struct Rushes {
-    evaluation::CameraPath cameras;
+    evaluation::CameraPath cameras;               // of the trace's poses
+    std::vector<freespace::FixedShot> fixed;      // behind those that follow players
+    std::vector<evaluation::CameraSample> still;  // their cameras
     direction::Footage edited;
     direction::Footage scouted;  // as the running director knows them
     direction::Footage judged;
@@ -91,13 +95,19 @@ Result<Rushes> shoot(const DirectOptions& options, const Inputs& inputs, double 
     const ClearLine exact = [&](const Vec3d& from, const Vec3d& to) {
         return oracle.segment_clear(from, to);
     };
-    auto edited = footage_of(inputs.trace, recording->cameras, unit, proved, stop);
+    auto fixed = freespace::find_fixed_shots(*inputs.map.freespace);
+    auto edited = footage_of(inputs.trace, recording->cameras, fixed, unit, proved, stop);
     if (!edited) return tl::unexpected(edited.error());
     auto scouted = scouted_footage_of(inputs.trace, *inputs.map.freespace, unit, stop);
     if (!scouted) return tl::unexpected(scouted.error());
-    auto judged = footage_of(inputs.trace, recording->cameras, unit, exact, stop);
+    auto judged = footage_of(inputs.trace, recording->cameras, fixed, unit, exact, stop);
     if (!judged) return tl::unexpected(judged.error());
-    return Rushes{std::move(recording->cameras), std::move(*edited), std::move(*scouted), std::move(*judged)};
+    std::vector<evaluation::CameraSample> still;
+    for (const freespace::FixedShot& shot : fixed)
+        still.push_back({shot.position.cast<double>(),
+                         camera::orientation_of({shot.yaw, shot.pitch}).cast<double>(), false});
+    return Rushes{std::move(recording->cameras), std::move(fixed),  std::move(still), std::move(*edited),
+                  std::move(*scouted),           std::move(*judged)};
 }
 
 using Judged = report::JudgedProgramme;
@@ -173,9 +183,18 @@ std::string reason_text(const direction::Reason& reason, const direction::Rules&
     return text;
 }
 
-// A row for each frame: the camera on the air, whether it begins a shot or jumps, whom it follows and why.
-std::string format_programme(const Inputs& inputs, const evaluation::CameraPath& cameras,
-                             std::span<const direction::Shot> shots, const direction::Rules& rules) {
+// "fixed near spawn point 3: kill 1-0"; of a shot that follows its player the reason alone.
+std::string shot_text(const Inputs& inputs, const Rushes& rushes, const direction::Shot& shot) {
+    const std::string reason = reason_text(shot.reason, inputs.rules, inputs.trace);
+    if (!rushes.edited.is_fixed(shot.rush)) return reason;
+    const freespace::FixedShot& place = rushes.fixed[shot.rush - inputs.trace.players.size()];
+    if (place.spawn_point == freespace::none) return "fixed: " + reason;
+    return "fixed near spawn point " + std::to_string(place.spawn_point) + ": " + reason;
+}
+
+// A row for each frame: the camera on the air, whether it begins a shot or jumps, whom it shows and why.
+std::string format_programme(const Inputs& inputs, const Rushes& rushes,
+                             std::span<const direction::Shot> shots) {
     std::string text = "t_ms,player,x,y,z,qw,qx,qy,qz,cut,reason\n";
     const evaluation::Trace& trace = inputs.trace;
     std::size_t shot = 0;
@@ -185,18 +204,23 @@ std::string format_programme(const Inputs& inputs, const evaluation::CameraPath&
             direction::beat_of(static_cast<double>(frame.time - trace.frames.front().time) * 1e-9);
         while (shot + 1 < shots.size() && beat >= shots[shot].end)
             ++shot;
-        const std::uint32_t player = trace.players[shots[shot].rush];
-        const std::uint32_t pose = evaluation::pose_of(trace, frame, player);
-        if (pose == evaluation::absent) continue;
-        const evaluation::CameraSample& camera = cameras[pose];
+        const std::size_t rush = shots[shot].rush;
+        const direction::Index subject = rushes.judged.take(beat, rush).subject;
+        const std::string player = subject == direction::nobody ? "" : std::to_string(trace.players[subject]);
+        const bool fixed = rushes.judged.is_fixed(rush);
+        const std::uint32_t pose =
+            fixed ? evaluation::absent : evaluation::pose_of(trace, frame, trace.players[rush]);
+        if (!fixed && pose == evaluation::absent) continue;
+        const evaluation::CameraSample& camera =
+            fixed ? rushes.still[rush - trace.players.size()] : rushes.cameras[pose];
         std::array<char, 256> row{};
-        std::snprintf(row.data(), row.size(), ",%u,%.5f,%.5f,%.5f,%.9f,%.9f,%.9f,%.9f,%d,", player,
+        std::snprintf(row.data(), row.size(), ",%s,%.5f,%.5f,%.5f,%.9f,%.9f,%.9f,%.9f,%d,", player.c_str(),
                       camera.position.x(), camera.position.y(), camera.position.z(), camera.orientation.w(),
                       camera.orientation.x(), camera.orientation.y(), camera.orientation.z(),
                       camera.cut || shown != shot ? 1 : 0);
         shown = shot;
         text += evaluation::format_milliseconds(frame.time) + row.data() +
-                reason_text(shots[shot].reason, rules, trace) + '\n';
+                shot_text(inputs, rushes, shots[shot]) + '\n';
     }
     return text;
 }
@@ -218,6 +242,7 @@ Result<void> write_report(const DirectOptions& options, const Inputs& inputs, co
     const direction::Rules& rules = inputs.rules;
     report::ProgrammeSubject subject{{inputs.map.scene, inputs.trace, inputs.map.point_radius},
                                      rushes.cameras,
+                                     rushes.still,
                                      "The programme of a match on " + inputs.map.scene.name,
                                      facts_of(options, inputs),
                                      judged,
@@ -228,7 +253,7 @@ Result<void> write_report(const DirectOptions& options, const Inputs& inputs, co
                                      direction::find_moments(rushes.judged, events, rules, unit, 0),
                                      rules};
     for (const direction::Shot& shot : shots)
-        subject.reasons.push_back(reason_text(shot.reason, rules, inputs.trace));
+        subject.reasons.push_back(shot_text(inputs, rushes, shot));
     const auto show = [&](std::uint64_t done, std::uint64_t total) { line.show("drawing", done, total); };
     const auto page = report::to_html(subject, show, stop);
     line.clear();
@@ -270,7 +295,7 @@ Result<void> direct(const DirectOptions& options) {
     std::fprintf(stderr, "%.3f ms a decision\n",
                  took.count() * direction::cut_every / static_cast<double>(rushes->edited.beats()));
     if (!options.cameras.empty()) {
-        auto written = write_file(options.cameras, format_programme(*inputs, rushes->cameras, *shots, rules));
+        auto written = write_file(options.cameras, format_programme(*inputs, *rushes, *shots));
         if (!written) return written;
     }
     if (!options.json.empty()) {

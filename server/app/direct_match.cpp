@@ -62,10 +62,11 @@ Result<direction::Footage> read_beats(const Trace& trace, const std::stop_token&
         if (!stop.stop_requested()) read(beats[beat], players[beat], takes[beat]);
     });
     if (stop.stop_requested()) return fail("interrupted", ErrorCode::interrupted);
-    std::vector<Index> subjects(trace.players.size());
-    for (std::size_t player = 0; player < subjects.size(); ++player)
-        subjects[player] = static_cast<Index>(player);
-    direction::Footage footage(trace.players.size(), std::move(subjects));
+    std::vector<Index> followed;  // and the fixed ones behind them
+    for (std::size_t player = 0; player < trace.players.size(); ++player)
+        followed.push_back(static_cast<Index>(player));
+    followed.resize(takes.front().size(), direction::nobody);
+    direction::Footage footage(trace.players.size(), std::move(followed));
     std::size_t filled = 0;
     for (std::size_t beat = 0; beat < beats.size(); ++beat) {
         if (!beats[beat].empty()) filled = beat;
@@ -79,15 +80,20 @@ Result<direction::Footage> read_beats(const Trace& trace, const std::stop_token&
 // One beat, from its frames.
 class BeatReader {
   public:
-    BeatReader(const Trace& trace, const CameraPath& cameras, double unit, const ClearLine& clear)
-        : trace_(trace), cameras_(cameras), unit_(unit), clear_(clear) {}
+    BeatReader(const Trace& trace, const CameraPath& cameras, std::span<const freespace::FixedShot> fixed,
+               double unit, const ClearLine& clear)
+        : trace_(trace), cameras_(cameras), fixed_(fixed), unit_(unit), clear_(clear) {}
 
     void read(std::span<const TraceFrame> frames, std::vector<PlayerState>& players,
               std::vector<Take>& takes) const {
         players.assign(trace_.players.size(), {});
-        takes.assign(trace_.players.size(), {});
+        takes.assign(players.size() + fixed_.size(), {});
+        for (Index rush = 0; rush < players.size(); ++rush)
+            takes[rush].subject = rush;
         for (const TraceFrame& frame : frames)
             read_frame(frame, &frame == &frames.front(), players, takes);
+        for (Take& take : std::span(takes).subspan(players.size()))
+            take.subject = direction::subject_in(take, players);
     }
 
   private:
@@ -95,19 +101,25 @@ class BeatReader {
                     std::vector<Take>& takes) const {
         const auto poses = trace_.poses_of(frame);
         if (first) see_each_other(poses, players);
-        std::vector<bool> present(takes.size());
+        std::vector<bool> present(players.size());
         for (std::uint32_t i = 0; i < frame.pose_count; ++i) {
             const evaluation::CameraSample& camera = cameras_[frame.first_pose + i];
             const Index rush = index_of(trace_, poses[i].player);
             Take& take = takes[rush];
-            const auto shown = shown_by(camera, poses);
+            const auto shown = shown_by(poses, [&](const Vec3d& point) { return shows(camera, point); });
             present[rush] = true;
             take.shown = first ? shown : take.shown & shown;
             take.cut = take.cut || camera.cut;
             if (first) take.position = camera.position.cast<float>();
         }
-        for (std::size_t rush = 0; rush < takes.size(); ++rush)
+        for (std::size_t rush = 0; rush < present.size(); ++rush)
             if (!present[rush]) takes[rush].shown.reset();
+        for (std::size_t i = 0; i < fixed_.size(); ++i) {
+            Take& take = takes[present.size() + i];
+            const auto shown = shown_by(poses, [&](const Vec3d& point) { return shows(fixed_[i], point); });
+            take.shown = first ? shown : take.shown & shown;
+            take.position = fixed_[i].position;
+        }
     }
 
     void see_each_other(std::span<const TracePose> poses, std::vector<PlayerState>& players) const {
@@ -122,11 +134,11 @@ class BeatReader {
             }
     }
 
-    [[nodiscard]] direction::PlayerSet shown_by(const evaluation::CameraSample& camera,
-                                                std::span<const TracePose> poses) const {
+    template <class Shows>
+    [[nodiscard]] direction::PlayerSet shown_by(std::span<const TracePose> poses, const Shows& shows) const {
         direction::PlayerSet shown;
         for (const TracePose& pose : poses)
-            if (shows(camera, pose.eye) || shows(camera, evaluation::player_box(pose, unit_).center()))
+            if (shows(pose.eye) || shows(evaluation::player_box(pose, unit_).center()))
                 shown.set(index_of(trace_, pose.player));
         return shown;
     }
@@ -134,9 +146,14 @@ class BeatReader {
     [[nodiscard]] bool shows(const evaluation::CameraSample& camera, const Vec3d& point) const {
         return evaluation::in_picture(camera, point, 1.0) && clear_(camera.position, point);
     }
+    [[nodiscard]] bool shows(const freespace::FixedShot& shot, const Vec3d& point) const {
+        return freespace::frames(shot, point.cast<float>(), static_cast<float>(unit_)) &&
+               clear_(shot.position.cast<double>(), point);
+    }
 
     const Trace& trace_;
     const CameraPath& cameras_;
+    std::span<const freespace::FixedShot> fixed_;
     double unit_;
     const ClearLine& clear_;
 };
@@ -176,10 +193,11 @@ Result<void> check_length(const Trace& trace) {
     return {};
 }
 
-Result<direction::Footage> footage_of(const Trace& trace, const CameraPath& cameras, double unit,
+Result<direction::Footage> footage_of(const Trace& trace, const CameraPath& cameras,
+                                      std::span<const freespace::FixedShot> fixed, double unit,
                                       const ClearLine& clear, const std::stop_token& stop) {
     assert(cameras.size() == trace.poses.size() && trace.players.size() <= direction::max_players);
-    const BeatReader reader(trace, cameras, unit, clear);
+    const BeatReader reader(trace, cameras, fixed, unit, clear);
     return read_beats(trace, stop, [&](std::span<const TraceFrame> frames, auto& players, auto& takes) {
         reader.read(frames, players, takes);
     });
@@ -189,8 +207,8 @@ Result<direction::Footage> scouted_footage_of(const Trace& trace, const freespac
                                               double unit, const std::stop_token& stop) {
     return read_beats(trace, stop, [&](std::span<const TraceFrame> frames, auto& players, auto& takes) {
         director::Scout scout;
-        scout.players.resize(trace.players.size());
-        scout.takes.resize(trace.players.size());
+        while (scout.players.size() < trace.players.size())
+            scout.add_player();
         if (!frames.empty()) read_players(trace, trace.poses_of(frames.front()), scout.players);
         for (Index player = 0; player < scout.players.size(); ++player)
             if (scout.players[player].present) scout.present.push_back(player);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <stop_token>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "direction/rules.hpp"
 #include "evaluation/camera_path.hpp"
 #include "evaluation/events.hpp"
+#include "freespace/fixed_shots.hpp"
 #include "freespace/freespace.hpp"
 
 namespace camdir::app {
@@ -20,16 +22,18 @@ using ClearLine = std::function<bool(const Vec3d&, const Vec3d&)>;
 // Fails when the match has more than 4,000,000 beats of players (14 h of 8).
 [[nodiscard]] Result<void> check_length(const evaluation::Trace& trace);
 
-// Players and rushes in the order of `trace.players`: rush r is the camera of player r. A player is shown in
-// a beat when in all of its frames the eye or the centre of their box is in the picture with a clear line
-// from the camera. A beat without a frame repeats the one before, without its cuts. Fails with
-// ErrorCode::interrupted soon after `stop` is requested. Preconditions: one camera a pose, a length that
-// check_length() takes.
+// Players in the order of `trace.players`; rush r is the camera of player r, after them come those of
+// `fixed`, which show nobody farther away than freespace::fixed_shot_range. A player is shown in a beat when
+// in all of its frames the eye or the centre of their box is in the picture with a clear line from the
+// camera. A beat without a frame repeats the one before, without its cuts. Fails with ErrorCode::interrupted
+// soon after `stop` is requested. Preconditions: one camera a pose, a length that check_length() takes.
 [[nodiscard]] Result<direction::Footage> footage_of(const evaluation::Trace& trace,
-                                                    const evaluation::CameraPath& cameras, double unit,
+                                                    const evaluation::CameraPath& cameras,
+                                                    std::span<const freespace::FixedShot> fixed, double unit,
                                                     const ClearLine& clear, const std::stop_token& stop);
 
-// The same as the running director knows it: beats of their first frames, seen by the cameras of its scout.
+// The same as the running director knows it: beats of their first frames, seen by the cameras of its scout,
+// of which none is fixed.
 // Likewise.
 [[nodiscard]] Result<direction::Footage> scouted_footage_of(const evaluation::Trace& trace,
                                                             const freespace::Freespace& freespace,

@@ -9,31 +9,30 @@ namespace {
 
 constexpr Beat half_second = 5;
 
-// Appends the beats from `begin` to `end` on a rush to the programme.
-void show(std::vector<Shot>& shots, std::size_t rush, Beat begin, Beat end) {
+// Appends the beats from `begin` to `end` behind a player to the programme.
+void show(const Footage& footage, std::vector<Shot>& shots, Index player, Beat begin, Beat end) {
+    const std::size_t rush = footage.rush_following(player);
     if (!shots.empty() && shots.back().rush == rush)
         shots.back().end = end;
     else
         shots.push_back({rush, begin, end, {}});
 }
 
-bool lives(const Footage& footage, Beat beat, std::size_t rush) {
-    const PlayerState& state = footage.player(beat, footage.subject(rush));
+// Whom the programme shows last.
+Index followed(const Footage& footage, const std::vector<Shot>& shots) {
+    return shots.empty() ? Index{0} : footage.followed()[shots.back().rush];
+}
+
+bool lives(const Footage& footage, Beat beat, Index player) {
+    const PlayerState& state = footage.player(beat, player);
     return state.present && state.alive;
 }
 
-std::size_t rush_of(const Footage& footage, Index player) {
-    for (std::size_t rush = 0; rush < footage.rushes(); ++rush)
-        if (footage.subject(rush) == player) return rush;
-    return footage.rushes();
-}
-
-double rank(const Footage& footage, Beat beat, std::size_t rush, double range) {
-    const Index subject = footage.subject(rush);
-    const PlayerState& self = footage.player(beat, subject);
+double rank(const Footage& footage, Beat beat, Index player, double range) {
+    const PlayerState& self = footage.player(beat, player);
     double sum = 0.0;
     for (Index other = 0; other < footage.players(); ++other) {
-        if (other == subject || !self.sees[other] || !footage.player(beat, other).alive) continue;
+        if (other == player || !self.sees[other] || !footage.player(beat, other).alive) continue;
         const Vec3f way = footage.player(beat, other).eye - self.eye;
         const auto distance = static_cast<double>(way.norm());
         if (distance > range || distance <= 0.0) continue;
@@ -43,14 +42,14 @@ double rank(const Footage& footage, Beat beat, std::size_t rush, double range) {
     return sum;
 }
 
-std::size_t best_rank(const Footage& footage, Beat beat, double range) {
-    std::size_t best = 0;
+Index best_rank(const Footage& footage, Beat beat, double range) {
+    Index best = 0;
     double most = -1.0;
-    for (std::size_t rush = 0; rush < footage.rushes(); ++rush) {
-        const double value = lives(footage, beat, rush) ? rank(footage, beat, rush, range) : -0.5;
+    for (Index player = 0; player < footage.players(); ++player) {
+        const double value = lives(footage, beat, player) ? rank(footage, beat, player, range) : -0.5;
         if (value > most) {
             most = value;
-            best = rush;
+            best = player;
         }
     }
     return best;
@@ -74,21 +73,19 @@ class Standing {
             count(events_[next_]);
     }
 
-    [[nodiscard]] std::size_t leader(Beat beat) const {
-        std::size_t best = 0;
+    [[nodiscard]] Index leader(Beat beat) const {
+        Index best = 0;
         double most = -1.0;
-        for (std::size_t rush = 0; rush < footage_.rushes(); ++rush) {
-            const double value = lives(footage_, beat, rush) ? score(rush) : -0.5;
+        for (Index player = 0; player < footage_.players(); ++player) {
+            const double value = lives(footage_, beat, player) ? score(player) : -0.5;
             if (value > most) {
                 most = value;
-                best = rush;
+                best = player;
             }
         }
         return best;
     }
-    [[nodiscard]] double score(std::size_t rush) const {
-        return kills_[footage_.subject(rush)] + carried_[footage_.subject(rush)];
-    }
+    [[nodiscard]] double score(Index player) const { return kills_[player] + carried_[player]; }
 
   private:
     void count(const Event& event) {
@@ -112,12 +109,11 @@ std::vector<Shot> random_switch(const Footage& footage, std::uint64_t seed) {
     std::vector<Shot> shots;
     std::mt19937_64 random(seed);
     for (Beat beat = 0; beat < footage.beats(); beat += length) {
-        std::vector<std::size_t> choices;
-        for (std::size_t rush = 0; rush < footage.rushes(); ++rush)
-            if (lives(footage, beat, rush) && (shots.empty() || rush != shots.back().rush))
-                choices.push_back(rush);
-        const std::size_t stay = shots.empty() ? 0 : shots.back().rush;
-        show(shots, choices.empty() ? stay : choices[random() % choices.size()], beat,
+        std::vector<Index> choices;
+        const Index stay = followed(footage, shots);
+        for (Index player = 0; player < footage.players(); ++player)
+            if (lives(footage, beat, player) && (shots.empty() || player != stay)) choices.push_back(player);
+        show(footage, shots, choices.empty() ? stay : choices[random() % choices.size()], beat,
              std::min(beat + length, footage.beats()));
     }
     return shots;
@@ -137,13 +133,13 @@ std::vector<Shot> hltv(const Footage& footage, std::span<const Event> events, do
         for (const double bucket : buckets)
             if (kill == nullptr && delay_s >= least_delay)
                 kill = kill_in(events, now + bucket, now + bucket + 2.0);
-        std::size_t rush = kill == nullptr ? footage.rushes() : rush_of(footage, kill->actor);
+        Index player = kill == nullptr ? nobody : kill->actor;
         Beat length = usual;
-        if (rush < footage.rushes())
+        if (player != nobody)
             length = std::clamp(beat_of(kill->time + 2.0) - beat, shortest, longest);
         else
-            rush = best_rank(footage, beat, range * unit);
-        show(shots, rush, beat, std::min(beat + length, footage.beats()));
+            player = best_rank(footage, beat, range * unit);
+        show(footage, shots, player, beat, std::min(beat + length, footage.beats()));
         beat += length;
     }
     return shots;
@@ -156,16 +152,16 @@ std::vector<Shot> quakeworld(const Footage& footage, std::span<const Event> even
     Beat died = -1;
     for (Beat beat = 0; beat < footage.beats(); beat += half_second) {
         standing.advance(beat);
-        const std::size_t leader = standing.leader(beat);
-        std::size_t rush = shots.empty() ? leader : shots.back().rush;
-        if (lives(footage, beat, rush)) {
+        const Index leader = standing.leader(beat);
+        Index player = shots.empty() ? leader : followed(footage, shots);
+        if (lives(footage, beat, player)) {
             died = -1;
-            if (standing.score(leader) > standing.score(rush)) rush = leader;
+            if (standing.score(leader) > standing.score(player)) player = leader;
         } else {
             if (died < 0) died = beat;
-            if (beat - died >= wait_on_the_dead) rush = leader;
+            if (beat - died >= wait_on_the_dead) player = leader;
         }
-        show(shots, rush, beat, std::min(beat + half_second, footage.beats()));
+        show(footage, shots, player, beat, std::min(beat + half_second, footage.beats()));
     }
     return shots;
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cassert>
 #include <limits>
-#include <numeric>
 
 #include "direction/grammar.hpp"
 #include "direction/value.hpp"
@@ -20,8 +19,8 @@ constexpr double worst = -std::numeric_limits<double>::infinity();
 // The best that can follow a decision.
 struct Choice {
     double worth = worst;
-    Beat end = 0;          // of a shot
-    std::size_t rush = 0;  // of a cut
+    std::uint32_t end = 0;   // of a shot: beats after now
+    std::uint32_t rush = 0;  // of a cut
 };
 
 Beat first_cut_from(Beat beat) {
@@ -75,16 +74,15 @@ class Plan {
           now_(now),
           horizon_(std::max(footage.beats(), now) + beat_of(rules.grammar.foresight_s)),
           rushes_(footage.rushes()),
+          slots_(static_cast<std::size_t>(horizon_ - now + 1) / cut_every + 1),
           value_(footage, moments, rules, unit, on_air.last_shown, now, horizon_),
-          shots_(static_cast<std::size_t>(horizon_ - now + 1) * rushes_),
+          shots_(slots_ * rushes_),
           cuts_(shots_.size()),
           after_end_(shots_.size()),
           whole_(rushes_),
-          order_(choice.begin(), choice.end()) {
-        if (order_.empty()) {
-            order_.resize(rushes_);
-            std::iota(order_.begin(), order_.end(), std::size_t{0});
-        }
+          jumped_(rushes_),
+          jumps_(rushes_) {
+        choose_from(choice);
         collect_whole_moments();
         const Beat longest = horizon_ - now + beat_of(rules.grammar.maximum_shot_s);
         for (Beat length = 0; length <= longest; ++length)
@@ -101,10 +99,37 @@ class Plan {
     }
 
   private:
+    // What has no picture from now on is left out.
+    void choose_from(std::span<const std::size_t> choice) {
+        const auto consider = [&](std::size_t rush) {
+            if (rush == current_rush() || ever_to_be_had(rush)) choice_.push_back(rush);
+        };
+        if (choice.empty())
+            for (std::size_t rush = 0; rush < rushes_; ++rush)
+                consider(rush);
+        else
+            std::ranges::for_each(choice, consider);
+    }
+
+    [[nodiscard]] bool ever_to_be_had(std::size_t rush) const {
+        if (!footage_.is_fixed(rush)) return true;
+        for (Beat beat = std::max(footage_.first(), std::min(now_, footage_.beats() - 1));
+             beat < footage_.beats(); ++beat)
+            if (footage_.take(beat, rush).subject != nobody) return true;
+        return false;
+    }
+
+    // In the first beat of a shot, or the last that is known before it.
+    [[nodiscard]] bool to_be_had(Beat beat, std::size_t rush) const {
+        const Beat seen = std::min(beat, footage_.beats() - 1);
+        return !footage_.is_fixed(rush) ||
+               (seen >= footage_.first() && footage_.take(seen, rush).subject != nobody);
+    }
+
     // Of each rush, by their ends.
     void collect_whole_moments() {
         for (const Credit& credit : value_.credits())
-            for (const std::size_t rush : order_)
+            for (const std::size_t rush : choice_)
                 if (credit.until[rush] == credit.end)
                     whole_[rush].push_back({credit.begin, credit.end,
                                             credit.worth + static_cast<double>(credit.worth_both[rush])});
@@ -112,16 +137,22 @@ class Plan {
             std::ranges::stable_sort(moments, {}, &WholeMoment::end);
     }
 
-    // The beats of a rush lie side by side.
+    // Of the beats that may have a cut, and of the horizon. Those of a rush lie side by side.
     [[nodiscard]] std::size_t at(Beat beat, std::size_t rush) const {
-        return rush * static_cast<std::size_t>(horizon_ - now_ + 1) + static_cast<std::size_t>(beat - now_);
+        return rush * slots_ + static_cast<std::size_t>(beat - now_ + cut_every - 1) / cut_every;
+    }
+
+    [[nodiscard]] Choice ending(double worth, Beat end, std::size_t rush) const {
+        return {worth, static_cast<std::uint32_t>(end - now_), static_cast<std::uint32_t>(rush)};
     }
 
     // Of shots that begin at `begin`.
     void choose_ends(Beat begin) {
-        for (const std::size_t rush : order_)
-            shots_[at(begin, rush)] =
-                begin == horizon_ ? Choice{0.0, horizon_, rush} : best_end(begin, begin, rush);
+        for (const std::size_t rush : choice_)
+            if (begin == horizon_)
+                shots_[at(begin, rush)] = ending(0.0, horizon_, rush);
+            else if (to_be_had(begin, rush))
+                shots_[at(begin, rush)] = best_end(begin, begin, rush);
     }
 
     // When a shot ends that began at `begin` and is on the air at `from`.
@@ -131,21 +162,24 @@ class Plan {
         const Beat last = std::max(first, begin + beat_of(grammar.maximum_shot_s));
         const double past = value_.until(from, rush);
         CreditSum credit(whole_[rush], begin, from);
-        Choice best;
+        double most = worst;
+        Beat best = horizon_;
+        const double* after = after_end_.data() + at(first, rush);
         for (Beat end = first; end <= last && end < horizon_;) {
             const double earned = credit.at(end) - past;
             const Beat stretch = std::min({last + 1, horizon_, credit.next_end()});
             for (; end < stretch; end += cut_every) {
-                const double worth = after_end_[at(end, rush)] - cost_of_length(end - begin) + earned;
-                if (worth > best.worth) best = {worth, end, rush};
+                const double worth = *after++ - cost_of_length(end - begin) + earned;
+                if (worth <= most) continue;
+                most = worth;
+                best = end;
             }
         }
         // To the end of the plan: a shot that is not over yet cannot be too short.
         const Beat open_length = std::max(beat_of(grammar.preferred_shot_s), horizon_ - begin);
         double stay = value_.until(horizon_, rush) - past - cost_of_length(open_length) + credit.at(horizon_);
         if (horizon_ - begin > beat_of(grammar.maximum_shot_s)) stay -= never;
-        if (stay >= best.worth) best = {stay, horizon_, rush};
-        return best;
+        return stay >= most ? ending(stay, horizon_, rush) : ending(most, best, rush);
     }
 
     [[nodiscard]] double cost_of_length(Beat length) const {
@@ -157,20 +191,27 @@ class Plan {
     // the costs of a cut are looked up for few.
     void choose_cuts(Beat beat) {
         const Spanning spanning = spanning_at(beat);
-        std::ranges::sort(order_, [&](std::size_t a, std::size_t b) {
-            const double one = shots_[at(beat, a)].worth;
-            const double other = shots_[at(beat, b)].worth;
-            return one != other ? one > other : a < b;
+        promising_.clear();
+        for (const std::size_t rush : choice_) {
+            jumped_[rush] = jumped_just_before(footage_, beat, rush);
+            jumps_[rush] = jumps_soon_after(footage_, beat, rush);
+            if (const double worth = shots_[at(beat, rush)].worth; worth > worst)
+                promising_.push_back({worth - rules_.grammar.cut, rush});
+        }
+        std::ranges::sort(promising_, [](const Promise& a, const Promise& b) {
+            return a.worth != b.worth ? a.worth > b.worth : a.rush < b.rush;
         });
-        for (const std::size_t from : order_) {
+        for (const std::size_t from : choice_) {
             Choice& best = cuts_[at(beat, from)];
-            best = {worst, beat, from};
-            for (const std::size_t to : order_) {
-                const double before = shots_[at(beat, to)].worth - rules_.grammar.cut;
+            best = ending(worst, beat, from);
+            for (const auto& [before, to] : promising_) {
                 if (before + spanning.worth <= best.worth) break;
                 if (to == from) continue;
-                const double worth = before - faults(spanning, beat, from, to);
-                if (worth > best.worth) best = {worth, beat, to};
+                double worth = before - cost_of_dividing(spanning, beat, from, to);
+                if (jumped_[from] || jumps_[to]) worth -= rules_.grammar.inner_cut;
+                if (worth <= best.worth) continue;  // looking at the pictures takes longest
+                if (breaks_continuity(beat, from, to)) worth -= never;
+                if (worth > best.worth) best = ending(worth, beat, to);
             }
             after_end_[at(beat, from)] = value_.until(beat, from) + best.worth;
         }
@@ -192,8 +233,9 @@ class Plan {
         return spanning;
     }
 
-    // What is wrong with a cut, less the divided moments that both shots together show.
-    [[nodiscard]] double faults(const Spanning& spanning, Beat beat, std::size_t from, std::size_t to) const {
+    // Less the divided moments that both shots together show.
+    [[nodiscard]] double cost_of_dividing(const Spanning& spanning, Beat beat, std::size_t from,
+                                          std::size_t to) const {
         double cost = 0.0;
         for (const Credit* credit : spanning.credits) {
             const bool seen = credit->until[from] >= beat && credit->from[to] <= beat;
@@ -202,13 +244,14 @@ class Plan {
             else if (credit->kill && beat <= credit->peak)
                 cost += never;
         }
-        if (leaves_fragment(footage_, beat, from, to)) cost += rules_.grammar.inner_cut;
-        // The first beat that is not known looks like the last that is: a live cut is made there.
-        const Beat seen = std::min(beat, footage_.beats() - 1);
-        if (seen >= 0 && beat - seen <= 1 &&
-            (jump_cut(footage_, rules_.grammar, seen, from, to) || crosses_line(footage_, seen, from, to)))
-            cost += never;
         return cost;
+    }
+
+    // The first beat that is not known looks like the last that is: a live cut is made there.
+    [[nodiscard]] bool breaks_continuity(Beat beat, std::size_t from, std::size_t to) const {
+        const Beat seen = std::min(beat, footage_.beats() - 1);
+        return seen >= 0 && beat - seen <= 1 &&
+               (jump_cut(footage_, rules_.grammar, seen, from, to) || crosses_line(footage_, seen, from, to));
     }
 
     [[nodiscard]] std::vector<Shot> read_out() const {
@@ -218,14 +261,15 @@ class Plan {
         Beat from = now_;
         std::size_t before = current_rush();
         for (;;) {
+            const Beat end = now_ + static_cast<Beat>(shot.end);
             const Reason reason = from == now_ && shot.rush == current_rush()
                                       ? on_air_.shot->reason
-                                      : reason_for(before, shot.rush, from, shot.end);
-            shots.push_back({shot.rush, begin, shot.end, reason});
-            if (shot.end >= horizon_) return shots;
+                                      : reason_for(before, shot.rush, from, end);
+            shots.push_back({shot.rush, begin, end, reason});
+            if (end >= horizon_) return shots;
             before = shot.rush;
-            const std::size_t next = cuts_[at(shot.end, shot.rush)].rush;
-            from = begin = shot.end;
+            const std::size_t next = cuts_[at(end, shot.rush)].rush;
+            from = begin = end;
             shot = shots_[at(from, next)];
         }
     }
@@ -236,10 +280,10 @@ class Plan {
     [[nodiscard]] Choice first_shot() const {
         if (on_air_.shot) {
             const Choice going_on = best_end(on_air_.shot->begin, now_, on_air_.shot->rush);
-            if (going_on.end > now_) return going_on;
+            if (going_on.end > 0) return going_on;
             return shots_[at(now_, cuts_[at(now_, on_air_.shot->rush)].rush)];
         }
-        const std::size_t best = *std::ranges::min_element(order_, [&](std::size_t a, std::size_t b) {
+        const std::size_t best = *std::ranges::min_element(choice_, [&](std::size_t a, std::size_t b) {
             const double one = shots_[at(now_, a)].worth;
             const double other = shots_[at(now_, b)].worth;
             return one != other ? one > other : a < b;
@@ -249,10 +293,11 @@ class Plan {
 
     [[nodiscard]] Reason reason_for(std::size_t before, std::size_t rush, Beat from, Beat end) const {
         double most = 0.0;
+        const Beat seen = std::min(from, footage_.beats() - 1);
+        const Index subject = seen >= footage_.first() ? footage_.take(seen, rush).subject : nobody;
         Reason reason{before < rushes_ ? Reason::Why::length : Reason::Why::opening};
         for (const Moment& moment : moments_) {
-            const Index subject = footage_.subject(rush);
-            const bool own = moment.actor == subject || moment.subject == subject;
+            const bool own = subject != nobody && (moment.actor == subject || moment.subject == subject);
             const double worth = (own ? 1.0 : foreign) * worth_in(moment, rush, from, end);
             if (worth <= most) continue;
             most = worth;
@@ -260,9 +305,10 @@ class Plan {
         }
         const Beat last = std::min(from, footage_.beats()) - 1;
         if (before >= rushes_ || last < footage_.first() || most >= 1.0) return reason;
-        const Index subject = footage_.subject(before);
-        if (!footage_.player(last, subject).alive) return {Reason::Why::death, 0, subject, nobody};
-        if (!footage_.take(last, before).shown[subject]) return {Reason::Why::hidden, 0, subject, nobody};
+        const Index lost = footage_.take(last, before).subject;
+        if (lost == nobody) return reason;
+        if (!footage_.player(last, lost).alive) return {Reason::Why::death, 0, lost, nobody};
+        if (!footage_.take(last, before).shown[lost]) return {Reason::Why::hidden, 0, lost, nobody};
         return reason;
     }
 
@@ -284,13 +330,20 @@ class Plan {
     Beat now_;
     Beat horizon_;
     std::size_t rushes_;
+    std::size_t slots_;
     Value value_;
     std::vector<Choice> shots_;                    // of a shot that begins at a beat: when it ends
     std::vector<Choice> cuts_;                     // of a shot that ends at a beat: what comes next
     std::vector<double> after_end_;                // what a rush is worth until a beat, and what comes next
     std::vector<std::vector<WholeMoment>> whole_;  // of each rush
-    std::vector<std::size_t> order_;               // rushes, the best next one first
-    std::vector<double> length_costs_;             // by length
+    std::vector<std::size_t> choice_;              // ascending, the rushes
+    struct Promise {
+        double worth;
+        std::size_t rush;
+    };
+    std::vector<char> jumped_, jumps_;  // of each rush at a beat: a camera's jump is too near to a cut
+    std::vector<Promise> promising_;    // at a beat, the best next one first
+    std::vector<double> length_costs_;  // by length
 };
 
 }  // namespace

@@ -73,7 +73,9 @@ class Judge {
     void judge_idleness(Figures& figures) const {
         double idle = 0.0;
         for (Beat beat = 0; beat < footage_.beats(); ++beat)
-            idle += out_of_action(beat, footage_.subject(rush_at(beat))) && somebody_fights(beat) ? 1.0 : 0.0;
+            idle += out_of_action(beat, footage_.take(beat, rush_at(beat)).subject) && somebody_fights(beat)
+                        ? 1.0
+                        : 0.0;
         figures.idle_share = idle / static_cast<double>(footage_.beats());
     }
 
@@ -130,6 +132,7 @@ class Judge {
     }
 
     [[nodiscard]] bool out_of_action(Beat beat, Index player) const {
+        if (player == nobody) return true;
         const Beat earlier = beat - beat_of(mourning_s);
         const bool dead =
             earlier >= 0 && !footage_.player(beat, player).alive && !footage_.player(earlier, player).alive;

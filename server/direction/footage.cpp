@@ -1,6 +1,5 @@
 #include "direction/footage.hpp"
 
-#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <utility>
@@ -8,19 +7,23 @@
 namespace camdir::direction {
 namespace {
 
-constexpr Beat worth_moving = 64;
+float cosine_of_aim(const PlayerState& a, const PlayerState& b) {
+    return a.facing.dot((b.eye - a.eye).normalized());
+}
 
-// Rows of `before` values get another column.
-template <class T>
-void widen(std::vector<T>& values, std::size_t before) {
-    if (before == 0) return;
-    std::vector<T> wider;
-    wider.reserve(values.size() / before * (before + 1));
-    for (auto row = values.begin(); row != values.end(); row += static_cast<std::ptrdiff_t>(before)) {
-        wider.insert(wider.end(), row, row + static_cast<std::ptrdiff_t>(before));
-        wider.emplace_back();
+std::vector<Meeting> meetings_of(std::span<const PlayerState> players) {
+    std::vector<Meeting> meetings;
+    for (Index a = 0; a < players.size(); ++a) {
+        const PlayerState& one = players[a];
+        if (!one.alive || one.sees.none()) continue;
+        for (Index b = a + 1; b < players.size(); ++b) {
+            const PlayerState& other = players[b];
+            if (!one.sees[b] || !other.alive || !enemies(one, other)) continue;
+            meetings.push_back({a, b, (one.eye - other.eye).norm(),
+                                std::max(cosine_of_aim(one, other), cosine_of_aim(other, one))});
+        }
     }
-    values = std::move(wider);
+    return meetings;
 }
 
 }  // namespace
@@ -30,34 +33,75 @@ Beat beat_of(double seconds) {
     return static_cast<Beat>(std::floor(seconds / beat_s + rounding));
 }
 
-Footage::Footage(std::size_t players, std::vector<Index> subjects)
-    : players_(players), subjects_(std::move(subjects)) {
+bool enemies(const PlayerState& a, const PlayerState& b) {
+    return a.team != b.team || a.team == 0;
+}
+
+Index subject_in(const Take& take, std::span<const PlayerState> players) {
+    const auto meets = [&](const PlayerState& player) {
+        for (std::size_t other = 0; other < players.size(); ++other)
+            if (player.sees[other] && players[other].alive && enemies(player, players[other])) return true;
+        return false;
+    };
+    Index subject = nobody;
+    float least = 0.0F;
+    bool fights = false;
+    for (Index player = 0; player < players.size(); ++player) {
+        const PlayerState& state = players[player];
+        if (!take.shown[player] || !state.alive) continue;
+        const bool is_fighting = meets(state);
+        const float distance = (state.eye - take.position).norm();
+        if (subject != nobody && (fights != is_fighting ? fights : distance >= least)) continue;
+        subject = player;
+        least = distance;
+        fights = is_fighting;
+    }
+    return subject;
+}
+
+Footage::Footage(std::size_t players, std::vector<Index> followed)
+    : players_(players), followed_(std::move(followed)) {
     assert(players_ <= max_players);
 }
 
 void Footage::append(std::span<const PlayerState> players, std::span<const Take> takes) {
-    assert(players.size() == players_ && takes.size() == subjects_.size());
-    states_.insert(states_.end(), players.begin(), players.end());
-    takes_.insert(takes_.end(), takes.begin(), takes.end());
-    ++beats_;
+    assert(players.size() == players_ && takes.size() == followed_.size());
+    Row& row = rows_.emplace_back();
+    row.players.assign(players.begin(), players.end());
+    row.takes.assign(takes.begin(), takes.end());
+    row.meetings = meetings_of(players);
+    look_up_showing(row);
+}
+
+void Footage::look_up_showing(Row& row) const {
+    const std::size_t words = (followed_.size() + word_bits - 1) / word_bits;
+    row.showing.assign((players_ + 1) * words, 0);
+    for (std::size_t rush = 0; rush < row.takes.size(); ++rush)
+        for (std::size_t player = 0; player < players_; ++player)
+            if (row.takes[rush].shown[player])
+                row.showing[player * words + rush / word_bits] |= Word{1} << rush % word_bits;
 }
 
 void Footage::add_player() {
     assert(players_ < max_players);
-    const auto beats = static_cast<std::size_t>(beats_ - first_);
-    if (players_ == 0) states_.resize(beats);
-    if (subjects_.empty()) takes_.resize(beats);
-    widen(states_, players_);
-    widen(takes_, subjects_.size());
-    subjects_.push_back(static_cast<Index>(players_++));
+    const auto player = static_cast<Index>(players_++);
+    followed_.push_back(player);
+    for (Row& row : rows_) {
+        row.players.emplace_back();
+        row.takes.emplace_back().subject = player;
+        look_up_showing(row);
+    }
+}
+
+std::size_t Footage::rush_following(Index player) const {
+    const auto found = std::ranges::find(followed_, player);
+    assert(found != followed_.end());
+    return static_cast<std::size_t>(found - followed_.begin());
 }
 
 void Footage::forget_before(Beat beat) {
-    if (beat - first_ < worth_moving) return;
-    const auto rows = static_cast<std::ptrdiff_t>(row(std::min(beat, beats_)));
-    states_.erase(states_.begin(), states_.begin() + rows * static_cast<std::ptrdiff_t>(players_));
-    takes_.erase(takes_.begin(), takes_.begin() + rows * static_cast<std::ptrdiff_t>(subjects_.size()));
-    first_ += rows;
+    for (; first_ < std::min(beat, beats()); ++first_)
+        rows_.pop_front();
 }
 
 }  // namespace camdir::direction

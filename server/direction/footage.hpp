@@ -1,9 +1,11 @@
-// What a director has to choose from: the players and the cameras that follow them, in beats of 0.1 s.
+// What a director has to choose from: the players and the cameras that show them, in beats of 0.1 s.
 #pragma once
 
+#include <algorithm>
 #include <bitset>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <span>
 #include <vector>
 
@@ -34,18 +36,35 @@ struct PlayerState {
     PlayerSet sees;  // whose eye there is a free line of sight to
 };
 
+[[nodiscard]] bool enemies(const PlayerState& a, const PlayerState& b);
+
+// Two living enemies, one of whom sees the other.
+struct Meeting {
+    Index a = nobody;
+    Index b = nobody;       // > a
+    float distance = 0.0F;  // of their eyes, map units
+    float cosine = -1.0F;   // of the angle at which one of them looks past the other: the smaller angle
+};
+
 // A rush over one beat.
 struct Take {
     Vec3f position = Vec3f::Zero();  // of the camera, in the first frame
     PlayerSet shown;                 // in the picture and not hidden, in every frame of the beat
-    bool cut = false;                // the camera itself jumps: its player respawned or was teleported
+    bool cut = false;                // the camera itself jumps
+    // Whom the picture is of: of a rush that follows a player always they; of a fixed one nobody where it has
+    // nobody to show.
+    Index subject = nobody;
 };
+
+// Of a picture that is made for nobody: the nearest of those shown who live and meet an enemy, or, where
+// nobody does, the nearest who lives.
+[[nodiscard]] Index subject_in(const Take& take, std::span<const PlayerState> players);
 
 // Beats are appended as they become known, and may be forgotten. What is known at a beat ends at `beats()`.
 class Footage {
   public:
-    // `subjects[r]`: the player whom rush r follows. At most max_players players.
-    Footage(std::size_t players, std::vector<Index> subjects);
+    // `followed[r]`: the player whom rush r follows, or nobody: it is fixed. At most max_players players.
+    Footage(std::size_t players, std::vector<Index> followed);
 
     // Of every player, and of every rush.
     void append(std::span<const PlayerState> players, std::span<const Take> takes);
@@ -55,35 +74,45 @@ class Footage {
     void forget_before(Beat beat);
 
     [[nodiscard]] std::size_t players() const { return players_; }
-    [[nodiscard]] std::size_t rushes() const { return subjects_.size(); }
-    [[nodiscard]] Index subject(std::size_t rush) const { return subjects_[rush]; }
-    [[nodiscard]] Beat beats() const { return beats_; }
+    [[nodiscard]] std::size_t rushes() const { return followed_.size(); }
+    [[nodiscard]] const std::vector<Index>& followed() const { return followed_; }
+    [[nodiscard]] bool is_fixed(std::size_t rush) const { return followed_[rush] == nobody; }
+    [[nodiscard]] std::size_t rush_following(Index player) const;
+    [[nodiscard]] Beat beats() const { return first_ + static_cast<Beat>(rows_.size()); }
     [[nodiscard]] Beat first() const { return first_; }  // that is not forgotten
 
     // Preconditions: first() <= beat < beats().
     [[nodiscard]] const PlayerState& player(Beat beat, std::size_t player) const {
-        return states_[row(beat) * players_ + player];
+        return row(beat).players[player];
     }
-    [[nodiscard]] const Take& take(Beat beat, std::size_t rush) const {
-        return takes_[row(beat) * subjects_.size() + rush];
+    [[nodiscard]] const Take& take(Beat beat, std::size_t rush) const { return row(beat).takes[rush]; }
+    [[nodiscard]] std::span<const PlayerState> players_at(Beat beat) const { return row(beat).players; }
+    [[nodiscard]] std::span<const Take> takes_at(Beat beat) const { return row(beat).takes; }
+    [[nodiscard]] std::span<const Meeting> meetings_at(Beat beat) const { return row(beat).meetings; }
+
+    // The rushes that show a player: rush r by bit r % 64 of word r / 64. Of nobody none, in as many words.
+    using Word = std::uint64_t;
+    static constexpr std::size_t word_bits = 64;
+    [[nodiscard]] std::span<const Word> showing(Beat beat, Index player) const {
+        const std::size_t words = row(beat).showing.size() / (players_ + 1);
+        return std::span(row(beat).showing).subspan(std::min<std::size_t>(player, players_) * words, words);
     }
-    [[nodiscard]] std::span<const PlayerState> players_at(Beat beat) const {
-        return std::span(states_).subspan(row(beat) * players_, players_);
-    }
-    [[nodiscard]] std::span<const Take> takes_at(Beat beat) const {
-        return std::span(takes_).subspan(row(beat) * subjects_.size(), subjects_.size());
-    }
-    [[nodiscard]] const std::vector<Index>& subjects() const { return subjects_; }
 
   private:
-    [[nodiscard]] std::size_t row(Beat beat) const { return static_cast<std::size_t>(beat - first_); }
+    struct Row {
+        std::vector<PlayerState> players;
+        std::vector<Take> takes;
+        std::vector<Meeting> meetings;
+        std::vector<Word> showing;  // of each player, and of nobody
+    };
+
+    [[nodiscard]] const Row& row(Beat beat) const { return rows_[static_cast<std::size_t>(beat - first_)]; }
+    void look_up_showing(Row& row) const;
 
     std::size_t players_;
-    std::vector<Index> subjects_;
+    std::vector<Index> followed_;
     Beat first_ = 0;
-    Beat beats_ = 0;
-    std::vector<PlayerState> states_;  // of the first beat, of the next one, ...
-    std::vector<Take> takes_;
+    std::deque<Row> rows_;
 };
 
 }  // namespace camdir::direction

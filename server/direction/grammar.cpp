@@ -32,16 +32,12 @@ double length_cost(const Grammar& grammar, Beat length) {
     return grammar.length * deviation * deviation;
 }
 
-bool enemies(const PlayerState& a, const PlayerState& b) {
-    return a.team != b.team || a.team == 0;
-}
-
 bool jump_cut(const Footage& footage, const Grammar& grammar, Beat beat, std::size_t from, std::size_t to) {
     const Take& before = footage.take(beat, from);
     const Take& after = footage.take(beat, to);
     const auto near = static_cast<float>(grammar.jump_cosine);
-    for (const Index player : {footage.subject(from), footage.subject(to)}) {
-        if (!before.shown[player] || !after.shown[player]) continue;
+    for (const Index player : {before.subject, after.subject}) {
+        if (player == nobody || !before.shown[player] || !after.shown[player]) continue;
         const Vec3f& eye = footage.player(beat, player).eye;
         if ((eye - before.position).normalized().dot((eye - after.position).normalized()) > near) return true;
     }
@@ -49,23 +45,28 @@ bool jump_cut(const Footage& footage, const Grammar& grammar, Beat beat, std::si
 }
 
 bool crosses_line(const Footage& footage, Beat beat, std::size_t from, std::size_t to) {
-    const Index a = footage.subject(from);
-    const Index b = footage.subject(to);
+    const Take& before = footage.take(beat, from);
+    const Take& after = footage.take(beat, to);
+    const Index a = before.subject;
+    const Index b = after.subject;
+    if (a == nobody || b == nobody || a == b) return false;
     const PlayerState& one = footage.player(beat, a);
     const PlayerState& other = footage.player(beat, b);
-    if (a == b || !one.sees[b] || !one.alive || !other.alive || !enemies(one, other)) return false;
-    return side_of(one.eye, other.eye, footage.take(beat, from).position) *
-               side_of(one.eye, other.eye, footage.take(beat, to).position) <
-           0.0F;
+    if (!one.sees[b] || !one.alive || !other.alive || !enemies(one, other)) return false;
+    return side_of(one.eye, other.eye, before.position) * side_of(one.eye, other.eye, after.position) < 0.0F;
 }
 
-bool leaves_fragment(const Footage& footage, Beat beat, std::size_t from, std::size_t to) {
-    for (Beat away = 1; away < shortest_piece; ++away) {
-        if (beat - away >= footage.first() && beat - away < footage.beats() &&
-            footage.take(beat - away, from).cut)
-            return true;
-        if (beat + away < footage.beats() && footage.take(beat + away, to).cut) return true;
-    }
+bool jumped_just_before(const Footage& footage, Beat beat, std::size_t rush) {
+    const Beat end = std::min(beat, footage.beats());
+    for (Beat b = std::max(footage.first(), beat - shortest_piece + 1); b < end; ++b)
+        if (footage.take(b, rush).cut) return true;
+    return false;
+}
+
+bool jumps_soon_after(const Footage& footage, Beat beat, std::size_t rush) {
+    const Beat end = std::min(beat + shortest_piece, footage.beats());
+    for (Beat b = std::max(footage.first(), beat + 1); b < end; ++b)
+        if (footage.take(b, rush).cut) return true;
     return false;
 }
 

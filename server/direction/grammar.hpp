@@ -9,8 +9,6 @@ namespace camdir::direction {
 // A shot of so many beats that ends by a cut, in kills; 0 at the preferred length.
 [[nodiscard]] double length_cost(const Grammar& grammar, Beat length);
 
-[[nodiscard]] bool enemies(const PlayerState& a, const PlayerState& b);
-
 // A cut at `beat` between the two rushes is a jump cut: both show the subject of one of them, from directions
 // less than the grammar's angle apart. Precondition: beat < footage.beats().
 [[nodiscard]] bool jump_cut(const Footage& footage, const Grammar& grammar, Beat beat, std::size_t from,
@@ -22,7 +20,8 @@ namespace camdir::direction {
 
 // A cut at `beat` leaves a piece of less than 1.5 s between itself and a jump of either camera: the one
 // before jumped just now, or the one after soon will. What is not known counts as none.
-[[nodiscard]] bool leaves_fragment(const Footage& footage, Beat beat, std::size_t from, std::size_t to);
+[[nodiscard]] bool jumped_just_before(const Footage& footage, Beat beat, std::size_t rush);
+[[nodiscard]] bool jumps_soon_after(const Footage& footage, Beat beat, std::size_t rush);
 
 // The subject is alive and stands about: slower than `slow` in every beat of the two seconds before `beat`
 // and in sight of no enemy.

@@ -12,7 +12,7 @@ class Material {
   public:
     static constexpr std::size_t max_events = 8192;
 
-    Material(std::size_t players, std::vector<Index> subjects) : footage_(players, std::move(subjects)) {}
+    Material(std::size_t players, std::vector<Index> followed) : footage_(players, std::move(followed)) {}
 
     // As Footage does.
     void append(std::span<const PlayerState> players, std::span<const Take> takes) {

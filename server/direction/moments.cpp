@@ -39,10 +39,6 @@ std::optional<Trigger> trigger_of(EventKind kind) {
     return {};
 }
 
-bool faces(const PlayerState& a, const PlayerState& b, float cosine) {
-    return a.facing.dot((b.eye - a.eye).normalized()) >= cosine;
-}
-
 class Finder {
   public:
     Finder(const Footage& footage, std::span<const Event> events, const Rules& rules, double unit, Beat from,
@@ -149,7 +145,7 @@ class Finder {
         std::ranges::for_each(open, close);
     }
 
-    // Runs of beats of each pair, which is visited only where the two see each other.
+    // Runs of beats of each pair.
     void find_sights(Index rule) {
         const Rule& sentence = rules_.moments[rule];
         const auto range = static_cast<float>(sentence.range * unit_);
@@ -164,28 +160,18 @@ class Finder {
             if (run.end > run.begin) moments_.push_back({rule, run.begin, run.end, run.begin, a, b});
         };
         for (Beat beat = from_; beat < footage_.beats(); ++beat)
-            for (Index a = 0; a < players; ++a) {
-                const PlayerState& one = footage_.player(beat, a);
-                if (!one.alive || one.sees.none()) continue;
-                for (Index b = a + 1; b < players; ++b) {
-                    if (!one.sees[b] || !meet(one, footage_.player(beat, b), range, cosine)) continue;
-                    Run& run = runs[a * players + b];
-                    if (run.end != beat) {
-                        close(run, a, b);
-                        run.begin = beat;
-                    }
-                    run.end = beat + 1;
+            for (const Meeting& meeting : footage_.meetings_at(beat)) {
+                if (meeting.distance > range || meeting.cosine < cosine) continue;
+                Run& run = runs[meeting.a * players + meeting.b];
+                if (run.end != beat) {
+                    close(run, meeting.a, meeting.b);
+                    run.begin = beat;
                 }
+                run.end = beat + 1;
             }
         for (Index a = 0; a < players; ++a)
             for (Index b = a + 1; b < players; ++b)
                 close(runs[a * players + b], a, b);
-    }
-
-    [[nodiscard]] static bool meet(const PlayerState& one, const PlayerState& other, float range,
-                                   float cosine) {
-        return other.alive && enemies(one, other) && (one.eye - other.eye).norm() <= range &&
-               (faces(one, other, cosine) || faces(other, one, cosine));
     }
 
     const Footage& footage_;

@@ -14,7 +14,7 @@ namespace {
 class Director {
   public:
     Director(const Footage& all, std::span<const Event> events, const Rules& rules, double unit)
-        : all_(all), events_(events), rules_(rules), unit_(unit), known_(all.players(), all.subjects()) {}
+        : all_(all), events_(events), rules_(rules), unit_(unit), known_(all.players(), all.followed()) {}
 
     void decide(Beat now, Beat end_of_known) {
         while (known_.footage().beats() < end_of_known) {

@@ -1,6 +1,7 @@
 #include "direction/value.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "direction/grammar.hpp"
@@ -8,8 +9,9 @@
 namespace camdir::direction {
 namespace {
 
-constexpr double idle_speed = 32.0;  // units of 0.0254 m a second
-constexpr Beat recent = 8;           // beats whose mean is what may go on
+constexpr double idle_speed = 32.0;        // units of 0.0254 m a second
+constexpr Beat recent = 8;                 // beats whose mean is what may go on
+constexpr double fixed_half_life_s = 1.0;  // players leave a picture that does not follow them
 constexpr double beats_a_minute = 60.0 / beat_s;
 
 }  // namespace
@@ -57,16 +59,16 @@ void Value::rate_beats() {
 
 double Value::base_rate(Beat beat, std::size_t rush) const {
     const Grammar& grammar = rules_.grammar;
-    const Index subject = footage_.subject(rush);
     const Take& take = footage_.take(beat, rush);
-    const PlayerState& state = footage_.player(beat, subject);
+    if (take.subject == nobody) return -(grammar.hidden + grammar.dead) * beat_s;
+    const PlayerState& state = footage_.player(beat, take.subject);
     const double away = static_cast<double>(now_ - last_shown_[rush]) / beats_a_minute;
     double worth = grammar.fresh * std::min(2.0, away);
-    if (!take.shown[subject]) worth -= grammar.hidden;
+    if (!take.shown[take.subject]) worth -= grammar.hidden;
     const Beat mourning = beat - beat_of(grammar.beat_after_death_s);
-    if (!state.alive && (mourning < footage_.first() || !footage_.player(mourning, subject).alive))
+    if (!state.alive && (mourning < footage_.first() || !footage_.player(mourning, take.subject).alive))
         worth -= grammar.dead;
-    if (stands_idle(footage_, beat, subject, idle_speed * unit_)) worth -= grammar.idle;
+    if (stands_idle(footage_, beat, take.subject, idle_speed * unit_)) worth -= grammar.idle;
     return worth * beat_s;
 }
 
@@ -74,14 +76,15 @@ void Value::add_span(const Moment& moment, const Rule& rule) {
     const double one = rule.worth * beat_s;
     const double both = rule.worth_both * beat_s;
     for (Beat beat = std::max(moment.begin, first_); beat < std::min(moment.end, known_); ++beat) {
-        const auto takes = footage_.takes_at(beat);
+        const auto actor = footage_.showing(beat, moment.actor);
+        const auto subject = footage_.showing(beat, moment.subject);
         double* const rates = &rate(beat, 0);
-        for (std::size_t rush = 0; rush < rushes_; ++rush) {
-            const PlayerSet& shown = takes[rush].shown;
-            const bool actor = moment.actor != nobody && shown[moment.actor];
-            const bool subject = moment.subject != nobody && shown[moment.subject];
-            rates[rush] += (actor || subject ? one : 0.0) + (actor && subject ? both : 0.0);
-        }
+        for (std::size_t word = 0; word < actor.size(); ++word)
+            for (Footage::Word left = actor[word] | subject[word]; left != 0; left &= left - 1) {
+                const auto bit = static_cast<std::size_t>(std::countr_zero(left));
+                const bool shows_both = ((actor[word] & subject[word]) >> bit & 1U) != 0;
+                rates[word * Footage::word_bits + bit] += one + (shows_both ? both : 0.0);
+            }
     }
 }
 
@@ -111,12 +114,12 @@ void Value::add_credit(std::size_t index, const Moment& moment, const Rule& rule
 void Value::fade() {
     const Beat source = std::max(first_, known_ - recent);
     for (std::size_t rush = 0; rush < rushes_; ++rush) {
+        const double half_life = footage_.is_fixed(rush) ? fixed_half_life_s : rules_.grammar.half_life_s;
         double mean = 0.0;
         for (Beat beat = source; beat < known_; ++beat)
             mean += rate(beat, rush) / static_cast<double>(known_ - source);
         for (Beat beat = std::max(known_, first_); beat < horizon_; ++beat)
-            rate(beat, rush) = mean * std::exp2(-static_cast<double>(beat - known_ + 1) * beat_s /
-                                                rules_.grammar.half_life_s);
+            rate(beat, rush) = mean * std::exp2(-static_cast<double>(beat - known_ + 1) * beat_s / half_life);
     }
 }
 

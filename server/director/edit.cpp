@@ -181,15 +181,13 @@ void Edit::begin_beat(direction::Beat number, std::span<const PlayerPose> poses)
         places_[pose.player_id] = static_cast<Index>(players_.size());
         players_.push_back(pose.player_id);
         material_.add_player();
-        for (PendingBeat& beat : beats_) {
-            beat.scout.players.emplace_back();
-            beat.scout.takes.emplace_back();
-        }
+        for (PendingBeat& beat : beats_)
+            beat.scout.add_player();
     }
     PendingBeat& beat = beats_.emplace_back();
     beat.number = number;
-    beat.scout.players.resize(players_.size());
-    beat.scout.takes.resize(players_.size());
+    while (beat.scout.players.size() < players_.size())
+        beat.scout.add_player();
     for (const PlayerPose& pose : poses) {
         const Index place = place_of(pose.player_id);
         if (place == nobody || (pose.flags & pose_spectator) != 0 || beat.scout.players[place].present)

@@ -39,6 +39,12 @@ class Picture {
 
 }  // namespace
 
+void Scout::add_player() {
+    direction::Take& take = takes.emplace_back();
+    take.subject = static_cast<direction::Index>(players.size());
+    players.emplace_back();
+}
+
 void Scout::look(const freespace::Freespace& freespace, float unit) {
     const direction::Index self = present[done++];
     direction::PlayerState& player = players[self];

@@ -18,6 +18,8 @@ struct Scout {
     std::vector<direction::Index> present;
     std::size_t done = 0;  // of those present
 
+    // One more, who is not present.
+    void add_player();
     [[nodiscard]] bool finished() const { return done == present.size(); }
     // Of the next one: whom the player sees of those after, and what the camera shows. `unit`: 0.0254 m in
     // map units. Precondition: not finished.

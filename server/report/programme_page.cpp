@@ -32,6 +32,22 @@ std::string number(int value) {
     return std::to_string(value);
 }
 
+// "player 3", or "fixed camera 2".
+std::string name_of(const ProgrammeSubject& subject, std::size_t rush) {
+    const auto& players = subject.stage.trace.players;
+    if (rush < players.size()) return "player " + std::to_string(players[rush]);
+    return "fixed camera " + std::to_string(rush - players.size() + 1);
+}
+
+// Null where the player who is followed has no pose.
+const evaluation::CameraSample* camera_of(const ProgrammeSubject& subject, std::size_t frame,
+                                          std::size_t rush) {
+    const evaluation::Trace& trace = subject.stage.trace;
+    if (rush >= trace.players.size()) return &subject.fixed[rush - trace.players.size()];
+    const std::uint32_t pose = evaluation::pose_of(trace, trace.frames[frame], trace.players[rush]);
+    return pose == evaluation::absent ? nullptr : &subject.cameras[pose];
+}
+
 class Timeline {
   public:
     explicit Timeline(const ProgrammeSubject& subject)
@@ -49,15 +65,17 @@ class Timeline {
 
   private:
     static std::string legend() {
-        return "<p>A row a minute, a lane a player. Wide: this player's camera is on the air; point at it "
-               "for the reason. Thin: the player is in a moment. A disc is a kill on its killer's lane, a "
+        return "<p>A row a minute, a lane a player; the last one is of the fixed cameras. Wide: this camera "
+               "is "
+               "on the air; point at it for the reason. Thin: the player is in a moment. A disc is a kill on "
+               "its killer's lane, a "
                "cross on its victim's: green where the programme shows one of them from 1 s before to 0.5 s "
                "after, red where not.</p>\n";
     }
 
     [[nodiscard]] std::string row(Beat begin) const {
         const Beat end = std::min(begin + row_beats, subject_.footage.beats());
-        const int height = static_cast<int>(players_.size()) * lane_height + 16;
+        const int height = top(players_.size() + 1) + 16;
         std::string svg = "<svg class=\"timeline\" viewBox=\"0 0 " + number(label_width + beat_width * 600) +
                           ' ' + number(height) + "\" role=\"img\" aria-label=\"Shots from " +
                           decimal(seconds(begin), 0) + " s to " + decimal(seconds(end), 0) + " s\">";
@@ -73,11 +91,11 @@ class Timeline {
 
     [[nodiscard]] std::string lanes() const {
         std::string svg;
-        for (std::size_t lane = 0; lane < players_.size(); ++lane)
+        for (std::size_t lane = 0; lane <= players_.size(); ++lane)
             svg += "<rect class=\"lane\" x=\"" + number(label_width) + "\" y=\"" + number(top(lane)) +
                    "\" width=\"" + number(beat_width * 600) + "\" height=\"" + number(lane_height - 2) +
                    "\"/><text x=\"0\" y=\"" + number(top(lane) + 13) + "\">" +
-                   std::to_string(players_[lane]) + "</text>";
+                   (lane < players_.size() ? std::to_string(players_[lane]) : "fixed") + "</text>";
         return svg;
     }
 
@@ -95,9 +113,9 @@ class Timeline {
         const int left = x(std::max(shot.begin, begin), begin);
         const int right = x(std::min(shot.end, end), begin);
         return "<rect class=\"shot " + colour(shot.rush) + "\" x=\"" + number(left) + "\" y=\"" +
-               number(top(shot.rush) + 3) + "\" width=\"" + number(right - left) +
+               number(top(std::min(shot.rush, players_.size())) + 3) + "\" width=\"" + number(right - left) +
                "\" height=\"10\"><title>" + decimal(seconds(shot.begin), 1) + " s to " +
-               decimal(seconds(shot.end), 1) + " s, player " + std::to_string(players_[shot.rush]) + ": " +
+               decimal(seconds(shot.end), 1) + " s, " + name_of(subject_, shot.rush) + ": " +
                escape(subject_.reasons[i]) + "</title></rect>";
     }
 
@@ -163,10 +181,9 @@ std::size_t frame_from(const evaluation::Trace& trace, Beat beat) {
 
 Result<std::string> picture(const ProgrammeSubject& subject, std::size_t frame, std::size_t rush,
                             const std::string& caption, const std::stop_token& stop) {
-    const evaluation::Trace& trace = subject.stage.trace;
-    const std::uint32_t pose = evaluation::pose_of(trace, trace.frames[frame], trace.players[rush]);
-    if (pose == evaluation::absent) return std::string();
-    const auto drawn = frame_picture(subject.stage, frame, subject.cameras[pose], stop);
+    const evaluation::CameraSample* camera = camera_of(subject, frame, rush);
+    if (camera == nullptr) return std::string();
+    const auto drawn = frame_picture(subject.stage, frame, *camera, stop);
     if (!drawn) return drawn;
     return "<figure><svg viewBox=\"0 0 320 180\">" + *drawn + "</svg><figcaption>" + caption +
            "</figcaption></figure>";
@@ -179,9 +196,6 @@ Result<std::string> cut_pictures(const ProgrammeSubject& subject, std::size_t i,
     const Shot& before = subject.shots[i - 1];
     const Shot& after = subject.shots[i];
     const std::size_t cut = frame_from(trace, after.begin);
-    const auto player = [&](const Shot& shot) {
-        return "player " + std::to_string(trace.players[shot.rush]);
-    };
     std::string html = "<article><h3>" + decimal(seconds(after.begin), 1) +
                        " s: " + escape(subject.reasons[i]) + "</h3>\n<div class=\"strip cut\">";
     struct Part {
@@ -190,8 +204,8 @@ Result<std::string> cut_pictures(const ProgrammeSubject& subject, std::size_t i,
         std::string caption;
     };
     for (const Part& part :
-         {Part{cut > 0 ? cut - 1 : 0, before, "before: " + player(before)},
-          Part{cut, after, "after: " + player(after)},
+         {Part{cut > 0 ? cut - 1 : 0, before, "before: " + name_of(subject, before.rush)},
+          Part{cut, after, "after: " + name_of(subject, after.rush)},
           Part{frame_from(trace, (after.begin + after.end) / 2), after,
                "in the middle, " + decimal(seconds((after.begin + after.end) / 2), 1) + " s"}}) {
         const auto drawn = picture(subject, part.frame, part.shot.rush, part.caption, stop);

@@ -23,10 +23,11 @@ struct JudgedProgramme {
     direction::Figures figures;
 };
 
-// Rush r is the camera of stage.trace.players[r].
+// Rush r is the camera of stage.trace.players[r]; behind them come the fixed ones.
 struct ProgrammeSubject {
     Stage stage;
     const evaluation::CameraPath& cameras;  // of trace.poses
+    const std::vector<evaluation::CameraSample>& fixed;
     std::string title;
     std::vector<Fact> facts;
     std::vector<JudgedProgramme> judged;  // the page's own first

@@ -72,13 +72,10 @@ class Worth {
 
     [[nodiscard]] double of_beat(Beat beat, std::size_t rush) const {
         const Grammar& grammar = rules_.grammar;
-        const Index subject = footage_.subject(rush);
         const Take& take = footage_.take(beat, rush);
         double worth = take.cut ? -grammar.inner_cut : 0.0;
-        if (!take.shown[subject]) worth -= grammar.hidden * beat_s;
-        const Beat earlier = beat - beat_of(grammar.beat_after_death_s);
-        const bool long_dead = earlier < 0 || !footage_.player(earlier, subject).alive;
-        if (!footage_.player(beat, subject).alive && long_dead) worth -= grammar.dead * beat_s;
+        worth -= (take.subject == nobody || !take.shown[take.subject] ? grammar.hidden : 0.0) * beat_s;
+        worth -= (is_of_the_dead(take, beat) ? grammar.dead : 0.0) * beat_s;
         for (const Moment& moment : moments_) {
             const Rule& rule = rules_.moments[moment.rule];
             if (rule.whole || beat < moment.begin || beat >= moment.end) continue;
@@ -90,13 +87,22 @@ class Worth {
         return worth;
     }
 
+    [[nodiscard]] bool is_of_the_dead(const Take& take, Beat beat) const {
+        const Index subject = take.subject;
+        if (subject == nobody) return true;
+        const Beat earlier = beat - beat_of(rules_.grammar.beat_after_death_s);
+        return !footage_.player(beat, subject).alive &&
+               (earlier < 0 || !footage_.player(earlier, subject).alive);
+    }
+
     [[nodiscard]] double of_cut(const Shot& before, const Shot& after) const {
         double cost = rules_.grammar.cut;
         const Beat cut = before.end;
         if (jump_cut(footage_, rules_.grammar, cut, before.rush, after.rush) ||
             crosses_line(footage_, cut, before.rush, after.rush))
             cost += 1e4;
-        if (leaves_fragment(footage_, cut, before.rush, after.rush)) cost += rules_.grammar.inner_cut;
+        if (jumped_just_before(footage_, cut, before.rush) || jumps_soon_after(footage_, cut, after.rush))
+            cost += rules_.grammar.inner_cut;
         for (const Moment& moment : moments_) {
             if (!rules_.moments[moment.rule].whole || cut <= moment.begin || cut > moment.peak) continue;
             if (!seen(moment, {before, after})) cost += 1e4;
@@ -125,6 +131,7 @@ double best_of_all(const Footage& footage, const Worth& worth, std::vector<Shot>
     double best = -std::numeric_limits<double>::infinity();
     for (std::size_t rush = 0; rush < footage.rushes(); ++rush) {
         if (!shots.empty() && shots.back().rush == rush) continue;
+        if (footage.take(begin, rush).subject == nobody) continue;
         for (Beat end = begin + 1; end <= std::min(begin + 7, footage.beats()); ++end) {
             if ((end - begin < 4 || end % cut_every != 0) && end < footage.beats()) continue;
             shots.push_back({rush, begin, end, {}});
@@ -138,7 +145,7 @@ double best_of_all(const Footage& footage, const Worth& worth, std::vector<Shot>
 TEST(Editor, NoProgrammeIsWorthMore) {
     std::mt19937 random(5);
     for (int round = 0; round < 60; ++round) {
-        const Footage footage = random_script(3, 14, random).footage();
+        const Footage footage = random_script(3, 14, random, round % 2 == 0 ? 2 : 0).footage();
         const auto events = random_kills(3, 1.4, 4, random);
         const Rules rules = small_rules();
         const auto moments = find_moments(footage, events, rules, test::unit, 0);
@@ -220,6 +227,40 @@ TEST(Editor, AShotOnTheAirIsNotCutBeforeItsTime) {
     EXPECT_EQ(plan[1].reason.why, Reason::Why::hidden);
 }
 
+TEST(Editor, AFixedRushIsLeftAloneWhereItHasNobodyToShow) {
+    Script script(1, 100, 1);
+    for (std::size_t beat = 0; beat < 100; ++beat) {
+        script.take(beat, 0).shown.reset();
+        if (beat < 60) continue;
+        script.take(beat, 1).subject = 0;
+        script.take(beat, 1).position = {0.0F, 300.0F, 0.0F};
+        script.take(beat, 1).shown.set(0);
+    }
+    const Footage footage = script.footage();
+    const auto plan = plan_shots(footage, {}, default_rules(), test::unit, nothing_yet(footage), 0);
+    ASSERT_EQ(plan.size(), 2U);
+    EXPECT_EQ(plan[1].rush, 1U);
+    EXPECT_EQ(plan[1].begin, 60);
+    EXPECT_EQ(plan[1].reason.why, Reason::Why::hidden);
+}
+
+TEST(Editor, WhoIsInAFixedPictureIsNotTakenToStayThere) {
+    Script script(2, 20, 1);
+    for (std::size_t beat = 0; beat < 20; ++beat) {
+        script.meet(beat, 0, 1);
+        script.take(beat, 2).subject = 0;
+        script.take(beat, 2).position = {50.0F, 900.0F, 0.0F};
+        script.take(beat, 2).shown.set(0).set(1);
+        script.take(beat, 0).shown.set(1);
+    }
+    Rules rules = default_rules();
+    rules.moments = {{.name = "sight", .trigger = Trigger::sight, .worth = 1.0}};
+    const Footage footage = script.footage();
+    const auto plan = plan_shots(footage, find_moments(footage, {}, rules, test::unit, 0), rules, test::unit,
+                                 nothing_yet(footage), 20);
+    EXPECT_NE(plan.front().rush, 2U);
+}
+
 TEST(Editor, OneRushIsAProgrammeToo) {
     const Footage footage = Script(1, 30).footage();
     const auto plan = plan_shots(footage, {}, default_rules(), test::unit, nothing_yet(footage), 0);
@@ -228,7 +269,7 @@ TEST(Editor, OneRushIsAProgrammeToo) {
 }
 
 TEST(Editor, NothingKnownIsNoError) {
-    const Footage footage(3, {0, 1, 2});
+    const Footage footage(3, test::following(3));
     EXPECT_EQ(plan_shots(footage, {}, default_rules(), test::unit, nothing_yet(footage), 0).front().begin, 0);
 }
 

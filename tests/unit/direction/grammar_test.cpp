@@ -45,6 +45,18 @@ TEST(Grammar, ACutBetweenPlayersWhoAreNotBothShownIsNoJumpCut) {
     EXPECT_FALSE(jump_cut(script.footage(), Grammar{}, 0, 0, 1));
 }
 
+TEST(Grammar, WhateverShowsAPlayerOfEitherPictureMayJump) {
+    Script script(2, 1, 2);
+    for (const std::size_t rush : {2U, 3U}) {
+        script.take(0, rush).position = {50.0F, 300.0F, 0.0F};
+        script.take(0, rush).shown.set(0).set(1);
+    }
+    EXPECT_FALSE(jump_cut(script.footage(), Grammar{}, 0, 2, 3));
+    script.take(0, 2).subject = 1;
+    EXPECT_TRUE(jump_cut(script.footage(), Grammar{}, 0, 2, 3));
+    EXPECT_TRUE(jump_cut(script.footage(), Grammar{}, 0, 3, 2));
+}
+
 TEST(Grammar, TheLineOfActionJoinsEnemiesInSight) {
     Script script(2, 1);
     script.take(0, 0).position = {-50.0F, 20.0F, 0.0F};
@@ -64,13 +76,15 @@ TEST(Grammar, ACutNextToAJumpOfACameraLeavesAFragment) {
     Script script(2, 60);
     script.take(20, 0).cut = true;
     const Footage footage = script.footage();
-    EXPECT_FALSE(leaves_fragment(footage, 20, 0, 1));
-    EXPECT_TRUE(leaves_fragment(footage, 21, 0, 1));
-    EXPECT_TRUE(leaves_fragment(footage, 34, 0, 1));
-    EXPECT_FALSE(leaves_fragment(footage, 35, 0, 1));
-    EXPECT_FALSE(leaves_fragment(footage, 5, 1, 0));
-    EXPECT_TRUE(leaves_fragment(footage, 6, 1, 0));
-    EXPECT_FALSE(leaves_fragment(footage, 21, 1, 0));
+    EXPECT_FALSE(jumped_just_before(footage, 20, 0));
+    EXPECT_TRUE(jumped_just_before(footage, 21, 0));
+    EXPECT_TRUE(jumped_just_before(footage, 34, 0));
+    EXPECT_FALSE(jumped_just_before(footage, 35, 0));
+    EXPECT_FALSE(jumps_soon_after(footage, 5, 0));
+    EXPECT_TRUE(jumps_soon_after(footage, 6, 0));
+    EXPECT_TRUE(jumps_soon_after(footage, 19, 0));
+    EXPECT_FALSE(jumps_soon_after(footage, 20, 0));
+    EXPECT_FALSE(jumped_just_before(footage, 21, 1) || jumps_soon_after(footage, 6, 1));
 }
 
 TEST(Grammar, WhoStandsForTwoSecondsWithoutAnEnemyIsIdle) {

@@ -20,7 +20,7 @@ void append(Material& material, const Footage& footage, Beat end) {
 
 TEST(Material, KeepsLessThanAMinute) {
     const Footage footage = Script(2, 2000).footage();
-    Material material(2, {0, 1});
+    Material material(2, test::following(2));
     for (Beat now = 0; now < footage.beats(); ++now) {
         append(material, footage, now + 1);
         material.forget_before(now);
@@ -31,7 +31,7 @@ TEST(Material, KeepsLessThanAMinute) {
 
 TEST(Material, EventsCountFromWhereTheyAreKnown) {
     const Footage footage = Script(2, 40).footage();
-    Material material(2, {0, 1});
+    Material material(2, test::following(2));
     material.add(kill(2.5, 0, 1));
     material.add(kill(1.5, 1, 0));
     append(material, footage, 20);
@@ -47,7 +47,7 @@ TEST(Material, EventsCountFromWhereTheyAreKnown) {
 }
 
 TEST(Material, AFloodOfEventsIsBoundedAndItsKillsCountForTheLead) {
-    Material material(2, {0, 1});
+    Material material(2, test::following(2));
     for (std::size_t i = 0; i < 3 * Material::max_events; ++i)
         material.add(kill(1.0, 1, 0));
     append(material, Script(2, 30).footage(), 30);
@@ -71,11 +71,12 @@ TEST(Material, PlayersMayComeLater) {
     EXPECT_FALSE(material.footage().player(0, 1).present);
     EXPECT_EQ(material.footage().player(1, 1).eye, two.player(1, 1).eye);
     EXPECT_TRUE(material.footage().take(1, 1).shown[1]);
-    EXPECT_EQ(material.footage().subject(1), 1);
+    EXPECT_EQ(material.footage().rush_following(1), 1U);
+    EXPECT_EQ(material.footage().take(0, 1).subject, 1);
 }
 
 TEST(Cutter, ChoosesFromWhatMayBeOnTheAir) {
-    Material material(3, {0, 1, 2});
+    Material material(3, test::following(3));
     const Rules rules = default_rules();
     append(material, Script(3, 100).footage(), 100);
     for (const double time : {3.0, 4.0, 5.0})
@@ -96,7 +97,7 @@ TEST(Cutter, ChoosesFromWhatMayBeOnTheAir) {
 }
 
 TEST(Cutter, GoesOnWithWhatSomebodyElseHasDecided) {
-    Material material(2, {0, 1});
+    Material material(2, test::following(2));
     const Rules rules = default_rules();
     append(material, Script(2, 60).footage(), 60);
     Cutter cutter;

@@ -22,7 +22,7 @@ std::vector<Shot> directed(const Footage& footage, std::span<const Event> events
 std::vector<Shot> directed_without_forgetting(const Footage& footage, std::span<const Event> events,
                                               double delay_s) {
     const Rules rules = default_rules();
-    Footage known(footage.players(), footage.subjects());
+    Footage known(footage.players(), footage.followed());
     OnAir on_air{{}, std::vector<Beat>(footage.rushes(), never_shown)};
     std::vector<Shot> shots;
     for (Beat now = 0; now < footage.beats(); now += cut_every) {
@@ -151,7 +151,7 @@ TEST(Programme, StopsWhenAsked) {
 
 TEST(Programme, NeedsPlayersAndTime) {
     EXPECT_FALSE(direct(Footage(0, {}), {}, default_rules(), test::unit, 1.0, {}));
-    EXPECT_FALSE(direct(Footage(1, {0}), {}, default_rules(), test::unit, 1.0, {}));
+    EXPECT_FALSE(direct(Footage(1, test::following(1)), {}, default_rules(), test::unit, 1.0, {}));
 }
 
 }  // namespace

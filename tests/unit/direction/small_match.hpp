@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <random>
+#include <span>
 #include <vector>
 
 #include "direction/footage.hpp"
@@ -14,12 +15,21 @@ namespace camdir::direction::test {
 
 inline constexpr double unit = 1.0;
 
-// Beats that are written before they are appended. Everybody lives, is everybody's enemy and runs; each rush
-// follows the player of its number and shows them.
+inline std::vector<Index> following(std::size_t players) {
+    std::vector<Index> followed;
+    for (std::size_t i = 0; i < players; ++i)
+        followed.push_back(static_cast<Index>(i));
+    return followed;
+}
+
+// Beats that are written before they are appended. Everybody lives, is everybody's enemy and runs; the first
+// rushes follow the player of their number and show them. Fixed ones come last and show nobody.
 class Script {
   public:
-    Script(std::size_t players, std::size_t beats)
-        : players_(beats, std::vector<PlayerState>(players)), takes_(beats, std::vector<Take>(players)) {
+    Script(std::size_t players, std::size_t beats, std::size_t fixed = 0)
+        : followed_(following(players)), players_(beats, std::vector<PlayerState>(players)) {
+        followed_.resize(players + fixed, nobody);
+        takes_.assign(beats, std::vector<Take>(followed_.size()));
         for (std::size_t beat = 0; beat < beats; ++beat)
             for (std::size_t i = 0; i < players; ++i) {
                 PlayerState& state = players_[beat][i];
@@ -30,6 +40,7 @@ class Script {
                 const float angle = 1.3F * static_cast<float>(i);
                 takes_[beat][i].position = state.eye + 100.0F * Vec3f(std::cos(angle), std::sin(angle), 0.2F);
                 takes_[beat][i].shown.set(i);
+                takes_[beat][i].subject = static_cast<Index>(i);
             }
     }
 
@@ -41,16 +52,14 @@ class Script {
     }
 
     [[nodiscard]] Footage footage() const {
-        std::vector<Index> subjects;
-        for (std::size_t i = 0; i < players_.front().size(); ++i)
-            subjects.push_back(static_cast<Index>(i));
-        Footage made(subjects.size(), subjects);
+        Footage made(players_.front().size(), followed_);
         for (std::size_t beat = 0; beat < players_.size(); ++beat)
             made.append(players_[beat], takes_[beat]);
         return made;
     }
 
   private:
+    std::vector<Index> followed_;
     std::vector<std::vector<PlayerState>> players_;
     std::vector<std::vector<Take>> takes_;
 };
@@ -59,9 +68,11 @@ inline Event kill(double time, Index killer, Index victim) {
     return {time, EventKind::kill, killer, victim, 0.0};
 }
 
-// Players who meet, are lost from sight, die and respawn.
-inline Script random_script(std::size_t players, std::size_t beats, std::mt19937& random) {
-    Script script(players, beats);
+// Players who meet, are lost from sight, die and respawn. A fixed rush has a player to show for
+// a few beats at a time.
+inline Script random_script(std::size_t players, std::size_t beats, std::mt19937& random,
+                            std::size_t fixed = 0) {
+    Script script(players, beats, fixed);
     const auto chance = [&](double share) { return std::bernoulli_distribution(share)(random); };
     for (std::size_t i = 0; i < players; ++i) {
         bool alive = true;
@@ -74,6 +85,17 @@ inline Script random_script(std::size_t players, std::size_t beats, std::mt19937
                 if (other != i && chance(0.3)) script.take(beat, i).shown.set(other);
                 if (other < i && chance(0.4)) script.meet(beat, i, other);
             }
+        }
+    }
+    const auto any = [&] { return static_cast<Index>(random() % players); };
+    for (std::size_t rush = players; rush < players + fixed; ++rush) {
+        Index subject = nobody;
+        for (std::size_t beat = 0; beat < beats; ++beat) {
+            if (chance(0.15)) subject = chance(0.6) ? any() : nobody;
+            Take& take = script.take(beat, rush);
+            take.subject = subject;
+            take.position = {static_cast<float>(rush) * 70.0F, chance(0.5) ? 200.0F : -200.0F, 50.0F};
+            if (subject != nobody) take.shown.set(subject, chance(0.9));
         }
     }
     return script;

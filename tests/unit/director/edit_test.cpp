@@ -121,8 +121,8 @@ class EditTest : public testing::TestWithParam<double> {
 
     void append(direction::Material& known, const Recorded& match, std::size_t beat) const {
         Scout scout;
-        scout.players.resize(players);
-        scout.takes.resize(players);
+        while (scout.players.size() < players)
+            scout.add_player();
         for (std::size_t i = 0; i < players; ++i) {
             const PlayerPose& pose = match.frames[2 * beat].poses[i];
             direction::PlayerState& state = scout.players[i];
