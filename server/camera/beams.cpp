@@ -52,6 +52,15 @@ Beams::Beams(const freespace::Space& space, const MapProfile& profile, const Fut
     : space_(space), profile_(profile), future_(future), known_(known), lengths_(lengths), balls_(balls) {
     std::fill_n(radius_.begin(), future.count, -1.0F);
     lengths_.use(profile.distance, profile.minimum_clearance);
+    has_movers_ = space.has_movers() && space.any_mover_near(box_of_beams());
+}
+
+Box3f Beams::box_of_beams() const {
+    Box3f box;
+    for (std::size_t i = 0; i < future_.count; ++i)
+        box.extend(future_[i].eye);
+    const float reach = profile_.distance + widest(profile_);
+    return {box.min().array() - reach, box.max().array() + reach};
 }
 
 float Beams::radius(std::size_t i) {
@@ -80,7 +89,7 @@ float Beams::length_on_map(std::size_t i, const Vec3f& direction, float length) 
 }
 
 std::optional<BeamEnd> Beams::end_at_mover(std::size_t i, const Vec3f& direction, float length) {
-    if (!space_.has_movers()) return std::nullopt;
+    if (!has_movers_ && (!space_.has_movers() || length <= profile_.distance)) return std::nullopt;
     const freespace::Space then = space_.at(future_.start + static_cast<double>(i) * future_.step);
     const Vec3f& eye = future_[i].eye;
     const Vec3f goal = eye + length * direction;

@@ -93,6 +93,7 @@ class Beams {
     }
 
   private:
+    [[nodiscard]] Box3f box_of_beams() const;
     float radius(std::size_t i);
     float radius_from(const Vec3f& eye);
     freespace::Sight sight(std::size_t i, const Vec3f& goal);
@@ -112,6 +113,7 @@ class Beams {
     std::array<float, Future::capacity> radius_;  // of each sample; negative: not asked yet
     Vec3f clear_eye_ = Vec3f::Zero();             // the last place whose clearance is known
     float clearance_ = -1.0F;
+    bool has_movers_;  // in reach of a beam of the profile's distance
 };
 
 }  // namespace camdir::camera

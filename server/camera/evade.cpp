@@ -49,7 +49,8 @@ class Refuge {
 }  // namespace
 
 float room_soon(const freespace::Space& space, const Vec3f& place, float clearance) {
-    if (!space.has_movers()) return clearance;
+    const Vec3f around = Vec3f::Constant(std::max(clearance, 0.0F));
+    if (!space.any_mover_near({place - around, place + around})) return clearance;
     float room = clearance;
     for (const double moment : moments)
         room = space.at(space.time() + moment).mover_distance(place, room).value;

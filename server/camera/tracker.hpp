@@ -47,8 +47,10 @@ class Scratch {
 //
 // Guarantees: the camera stays in freespace and moves through freespace, except in a step flagged `cut`,
 // which lands in freespace; never a number that is not finite; the same arguments give the same result.
-// Does not allocate, reads no clock. Only a shot that has not had a usable pose yet, or a representation
-// without any freespace, has a camera outside (clearance <= 0).
+// Among movers, whose poses go by the same clock as `time`: the camera is in none of them, it goes through
+// none but in a step flagged `cut`, and target_visible says that none hides the player. Of the space's own
+// time nothing is used. Does not allocate, reads no clock. Only a shot that has not had a usable pose yet, or
+// a representation without any freespace, has a camera outside (clearance <= 0).
 //
 //   no pose, or not a number   holds its place; target_absent | held
 //   first pose, discontinuity  cut to the best spot

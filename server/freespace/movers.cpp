@@ -289,6 +289,12 @@ void Movers::for_each_near(const Box3f& box, const Visitor& visit) const {
     }
 }
 
+bool Movers::any_near(const Box3f& box) const {
+    bool any = false;
+    for_each_near(box, [&](std::uint32_t) { any = true; });
+    return any;
+}
+
 MoverDistance Movers::distance(const Vec3f& point, double time, float limit) const {
     MoverDistance nearest;
     nearest.value = limit;

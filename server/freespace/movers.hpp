@@ -63,6 +63,10 @@ class Movers {
     // Questions are no longer asked of times before `time`.
     void forget_before(double time);
 
+    // Whether a mover may be in the box, at whatever time: where none is, no other question needs to be
+    // asked.
+    [[nodiscard]] bool any_near(const Box3f& box) const;
+
     // Where a mover is; none: nowhere. `mover` < count().
     [[nodiscard]] std::optional<MoverPose> pose_at(std::uint32_t mover, double time) const;
 

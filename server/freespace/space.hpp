@@ -28,6 +28,10 @@ class Space {
     [[nodiscard]] bool has_movers() const { return movers_ != nullptr; }
     [[nodiscard]] double time() const { return time_; }
 
+    // Whether a mover may be in the box, at whatever time.
+    [[nodiscard]] bool any_mover_near(const Box3f& box) const {
+        return movers_ != nullptr && movers_->any_near(box);
+    }
     // The mover nearest to a point, if it is nearer than `limit`.
     [[nodiscard]] MoverDistance mover_distance(const Vec3f& point, float limit) const;
     // A sphere's way among the movers as they are.

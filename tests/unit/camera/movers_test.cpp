@@ -200,7 +200,7 @@ class Judge {
     Findings findings;
 
   private:
-    static constexpr int samples = 100;
+    static constexpr int samples = 30;
 
     [[nodiscard]] std::vector<PlacedMover> placed_at(double time) const {
         std::vector<PlacedMover> placed = movers_;
@@ -273,7 +273,7 @@ std::vector<TimedPose> poses_of(const Scene& scene, double until) {
     return poses;
 }
 
-Findings run(const Scene& scene, Solver solver, double look_ahead, double seconds = 16.0) {
+Findings run(const Scene& scene, Solver solver, double look_ahead, double seconds = 10.0) {
     const freespace::Freespace freespace = scene.plan.freespace();
     const std::vector<TimedPose> poses = poses_of(scene, seconds + look_ahead);
     ToldMovers movers(scene);
@@ -397,7 +397,7 @@ TEST(AmongMovers, WithoutAPoseTheyChangeNothing) {
 // A group shot of two: the scene's player and one who stands at `other`.
 Findings run_group(const Scene& scene, const Vec3f& other, double look_ahead) {
     const freespace::Freespace freespace = scene.plan.freespace();
-    const std::vector<TimedPose> first = poses_of(scene, 16.0 + look_ahead);
+    const std::vector<TimedPose> first = poses_of(scene, 10.0 + look_ahead);
     std::vector<TimedPose> second = first;
     for (TimedPose& pose : second)
         pose.pose = pose_at(other, 0.0F);
