@@ -35,8 +35,8 @@ void check_usage(const EvaluateOptions& options) {
         throw CLI::ValidationError("--terms", "only the tracker has an objective");
     if (!options.group.empty() && (!options.tracks() || !options.solver.empty()))
         throw CLI::ValidationError("--group", "is a shot of its own: neither --camera, --judge nor --solver");
-    if (!options.group.empty() && !(options.terms + options.report + options.events).empty())
-        throw CLI::ValidationError("--group", "has neither --terms, --report nor --events");
+    if (!options.group.empty() && !(options.terms + options.report + options.events + options.movers).empty())
+        throw CLI::ValidationError("--group", "has neither --terms, --report, --events nor --movers");
     if (!options.group.empty() && (options.group.size() < 2 || options.group.size() > camera::max_members))
         throw CLI::ValidationError("--group", "takes two to four players");
     if (std::set(options.group.begin(), options.group.end()).size() != options.group.size())
@@ -74,7 +74,9 @@ Result<void> write_results(const EvaluateOptions& options, const evaluation::Tra
 class Judge {
   public:
     Judge(const Match& match, const SourceMap& map)
-        : match_(match), map_(map), oracle_(map.scene, map.point_radius) {}
+        : match_(match), map_(map), oracle_(map.scene, map.point_radius) {
+        if (match.movers) mover_tracks_.emplace(*match.movers, map.scene.movers, match.poses);
+    }
 
     // Before the first camera.
     Result<void> explore(ProgressLine& line, const std::stop_token& stop) {
@@ -96,6 +98,12 @@ class Judge {
         if (match_.kills)
             metrics.kill_in_view = evaluation::kill_in_view(oracle_, map_.scene.metres_per_unit,
                                                             match_.frames, cameras, *match_.kills);
+        if (mover_tracks_) {
+            const auto figures = evaluation::judge_movers(map_.scene.movers, *mover_tracks_, match_.frames,
+                                                          cameras, *judgements, stop);
+            if (!figures) return tl::unexpected(figures.error());
+            metrics.movers = *figures;
+        }
         return report::JudgedCamera{made.name, cameras, std::move(*judgements), metrics};
     }
 
@@ -103,6 +111,7 @@ class Judge {
     const Match& match_;
     const SourceMap& map_;
     oracle::Oracle oracle_;
+    std::optional<evaluation::MoverTracks> mover_tracks_;
     std::optional<oracle::Reachability> reachability_;
 };
 
@@ -162,9 +171,9 @@ Result<void> evaluate(const EvaluateOptions& options) {
     const service::Interruption interruption;
     const std::stop_token stop = interruption.token();
     std::optional<ExitWhenInterrupted> reading(interruption);
-    if (auto writable = check_outputs(
-            {options.cameras, options.terms, options.json, options.report},
-            {options.freespace, options.map, options.trace, options.events, options.config, options.judge});
+    if (auto writable = check_outputs({options.cameras, options.terms, options.json, options.report},
+                                      {options.freespace, options.map, options.trace, options.events,
+                                       options.movers, options.config, options.judge});
         !writable)
         return writable;
     ProgressLine line;
@@ -208,6 +217,9 @@ void add_evaluate(CLI::App& root, Run& run) {
         ->required();
     command->add_option("--events", options->events,
                         "The match's events, CSV or CSV.gz: kills in view; default: those that TRACE has");
+    command->add_option("--movers", options->movers,
+                        "Where the match's doors and lifts were, CSV or CSV.gz: cameras in them, through "
+                        "them, and what they hide");
     command->add_option("--config", options->config,
                         "Configuration that has the profile; default: those that ship");
     command->add_option("--profile", options->profile, "The tracker's profile")->capture_default_str();

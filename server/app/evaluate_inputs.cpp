@@ -16,6 +16,11 @@ Result<Match> read_match(const EvaluateOptions& options, ProgressLine& line) {
     auto kills = evaluation::kills_of(*recorded, options.events);
     if (!kills) return tl::unexpected(kills.error());
     match.kills = std::move(*kills);
+    if (!options.movers.empty()) {
+        auto movers = evaluation::read_movers(options.movers);
+        if (!movers) return tl::unexpected(movers.error());
+        match.movers = std::move(*movers);
+    }
     auto frames = options.output_hz == 0.0 ? Result<evaluation::Trace>(recorded->trace)
                                            : evaluation::resample(recorded->trace, options.output_hz);
     if (!frames) return fail(options.trace + ": " + frames.error().message);

@@ -9,6 +9,7 @@
 #include "app/progress.hpp"
 #include "base/error.hpp"
 #include "evaluation/kills.hpp"
+#include "evaluation/mover_tracks.hpp"
 #include "evaluation/trace.hpp"
 #include "freespace/freespace.hpp"
 #include "scene/scene.hpp"
@@ -24,6 +25,7 @@ struct EvaluateOptions {
     std::string map;
     std::string trace;
     std::string events;
+    std::string movers;
     std::string camera = tracker;
     std::string judge;
     std::string profile = "default";
@@ -44,6 +46,7 @@ struct Match {
     evaluation::Trace poses;                             // as recorded
     evaluation::Trace frames;                            // the instants of the cameras
     std::optional<std::vector<evaluation::Kill>> kills;  // of options.events, or what the trace's file has
+    std::optional<std::vector<evaluation::MoverRow>> movers;  // of options.movers
 };
 [[nodiscard]] Result<Match> read_match(const EvaluateOptions& options, ProgressLine& line);
 

@@ -79,6 +79,9 @@ void print_table(const Freespace& freespace) {
     print_row("bounds", triple(freespace.bounds().min()) + " .. " + triple(freespace.bounds().max()));
     for (const freespace::SpawnPoint& spawn : freespace.spawn_points())
         print_row("spawn point", triple(spawn.eye) + ", yaw " + number(spawn.yaw));
+    for (const freespace::MoverShape& mover : freespace.movers())
+        print_row("mover", mover.name + " " + mover.kind + ", " + number(mover.hulls.size()) + " hulls, " +
+                               number(mover.balls.size()) + " balls, at " + triple(mover.rest));
     print_counts(metadata.counts);
 }
 
@@ -87,6 +90,13 @@ ordered_json to_json(const Freespace& freespace) {
     ordered_json spawn_points = ordered_json::array();
     for (const freespace::SpawnPoint& spawn : freespace.spawn_points())
         spawn_points.push_back({{"eye", array(spawn.eye)}, {"yaw", spawn.yaw}});
+    ordered_json movers = ordered_json::array();
+    for (const freespace::MoverShape& mover : freespace.movers())
+        movers.push_back({{"name", mover.name},
+                          {"kind", mover.kind},
+                          {"rest", array(mover.rest)},
+                          {"hulls", mover.hulls.size()},
+                          {"balls", mover.balls.size()}});
     ordered_json counts = ordered_json::array();
     for (const freespace::Count& count : metadata.counts)
         counts.push_back({{"stage", count.stage}, {"what", count.what}, {"value", count.value}});
@@ -104,6 +114,7 @@ ordered_json to_json(const Freespace& freespace) {
             {"bytes", freespace.byte_size()},
             {"bounds", {{"min", array(freespace.bounds().min())}, {"max", array(freespace.bounds().max())}}},
             {"spawn_points", spawn_points},
+            {"movers", movers},
             {"counts", counts}};
 }
 

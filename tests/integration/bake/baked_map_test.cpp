@@ -1,4 +1,4 @@
-// camera-director inspect, export and render as users of a baked map run them.
+// camera-director inspect, export, render and evaluate as users of a baked map run them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -38,7 +38,8 @@ std::uint32_t big_endian_at(std::string_view bytes, std::size_t offset) {
     return value;
 }
 
-// A room of 512 x 512 x 256 with a pool and one spawn point, baked at d0 = 32.
+// A room of 512 x 512 x 256 with a pool, a door and one spawn point, baked at d0 = 32. The door is 8 x 128 x
+// 128.
 class BakedMap : public testing::Test {
   protected:
     void SetUp() override {
@@ -47,6 +48,8 @@ class BakedMap : public testing::Test {
         scene::q3::Bsp bsp = test::room_map(Box3d(Vec3d(0.0, 0.0, 0.0), Vec3d(512.0, 512.0, 256.0)));
         test::add_box(bsp, Box3d(Vec3d(0.0, 0.0, 0.0), Vec3d(64.0, 64.0, 16.0)), test::water);
         test::add_spawn_point(bsp, Vec3d(256.0, 256.0, 40.0));
+        test::add_entity_model(bsp, "func_door", Vec3d(400.0, 256.0, 0.0));
+        test::add_box(bsp, Box3d(Vec3d(-4.0, -64.0, 0.0), Vec3d(4.0, 64.0, 128.0)), test::stone);
         ASSERT_TRUE(write_file(map_, test::encode(bsp)));
         ChildProcess bake({CAMERA_DIRECTOR, "bake", map_, "-o", baked_, "--d0", "32", "--quiet"});
         ASSERT_EQ(bake.wait(), 0) << bake.errors();
@@ -84,6 +87,39 @@ TEST_F(BakedMap, InspectPrintsWhatTheFileHoldsAndWhatTheBakeSkipped) {
     EXPECT_EQ(report.at("spawn_points").size(), 1U);
     EXPECT_THAT(report.at("counts"),
                 testing::Contains(json{{"stage", "left out"}, {"what", "liquid"}, {"value", 6.0}}));
+    EXPECT_THAT(report.at("counts"),
+                testing::Contains(
+                    json{{"stage", "left out"}, {"what", "kept as a mover: func_door"}, {"value", 6.0}}));
+    EXPECT_THAT(report.at("counts"),
+                testing::Contains(json{{"stage", "movers"}, {"what", "movers"}, {"value", 1.0}}));
+    EXPECT_EQ(report.at("movers"), json::parse(R"([{"name": "*1", "kind": "func_door", "hulls": 1, "balls": 0,
+                                                    "rest": [400.0, 256.0, 0.0]}])"));
+}
+
+// The rigid camera stands 120 units behind a player at 256, 256 who looks along x.
+TEST_F(BakedMap, EvaluateJudgesCamerasAgainstMovers) {
+    std::string trace = "t_ms,player,x,y,z,pitch,yaw,roll,vx,vy,vz,viewheight,team,teleport_bit,alive\n";
+    for (int t = 0; t <= 1000; t += 100)
+        trace += std::to_string(t) + ",0,256,256,40,0,0,0,0,0,0,26,0,0,1\n";
+    ASSERT_TRUE(write_file(folder_ / "trace.csv", trace));
+    const auto figures_with = [&](const std::string& x) {
+        const std::string header = "t_ms,mover,x,y,z,pitch,yaw,roll\n";
+        EXPECT_TRUE(write_file(folder_ / "movers.csv", header + "0,1," + x + ",256,0,0,0,0\n"));
+        return json::parse(printed({"evaluate", "--map", map_, "--trace", folder_ / "trace.csv", "--camera",
+                                    "rigid", "--movers", folder_ / "movers.csv", "--json", "-"}));
+    };
+    const json beyond = figures_with("400");
+    EXPECT_EQ(beyond.at("mover_frames_inside"), 0);
+    EXPECT_EQ(beyond.at("mover_seen_through"), 0);
+    const json between = figures_with("200");
+    EXPECT_EQ(between.at("mover_frames_inside"), 0);
+    EXPECT_EQ(between.at("mover_passages"), 0);
+    EXPECT_EQ(between.at("mover_seen_through"), 5) << "of 600 .. 1000 ms";
+    EXPECT_EQ(figures_with("136").at("mover_frames_inside"), 5);
+    const json without = json::parse(printed(
+        {"evaluate", "--map", map_, "--trace", folder_ / "trace.csv", "--camera", "rigid", "--json", "-"}));
+    EXPECT_FALSE(without.contains("mover_passages"));
+    EXPECT_EQ(without.at("visible_head"), between.at("visible_head"));
 }
 
 TEST_F(BakedMap, AnotherFileIsRefusedWithTheReason) {
