@@ -40,13 +40,13 @@ std::string flaw_of_triangles(std::span<const Triangle> triangles, std::size_t v
 }
 
 // Of the rounding of single-precision normals, and no more.
-constexpr float length_tolerance = 1e-4F;
+constexpr float normal_tolerance = 1e-4F;
 
 const char* flaw_of_hull(const ConvexHull& hull) {
     if (hull.half_spaces.size() < 4 || hull.half_spaces.size() > max_half_spaces)
         return "has a hull with too few or too many half spaces";
     for (const auto& [normal, distance] : hull.half_spaces)
-        if (!(std::abs(normal.norm() - 1.0F) <= length_tolerance) || !within_limit(distance))
+        if (!(std::abs(normal.norm() - 1.0F) <= normal_tolerance) || !within_limit(distance))
             return "has a half space whose normal has not length 1 or whose distance is out of range";
     if (!within_limit(hull.bounds.min()) || !within_limit(hull.bounds.max()) || hull.bounds.isEmpty())
         return "has a hull whose bounds are empty, not finite or out of range";

@@ -138,8 +138,8 @@ export class Figures {
         return this.tints.get(slot);
     }
 
-    // To be seen by this camera in a picture of this size in pixels of the page, each of which is drawn with so many (ratio): who is in it, the farthest first. `times`: as large as
-    // they are. Names are hidden by what is before them, or not, or left out.
+    // Who is seen by this camera, the farthest first, for a picture of this size in pixels of the page; ratio: pixels that
+    // are drawn for each. Figures are enlarged so many times; names are hidden by what is before them, or not, or left out.
     aim(camera, {width, height, ratio}, {times, names, namesHidden}) {
         const seen = this.seenBy(camera, times);
         seen.forEach(({slot, eye, height: share, turn: by}, i) => {
