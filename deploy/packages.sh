@@ -28,10 +28,10 @@ game_packages=(openarena-server openarena xvfb libgl1-mesa-dri mvdsv ktx)
 film_packages=(ffmpeg)
 # What test.sh needs in addition. Of prometheus it is promtool, which checks the alerts; nginx is the cache of broadcasts,
 # wrk their viewers; iproute2 makes networks that can be cut, libfaketime clocks that can be stepped; nodejs and chromium
-# (400 MB) run the page that shows matches.
+# (400 MB) run the page that shows matches; with ccache another checkout compiles only what differs.
 test_packages=(
     clang-format-14 openarena-088-data prometheus nginx-light iproute2 libfaketime nodejs chromium
-    wrk curl
+    wrk curl ccache
 )
 # kubectl builds the files for Kubernetes. Where it is another vendor's, Debian's package cannot be installed.
 command -v kubectl >/dev/null || test_packages+=(kubernetes-client)

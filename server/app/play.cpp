@@ -109,25 +109,34 @@ void announce(const PlayOptions& options, const recording::Playback& playback, c
             "camera-director: the map is not shown: name its baked file, and with --map its source\n");
 }
 
-// Until the user stops it.
-Result<void> serve_all(const recording::Playback& playback, recording::Broadcast& broadcast,
-                       service::Signals& signals) {
-    broadcast.set(playback.match().match_id, playback.whole());
-    while (signals.wait(step) != service::Signal::stop) {
-    }
+// What the match had come to so many seconds after it went on.
+Result<void> show(double elapsed_s, recording::Playback& playback, recording::Broadcast& broadcast) {
+    auto channel = playback.at(elapsed_s);
+    if (!channel) return tl::unexpected(channel.error());
+    broadcast.set(playback.match().match_id, std::move(*channel));
     return {};
 }
 
-Result<void> serve_live(const PlayOptions& options, recording::Playback& playback,
-                        recording::Broadcast& broadcast, service::Signals& signals) {
+// What the first request finds.
+Result<void> show_first(const PlayOptions& options, recording::Playback& playback,
+                        recording::Broadcast& broadcast) {
+    if (!options.live) {
+        broadcast.set(playback.match().match_id, playback.whole());
+        return {};
+    }
     if (auto begun = playback.go_on(options.from, options.speed); !begun) return begun;
+    return show(0.0, playback, broadcast);
+}
+
+// Until the user stops it.
+Result<void> serve(const PlayOptions& options, recording::Playback& playback, recording::Broadcast& broadcast,
+                   service::Signals& signals) {
     const auto begin = std::chrono::steady_clock::now();
-    do {
+    while (signals.wait(step) != service::Signal::stop) {
         const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
-        auto channel = playback.at(elapsed.count());
-        if (!channel) return tl::unexpected(channel.error());
-        broadcast.set(playback.match().match_id, std::move(*channel));
-    } while (signals.wait(step) != service::Signal::stop);
+        if (!options.live) continue;
+        if (auto shown = show(elapsed.count(), playback, broadcast); !shown) return shown;
+    }
     return {};
 }
 
@@ -141,11 +150,11 @@ Result<void> play(const PlayOptions& options) {
     if (!options.freespace.empty())
         if (auto loaded = map.load(options, playback->match()); !loaded) return loaded;
     recording::Broadcast broadcast;
+    if (auto shown = show_first(options, *playback, broadcast); !shown) return shown;
     const auto server = http::Server::start(*http, sources_of(broadcast, map.models()));
     if (!server) return tl::unexpected(server.error());
     announce(options, *playback, link_to(http->address, (*server)->port()));
-    return options.live ? serve_live(options, *playback, broadcast, signals)
-                        : serve_all(*playback, broadcast, signals);
+    return serve(options, *playback, broadcast, signals);
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
-// How fast the window draws, by Chromium's own measures: window.mjs BIN_DIR FOLDER DOMAIN PLAYERS CAMERAS SECONDS [PICTURES],
-// as bench-window.sh calls it. FOLDER has config.json and the baked map.
-import {writeFileSync} from 'node:fs';
+// How fast the window draws, by Chromium's own measures: window.mjs BIN_DIR FOLDER DOMAIN PLAYERS CAMERAS SECONDS HOLD
+// [PICTURES], as bench-window.sh calls it. FOLDER has config.json and the baked map.
+import {readFileSync, writeFileSync} from 'node:fs';
 import {Browser} from '../integration/window/browser.mjs';
 import {Programs, eventually} from '../integration/window/stage.mjs';
 
-const [bin, folder, domain, players, cameras, seconds, pictures] = process.argv.slice(2);
+const [bin, folder, domain, players, cameras, seconds, hold, pictures] = process.argv.slice(2);
 const url = `http://127.0.0.1:${20000 + Number(domain) * 100}`;
 const sizes = [{width: 1280, height: 720}, {width: 360, height: 640}];
 const views = ['camera', 'orbit', 'plan'];
@@ -84,6 +84,33 @@ async function firstPicture(browser) {
     return browser.until('window.benchWindow?.picture');
 }
 
+// Of a process, MB.
+function residentMemory(pid) {
+    return Number(/^VmRSS:\s+(\d+)/m.exec(readFileSync(`/proc/${pid}/status`, 'utf8'))[1]) / 1024;
+}
+
+async function memory(browser) {
+    await browser.send('HeapProfiler.collectGarbage');
+    const {usedSize} = await browser.send('Runtime.getHeapUsage');
+    const {nodes} = await browser.send('Memory.getDOMCounters');
+    const {processInfo} = await browser.send('SystemInfo.getProcessInfo', {}, 60e3, null);
+    const resident = kind => processInfo.filter(({type}) => type === kind)
+        .reduce((sum, {id}) => sum + residentMemory(id), 0);
+    const of = ['renderer', 'GPU', 'browser'].map(kind => resident(kind).toFixed(0)).join(' / ');
+    return `${(usedSize / 2 ** 20).toFixed(2)} | ${nodes} | ${of}`;
+}
+
+// What the page has, while the match goes on.
+async function holdOpen(browser) {
+    console.log('\n| after, s | heap after collection, MB | DOM nodes | page / GPU process / browser resident, MB |');
+    console.log('|---|---|---|---|');
+    for (let part = 0; part <= 10; ++part) {
+        if (part > 0) await pause(hold * 100);
+        browser.events.length = 0;
+        console.log(`| ${(hold * part / 10).toFixed(0)} | ${await memory(browser)} |`);
+    }
+}
+
 async function main() {
     const programs = new Programs(bin);
     let browser;
@@ -106,6 +133,7 @@ async function main() {
             loads.push(`${size.width}x${size.height}: first picture after ${ms.toFixed(0)} ms, ${bytesLoaded(browser)} bytes loaded`);
         }
         console.log(`\n${loads.join('\n')}`);
+        if (hold > 0) await holdOpen(browser);
     } catch (error) {
         console.log(error.stack, programs.logs());
         process.exitCode = 1;
