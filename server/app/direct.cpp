@@ -95,10 +95,12 @@ Result<Rushes> shoot(const DirectOptions& options, const Inputs& inputs, double 
     const ClearLine exact = [&](const Vec3d& from, const Vec3d& to) {
         return oracle.segment_clear(from, to);
     };
-    auto fixed = freespace::find_fixed_shots(*inputs.map.freespace);
+    const auto stored = inputs.map.freespace->fixed_shots();
+    std::vector<freespace::FixedShot> fixed;
+    if (inputs.rules.grammar.fixed_shots) fixed.assign(stored.begin(), stored.end());
     auto edited = footage_of(inputs.trace, recording->cameras, fixed, unit, proved, stop);
     if (!edited) return tl::unexpected(edited.error());
-    auto scouted = scouted_footage_of(inputs.trace, *inputs.map.freespace, unit, stop);
+    auto scouted = scouted_footage_of(inputs.trace, *inputs.map.freespace, fixed.size(), unit, stop);
     if (!scouted) return tl::unexpected(scouted.error());
     auto judged = footage_of(inputs.trace, recording->cameras, fixed, unit, exact, stop);
     if (!judged) return tl::unexpected(judged.error());

@@ -204,9 +204,10 @@ Result<direction::Footage> footage_of(const Trace& trace, const CameraPath& came
 }
 
 Result<direction::Footage> scouted_footage_of(const Trace& trace, const freespace::Freespace& freespace,
-                                              double unit, const std::stop_token& stop) {
+                                              std::size_t fixed_shots, double unit,
+                                              const std::stop_token& stop) {
     return read_beats(trace, stop, [&](std::span<const TraceFrame> frames, auto& players, auto& takes) {
-        director::Scout scout;
+        director::Scout scout(fixed_shots);
         while (scout.players.size() < trace.players.size())
             scout.add_player();
         if (!frames.empty()) read_players(trace, trace.poses_of(frames.front()), scout.players);
@@ -216,9 +217,10 @@ Result<direction::Footage> scouted_footage_of(const Trace& trace, const freespac
             scout.look(freespace, static_cast<float>(unit));
         for (const TraceFrame& frame : frames)
             for (const TracePose& pose : trace.poses_of(frame))
-                if (pose.discontinuity) scout.takes[index_of(trace, pose.player)].cut = true;
+                if (pose.discontinuity) scout.takes[scout.fixed + index_of(trace, pose.player)].cut = true;
         players = std::move(scout.players);
         takes = std::move(scout.takes);
+        std::ranges::rotate(takes, takes.begin() + static_cast<std::ptrdiff_t>(scout.fixed));
     });
 }
 

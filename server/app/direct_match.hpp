@@ -32,12 +32,12 @@ using ClearLine = std::function<bool(const Vec3d&, const Vec3d&)>;
                                                     std::span<const freespace::FixedShot> fixed, double unit,
                                                     const ClearLine& clear, const std::stop_token& stop);
 
-// The same as the running director knows it: beats of their first frames, seen by the cameras of its scout,
-// of which none is fixed.
-// Likewise.
+// The same as the running director knows it: beats of their first frames, seen by the cameras of its scout.
+// With the first `fixed_shots` of the freespace. Likewise.
 [[nodiscard]] Result<direction::Footage> scouted_footage_of(const evaluation::Trace& trace,
                                                             const freespace::Freespace& freespace,
-                                                            double unit, const std::stop_token& stop);
+                                                            std::size_t fixed_shots, double unit,
+                                                            const std::stop_token& stop);
 
 // The events that the direction knows, times from the trace's first frame; events before it are left out.
 [[nodiscard]] std::vector<direction::Event> events_of(const evaluation::Trace& trace,

@@ -65,6 +65,10 @@ void print_counts(const std::vector<freespace::Count>& counts) {
     }
 }
 
+std::string near_spawn_point(const freespace::FixedShot& shot) {
+    return shot.spawn_point == freespace::none ? "" : ", near spawn point " + number(shot.spawn_point);
+}
+
 void print_table(const Freespace& freespace) {
     const freespace::Metadata& metadata = freespace.metadata();
     print_row("map", metadata.map_name);
@@ -82,6 +86,9 @@ void print_table(const Freespace& freespace) {
     for (const freespace::MoverShape& mover : freespace.movers())
         print_row("mover", mover.name + " " + mover.kind + ", " + number(mover.hulls.size()) + " hulls, " +
                                number(mover.balls.size()) + " balls, at " + triple(mover.rest));
+    for (const freespace::FixedShot& shot : freespace.fixed_shots())
+        print_row("fixed shot", triple(shot.position) + ", yaw " + number(shot.yaw) + ", pitch " +
+                                    number(shot.pitch) + near_spawn_point(shot));
     print_counts(metadata.counts);
 }
 
@@ -97,6 +104,14 @@ ordered_json to_json(const Freespace& freespace) {
                           {"rest", array(mover.rest)},
                           {"hulls", mover.hulls.size()},
                           {"balls", mover.balls.size()}});
+    ordered_json fixed_shots = ordered_json::array();
+    for (const freespace::FixedShot& shot : freespace.fixed_shots())
+        fixed_shots.push_back(
+            {{"position", array(shot.position)},
+             {"yaw", shot.yaw},
+             {"pitch", shot.pitch},
+             {"spawn_point",
+              shot.spawn_point == freespace::none ? ordered_json(nullptr) : ordered_json(shot.spawn_point)}});
     ordered_json counts = ordered_json::array();
     for (const freespace::Count& count : metadata.counts)
         counts.push_back({{"stage", count.stage}, {"what", count.what}, {"value", count.value}});
@@ -115,6 +130,7 @@ ordered_json to_json(const Freespace& freespace) {
             {"bounds", {{"min", array(freespace.bounds().min())}, {"max", array(freespace.bounds().max())}}},
             {"spawn_points", spawn_points},
             {"movers", movers},
+            {"fixed_shots", fixed_shots},
             {"counts", counts}};
 }
 

@@ -19,7 +19,7 @@ namespace {
 using Run = Result<void> (Pipeline::*)(Stage&);
 using NamedStage = std::pair<const char*, Run>;
 
-constexpr std::array<NamedStage, 15> of_surfaces{{
+constexpr std::array<NamedStage, 16> of_surfaces{{
     {"medial axis", &Pipeline::medial_axis},
     {"forecast", &Pipeline::forecast},
     {"sample", &Pipeline::sample},
@@ -34,11 +34,12 @@ constexpr std::array<NamedStage, 15> of_surfaces{{
     {"reduce", &Pipeline::reduce},
     {"pack", &Pipeline::pack},
     {"recertify", &Pipeline::recertify},
+    {"fixed shots", &Pipeline::fixed_shots},
     {"movers", &Pipeline::movers},
 }};
 
 // Points are their own samples, and nothing crosses a point. What is connected depends on the free distances.
-constexpr std::array<NamedStage, 11> of_points{{
+constexpr std::array<NamedStage, 12> of_points{{
     {"thin", &Pipeline::thin},
     {"forecast", &Pipeline::forecast},
     {"delaunay", &Pipeline::delaunay},
@@ -50,6 +51,7 @@ constexpr std::array<NamedStage, 11> of_points{{
     {"reduce", &Pipeline::reduce},
     {"pack", &Pipeline::pack},
     {"recertify", &Pipeline::recertify},
+    {"fixed shots", &Pipeline::fixed_shots},
 }};
 
 std::span<const NamedStage> stages_of(const Pipeline& pipeline) {

@@ -19,6 +19,7 @@
 #include "bake/thin.hpp"
 #include "bake/triangulate.hpp"
 #include "base/round_down.hpp"
+#include "freespace/fixed_shots.hpp"
 
 namespace camdir::bake {
 namespace {
@@ -166,6 +167,17 @@ Result<void> Pipeline::pack(Stage& stage) {
 
 Result<void> Pipeline::recertify(Stage& stage) {
     return bake::recertify(contents_, obstacles_, offset_radius(), 0.001 * unit_, scene_.source, stage);
+}
+
+Result<void> Pipeline::fixed_shots(Stage& stage) {
+    freespace::Contents map = contents_;
+    map.metadata.metres_per_unit = static_cast<float>(scene_.metres_per_unit);
+    map.metadata.d0 = static_cast<float>(d0_);
+    const auto freespace = freespace::Freespace::parse(freespace::encode(map), scene_.source);
+    if (!freespace) return tl::unexpected(freespace.error());
+    contents_.fixed_shots = freespace::find_fixed_shots(*freespace);
+    stage.count("fixed shots", static_cast<double>(contents_.fixed_shots.size()));
+    return {};
 }
 
 Result<void> Pipeline::movers(Stage& stage) {

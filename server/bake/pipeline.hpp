@@ -47,6 +47,7 @@ class Pipeline {
     [[nodiscard]] Result<void> reduce(Stage& stage);
     [[nodiscard]] Result<void> pack(Stage& stage);
     [[nodiscard]] Result<void> recertify(Stage& stage);
+    [[nodiscard]] Result<void> fixed_shots(Stage& stage);
     [[nodiscard]] Result<void> movers(Stage& stage);
 
     [[nodiscard]] bool is_cloud() const { return !scene_.points.empty(); }

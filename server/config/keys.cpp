@@ -309,8 +309,9 @@ void add_maps(std::vector<Key>& table) {
                      true});
 }
 
-Slot<double> in_grammar(double direction::Grammar::*member) {
-    return [=](const Target& target) -> double& { return target.config->direction.grammar.*member; };
+template <class T>
+Slot<T> in_grammar(T direction::Grammar::*member) {
+    return [=](const Target& target) -> T& { return target.config->direction.grammar.*member; };
 }
 
 template <class T>
@@ -347,6 +348,18 @@ void add_direction(std::vector<Key>& table) {
     add("half_life_s", &Grammar::half_life_s,
         "What is not known yet is worth what is there now, halved every so many seconds.", "s", 0.1, 60);
     add("foresight_s", &Grammar::foresight_s, "No plan goes further beyond what is known.", "s", 0, 10);
+    table.push_back(
+        {"/direction",
+         "fixed_shots",
+         in_grammar(&Grammar::fixed_shots),
+         "Shows the match also through cameras of the map that stand still, where an observer leaves "
+         "the choice among all players to the director.",
+         "",
+         0,
+         0,
+         {},
+         false,
+         true});
 }
 
 void add_moments(std::vector<Key>& table) {

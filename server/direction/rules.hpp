@@ -76,6 +76,7 @@ struct Grammar {
     // What is not known yet is worth what is there now, halved every so many seconds.
     double half_life_s = 4.0;
     double foresight_s = 4.0;  // no plan goes further than this beyond what is known
+    bool fixed_shots = true;   // also cameras that stand still
 };
 
 struct Rules {

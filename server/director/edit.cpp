@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <iterator>
 #include <limits>
 #include <optional>
 #include <utility>
 
+#include "camera/evade.hpp"
 #include "direction/editor.hpp"
 #include "director/clock.hpp"
 
@@ -30,6 +30,7 @@ constexpr double longest_step_back_s = 1.0;
 constexpr double longest_gap_s = 30.0;
 constexpr double slowest_rate_hz = 10.0;
 constexpr double nominal_unit_m = 0.0254;
+constexpr float fixed_shot_room = 8.0F;  // units of 0.0254 m, that movers leave a fixed camera
 constexpr std::int64_t cut_every_ns = 200'000'000;
 
 double unit_of(const freespace::Freespace& freespace) {
@@ -69,19 +70,16 @@ bool in_group(std::uint32_t player, std::span<const std::uint32_t> group) {
     return group.empty() || std::ranges::binary_search(group, player);
 }
 
-// Where there are any.
-void keep_living(std::vector<std::size_t>& choice, std::span<const std::uint32_t> players,
-                 const Roster& roster) {
-    const auto lives = [&](std::size_t place) {
-        return (roster.pose(players[place])->flags & pose_alive) != 0;
-    };
-    if (std::ranges::any_of(choice, lives)) std::erase_if(choice, std::not_fn(lives));
+std::size_t fixed_shots_of(const Edit::Setting& setting) {
+    return setting.rules.grammar.fixed_shots ? setting.space.map().fixed_shots().size() : 0;
 }
 
 }  // namespace
 
-void AutomaticShot::follow(std::uint32_t target, std::int64_t frame_time, const Reason* why) {
+void AutomaticShot::follow(std::uint32_t target, std::uint32_t fixed_shot, std::int64_t frame_time,
+                           const Reason* why) {
     player = target;
+    fixed = fixed_shot;
     since = frame_time;
     reason = why != nullptr ? *why : Reason{};
     edit = 0;
@@ -113,9 +111,11 @@ double Edit::seconds(std::int64_t frame_time) const {
     return seconds_between(start_, frame_time);
 }
 
-void Edit::begin(const PoseFrame& frame) {
+void Edit::begin(const PoseFrame& frame, const Setting& setting) {
     clear();
     begun_ = true;
+    fixed_ = fixed_shots_of(setting);
+    material_ = direction::Material(0, std::vector(fixed_, nobody));
     start_ = aligned(frame.frame_time);
     newest_ = shown_ = seconds(frame.frame_time) - beat_s;
     shown_beat_ = beat_of(seconds(frame.frame_time));
@@ -124,8 +124,9 @@ void Edit::begin(const PoseFrame& frame) {
 
 void Edit::show(const PoseFrame& frame, const DelayBuffer& delay, const Setting& setting) {
     const double time = seconds(frame.frame_time);
-    if (!begun_ || is_full_ || time < shown_ - longest_step_back_s || time > newest_ + longest_gap_s)
-        begin(frame);
+    if (!begun_ || is_full_ || fixed_ != fixed_shots_of(setting) || time < shown_ - longest_step_back_s ||
+        time > newest_ + longest_gap_s)
+        begin(frame, setting);
     shown_ = std::max(shown_, seconds(frame.frame_time));
     const direction::Beat before = std::exchange(shown_beat_, beat_of(shown_));
     const direction::Beat foresight = beat_of(foresight_s(setting.delay_s));
@@ -150,7 +151,7 @@ void Edit::show(const PoseFrame& frame, const DelayBuffer& delay, const Setting&
     decided_ = cut;
     finish(setting);
     material_.forget_before(cut);
-    moments_ = material_.moments(setting.rules, unit_of(setting.freespace), cut);
+    moments_ = material_.moments(setting.rules, unit_of(setting.space.map()), cut);
 }
 
 // Returns false for a frame that is to be known later.
@@ -168,7 +169,7 @@ bool Edit::take(const PoseFrame& frame, const Setting& setting) {
     for (const PlayerPose& pose : poses) {
         const Index place = place_of(pose.player_id);
         if (continuity_.broken(pose) && place != nobody && !beats_.empty())
-            beats_.back().scout.takes[place].cut = true;
+            beats_.back().scout.takes[fixed_ + place].cut = true;
     }
     return true;
 }
@@ -184,8 +185,7 @@ void Edit::begin_beat(direction::Beat number, std::span<const PlayerPose> poses)
         for (PendingBeat& beat : beats_)
             beat.scout.add_player();
     }
-    PendingBeat& beat = beats_.emplace_back();
-    beat.number = number;
+    PendingBeat& beat = beats_.emplace_back(number, fixed_);
     while (beat.scout.players.size() < players_.size())
         beat.scout.add_player();
     for (const PlayerPose& pose : poses) {
@@ -230,18 +230,18 @@ void Edit::look(const Setting& setting) {
         std::ranges::count_if(beats_, [](const PendingBeat& beat) { return !beat.scout.finished(); });
     const double share = static_cast<double>(std::min(waiting, std::ptrdiff_t{catches_up})) / frames_per_beat;
     auto most = static_cast<std::size_t>(std::ceil(share * static_cast<double>(players_.size())));
-    const auto unit = static_cast<float>(unit_of(setting.freespace));
+    const auto unit = static_cast<float>(unit_of(setting.space.map()));
     for (PendingBeat& beat : beats_)
         for (; most > 0 && !beat.scout.finished(); --most)
-            beat.scout.look(setting.freespace, unit);
+            beat.scout.look(setting.space.map(), unit);
     append_finished();
 }
 
 void Edit::finish(const Setting& setting) {
-    const auto unit = static_cast<float>(unit_of(setting.freespace));
+    const auto unit = static_cast<float>(unit_of(setting.space.map()));
     for (PendingBeat& beat : beats_)
         while (beat.number < end_ && beat.ended && !beat.scout.finished())
-            beat.scout.look(setting.freespace, unit);
+            beat.scout.look(setting.space.map(), unit);
     append_finished();
 }
 
@@ -279,29 +279,57 @@ void Edit::add(const MatchEvent& event) {
 
 bool Edit::choose(AutomaticShot& shot, std::span<const std::uint32_t> group, const Roster& roster,
                   const Setting& setting) const {
-    std::vector<std::size_t> choice;
-    bool stays = false;
-    for (std::size_t place = 0; place < players_.size(); ++place) {
-        if (!in_group(players_[place], group) || roster.pose(players_[place]) == nullptr) continue;
-        choice.push_back(place);
-        stays = stays || players_[place] == shot.player;
-    }
+    std::vector<std::size_t> choice = choice_of(group, roster, setting);
+    const std::size_t on_air = rush_of(shot);
+    const bool stays = std::ranges::find(choice, on_air) != choice.end();
     if (choice.empty() || (stays && !due_)) return false;
     if (shot.edit != generation_) {
         shot.cutter = {};
         shot.edit = generation_;
         const double begun = seconds(shot.since);  // before the material began: its length counts anew
         const direction::Beat since = begun < 0.0 ? decided_ : std::min(beat_of(begun), decided_);
-        if (stays) shot.cutter.cut_to({place_of(shot.player), since, since, {}});
+        if (stays) shot.cutter.cut_to({on_air, since, since, {}});
     }
-    if (!stays) keep_living(choice, players_, roster);
-    const auto begun =
-        shot.cutter.decide(material_, moments_, setting.rules, unit_of(setting.freespace), decided_, choice);
+    if (!stays) keep_living(choice, roster);
+    const auto begun = shot.cutter.decide(material_, moments_, setting.rules, unit_of(setting.space.map()),
+                                          decided_, choice);
     if (!begun) return false;
-    shot.player = players_[begun->rush];
+    const bool is_fixed = begun->rush < fixed_;
+    shot.player = is_fixed ? no_player : players_[begun->rush - fixed_];
+    shot.fixed = is_fixed ? static_cast<std::uint32_t>(begun->rush) : freespace::none;
     shot.since = frame_time_;
     shot.reason = reason_of(begun->reason, setting.rules);
     return true;
+}
+
+std::vector<std::size_t> Edit::choice_of(std::span<const std::uint32_t> group, const Roster& roster,
+                                         const Setting& setting) const {
+    std::vector<std::size_t> choice;
+    for (std::size_t place = 0; place < players_.size(); ++place)
+        if (in_group(players_[place], group) && roster.pose(players_[place]) != nullptr)
+            choice.push_back(fixed_ + place);
+    const direction::Footage& footage = material_.footage();
+    if (!group.empty() || choice.empty() || footage.beats() == footage.first()) return choice;
+    const float room = fixed_shot_room * static_cast<float>(unit_of(setting.space.map()));
+    for (std::size_t i = 0; i < fixed_; ++i)
+        if (!camera::is_threatened(setting.space, setting.space.map().fixed_shots()[i].position, room))
+            choice.push_back(i);
+    return choice;
+}
+
+void Edit::keep_living(std::vector<std::size_t>& choice, const Roster& roster) const {
+    const auto is_of = [&](std::size_t rush, bool alive) {
+        return rush >= fixed_ && ((roster.pose(players_[rush - fixed_])->flags & pose_alive) != 0) == alive;
+    };
+    if (std::ranges::any_of(choice, [&](std::size_t rush) { return is_of(rush, true); }))
+        std::erase_if(choice, [&](std::size_t rush) { return is_of(rush, false); });
+}
+
+std::size_t Edit::rush_of(const AutomaticShot& shot) const {
+    const std::size_t none = material_.footage().rushes();
+    if (shot.fixed < fixed_) return shot.fixed;
+    const Index place = place_of(shot.player);
+    return place == nobody ? none : fixed_ + place;
 }
 
 Reason Edit::reason_of(const direction::Reason& reason, const direction::Rules& rules) const {

@@ -1,4 +1,5 @@
-// The automatic shots of a match: whom they follow, and why, as the direction's editor decides.
+// The automatic shots of a match: whom they follow or from where they look, and why, as the direction's
+// editor decides.
 #pragma once
 
 #include <cstdint>
@@ -16,19 +17,22 @@
 #include "director/messages.hpp"
 #include "director/roster.hpp"
 #include "director/scout.hpp"
+#include "freespace/space.hpp"
 
 namespace camdir::director {
 
 // An automatic shot's programme so far.
 struct AutomaticShot {
-    std::uint32_t player = no_player;
-    std::int64_t since = 0;  // frame_time
+    std::uint32_t player = no_player;       // who is followed
+    std::uint32_t fixed = freespace::none;  // the fixed shot of the map that is shown instead
+    std::int64_t since = 0;                 // frame_time
     Reason reason;
     direction::Cutter cutter;
     std::uint64_t edit = 0;  // that `cutter` belongs to
 
+    [[nodiscard]] bool is_on_air() const { return player != no_player || fixed != freespace::none; }
     // Goes on with what another director shows.
-    void follow(std::uint32_t target, std::int64_t frame_time, const Reason* why);
+    void follow(std::uint32_t target, std::uint32_t fixed_shot, std::int64_t frame_time, const Reason* why);
 };
 
 // Material, moments and decisions of one match (see direction/README.md). Beats are those of the game's
@@ -51,7 +55,7 @@ class Edit {
     void record(const MatchEvent& event);
 
     struct Setting {
-        const freespace::Freespace& freespace;
+        freespace::Space space;  // at the time of the frame that is shown
         const direction::Rules& rules;
         std::size_t max_players;
         double delay_s;
@@ -60,8 +64,10 @@ class Edit {
     // What is known when this frame is shown. Every frame, before choose().
     void show(const PoseFrame& frame, const DelayBuffer& delay, const Setting& setting);
 
-    // Who is followed from the frame on that is shown. Candidates are the players of `group` (ascending), or
-    // all when it is empty, who have a pose. Returns whether a shot begins.
+    // Who is followed, or which fixed shot is shown, from the frame on that is shown. Candidates are the
+    // players of `group` (ascending), or all when it is empty, who have a pose; without a group also the
+    // fixed shots that no mover comes near, as soon as it is known what they show. Returns whether a shot
+    // begins.
     bool choose(AutomaticShot& shot, std::span<const std::uint32_t> group, const Roster& roster,
                 const Setting& setting) const;
     // Reasons are to be told again, for those who have come since they were: once a second.
@@ -77,12 +83,14 @@ class Edit {
     static constexpr direction::Beat reasons_every = 10;
 
     struct PendingBeat {
-        direction::Beat number = 0;
+        explicit PendingBeat(direction::Beat beat, std::size_t fixed) : number(beat), scout(fixed) {}
+
+        direction::Beat number;
         bool ended = false;  // a later frame is known
         Scout scout;
     };
 
-    void begin(const PoseFrame& frame);
+    void begin(const PoseFrame& frame, const Setting& setting);
     bool take(const PoseFrame& frame, const Setting& setting);
     void begin_beat(direction::Beat number, std::span<const PlayerPose> poses);
     [[nodiscard]] direction::PlayerState state_of(const PlayerPose& pose, direction::Index place) const;
@@ -90,6 +98,12 @@ class Edit {
     void append_finished();
     void finish(const Setting& setting);
     void add(const MatchEvent& event);
+    [[nodiscard]] std::vector<std::size_t> choice_of(std::span<const std::uint32_t> group,
+                                                     const Roster& roster, const Setting& setting) const;
+    // Where nobody else is to be had, those who are dead stay.
+    void keep_living(std::vector<std::size_t>& choice, const Roster& roster) const;
+    // Of what is on the air; rushes() for nothing that there is.
+    [[nodiscard]] std::size_t rush_of(const AutomaticShot& shot) const;
     [[nodiscard]] direction::Index place_of(std::uint32_t player) const;
     [[nodiscard]] double seconds(std::int64_t frame_time) const;
     [[nodiscard]] Reason reason_of(const direction::Reason& reason, const direction::Rules& rules) const;
@@ -112,6 +126,7 @@ class Edit {
     Continuity continuity_;
     std::map<std::uint32_t, direction::Index> places_;  // of players in the material
     std::vector<std::uint32_t> players_;                // by place
+    std::size_t fixed_ = 0;                             // rushes before those that follow the players
     bool is_full_ = false;                              // there is no place for another
     std::map<std::uint32_t, std::uint8_t> teams_;
 };

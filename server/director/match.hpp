@@ -113,6 +113,10 @@ class Match final : public Strand {
     // Calls move(i, scratch) for every i below `count`, also on workers that are idle.
     void share_shots(Turn& turn, std::size_t count,
                      const std::function<void(std::size_t, camera::Scratch&)>& move);
+    [[nodiscard]] static ShotCamera still_camera(std::uint32_t camera_id, const freespace::FixedShot& shot);
+    // Of the map; none for a camera that follows a player.
+    [[nodiscard]] std::uint32_t fixed_shot_of(const ShotCamera& shown) const;
+    ShotCamera show_fixed(Shot& shot);
     [[nodiscard]] Edit::Setting edit_setting() const;
     void choose_targets(const PoseFrame& frame, CameraFrame& cameras);
     void choose_automatic_target(Shot& shot, CameraFrame& cameras);

@@ -16,10 +16,16 @@ std::string text_of(const Reason& reason) {
     return text;
 }
 
+std::string text_of(const AutomaticShot& shot) {
+    if (shot.fixed != freespace::none) return "shows the map's fixed shot " + std::to_string(shot.fixed);
+    return "follows player " + std::to_string(shot.player);
+}
+
 }  // namespace
 
 Edit::Setting Match::edit_setting() const {
-    return {*freespace_, config_->direction, static_cast<std::size_t>(config_->limits.players),
+    const double time = by_timeline_ ? timeline_.shown() : causal_time_;
+    return {space().at(time), config_->direction, static_cast<std::size_t>(config_->limits.players),
             delay_.state().delay_s, static_cast<double>(info_->rate_hz)};
 }
 
@@ -35,20 +41,22 @@ void Match::choose_targets(const PoseFrame& frame, CameraFrame& cameras) {
         const std::uint32_t target = shot.is_automatic()  ? shot.automatic.player
                                      : shot.is_of_group() ? shot.key.group.front()
                                                           : shot.key.target;
-        if (target != shot.target) shot.restart();
+        const std::uint32_t fixed = shot.is_automatic() ? shot.automatic.fixed : freespace::none;
+        if (target != shot.target || fixed != shot.fixed) shot.restart();
         shot.target = target;
+        shot.fixed = fixed;
     }
 }
 
 void Match::choose_automatic_target(Shot& shot, CameraFrame& cameras) {
     AutomaticShot& automatic = shot.automatic;
     const bool begins = edit_.choose(automatic, shot.key.group, roster_, edit_setting());
-    if (automatic.player == no_player) return;
+    if (!automatic.is_on_air()) return;
     if (begins || edit_.repeats_reasons()) cameras.reasons.push_back({shot.camera_id, automatic.reason});
     if (!begins) return;
     if (const auto times = cuts_logged_.due())
-        spdlog::debug("match {}: camera {} follows player {}: {} ({} cuts since the last such line)",
-                      match_id_, shot.camera_id, automatic.player, text_of(automatic.reason), *times);
+        spdlog::debug("match {}: camera {} {}: {} ({} cuts since the last such line)", match_id_,
+                      shot.camera_id, text_of(automatic), text_of(automatic.reason), *times);
 }
 
 }  // namespace camdir::director

@@ -65,9 +65,10 @@ void Match::follow(const Disagreement& disagreement) {
     const auto shot = std::ranges::find(shots, own.camera_id, &Shot::camera_id);
     const ShotCamera* newest = camera_of(own_frames_[newest_own_], own.camera_id);
     if (shot == shots.end() || newest == nullptr || has_cut_since(followed_, own.camera_id)) return;
-    if (shown.target != own.target) {
-        shot->automatic.follow(shown.target, followed_.frame_time, reason_of(followed_, own.camera_id));
-        return;  // the next frame begins with its player
+    if (shown.target != own.target || shown.target == no_player) {
+        shot->automatic.follow(shown.target, fixed_shot_of(shown), followed_.frame_time,
+                               reason_of(followed_, own.camera_id));
+        return;  // the next frame begins with it
     }
     const ShotCamera* before = camera_of(followed_before_, own.camera_id);
     const double dt = seconds_between(followed_before_.frame_time, followed_.frame_time);
@@ -84,6 +85,16 @@ void Match::follow(const Disagreement& disagreement) {
             ? camera::go_on_from(space(), since(*before), since(shown), dt, shot->group)
             : camera::go_on_from(space(), shot->profile, since(*before), since(shown), dt, shot->state);
     if (goes_on) shot->is_prepared = false;
+}
+
+// Those of the same bake stand at the same places.
+std::uint32_t Match::fixed_shot_of(const ShotCamera& shown) const {
+    const auto shots = freespace_->fixed_shots();
+    const auto found = std::ranges::find_if(shots, [&](const freespace::FixedShot& shot) {
+        return agree(shown, still_camera(shown.camera_id, shot), freespace_->metadata().metres_per_unit,
+                     in_time);
+    });
+    return found == shots.end() ? freespace::none : static_cast<std::uint32_t>(found - shots.begin());
 }
 
 std::span<const CameraFrame> Match::own_frames() const {

@@ -8,6 +8,7 @@
 
 #include "director/clock.hpp"
 #include "director/match.hpp"
+#include "freespace/fixed_shots.hpp"
 
 namespace camdir::director {
 namespace {
@@ -223,6 +224,7 @@ void Match::prepare_step(Shot& shot, double time, camera::Scratch& scratch) {
 }
 
 ShotCamera Match::move_camera(Shot& shot, double dt, camera::Scratch& scratch) {
+    if (shot.fixed != freespace::none) return show_fixed(shot);
     const PlayerPose* seen = roster_.pose(shot.target);
     const camera::Camera camera = by_timeline_         ? step_by_timeline(shot, seen, scratch)
                                   : shot.is_of_group() ? step_group_by_poses(shot, dt)
@@ -234,6 +236,26 @@ ShotCamera Match::move_camera(Shot& shot, double dt, camera::Scratch& scratch) {
     shot.flags = camera.flags;
     return {shot.camera_id,      shot.target,      camera.position, camera.orientation,
             camera.vertical_fov, camera.clearance, camera.flags};
+}
+
+ShotCamera Match::still_camera(std::uint32_t camera_id, const freespace::FixedShot& shot) {
+    ShotCamera camera;
+    camera.camera_id = camera_id;
+    camera.position = shot.position;
+    camera.orientation = camera::orientation_of({shot.yaw, shot.pitch});
+    camera.vertical_fov = freespace::fixed_shot_fov;
+    return camera;
+}
+
+ShotCamera Match::show_fixed(Shot& shot) {
+    ShotCamera camera = still_camera(shot.camera_id, freespace_->fixed_shots()[shot.fixed]);
+    camera.clearance = freespace::distance(space(), camera.position).value;
+    if (!std::exchange(shot.state.started, true)) {
+        camera.flags = camera::cut;
+        counters_.add(Counter::cuts);
+    }
+    shot.flags = camera.flags;
+    return camera;
 }
 
 camera::Camera Match::step_by_pose(Shot& shot, const PlayerPose* seen, double dt, camera::Scratch& scratch) {

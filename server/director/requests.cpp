@@ -271,6 +271,7 @@ void Requests::restart_shots() {
         shot.restart();
         shot.automatic = {};
         shot.target = no_player;
+        shot.fixed = freespace::none;
         shot.flags = 0;
     }
 }
@@ -280,7 +281,7 @@ std::vector<ShotView> Requests::shot_views() const {
     for (const Shot& shot : shots_)
         views.push_back({shot.camera_id, shot.target, shot.is_automatic(), shot.key.profile, shot.observers,
                          shot.flags, shot.automatic.reason, shot.automatic.since,
-                         shot.is_of_group() ? shot.key.group : std::vector<std::uint32_t>()});
+                         shot.is_of_group() ? shot.key.group : std::vector<std::uint32_t>(), shot.fixed});
     return views;
 }
 

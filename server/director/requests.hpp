@@ -44,7 +44,8 @@ struct Shot {
     camera::ShotState state;
     camera::GroupState group;  // in its place, of a group shot
     AutomaticShot automatic;
-    std::uint32_t target = no_player;  // the player followed now; of a group shot the first of its group
+    std::uint32_t target = no_player;       // the player followed now; of a group shot the first of its group
+    std::uint32_t fixed = freespace::none;  // the fixed shot of the map that is shown now instead
     std::uint64_t observers = 0;
     std::uint32_t flags = 0;  // of the last camera
     // Follows from `state`, `group`, `target` and `profile` as they are; its memory is kept.

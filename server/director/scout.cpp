@@ -3,6 +3,7 @@
 #include <cmath>
 #include <span>
 
+#include "freespace/fixed_shots.hpp"
 #include "freespace/visibility.hpp"
 
 namespace camdir::director {
@@ -13,6 +14,11 @@ constexpr float clearance = 4.5F;    // likewise, round the way to the camera
 constexpr float to_centre = -22.0F;  // from the eye to the middle of the body
 constexpr float tan_across = 1.0F;
 constexpr float tan_up = 9.0F / 16.0F;
+
+// The middle of the body.
+Vec3f centre_below(const Vec3f& eye, float unit) {
+    return eye + to_centre * unit * Vec3f::UnitZ();
+}
 
 // Where the camera looks. Its horizon is level.
 class Picture {
@@ -54,8 +60,16 @@ void Scout::look(const freespace::Freespace& freespace, float unit) {
         player.sees.set(other);
         players[other].sees.set(self);
     }
+    look_from_behind(freespace, unit, self);
+    look_from_fixed(freespace, unit, self);
+    if (!finished()) return;
+    for (direction::Take& take : std::span(takes).first(fixed))
+        take.subject = direction::subject_in(take, players);
+}
 
-    direction::Take& take = takes[self];
+void Scout::look_from_behind(const freespace::Freespace& freespace, float unit, direction::Index self) {
+    const direction::PlayerState& player = players[self];
+    direction::Take& take = takes[fixed + self];
     const Vec3f behind = player.eye - distance * unit * player.facing;
     const float free = freespace::sight(freespace, player.eye, behind, clearance * unit).free_length;
     take.position = player.eye - free * player.facing;
@@ -65,8 +79,20 @@ void Scout::look(const freespace::Freespace& freespace, float unit) {
     const auto shows = [&](const Vec3f& point) { return picture.has(point) && from_camera.to(point).clear; };
     for (const direction::Index other : present) {
         const Vec3f& eye = players[other].eye;
-        if (other != self && (shows(eye) || shows(eye + to_centre * unit * Vec3f::UnitZ())))
-            take.shown.set(other);
+        if (other != self && (shows(eye) || shows(centre_below(eye, unit)))) take.shown.set(other);
+    }
+}
+
+void Scout::look_from_fixed(const freespace::Freespace& freespace, float unit, direction::Index self) {
+    const Vec3f& eye = players[self].eye;
+    for (std::size_t i = 0; i < fixed; ++i) {
+        const freespace::FixedShot& shot = freespace.fixed_shots()[i];
+        takes[i].position = shot.position;
+        const auto shows = [&](const Vec3f& point) {
+            return freespace::frames(shot, point, unit) &&
+                   freespace::sight(freespace, shot.position, point).clear;
+        };
+        takes[i].shown.set(self, shows(eye) || shows(centre_below(eye, unit)));
     }
 }
 

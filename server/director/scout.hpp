@@ -1,4 +1,4 @@
-// What the cameras that follow the players would show at one instant.
+// What the cameras that follow the players, and those that stand still, would show at one instant.
 #pragma once
 
 #include <vector>
@@ -13,17 +13,26 @@ namespace camdir::director {
 // 0.0254 m away or as far as is free, looks along it, and shows 90 degrees across in the format 16:9. It is
 // no tracker's: one that looks ahead is not made before it is due.
 struct Scout {
+    // With the first so many of the map's fixed shots.
+    explicit Scout(std::size_t fixed_shots = 0) : fixed(fixed_shots), takes(fixed_shots) {}
+
+    std::size_t fixed;
     std::vector<direction::PlayerState> players;
-    std::vector<direction::Take> takes;  // of the camera that follows each
+    std::vector<direction::Take> takes;  // of the fixed cameras, then of the one that follows each player
     std::vector<direction::Index> present;
     std::size_t done = 0;  // of those present
 
     // One more, who is not present.
     void add_player();
     [[nodiscard]] bool finished() const { return done == present.size(); }
-    // Of the next one: whom the player sees of those after, and what the camera shows. `unit`: 0.0254 m in
+    // Of the next one: whom the player sees of those after, what their camera shows, and which of the fixed
+    // cameras show them. `unit`: 0.0254 m in
     // map units. Precondition: not finished.
     void look(const freespace::Freespace& freespace, float unit);
+
+  private:
+    void look_from_behind(const freespace::Freespace& freespace, float unit, direction::Index self);
+    void look_from_fixed(const freespace::Freespace& freespace, float unit, direction::Index self);
 };
 
 }  // namespace camdir::director

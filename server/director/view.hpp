@@ -85,6 +85,7 @@ struct ShotView {
     Reason reason;                          // why the player is followed, of an automatic shot
     std::int64_t since = 0;                 // frame_time, likewise
     std::vector<std::uint32_t> group = {};  // of a group shot: its players
+    std::uint32_t fixed = freespace::none;  // the fixed shot of the map that is shown instead of a player
 };
 
 struct ObserverView {

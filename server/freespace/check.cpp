@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace camdir::freespace {
 namespace {
@@ -38,6 +39,9 @@ std::string flaw_of_triangles(std::span<const Triangle> triangles, std::size_t v
     }
     return {};
 }
+
+constexpr float full_turn = 2.0F * std::numbers::pi_v<float>;
+constexpr float quarter_turn = 0.5F * std::numbers::pi_v<float>;
 
 // Of the rounding of single-precision normals, and no more.
 constexpr float normal_tolerance = 1e-4F;
@@ -91,6 +95,19 @@ std::string find_movers_flaw(std::span<const MoverShape> movers) {
         if (std::any_of(before.begin(), before.end(),
                         [&](const MoverShape& other) { return other.name == movers[i].name; }))
             return at("mover", i, "has the name of another");
+    }
+    return {};
+}
+
+std::string find_fixed_shots_flaw(std::span<const FixedShot> shots, std::size_t spawn_point_count) {
+    if (shots.size() > max_fixed_shots) return "there are too many fixed shots";
+    for (std::size_t i = 0; i < shots.size(); ++i) {
+        const FixedShot& shot = shots[i];
+        const bool sane = within_limit(shot.position) && std::abs(shot.yaw) <= full_turn &&
+                          std::abs(shot.pitch) < quarter_turn;
+        if (!sane) return at("fixed shot", i, "is not finite or out of range");
+        if (shot.spawn_point != none && shot.spawn_point >= spawn_point_count)
+            return at("fixed shot", i, "is named by a spawn point that does not exist");
     }
     return {};
 }

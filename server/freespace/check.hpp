@@ -24,6 +24,9 @@ inline constexpr std::size_t max_mover_name = 64;
 // Not checked: that a hull is bounded, and that its box encloses it.
 [[nodiscard]] std::string find_movers_flaw(std::span<const MoverShape> movers);
 
+[[nodiscard]] std::string find_fixed_shots_flaw(std::span<const FixedShot> shots,
+                                                std::size_t spawn_point_count);
+
 // Of the box that a file states around its vertices.
 [[nodiscard]] std::string find_bounds_flaw(const Box3f& bounds, std::span<const Vertex> vertices);
 

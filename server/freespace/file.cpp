@@ -84,6 +84,13 @@ auto copy_counts(flatbuffers::FlatBufferBuilder& builder, std::span<const Count>
     return builder.CreateVector(copies);
 }
 
+auto copy_fixed_shots(flatbuffers::FlatBufferBuilder& builder, std::span<const FixedShot> shots) {
+    std::vector<wire::FixedShot> copies;
+    for (const FixedShot& shot : shots)
+        copies.emplace_back(to_wire(shot.position), shot.yaw, shot.pitch, shot.spawn_point);
+    return builder.CreateVectorOfStructs(copies);
+}
+
 wire::Box to_wire(const Box3f& box) {
     return {to_wire(box.min()), to_wire(box.max())};
 }
@@ -129,6 +136,7 @@ flatbuffers::DetachedBuffer build_file(const Contents& contents, const std::vect
     const auto wire_vertices = copy_structs<wire::Vertex>(builder, vertices);
     const Metadata& metadata = contents.metadata;
     const WireMovers movers = copy_movers(builder, contents.movers);
+    const auto wire_fixed_shots = copy_fixed_shots(builder, contents.fixed_shots);
     const auto wire_spawn_points = copy_spawn_points(builder, contents.spawn_points);
     const auto counts = copy_counts(builder, metadata.counts);
     const auto parameters = builder.CreateString(metadata.parameters);
@@ -136,10 +144,11 @@ flatbuffers::DetachedBuffer build_file(const Contents& contents, const std::vect
     const auto map_name = builder.CreateString(metadata.map_name);
     const wire::Header header(format_version, 0, 0);
     const wire::Box bounds = to_wire(bounds_of(vertices));
-    const auto root = wire::CreateFreespace(
-        builder, &header, map_name, source_name, metadata.source_hash, metadata.metres_per_unit, metadata.d0,
-        parameters, &bounds, wire_vertices, wire_triangles, hints.cell_size, &extent, wire_hints,
-        wire_spawn_points, counts, movers.movers, movers.hulls, movers.half_spaces, movers.balls);
+    const auto root = wire::CreateFreespace(builder, &header, map_name, source_name, metadata.source_hash,
+                                            metadata.metres_per_unit, metadata.d0, parameters, &bounds,
+                                            wire_vertices, wire_triangles, hints.cell_size, &extent,
+                                            wire_hints, wire_spawn_points, counts, movers.movers,
+                                            movers.hulls, movers.half_spaces, movers.balls, wire_fixed_shots);
     wire::FinishFreespaceBuffer(builder, root);
     return builder.Release();
 }
@@ -236,6 +245,13 @@ std::vector<SpawnPoint> read_spawn_points(const wire::Freespace& root) {
     return spawn_points;
 }
 
+std::vector<FixedShot> read_fixed_shots(const wire::Freespace& root) {
+    std::vector<FixedShot> shots;
+    for (const wire::FixedShot* shot : *root.fixed_shots())
+        shots.push_back({to_vector(shot->position()), shot->yaw(), shot->pitch(), shot->spawn_point()});
+    return shots;
+}
+
 Box3f to_box(const wire::Box& box) {
     return {to_vector(box.min()), to_vector(box.max())};
 }
@@ -286,6 +302,7 @@ struct Freespace::Storage {
     Box3f bounds;
     std::vector<SpawnPoint> spawn_points;
     std::vector<MoverShape> movers;
+    std::vector<FixedShot> fixed_shots;
     MeshView mesh;  // in file
     Incidence incidence;
     Lazy<SlabOctree> octree;
@@ -307,6 +324,7 @@ Result<Freespace> Freespace::read(std::shared_ptr<Storage> storage, const std::s
     const wire::Freespace& root = *wire::GetFreespace(bytes.data());
     storage->metadata = read_metadata(root);
     storage->spawn_points = read_spawn_points(root);
+    storage->fixed_shots = read_fixed_shots(root);
     storage->bounds = to_box(*root.bounds());
     const auto vertices = view<Vertex>(root.vertices());
     const auto triangles = view<Triangle>(root.triangles());
@@ -314,6 +332,7 @@ Result<Freespace> Freespace::read(std::shared_ptr<Storage> storage, const std::s
     std::string flaw = find_metadata_flaw(storage->metadata, storage->spawn_points);
     if (flaw.empty()) flaw = read_movers(root, storage->movers);
     if (flaw.empty()) flaw = find_movers_flaw(storage->movers);
+    if (flaw.empty()) flaw = find_fixed_shots_flaw(storage->fixed_shots, storage->spawn_points.size());
     if (flaw.empty()) flaw = find_mesh_flaw(vertices, triangles);
     if (flaw.empty()) flaw = find_bounds_flaw(storage->bounds, vertices);
     if (flaw.empty()) flaw = find_hints_flaw(hints, triangles.size());
@@ -350,6 +369,10 @@ std::span<const MoverShape> Freespace::movers() const {
     return storage_->movers;
 }
 
+std::span<const FixedShot> Freespace::fixed_shots() const {
+    return storage_->fixed_shots;
+}
+
 const SlabOctree& Freespace::octree() const {
     return storage_->octree.get(
         [&] { return SlabOctree(mesh_.vertices, mesh_.triangles, smallest_cell * metadata().d0); });
@@ -371,6 +394,7 @@ std::vector<std::byte> encode(const Contents& contents) {
     assert(contents.triangles.size() < IndexChild::triangle_limit);
     assert(find_metadata_flaw(contents.metadata, contents.spawn_points).empty());
     assert(find_movers_flaw(contents.movers).empty());
+    assert(find_fixed_shots_flaw(contents.fixed_shots, contents.spawn_points.size()).empty());
     assert(find_mesh_flaw(contents.vertices, contents.triangles).empty());
     const std::vector<std::uint32_t> order = index_order(contents.vertices, contents.triangles);
     std::vector<std::uint32_t> new_number;

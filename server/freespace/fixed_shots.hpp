@@ -1,22 +1,13 @@
 // Fixed shots: cameras that stand still and together have much of a map in their pictures.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "freespace/freespace.hpp"
 
 namespace camdir::freespace {
 
-// A picture 90 degrees wide in the format 16:9, with a level horizon.
-struct FixedShot {
-    Vec3f position = Vec3f::Zero();
-    float yaw = 0.0F;                  // rad, counterclockwise from the x axis seen from above
-    float pitch = 0.0F;                // rad, upwards
-    std::uint32_t spawn_point = none;  // the nearest one, which names it
-};
-
-inline constexpr std::size_t max_fixed_shots = 16;
+inline constexpr float fixed_shot_fov = 1.0247783F;  // rad, vertical
 // What is farther away is too small in the picture to count, units of 0.0254 m.
 inline constexpr float fixed_shot_range = 1500.0F;
 

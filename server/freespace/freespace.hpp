@@ -50,6 +50,18 @@ struct SpawnPoint {
     float yaw;  // radians, counterclockwise from the x axis
 };
 
+// A camera that stands still. A picture 90 degrees wide in the format 16:9, with a level horizon.
+struct FixedShot {
+    Vec3f position = Vec3f::Zero();
+    float yaw = 0.0F;                  // rad, counterclockwise from the x axis seen from above; within a turn
+    float pitch = 0.0F;                // rad, upwards; less than a quarter turn
+    std::uint32_t spawn_point = none;  // the nearest one, which names it
+
+    bool operator==(const FixedShot&) const = default;
+};
+
+inline constexpr std::size_t max_fixed_shots = 16;  // of a map
+
 // One number of the bake's report, in the order of the stages: "sample", "points", 52310.
 struct Count {
     std::string stage;
@@ -75,6 +87,7 @@ struct Contents {
     std::vector<Triangle> triangles;
     std::vector<SpawnPoint> spawn_points;
     std::vector<MoverShape> movers;
+    std::vector<FixedShot> fixed_shots;
 };
 
 class Lookouts;
@@ -108,6 +121,8 @@ class Freespace {
     [[nodiscard]] std::span<const SpawnPoint> spawn_points() const;
     // What moves in the map, in the order of the bake's contents; the mesh is baked as if it were not there.
     [[nodiscard]] std::span<const MoverShape> movers() const;
+    // That together have much of the map in their pictures, the one that shows most first.
+    [[nodiscard]] std::span<const FixedShot> fixed_shots() const;
     // Bytes of the file that the representation was read from.
     [[nodiscard]] std::size_t byte_size() const;
 
@@ -141,8 +156,8 @@ class Freespace {
 // The bytes of a MAP.vfs, which `parse` accepts: adds bounds, hints, size and hash, and puts triangles and
 // vertices in the order of the query index, so that what is near in space is near in memory. The same
 // contents give the same bytes. Thread-safe. Preconditions (asserted): a file below 2 GiB, indices in range,
-// three different corners a triangle, vertices within +-coordinate_limit, finite spawn points, metadata and
-// movers in the ranges given there.
+// three different corners a triangle, vertices within +-coordinate_limit, finite spawn points, metadata,
+// movers and fixed shots in the ranges given there.
 [[nodiscard]] std::vector<std::byte> encode(const Contents& contents);
 
 }  // namespace camdir::freespace

@@ -12,7 +12,7 @@ constexpr double least_seconds = 1.0;
 
 // Mean shares of the stages in the seconds of default bakes with 2 threads (`bake --report`) of oa_dm1,
 // oa_dm3, oa_rpg3dm2, aggressor, bunker-defense, dung3on, fegefeuer and lqdm1.
-constexpr std::array<StageWeight, 15> surface_weights{{
+constexpr std::array<StageWeight, 16> surface_weights{{
     {"medial axis", 0.054, true},
     {"forecast", 0.006, false},
     {"sample", 0.045, true},
@@ -27,11 +27,12 @@ constexpr std::array<StageWeight, 15> surface_weights{{
     {"reduce", 0.472, false},
     {"pack", 0.001, false},
     {"recertify", 0.012, true},
+    {"fixed shots", 0.02, false},
     {"movers", 0.001, false},
 }};
 
 // The same of the point clouds room_scan1 and scan_430.
-constexpr std::array<StageWeight, 11> cloud_weights{{
+constexpr std::array<StageWeight, 12> cloud_weights{{
     {"thin", 0.002, true},
     {"forecast", 0.001, false},
     {"delaunay", 0.027, false},
@@ -43,6 +44,7 @@ constexpr std::array<StageWeight, 11> cloud_weights{{
     {"reduce", 0.688, false},
     {"pack", 0.001, false},
     {"recertify", 0.029, true},
+    {"fixed shots", 0.02, false},
 }};
 
 // The part of a stage that is done after `share` of its expected time: the same up to 3/4, then ever more

@@ -30,6 +30,8 @@ const shotRows = new Rows(find('shots'), 'No camera is on: no spectator has aske
 const matchRows = new Rows(find('matches'), 'No match is running.');
 
 const look = slot => model.look(slot);
+// Of a shot of nobody.
+const lookOfShot = target => target === null ? {...look(target), name: 'fixed camera'} : look(target);
 const feed = new Feed(find('feed'), look);
 const timelineView = new TimelineView(find('timeline'));
 
@@ -304,7 +306,7 @@ function showCaption() {
     const state = find('caption-state');
     name.hidden = state.hidden = !shot;
     if (!shot) return;
-    const {name: text, colour} = look(shot.target);
+    const {name: text, colour} = lookOfShot(shot.target);
     setText('caption-name', text);
     if (name.dataset.colour !== colour) name.style.borderColor = name.dataset.colour = colour;
     const mode = modeOf(shot.flags);
@@ -319,7 +321,7 @@ function showLists() {
     const profiles = new Map(shots.map(shot =>
         [shot.camera_id, shot.automatic ? `${shot.profile}, the director chooses` : shot.profile]));
     shotRows.show(shownCameras().map(shot =>
-        shotEntry(shot, look(shot.target), profiles.get(shot.id) ?? '', shot.id === camera, () => chooseCamera(shot.id))));
+        shotEntry(shot, lookOfShot(shot.target), profiles.get(shot.id) ?? '', shot.id === camera, () => chooseCamera(shot.id))));
     matchRows.show(matches.map(({id, map, stream, goesOn}) => ({
         key: `match ${id}`, number: stream ? String(stream.players.length) : '▸', colour: '#c4ccd6', name: id,
         detail: `${map}, ${stream?.state ?? (goesOn ? 'broadcast' : 'recorded')}`, pressed: id === watched?.id,
@@ -335,7 +337,7 @@ function pictureShots() {
 
 // Lays a button over each small picture. Returns where on the stage they are: fewer, where the window is too small for all.
 function layPictures(shots) {
-    const looks = shots.map(shot => look(shot.target));
+    const looks = shots.map(shot => lookOfShot(shot.target));
     const key = [view, resize.last, ...shots.map(({id}, i) => `${id} ${looks[i].name} ${looks[i].colour}`)].join('\n');
     if (layPictures.last === key) return layPictures.places;
     layPictures.last = key;
@@ -489,7 +491,7 @@ function describeTime(t) {
     const span = model.timeline.spans(camera, t, t + 1)[0];
     const near = model.cutNear(camera, t, 0.005 * Math.max(last - first, 300e3));
     const parts = [isRecorded() ? clockText(t - first) : `−${seconds(last - t)}`];
-    if (span) parts.push(`${look(span.target).name}: ${modeText[modeOf(span.flags)].toLowerCase()}`);
+    if (span) parts.push(`${lookOfShot(span.target).name}: ${modeText[modeOf(span.flags)].toLowerCase()}`);
     if (near) parts.push(`cut: ${reasonText(near, slot => look(slot).name)}`);
     return parts.join(' · ');
 }

@@ -535,8 +535,8 @@ enum {
 typedef struct cdir_camera {
     uint32_t struct_size;
     uint32_t camera_id;
-    /* player id: of a group shot the first of its group; CDIR_CHOOSE_TARGET while the director has chosen
-     * none */
+    /* player id: of a group shot the first of its group; CDIR_CHOOSE_TARGET where the director has chosen a
+     * camera that stands still, or nobody yet */
     uint32_t target;
     uint32_t flags;       /* bitwise or of CDIR_CAMERA_ values */
     float position[3];    /* map units */

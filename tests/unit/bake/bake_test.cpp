@@ -317,9 +317,10 @@ TEST(Bake, ReportsEveryStageAndItsProgress) {
                              [&](const StageReport& report) { finished.push_back(report.stage); });
     ASSERT_TRUE(result);
     EXPECT_EQ(shown, finished);
-    EXPECT_THAT(finished, testing::ElementsAre("medial axis", "forecast", "sample", "weld", "delaunay",
-                                               "voronoi", "triangulate", "clearance", "crossing", "inside",
-                                               "certify", "reduce", "pack", "recertify", "movers"));
+    EXPECT_THAT(finished,
+                testing::ElementsAre("medial axis", "forecast", "sample", "weld", "delaunay", "voronoi",
+                                     "triangulate", "clearance", "crossing", "inside", "certify", "reduce",
+                                     "pack", "recertify", "fixed shots", "movers"));
     const auto& counts = result->contents.metadata.counts;
     const auto covered_spawns = std::find_if(counts.begin(), counts.end(), [](const freespace::Count& count) {
         return count.stage == "pack" && count.what == "covered spawn points";

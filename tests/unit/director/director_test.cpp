@@ -5,9 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "camera/camera.hpp"
+#include "camera/view.hpp"
 #include "stage.hpp"
 
 namespace camdir::director {
@@ -234,6 +236,39 @@ TEST(Director, AnAutomaticShotCutsAndSaysWhy) {
         told += stage.publisher.frames().back().reasons.size();
     }
     EXPECT_GE(told, 1U);
+}
+
+TEST(Director, AFixedCameraStandsStillAndHasNoTarget) {
+    Stage stage;
+    stage.start();
+    stage.ask(Stage::request("a", no_player));
+    const auto newest = [&] { return stage.publisher.frames().back().cameras.at(0); };
+    std::uint32_t number = 1;
+    const auto send = [&] {
+        if (number % 9 == 0)
+            stage.director.receive("m", MatchEvent{1, Stage::poses(number).frame_time, 1, 3, 2, 0.0F});
+        stage.send(Stage::poses(number++));
+    };
+    send();
+    EXPECT_NE(newest().target, no_player) << "nothing is known yet";
+    while (number < 2000 && newest().target != no_player)
+        send();
+    const freespace::FixedShot shot = Stage::square().fixed_shots()[0];
+    ASSERT_EQ(newest().target, no_player);
+    EXPECT_EQ(newest().flags, camera::cut);
+    const ShotView view = stage.director.view(std::chrono::seconds(30)).matches.at(0).shots.at(0);
+    EXPECT_EQ(view.fixed, 0U);
+    std::uint32_t stays = 0;
+    for (; number < 4000 && newest().target == no_player; ++stays) {
+        EXPECT_EQ(newest().position, shot.position);
+        EXPECT_TRUE(newest().orientation.isApprox(camera::orientation_of({shot.yaw, shot.pitch})));
+        EXPECT_NEAR(std::tan(newest().vertical_fov / 2.0F), 9.0F / 16.0F, 1e-6F);
+        EXPECT_GT(newest().clearance, 0.0F);
+        if (stays > 0) EXPECT_EQ(newest().flags, 0U);
+        send();
+    }
+    EXPECT_GE(stays, 40U) << "no shot is shorter than 2 s";
+    EXPECT_NE(newest().flags & camera::cut, 0U);
 }
 
 TEST(Director, AnAutomaticTargetThatLeavesIsReplacedAtOnce) {

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
 #include <random>
+#include <set>
 
 #include "direction/programme.hpp"
 #include "stage.hpp"
@@ -48,6 +50,7 @@ Recorded random_match(std::uint32_t seed) {
 struct Cut {
     direction::Beat beat;
     std::uint32_t player;
+    std::uint32_t fixed;
     std::string why;
 
     bool operator==(const Cut&) const = default;
@@ -87,7 +90,7 @@ class EditTest : public testing::TestWithParam<double> {
             roster.update(frame.poses, 1000);
             edit.show(frame, buffer, setting(delay_s));
             if (edit.choose(shot, {}, roster, setting(delay_s)))
-                cuts.push_back({edit.decided(), shot.player, shot.reason.why});
+                cuts.push_back({edit.decided(), shot.player, shot.fixed, shot.reason.why});
             edit.look(setting(delay_s));
         }
         return cuts;
@@ -95,7 +98,10 @@ class EditTest : public testing::TestWithParam<double> {
 
     // The same by the pure editor, from footage that is complete before it begins.
     [[nodiscard]] std::vector<Cut> directed(const Recorded& match, double delay_s) const {
-        direction::Material known(0, {});
+        const std::size_t fixed = space_.fixed_shots().size();
+        direction::Material known(0, std::vector(fixed, direction::nobody));
+        std::vector<std::size_t> followed(players);
+        std::iota(followed.begin(), followed.end(), fixed);
         for (std::size_t i = 0; i < players; ++i)
             known.add_player();
         for (const MatchEvent& event : match.events)
@@ -111,16 +117,21 @@ class EditTest : public testing::TestWithParam<double> {
             const direction::Beat end = now == 0 ? std::min<direction::Beat>(3, foresight) : now + foresight;
             while (known.footage().beats() < std::min<direction::Beat>(end, frames / 2 - 1))
                 append(known, match, static_cast<std::size_t>(known.footage().beats()));
-            const auto begun = cutter.decide(known, known.moments(rules_, unit(), now), rules_, unit(), now);
-            if (begun)
-                cuts.push_back({now, static_cast<std::uint32_t>(begun->rush + 1),
-                                std::string(direction::name_of(begun->reason, rules_))});
+            const bool nothing_known = known.footage().beats() == 0;
+            const auto begun = cutter.decide(known, known.moments(rules_, unit(), now), rules_, unit(), now,
+                                             nothing_known ? followed : std::vector<std::size_t>());
+            if (!begun) continue;
+            const auto rush = static_cast<std::uint32_t>(begun->rush);
+            const std::string why(direction::name_of(begun->reason, rules_));
+            cuts.push_back(
+                rush < fixed ? Cut{now, no_player, rush, why}
+                             : Cut{now, static_cast<std::uint32_t>(rush - fixed + 1), freespace::none, why});
         }
         return cuts;
     }
 
     void append(direction::Material& known, const Recorded& match, std::size_t beat) const {
-        Scout scout;
+        Scout scout(space_.fixed_shots().size());
         while (scout.players.size() < players)
             scout.add_player();
         for (std::size_t i = 0; i < players; ++i) {
@@ -133,7 +144,8 @@ class EditTest : public testing::TestWithParam<double> {
             state.alive = (pose.flags & pose_alive) != 0;
             scout.present.push_back(static_cast<direction::Index>(i));
             for (std::size_t frame = 2 * beat; frame < 2 * beat + 2; ++frame)
-                if ((match.frames[frame].poses[i].flags & pose_discontinuity) != 0) scout.takes[i].cut = true;
+                if ((match.frames[frame].poses[i].flags & pose_discontinuity) != 0)
+                    scout.takes[scout.fixed + i].cut = true;
         }
         while (!scout.finished())
             scout.look(space_, static_cast<float>(unit()));
@@ -145,12 +157,22 @@ class EditTest : public testing::TestWithParam<double> {
 };
 
 TEST_P(EditTest, ShowsTheProgrammeOfThePureEditor) {
-    for (const std::uint32_t seed : {1U, 2U}) {
+    std::set<bool> kinds;
+    for (const std::uint32_t seed : {1U, 2U, 3U, 4U}) {
         const Recorded match = random_match(seed);
         const auto cuts = shown(match, GetParam(), 1);
         EXPECT_GT(cuts.size(), 1U);
         EXPECT_TRUE(cuts == directed(match, GetParam())) << "seed " << seed;
+        for (const Cut& cut : cuts)
+            kinds.insert(cut.player == no_player);
     }
+    EXPECT_EQ(kinds.size(), 2U) << "players followed, and fixed shots";
+}
+
+TEST_P(EditTest, FollowsPlayersAloneWhereSetSo) {
+    rules_.grammar.fixed_shots = false;
+    for (const Cut& cut : shown(random_match(1), GetParam(), 1))
+        EXPECT_NE(cut.player, no_player);
 }
 
 TEST_P(EditTest, WhatLiesBeyondTheDelayChangesNothing) {

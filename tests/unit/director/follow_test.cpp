@@ -150,5 +150,25 @@ TEST_F(FollowAutomatic, NewsThatComesAFrameLateCountsToo) {
     EXPECT_LT(distance(leader_, standby_), 10.0F);
 }
 
+TEST_F(FollowTest, AFixedCameraIsTheLeaders) {
+    wanted_ = Stage::request("a", no_player);
+    leader_.ask(wanted_);
+    std::uint32_t number = begins;
+    do {
+        if (number % 9 == 0)
+            leader_.director.receive("m", MatchEvent{1, Stage::poses(number).frame_time, 1, 3, 2, 0.0F});
+        leader_.send(Stage::poses(number++));
+    } while (number < 4000 && camera(leader_).target != no_player);
+    ASSERT_EQ(camera(leader_).target, no_player);
+    begin(standby_, wanted_);
+    begin(alone_, wanted_);
+    for (const std::uint32_t end = number + 4; number < end; ++number)
+        play(number);
+    EXPECT_NE(camera(alone_).target, no_player);
+    EXPECT_EQ(camera(standby_).target, no_player);
+    EXPECT_EQ(camera(standby_).position, camera(leader_).position);
+    EXPECT_EQ(camera(standby_).flags & camera::cut, 0U);
+}
+
 }  // namespace
 }  // namespace camdir::director

@@ -163,5 +163,20 @@ TEST_F(CheckTest, Hints) {
     EXPECT_EQ(broken.flaw(), "hint 3 is a triangle that does not exist");
 }
 
+TEST_F(CheckTest, FixedShots) {
+    const FixedShot good{Vec3f(1.0F, 2.0F, 3.0F), -6.0F, 1.5F, 1};
+    EXPECT_EQ(find_fixed_shots_flaw(std::vector(16, good), 2), "");
+    EXPECT_EQ(find_fixed_shots_flaw(std::vector{FixedShot{good.position, good.yaw, good.pitch}}, 0), "");
+    EXPECT_EQ(find_fixed_shots_flaw(std::vector(17, good), 2), "there are too many fixed shots");
+    EXPECT_EQ(find_fixed_shots_flaw(std::vector{good, good}, 1),
+              "fixed shot 0 is named by a spawn point that does not exist");
+    for (const float bad : {NAN, INFINITY, 3e38F, 7.0F})
+        for (const FixedShot& shot : {FixedShot{good.position, bad}, FixedShot{good.position, 0.0F, bad}})
+            EXPECT_EQ(find_fixed_shots_flaw(std::vector{good, shot}, 2),
+                      "fixed shot 1 is not finite or out of range");
+    const FixedShot outside{Vec3f(NAN, 0.0F, 0.0F)};
+    EXPECT_EQ(find_fixed_shots_flaw(std::vector{outside}, 2), "fixed shot 0 is not finite or out of range");
+}
+
 }  // namespace
 }  // namespace camdir::freespace

@@ -89,6 +89,7 @@ TEST(File, KeepsEverything) {
     EXPECT_EQ(freespace.spawn_points()[1].eye, Vec3f(-4.0F, 5.0F, -6.0F));
     EXPECT_EQ(freespace.spawn_points()[1].yaw, -1.5F);
     EXPECT_THAT(described(freespace.movers()), testing::ElementsAreArray(described(contents.movers)));
+    EXPECT_THAT(freespace.fixed_shots(), testing::ElementsAreArray(contents.fixed_shots));
     EXPECT_EQ(freespace.vertices().size(), contents.vertices.size());
     EXPECT_EQ(shapes(freespace.vertices(), freespace.triangles()),
               shapes(contents.vertices, contents.triangles));
