@@ -6,6 +6,7 @@
 #include <numeric>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "freespace/shape_checks.hpp"
 
@@ -95,6 +96,12 @@ std::optional<ValidationError> check(const camera_director_CameraFrame& sample) 
     return std::nullopt;
 }
 
+bool distinct(std::span<const std::uint32_t> ids) {
+    std::vector<std::uint32_t> sorted(ids.begin(), ids.end());
+    std::ranges::sort(sorted);
+    return std::ranges::adjacent_find(sorted) == sorted.end();
+}
+
 std::optional<ValidationError> check(const camera_director_MoverFrame& sample) {
     const std::size_t count = sample.mover_id._length;
     if (count > freespace::max_movers) return ValidationError::too_many;
@@ -103,6 +110,7 @@ std::optional<ValidationError> check(const camera_director_MoverFrame& sample) {
     if (!finite(elements(sample.position)) || !finite(elements(sample.orientation)))
         return ValidationError::not_finite;
     if (!unit_length(elements(sample.orientation))) return ValidationError::not_unit;
+    if (!distinct(elements(sample.mover_id))) return ValidationError::duplicate;
     return std::nullopt;
 }
 
@@ -139,24 +147,24 @@ std::optional<ValidationError> check_counts(const camera_director_MoverInfo& sam
 
 std::optional<ValidationError> check(const camera_director_MoverInfo& sample) {
     if (const auto error = check_counts(sample)) return error;
+    if (!distinct(elements(sample.mover_id))) return ValidationError::duplicate;
     const auto planes = elements(sample.planes);
     const auto spheres = elements(sample.spheres);
     if (!finite(planes) || !finite(spheres)) return ValidationError::not_finite;
-    for (std::size_t i = 0; i < planes.size(); i += 4)
+    for (std::size_t i = 0; i < planes.size(); i += 4) {
         if (!(std::abs(Vec3f(&planes[i]).norm() - 1.0F) <= unit_tolerance)) return ValidationError::not_unit;
+        if (std::abs(planes[i + 3]) > freespace::coordinate_limit) return ValidationError::out_of_range;
+    }
     for (std::size_t i = 0; i < spheres.size(); i += 4)
         if (!freespace::is_ball({Vec3f(&spheres[i]), spheres[i + 3]})) return ValidationError::out_of_range;
     return std::nullopt;
 }
 
-// The next hull of the sample, whose half spaces are the first of `planes`; takes them off.
-std::optional<freespace::ConvexHull> take_hull(std::size_t half_spaces, std::span<const float>& planes) {
+// The next hull of the sample, whose half spaces are the first of `planes`; takes them off. Without bounds.
+freespace::ConvexHull take_hull(std::size_t half_spaces, std::span<const float>& planes) {
     freespace::ConvexHull hull;
     for (std::size_t i = 0; i < half_spaces; ++i, planes = planes.subspan(4))
         hull.half_spaces.push_back({Vec3f(planes.data()).normalized(), planes[3]});
-    const auto bounds = freespace::bounds_of(hull.half_spaces);
-    if (!bounds) return std::nullopt;
-    hull.bounds = *bounds;
     return hull;
 }
 
@@ -236,16 +244,23 @@ std::optional<ValidationError> decode(const camera_director_MoverInfo& sample, d
         if (sample.model._length != 0) mover.shape.name = sample.model._buffer[i];
         if (sample.kind._length != 0) mover.shape.kind = sample.kind._buffer[i];
         const std::size_t hulls = sample.hulls._length != 0 ? sample.hulls._buffer[i] : 0;
-        for (const std::size_t count : half_spaces.first(hulls)) {
-            auto hull = take_hull(count, planes);
-            if (!hull) return ValidationError::bad_hull;
-            mover.shape.hulls.push_back(std::move(*hull));
-        }
+        for (const std::size_t count : half_spaces.first(hulls))
+            mover.shape.hulls.push_back(take_hull(count, planes));
         half_spaces = half_spaces.subspan(hulls);
         const std::size_t balls = sample.balls._length != 0 ? sample.balls._buffer[i] : 0;
         for (std::size_t ball = 0; ball < balls; ++ball, spheres = spheres.subspan(4))
             mover.shape.balls.push_back({Vec3f(spheres.data()), spheres[3]});
     }
+    return std::nullopt;
+}
+
+std::optional<ValidationError> bound_hulls(director::MoverInfo& message) {
+    for (director::Mover& mover : message.movers)
+        for (freespace::ConvexHull& hull : mover.shape.hulls) {
+            const auto bounds = freespace::bounds_of(hull.half_spaces);
+            if (!bounds) return ValidationError::bad_hull;
+            hull.bounds = *bounds;
+        }
     return std::nullopt;
 }
 
@@ -258,7 +273,7 @@ std::optional<ValidationError> decode(const camera_director_MoverFrame& sample,
     message.poses.resize(sample.mover_id._length);
     for (std::uint32_t i = 0; i < sample.mover_id._length; ++i)
         message.poses[i] = {sample.mover_id._buffer[i], vector(elements(sample.position), i),
-                            quaternion(elements(sample.orientation), i)};
+                            quaternion(elements(sample.orientation), i).normalized()};
     return std::nullopt;
 }
 

@@ -1,5 +1,5 @@
-// From wire samples to the director's messages, with validation: arrays agree in length and hold at most 256
-// elements, numbers are finite, quaternions and normals have length 1, hulls are bounded.
+// From wire samples to the director's messages, with validation: arrays agree in length and are within the
+// limits of the messages, numbers are finite, quaternions and normals have length 1, hulls are bounded.
 #pragma once
 
 #include <camera_director.h>
@@ -20,10 +20,11 @@ enum class ValidationError : std::size_t {
     too_many,      // more than 256 players, group members or movers; more of a shape than its limits
     not_finite,    // a number is infinite or not a number
     not_unit,      // the length of a quaternion or normal is off 1 by more than 1e-3
-    out_of_range,  // a negative rate, delay or scale; a ball without radius or too far away; a term or rank
-                   // beyond the greatest
-    bad_hull,      // a hull of fewer than 4 half spaces, or empty, or unbounded
-    bad_match_id,  // empty, or not usable as the name of a partition
+    out_of_range,  // a negative rate, delay or scale; a ball without radius, or one or a half space too far
+                   // away; a term or rank beyond the greatest
+    duplicate,          // a mover is named twice
+    bad_hull,           // a hull of fewer than 4 half spaces, or empty, or unbounded
+    bad_match_id,       // empty, or not usable as the name of a partition
     wrong_partition,    // the sample names another match than its partition does
     long_map_name,      // more than 255 bytes: no configured map has such a name
     not_owner,          // the match is another participant's, or the request another writer's
@@ -33,10 +34,10 @@ enum class ValidationError : std::size_t {
 };
 
 // Names in metrics and log, in the order of ValidationError.
-inline constexpr std::array<const char*, 13> validation_error_names = {
-    "array_length",      "too_many",         "not_finite",      "not_unit",      "out_of_range",
-    "bad_hull",          "bad_match_id",     "wrong_partition", "long_map_name", "not_owner",
-    "participant_limit", "participant_rate", "waiting_limit"};
+inline constexpr std::array<const char*, 14> validation_error_names = {
+    "array_length", "too_many",          "not_finite",       "not_unit",        "out_of_range",
+    "duplicate",    "bad_hull",          "bad_match_id",     "wrong_partition", "long_map_name",
+    "not_owner",    "participant_limit", "participant_rate", "waiting_limit"};
 
 // Each function fills `message`, whose memory it reuses, or returns the first error found and leaves
 // `message` unspecified. Reads nothing beyond the sample's arrays.
@@ -46,8 +47,11 @@ inline constexpr std::array<const char*, 13> validation_error_names = {
                                                     director::PoseFrame& message);
 [[nodiscard]] std::optional<ValidationError> decode(const camera_director_MatchEvent& sample,
                                                     director::MatchEvent& message);
+// The hulls have no bounds yet.
 [[nodiscard]] std::optional<ValidationError> decode(const camera_director_MoverInfo& sample,
                                                     director::MoverInfo& message);
+// Then: up to 1 ms a hull.
+[[nodiscard]] std::optional<ValidationError> bound_hulls(director::MoverInfo& message);
 [[nodiscard]] std::optional<ValidationError> decode(const camera_director_MoverFrame& sample,
                                                     director::MoverFrame& message);
 [[nodiscard]] std::optional<ValidationError> decode(const camera_director_ObserverRequest& sample,

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "dds/sender.hpp"
@@ -24,9 +26,27 @@ class SentMovers {
     // For `sender` there is a place; where all are taken the one that was longest without a sample leaves,
     // but for the owner's.
     void admit(const SenderId& sender, const SenderId& owner);
-    // Of a sender that has been admitted since others were. Not null.
-    void put(const SenderId& sender, std::shared_ptr<const director::MoverInfo> info);
+    // Of a sender that has been admitted since others were. Not null. A description, whose hulls have no
+    // bounds yet, replaces the one that waits, and counts from put_bounded() on.
+    void put(const SenderId& sender, std::shared_ptr<director::MoverInfo> described);
     void put(const SenderId& sender, std::shared_ptr<const director::MoverFrame> frame);
+
+    enum class Rank { owner, may_own, stranger };
+    struct Described {
+        SenderId sender;
+        std::shared_ptr<director::MoverInfo> info;
+    };
+    // The description that is to have bounds next, which waits no longer: the owner's first, and no
+    // stranger's.
+    template <class RankOf>
+    [[nodiscard]] std::optional<Described> take_described(const RankOf& rank_of) {
+        for (const Rank rank : {Rank::owner, Rank::may_own})
+            for (Sent& sent : senders_)
+                if (sent.described && rank_of(sent.sender) == rank)
+                    return Described{sent.sender, std::exchange(sent.described, nullptr)};
+        return std::nullopt;
+    }
+    void put_bounded(const SenderId& sender, std::shared_ptr<const director::MoverInfo> info);
 
     // The movers of this sender as of a pose frame of its. Null where they are of another epoch, or not
     // complete yet. The same object as before where nothing has changed.
@@ -37,6 +57,7 @@ class SentMovers {
     using Frame = std::shared_ptr<const director::MoverFrame>;
     struct Sent {
         SenderId sender{};
+        std::shared_ptr<director::MoverInfo> described;  // newer than `info`
         std::shared_ptr<const director::MoverInfo> info;
         Frame frame;                 // as of the last poses
         std::vector<Frame> waiting;  // in the order of arrival

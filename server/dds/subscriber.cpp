@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t samples_per_take = 32;
 // The shapes of a sample take up to 30 ms to check: what comes faster waits in its reader, which keeps the
 // newest.
-constexpr std::chrono::milliseconds mover_info_interval{250};
+constexpr int bounding_share = 10;  // 1 / this of the thread's time at most
 
 }  // namespace
 
@@ -111,7 +111,7 @@ void Subscriber::run() noexcept {
         take_signs_of_new_matches();  // an assertion decides too
         if (Clock::now() >= next_assertion_.load()) {
             assert_liveliness();
-            take_waiting_mover_infos();
+            bound_waiting_movers();
             leave_matches();
             admit_waiting();
             take_signs_of_new_matches();
@@ -243,27 +243,42 @@ void Subscriber::take_poses(Match& match) {
          });
 }
 
+// At once: what others send could push the owner's out of the reader.
 void Subscriber::take_mover_infos(Match& match) {
-    const auto now = Clock::now();
-    match.mover_infos_wait = now < match.next_mover_infos;
-    if (match.mover_infos_wait) return;
     const dds_entity_t reader = match.endpoints->mover_info_reader();
-    std::map<WriterHandle, const camera_director_MoverInfo*> newest;  // valid until the next take
     take(mover_info_samples_, reader, match.mover_infos, [&](const auto& sample, const auto& info) {
-        if (info.valid_data) newest[info.publication_handle] = &sample;
-    });
-    for (const auto& [writer, sample] : newest) {
-        match.next_mover_infos = now + mover_info_interval;
+        if (!info.valid_data) return;
         auto described = std::make_shared<director::MoverInfo>();
-        if (is_valid(match, Topic::mover_info, *sample, *described))
-            keep(match, Topic::mover_info, match.mover_info_senders.find(reader, writer),
-                 std::move(described));
+        if (!is_valid(match, Topic::mover_info, sample, *described)) return;
+        const SenderId* sender = match.mover_info_senders.find(reader, info.publication_handle);
+        static_cast<void>(keep(match, Topic::mover_info, sender, std::move(described)));
+    });
+    bound_movers(match);
+}
+
+// The only decoding that takes milliseconds waits where there is much of it.
+void Subscriber::bound_movers(Match& match) {
+    const auto rank = [&](const SenderId& sender) {
+        return match.ownership.owns(sender)    ? SentMovers::Rank::owner
+               : match.ownership.knows(sender) ? SentMovers::Rank::may_own
+                                               : SentMovers::Rank::stranger;
+    };
+    for (auto begun = Clock::now(); begun >= next_bounding_; begun = Clock::now()) {
+        const auto described = match.movers.take_described(rank);
+        if (!described) break;
+        if (const auto error = bound_hulls(*described->info)) {
+            drop(Topic::mover_info, *error, match.id());
+        } else {
+            if (match.ownership.owns(described->sender)) ++counters_.of(Topic::mover_info).accepted;
+            match.movers.put_bounded(described->sender, described->info);
+        }
+        next_bounding_ = Clock::now() + bounding_share * (Clock::now() - begun);
     }
 }
 
-void Subscriber::take_waiting_mover_infos() {
+void Subscriber::bound_waiting_movers() {
     for (const auto& [id, match] : matches_)
-        if (match->mover_infos_wait) take_mover_infos(*match);
+        bound_movers(*match);
 }
 
 void Subscriber::take_mover_frames(Match& match) {
@@ -272,21 +287,22 @@ void Subscriber::take_mover_frames(Match& match) {
         if (!info.valid_data) return;
         auto frame = std::make_shared<director::MoverFrame>();
         if (!is_valid(match, Topic::mover_frame, sample, *frame)) return;
-        keep(match, Topic::mover_frame, match.mover_frame_senders.find(reader, info.publication_handle),
-             std::move(frame));
+        const SenderId* sender = match.mover_frame_senders.find(reader, info.publication_handle);
+        if (keep(match, Topic::mover_frame, sender, std::move(frame)))
+            ++counters_.of(Topic::mover_frame).accepted;
     });
 }
 
 template <class Movers>
-void Subscriber::keep(Match& match, Topic topic, const SenderId* sender, std::shared_ptr<Movers> movers) {
+bool Subscriber::keep(Match& match, Topic topic, const SenderId* sender, std::shared_ptr<Movers> movers) {
     const bool has_owner = match.ownership.has_owner();
     if (sender != nullptr && has_owner) {
         match.movers.admit(*sender, match.ownership.owner().sender);
         match.movers.put(*sender, std::move(movers));
     }
-    if (sender == nullptr || !match.ownership.owns(*sender))
-        return drop(topic, ValidationError::not_owner, match.id());
-    ++counters_.of(topic).accepted;
+    const bool counts = sender != nullptr && match.ownership.owns(*sender);
+    if (!counts) drop(topic, ValidationError::not_owner, match.id());
+    return counts;
 }
 
 void Subscriber::hand_on_poses() {

@@ -88,8 +88,6 @@ class Subscriber {
         bool is_of_shard = true;
         SenderLookup pose_senders, event_senders, mover_info_senders, mover_frame_senders;
         SentMovers movers;
-        Clock::time_point next_mover_infos{};  // not before
-        bool mover_infos_wait = false;         // for that
         Source poses{*this, &Subscriber::take_poses};
         Source mover_infos{*this, &Subscriber::take_mover_infos};
         Source mover_frames{*this, &Subscriber::take_mover_frames};
@@ -128,10 +126,12 @@ class Subscriber {
     void take_waiting_poses();
     void take_mover_infos(Match& match);
     void take_mover_frames(Match& match);
-    void take_waiting_mover_infos();
-    // Also of who does not own the match, which counts as dropped.
+    void bound_movers(Match& match);
+    void bound_waiting_movers();
+    // Also of who does not own the match, which counts as dropped: then it returns false.
     template <class Movers>
-    void keep(Match& match, Topic topic, const SenderId* sender, std::shared_ptr<Movers> movers);
+    [[nodiscard]] bool keep(Match& match, Topic topic, const SenderId* sender,
+                            std::shared_ptr<Movers> movers);
     void take_events(Match& match);
     void take_requests(Match& match);
     void request_found(Match& match, WriterHandle writer);
@@ -199,6 +199,7 @@ class Subscriber {
     std::unordered_map<std::string, std::unique_ptr<Match>> matches_;
     std::vector<std::string> new_matches_;                        // whose signs were not looked at yet
     Clock::time_point poses_taken_{};                             // of all matches, between others that begin
+    Clock::time_point next_bounding_{};                           // of hulls: not before
     Clock::time_point listened_{};                                // to all who send
     Clock::time_point next_decision_ = Clock::time_point::max();  // when matches may change hands
     TakeBuffer<camera_director_MatchInfo> match_info_samples_;

@@ -26,12 +26,25 @@ std::size_t bytes_of(const Message& message) {
     return info == nullptr ? 0 : info->players.size() * (sizeof(Player) + bytes_of_name);
 }
 
+std::size_t bytes_of(const MoverInfo& info) {
+    std::size_t bytes = sizeof(MoverInfo) + info.movers.size() * sizeof(Mover);
+    for (const Mover& mover : info.movers) {
+        bytes += mover.shape.name.size() + mover.shape.kind.size() +
+                 mover.shape.balls.size() * sizeof(freespace::MoverBall);
+        for (const freespace::ConvexHull& hull : mover.shape.hulls)
+            bytes += sizeof hull + hull.half_spaces.size() * sizeof(freespace::HalfSpace);
+    }
+    return bytes;
+}
+
 // Of what the frame before has not.
 std::size_t bytes_of(const PoseFrame& frame, const MatchMovers* movers_before) {
     std::size_t bytes = frame.poses.size() * sizeof(PlayerPose);
     if (frame.movers && frame.movers.get() != movers_before)
         bytes +=
             sizeof(MatchMovers) + sizeof(MoverFrame) + frame.movers->frame->poses.size() * sizeof(MoverPose);
+    if (frame.movers && (movers_before == nullptr || frame.movers->info != movers_before->info))
+        bytes += bytes_of(*frame.movers->info);
     return bytes;
 }
 

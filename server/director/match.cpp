@@ -28,6 +28,16 @@ std::string joined(const std::vector<std::string>& names) {
     return list.empty() ? "none" : list;
 }
 
+// Of names that others have given, for a line of the log.
+std::string some_of(const std::vector<std::string>& names) {
+    constexpr std::size_t most = 8;
+    std::string list =
+        joined({names.begin(), names.begin() + static_cast<std::ptrdiff_t>(std::min(names.size(), most))});
+    std::ranges::replace_if(
+        list, [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
+    return names.size() > most ? list + " and others" : list;
+}
+
 std::time_t utc_second_after(std::int64_t ns) {
     const auto then = std::chrono::system_clock::now() + std::chrono::nanoseconds(ns);
     return std::chrono::system_clock::to_time_t(std::chrono::ceil<std::chrono::seconds>(then));
@@ -260,12 +270,14 @@ void Match::check_scale(const MapEntry& entry) {
 
 void Match::report_unknown_movers() {
     const std::vector<std::string>& unknown = obstacles_.unknown();
+    if (unknown == reported_unknown_) return;
+    reported_unknown_ = unknown;
     counters_.add(Counter::unknown_movers, unknown.size());
     if (unknown.empty()) return;
     spdlog::warn(
         "match {}: {} of its movers are no obstacles: map {} has no such model, and they have no shape of "
         "their own: {}",
-        match_id_, unknown.size(), info_->map_name, joined(unknown));
+        match_id_, unknown.size(), info_->map_name, some_of(unknown));
 }
 
 void Match::wait_for_map(std::string reason) {

@@ -179,7 +179,8 @@ class Match final : public Strand {
     std::shared_ptr<const MatchMovers> shown_movers_;  // of the last frame
     // How long the frames took until now, as trackers count it that do not move over the timeline.
     double causal_time_ = 0.0;
-    MatchObstacles obstacles_;    // over the timeline, or that time
+    MatchObstacles obstacles_;                   // over the timeline, or that time
+    std::vector<std::string> reported_unknown_;  // of its movers
     std::uint64_t foreseen_ = 0;  // position in the delay buffer of what follows in the timeline
     bool by_timeline_ = false;    // the cameras move over the timeline
     std::uint32_t next_camera_frame_ = 0;

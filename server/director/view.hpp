@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "director/messages.hpp"
+#include "freespace/freespace.hpp"
 
 namespace camdir::director {
 

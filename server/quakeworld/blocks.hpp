@@ -1,6 +1,5 @@
 // The container of a multi-view demo: blocks of a server's messages, each with its time and addressees. A
-// file
-// (.mvd) is one, and so is the stream of a QTV server.
+// file (.mvd) is one, and so is the stream of a QTV server.
 #pragma once
 
 #include <cstddef>

@@ -122,6 +122,8 @@ class Receiver {
         if (!sample) return;
         Message message{};
         if (dds::decode(*sample, message)) return;
+        if constexpr (std::is_same_v<Message, director::MoverInfo>)
+            if (dds::bound_hulls(message)) return;
         pass(std::string((*sample).match_id), message);
         director_.flush();
     }

@@ -111,7 +111,8 @@ wrk --threads 2 --connections "$viewers" --duration "${seconds}s" --timeout 10s 
     "$url" -- ${broadcasts[*]} >wrk.txt || fail "wrk failed: $(cat wrk.txt)"
 
 # Times that the director was asked, each with its path; the fragments alone.
-grep -E '/(full|delta|start)$' asked.log | sort | uniq -c | sort -rn >fragments.txt
+grep -E '/(full|delta|start)$' asked.log | sort | uniq -c | sort -rn >fragments.txt ||
+    fail "the director was asked for no fragment: see $PWD/asked.log"
 result=$(awk -v fragments="$(wc -l <fragments.txt)" -v most="$(awk 'NR == 1 { print $1 }' fragments.txt)" \
     -v seconds="$seconds" -v syncs="$(grep -c '/sync$' asked.log)" '
     $1 == "result" { for (i = 2; i <= NF; ++i) { split($i, pair, "="); value[pair[1]] = pair[2] } }

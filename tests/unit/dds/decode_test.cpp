@@ -231,13 +231,19 @@ test::RawMoverInfo door_and_cart() {
     return info;
 }
 
+std::optional<ValidationError> decode_whole(const camera_director_MoverInfo& sample,
+                                            director::MoverInfo& message) {
+    const auto error = decode(sample, message);
+    return error ? error : bound_hulls(message);
+}
+
 TEST(DecodeMoverInfo, SharesTheShapesOutToTheirMovers) {
     test::RawMoverInfo info = door_and_cart();
     info.add_mover(7);
     info.add_ball({1.0F, 2.0F, 3.0F}, 4.0F);
     director::MoverInfo message;
     message.movers.resize(9);  // left over from another sample
-    ASSERT_FALSE(decode(info.sample(), message));
+    ASSERT_FALSE(decode_whole(info.sample(), message));
     EXPECT_EQ(message.epoch, 7U);
     ASSERT_EQ(message.movers.size(), 3U);
     EXPECT_EQ(message.movers[0].id, 40U);
@@ -263,7 +269,7 @@ TEST(DecodeMoverInfo, ListsThatAllLackMayBeLeftOut) {
     info.hulls.clear();
     info.balls.clear();
     director::MoverInfo message;
-    EXPECT_FALSE(decode(info.sample(), message));
+    EXPECT_FALSE(decode_whole(info.sample(), message));
     EXPECT_EQ(message.movers.size(), 2U);
 }
 
@@ -272,7 +278,7 @@ TEST(DecodeMoverInfo, RefusesWhatIsMalformed) {
         test::RawMoverInfo info = door_and_cart();
         spoil(info);
         director::MoverInfo message;
-        return decode(info.sample(), message);
+        return decode_whole(info.sample(), message);
     };
     using Info = test::RawMoverInfo;
     EXPECT_EQ(verdict([](Info& info) { info.model.pop_back(); }), ValidationError::array_length);
@@ -289,6 +295,8 @@ TEST(DecodeMoverInfo, RefusesWhatIsMalformed) {
     EXPECT_EQ(verdict([](Info& info) { info.planes[0] = 1.01F; }), ValidationError::not_unit);
     EXPECT_EQ(verdict([](Info& info) { info.spheres[3] = 0.0F; }), ValidationError::out_of_range);
     EXPECT_EQ(verdict([](Info& info) { info.spheres[0] = 1e9F; }), ValidationError::out_of_range);
+    EXPECT_EQ(verdict([](Info& info) { info.planes[3] = 1e9F; }), ValidationError::out_of_range);
+    EXPECT_EQ(verdict([](Info& info) { info.mover_id[1] = info.mover_id[0]; }), ValidationError::duplicate);
     EXPECT_EQ(verdict([](Info& info) { info.planes[3] = -5.0F; }), ValidationError::bad_hull) << "empty";
     EXPECT_EQ(verdict([](Info& info) { info.planes[4] = 1.0F; }), ValidationError::bad_hull) << "unbounded";
 }
@@ -298,7 +306,7 @@ TEST(DecodeMoverInfo, RefusesMoreThanItsLimits) {
         test::RawMoverInfo info("m", 1);
         fill(info);
         director::MoverInfo message;
-        return decode(info.sample(), message);
+        return decode_whole(info.sample(), message);
     };
     const auto movers = [](std::uint32_t count) {
         return [=](test::RawMoverInfo& info) {

@@ -7,7 +7,7 @@ namespace {
 
 constexpr SenderId owner{1}, other{2};
 
-std::shared_ptr<const director::MoverInfo> movers_in(std::uint64_t epoch) {
+std::shared_ptr<director::MoverInfo> movers_in(std::uint64_t epoch) {
     auto info = std::make_shared<director::MoverInfo>();
     info->epoch = epoch;
     return info;
@@ -26,6 +26,11 @@ class SentMoversTest : public testing::Test {
     void sends(const SenderId& sender, std::shared_ptr<Movers> movers) {
         movers_.admit(sender, owner);
         movers_.put(sender, std::move(movers));
+        const auto rank = [](const SenderId& of) {
+            return of == owner ? SentMovers::Rank::owner : SentMovers::Rank::may_own;
+        };
+        while (const auto described = movers_.take_described(rank))
+            movers_.put_bounded(described->sender, described->info);
     }
     // Of the mover frame that the owner's poses of this time are seen with; -1: none.
     std::int64_t time_at(std::int64_t time, std::uint64_t epoch = 1) {
@@ -97,6 +102,24 @@ TEST_F(SentMoversTest, ACrowdOfStrangersTakesNoOwnersPlace) {
     EXPECT_TRUE(movers_.at(SenderId{99}, 1, 30)) << "the last ones are kept";
     sends(SenderId{2}, places_in(1, 8));
     EXPECT_FALSE(movers_.at(SenderId{2}, 1, 30)) << "the first are not";
+}
+
+TEST_F(SentMoversTest, TheOwnersDescriptionIsTheFirstToHaveBoundsAndAStrangersWaits) {
+    for (const SenderId& sender : {other, owner}) {
+        movers_.admit(sender, owner);
+        movers_.put(sender, movers_in(1));
+    }
+    auto others = SentMovers::Rank::stranger;
+    const auto rank = [&](const SenderId& of) { return of == owner ? SentMovers::Rank::owner : others; };
+    const auto next = [&] {
+        const auto described = movers_.take_described(rank);
+        return described ? described->sender : SenderId{};
+    };
+    EXPECT_EQ(next(), owner);
+    EXPECT_EQ(next(), SenderId{});
+    others = SentMovers::Rank::may_own;
+    EXPECT_EQ(next(), other);
+    EXPECT_EQ(next(), SenderId{});
 }
 
 }  // namespace
