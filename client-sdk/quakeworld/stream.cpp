@@ -9,13 +9,18 @@ namespace {
 
 constexpr std::size_t longest_name = 63;        // bytes, of the client library
 constexpr std::int64_t time_to_measure = 2000;  // ms of frames for their rate
+constexpr std::int64_t longest_interval = 500;  // ms: a longer one is a pause
 constexpr float different_rate = 0.1F;          // share of a rate from which on another one is said
 constexpr std::size_t least_blocks_to_judge = 100;
 
 }  // namespace
 
 void Stream::Rate::count(std::int64_t time) {
-    if (!since_) since_ = time;
+    if (!since_ || time - last_ > longest_interval) {
+        since_ = time;
+        frames_ = 0;
+    }
+    last_ = time;
     const std::int64_t passed = time - *since_;
     if (passed >= time_to_measure) {
         const float measured = 1000.0F * static_cast<float>(frames_) / static_cast<float>(passed);

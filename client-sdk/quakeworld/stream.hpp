@@ -65,6 +65,7 @@ class Stream {
       private:
         float hz_ = 30.0F;  // mvdsv's default
         std::optional<std::int64_t> since_;
+        std::int64_t last_ = 0;
         std::uint32_t frames_ = 0;
     };
 

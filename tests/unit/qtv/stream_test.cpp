@@ -170,6 +170,17 @@ TEST(QtvStream, TheRateIsMeasured) {
     EXPECT_THAT(matches, ElementsAre("match 1 dm3 30 2=anna/0 5=bert/0", "match 1 dm3 25 2=anna/0 5=bert/0"));
 }
 
+TEST(QtvStream, APauseOfPlayIsNoRate) {
+    DemoWriter demo;
+    demo.to_everyone(0, level("dm3", ""));
+    play(demo, 10);
+    for (int i = 0; i < 240; ++i)
+        demo.to_everyone(250, DemoMessages().print(1, "nobody plays\n"));
+    play(demo, 10);
+    const auto matches = beginning_with(read(stream_of(demo.bytes())), "match");
+    EXPECT_THAT(matches, ElementsAre("match 1 dm3 30 2=anna/0 5=bert/0"));
+}
+
 TEST(QtvStream, TeamsKeepTheirNumbers) {
     DemoWriter demo;
     demo.to_everyone(0, level("dm3", R"(\teamplay\2)"));
