@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "freespace/freespace.hpp"
 #include "freespace/shape_checks.hpp"
 
 namespace camdir::dds {

@@ -264,7 +264,7 @@ TEST(Director, AFixedCameraStandsStillAndHasNoTarget) {
         EXPECT_TRUE(newest().orientation.isApprox(camera::orientation_of({shot.yaw, shot.pitch})));
         EXPECT_NEAR(std::tan(newest().vertical_fov / 2.0F), 9.0F / 16.0F, 1e-6F);
         EXPECT_GT(newest().clearance, 0.0F);
-        if (stays > 0) EXPECT_EQ(newest().flags, 0U);
+        EXPECT_EQ(newest().flags, stays == 0 ? std::uint32_t{camera::cut} : 0U);
         send();
     }
     EXPECT_GE(stays, 40U) << "no shot is shorter than 2 s";
