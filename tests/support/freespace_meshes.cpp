@@ -87,7 +87,7 @@ Contents empty_contents() {
                         {},
                         Vec3f(200.0F, 0.0F, -16.0F)},
                        {"boulder", "", {}, {{Vec3f(0.0F, 0.0F, 24.0F), 24.0F}}}};
-    contents.fixed_shots = {{Vec3f(30.0F, 20.0F, 10.0F), 0.5F, -0.2F, 1}};
+    contents.fixed_shots = {{Vec3f(30.0F, 20.0F, 10.0F), 0.5F, -0.2F}};
     return contents;
 }
 

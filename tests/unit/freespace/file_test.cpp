@@ -72,7 +72,8 @@ std::size_t position_of(const Bytes& bytes, const Value& value) {
 
 TEST(File, KeepsEverything) {
     std::mt19937 random(1);
-    const Contents contents = random_contents(random, 20, 15, 30);
+    Contents contents = random_contents(random, 20, 15, 30);
+    contents.fixed_shots[0].spawn_point = 1;
     const Freespace freespace = make_freespace(contents);
     const Metadata& metadata = freespace.metadata();
     EXPECT_EQ(metadata.map_name, contents.metadata.map_name);
