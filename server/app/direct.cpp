@@ -84,8 +84,8 @@ struct Rushes {
 Result<Rushes> shoot(const DirectOptions& options, const Inputs& inputs, double unit, ProgressLine& line,
                      const std::stop_token& stop) {
     const auto show = [&](std::uint64_t done, std::uint64_t total) { line.show("tracking", done, total); };
-    auto recording = evaluation::record(*inputs.map.freespace, camera::Profile{}, inputs.trace, inputs.trace,
-                                        options.delay, show, stop);
+    auto recording = evaluation::record(*inputs.map.freespace, camera::Profile{}, inputs.trace, {},
+                                        inputs.trace, options.delay, show, stop);
     if (!recording) return tl::unexpected(recording.error());
     line.show("looking", 0, 0);
     const oracle::Oracle oracle(inputs.map.scene, inputs.map.point_radius);

@@ -218,8 +218,8 @@ void add_evaluate(CLI::App& root, Run& run) {
     command->add_option("--events", options->events,
                         "The match's events, CSV or CSV.gz: kills in view; default: those that TRACE has");
     command->add_option("--movers", options->movers,
-                        "Where the match's doors and lifts were, CSV or CSV.gz: cameras in them, through "
-                        "them, and what they hide");
+                        "Where the match's doors and lifts were, CSV or CSV.gz: the tracker knows them; "
+                        "counts cameras in them, through them, and what they hide");
     command->add_option("--config", options->config,
                         "Configuration that has the profile; default: those that ship");
     command->add_option("--profile", options->profile, "The tracker's profile")->capture_default_str();

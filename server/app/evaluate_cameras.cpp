@@ -45,7 +45,9 @@ Result<NamedRecording> run_tracker(const EvaluateOptions& options, Choice choice
     if (choice == Choice::other)
         profile->solver = profile->solver == Solver::planner ? Solver::paper : Solver::planner;
     const auto show = [&](std::uint64_t done, std::uint64_t total) { line.show("tracking", done, total); };
-    auto recording = evaluation::record(*map.freespace, *profile, match.poses, match.frames,
+    const auto movers = match.movers ? std::span<const evaluation::MoverRow>(*match.movers)
+                                     : std::span<const evaluation::MoverRow>();
+    auto recording = evaluation::record(*map.freespace, *profile, match.poses, movers, match.frames,
                                         options.look_ahead, show, stop);
     if (!recording) return tl::unexpected(recording.error());
     return NamedRecording{name_of(options, profile->solver), std::move(*recording)};

@@ -21,10 +21,11 @@ constexpr std::uint64_t max_updates = 200'000'000;
 class Recorder {
   public:
     Recorder(const freespace::Freespace& freespace, const camera::Profile& profile, const Trace& poses,
-             const Trace& trace, double look_ahead, Recording& recording)
+             std::span<const MoverRow> movers, const Trace& trace, double look_ahead, Recording& recording)
         : freespace_(freespace),
           profile_(profile),
           poses_(poses),
+          movers_(movers),
           trace_(trace),
           look_ahead_(look_ahead),
           recording_(recording),
@@ -37,14 +38,16 @@ class Recorder {
         const std::int64_t start = std::min(poses_.frames.front().time, trace_.frames.front().time);
         const auto poses = timed_poses(poses_, player, start);
         KnownPoses known(poses, look_ahead_);
+        KnownMovers known_movers(freespace_, movers_, poses_, start, look_ahead_);
         camera::ShotState state;
         bool cut_unseen = false;  // a cut while the player had no pose: goes into the next row
         const auto track = track_of(trace_, player);
         for (std::size_t frame = 0; frame < track.size() && keep_on(); ++frame) {
             const double time = seconds(trace_.frames[frame].time - start);
             const camera::Window window = known.at(time);
+            const freespace::Space space(freespace_, movers_.empty() ? nullptr : &known_movers.at(time));
             const double before = cpu_nanoseconds();
-            const camera::Camera camera = camera::step(freespace_, profile_, window, time, state, *scratch_);
+            const camera::Camera camera = camera::step(space, profile_, window, time, state, *scratch_);
             nanoseconds[frame] = cpu_nanoseconds() - before;
             cut_unseen = cut_unseen || (camera.flags & camera::cut) != 0;
             if (track[frame] == absent) continue;
@@ -57,6 +60,7 @@ class Recorder {
     const freespace::Freespace& freespace_;
     const camera::Profile& profile_;
     const Trace& poses_;
+    std::span<const MoverRow> movers_;
     const Trace& trace_;
     double look_ahead_;
     Recording& recording_;
@@ -73,8 +77,8 @@ void append(std::string& text, float value) {
 }  // namespace
 
 Result<Recording> record(const freespace::Freespace& freespace, const camera::Profile& profile,
-                         const Trace& poses, const Trace& trace, double look_ahead,
-                         const ProgressSink& progress, const std::stop_token& stop) {
+                         const Trace& poses, std::span<const MoverRow> movers, const Trace& trace,
+                         double look_ahead, const ProgressSink& progress, const std::stop_token& stop) {
     assert(look_ahead >= 0.0 && !poses.frames.empty());
     const std::size_t frames = trace.frames.size();
     const std::uint64_t total = std::uint64_t{frames} * trace.players.size();
@@ -93,7 +97,7 @@ Result<Recording> record(const freespace::Freespace& freespace, const camera::Pr
         return !stop.stop_requested();
     };
     parallel_for(std::size_t{0}, trace.players.size(), [&](std::size_t i) {
-        Recorder recorder(freespace, profile, poses, trace, look_ahead, recording);
+        Recorder recorder(freespace, profile, poses, movers, trace, look_ahead, recording);
         recorder.follow(trace.players[i], recording.step_nanoseconds.data() + i * frames, keep_on);
     });
     if (stop.stop_requested()) return fail("interrupted", ErrorCode::interrupted);

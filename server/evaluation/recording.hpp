@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "camera/camera.hpp"
 #include "camera/profile.hpp"
 #include "evaluation/camera_path.hpp"
+#include "evaluation/mover_tracks.hpp"
 #include "freespace/freespace.hpp"
 
 namespace camdir::evaluation {
@@ -25,11 +27,13 @@ using ProgressSink = std::function<void(std::uint64_t, std::uint64_t)>;
 
 // Steps a shot for each player through every frame of `trace`, players in parallel; the cameras do not depend
 // on the number of threads. A camera knows the poses of `poses` (the same match, at its own rate) up to
-// `look_ahead` seconds (>= 0) after its frame; 0: it is causal. Fails with ErrorCode::interrupted soon after
-// `stop` is requested.
+// `look_ahead` seconds (>= 0) after its frame; 0: it is causal. Likewise it knows the movers of the
+// freespace by `movers`, rows recorded beside `poses`; none: nothing moves. Fails with ErrorCode::interrupted
+// soon after `stop` is requested.
 [[nodiscard]] Result<Recording> record(const freespace::Freespace& freespace, const camera::Profile& profile,
-                                       const Trace& poses, const Trace& trace, double look_ahead,
-                                       const ProgressSink& progress, const std::stop_token& stop);
+                                       const Trace& poses, std::span<const MoverRow> movers,
+                                       const Trace& trace, double look_ahead, const ProgressSink& progress,
+                                       const std::stop_token& stop);
 
 // CSV with the header t_ms,player,visibility,distance,angle,inertia_distance,inertia_angle,safety,total and a
 // row for each pose of the trace: the objective's terms as they entered the sum.

@@ -1,12 +1,18 @@
 #include "evaluation/replay.hpp"
 
+#include <algorithm>
+#include <cassert>
 #include <ctime>
+#include <string>
 
 namespace camdir::evaluation {
 namespace {
 
 constexpr double history = 0.5;     // s of poses before a camera that it is given
 constexpr double same_time = 1e-9;  // s
+// s. Beyond the horizon of every solver; of frames that follow each other so closely that this much of them
+// is more than Movers keeps, it would forget where a mover is now.
+constexpr double movers_ahead = 4.0;
 
 camera::Pose tracked(const TracePose& pose) {
     camera::Pose seen;
@@ -38,6 +44,54 @@ camera::Window KnownPoses::at(double time) {
     while (first_ + 1 < end_ && all_[first_ + 1].time <= time - history)
         ++first_;
     return all_.subspan(first_, end_ - first_);
+}
+
+KnownMovers::KnownMovers(const freespace::Freespace& freespace, std::span<const MoverRow> rows,
+                         const Trace& poses, std::int64_t start, double look_ahead)
+    : rows_(rows), frames_(poses.frames), start_(start), look_ahead_(std::min(look_ahead, movers_ahead)) {
+    const auto shapes = freespace.movers();
+    auto movers = freespace::Movers::of(shapes);
+    assert(movers);  // opening the freespace has checked them
+    movers_ = std::move(*movers);
+    std::map<std::string, std::uint32_t> names;
+    for (std::uint32_t i = 0; i < shapes.size(); ++i)
+        names.emplace(shapes[i].name, i);
+    for (const MoverRow& row : rows)
+        if (!places_.contains(row.model))
+            if (const auto shape = names.find("*" + std::to_string(row.model)); shape != names.end())
+                places_.emplace(row.model, shape->second);
+}
+
+const freespace::Movers& KnownMovers::at(double time) {
+    for (auto next = next_frame(); next && seconds(*next - start_) <= time + look_ahead_ + same_time;
+         next = next_frame())
+        add_frame(*next);
+    // The step that ends now began at the last call.
+    movers_.forget_before(std::min(asked_, time - history));
+    asked_ = time;
+    return movers_;
+}
+
+// Frames without a row count too: in them nothing has moved.
+std::optional<std::int64_t> KnownMovers::next_frame() const {
+    if (rows_.empty() && frames_.empty()) return std::nullopt;
+    if (rows_.empty()) return frames_.front().time;
+    if (frames_.empty()) return rows_.front().time;
+    return std::min(rows_.front().time, frames_.front().time);
+}
+
+void KnownMovers::add_frame(std::int64_t time) {
+    poses_.clear();
+    for (; !rows_.empty() && rows_.front().time == time; rows_ = rows_.subspan(1)) {
+        const auto place = places_.find(rows_.front().model);
+        if (place == places_.end()) continue;
+        const oracle::Placement& placement = rows_.front().placement;
+        poses_.push_back({place->second, placement.position.cast<float>(),
+                          placement.orientation.cast<float>().normalized()});
+    }
+    while (!frames_.empty() && frames_.front().time == time)
+        frames_ = frames_.subspan(1);
+    movers_.add(seconds(time - start_), poses_);
 }
 
 CameraSample sampled(const camera::Camera& camera, bool cut) {

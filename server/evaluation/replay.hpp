@@ -2,11 +2,17 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "camera/window.hpp"
 #include "evaluation/camera_path.hpp"
+#include "evaluation/mover_tracks.hpp"
 #include "evaluation/trace.hpp"
+#include "freespace/freespace.hpp"
+#include "freespace/movers.hpp"
 
 namespace camdir::evaluation {
 
@@ -31,6 +37,32 @@ class KnownPoses {
     double look_ahead_;
     std::size_t first_ = 0;
     std::size_t end_ = 0;
+};
+
+// The match's movers as far as they are known at a time which ascends from call to call. One thread at a
+// time.
+class KnownMovers {
+  public:
+    // `rows` were recorded beside `poses`, and both must live as long; rows of models that the freespace has
+    // no shape of are left out. Times from `start`, ns; `look_ahead` in seconds.
+    KnownMovers(const freespace::Freespace& freespace, std::span<const MoverRow> rows, const Trace& poses,
+                std::int64_t start, double look_ahead);
+
+    // Valid until the next call.
+    [[nodiscard]] const freespace::Movers& at(double time);
+
+  private:
+    [[nodiscard]] std::optional<std::int64_t> next_frame() const;
+    void add_frame(std::int64_t time);
+
+    freespace::Movers movers_;
+    std::map<std::uint32_t, std::uint32_t> places_;  // of models among the shapes
+    std::span<const MoverRow> rows_;                 // that are not known yet
+    std::span<const TraceFrame> frames_;             // likewise
+    std::vector<freespace::MoverPose> poses_;        // of one frame
+    std::int64_t start_;
+    double look_ahead_;
+    double asked_ = 0.0;  // the time of the last call
 };
 
 [[nodiscard]] CameraSample sampled(const camera::Camera& camera, bool cut);

@@ -126,7 +126,7 @@ class MatchBench {
     void add_own(const std::string& name, const camera::Profile& profile, double look_ahead) {
         contenders_.push_back({name, [this, profile, look_ahead] {
                                    return value_of(evaluation::record(
-                                       match_.freespace, profile, match_.recorded.trace, match_.frames,
+                                       match_.freespace, profile, match_.recorded.trace, {}, match_.frames,
                                        look_ahead, [](std::uint64_t, std::uint64_t) {}, {}));
                                }});
     }

@@ -1,12 +1,18 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <span>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "box_scene.hpp"
 #include "evaluation/figures.hpp"
 #include "evaluation/mover_figures.hpp"
 #include "evaluation/mover_tracks.hpp"
+#include "evaluation/recording.hpp"
 #include "tiny_trace.hpp"
 
 namespace camdir::evaluation {
@@ -135,6 +141,128 @@ TEST(MoverFigures, CountCamerasInMoversAndPassages) {
     const MoverFigures carried = mover_figures_of({beside_it, beside_it + Vec3d(0.0, 100.0, 0.0)},
                                                   "0,4,0,0,0,0,0,0\n700,4,0,100,0,0,0,0\n");
     EXPECT_EQ(carried.passages, 0U) << "both move alike";
+}
+
+freespace::MoverShape shape_of(const scene::Mover& mover) {
+    freespace::MoverShape shape{mover.name, mover.kind, {}, {}, mover.rest.cast<float>()};
+    for (const auto& part : mover.parts) {
+        freespace::ConvexHull hull{{}, part.bounds.cast<float>()};
+        for (const auto& plane : part.planes)
+            hull.half_spaces.push_back({plane.normal.cast<float>(), static_cast<float>(plane.distance)});
+        shape.hulls.push_back(hull);
+    }
+    return shape;
+}
+
+scene::Mover box_mover(const Vec3d& low, const Vec3d& high) {
+    scene::Scene box;
+    add_box(box, low, high);
+    return {"*4", "func_door", {{box.planes, box.bounds}}, Vec3d::Zero()};
+}
+
+// A part of the room, in which a mover is in the way.
+freespace::Freespace baked_room(const scene::Mover& mover) {
+    freespace::Contents contents;
+    contents.metadata.map_name = "room";
+    contents.metadata.metres_per_unit = 0.0254F;
+    contents.metadata.d0 = 16.0F;
+    contents.vertices = {{-250, -250, 100, 90}, {250, -250, 100, 90}, {0, 250, 100, 90}};
+    contents.triangles = {{0, 1, 2}};
+    contents.movers = {shape_of(mover)};
+    return freespace::Freespace::parse(freespace::encode(contents), "room").value();
+}
+
+// A mover, and a player for 4 s beside it.
+struct MovingScene {
+    scene::Mover mover;
+    Trace trace;
+    std::vector<MoverRow> rows;
+};
+
+constexpr std::int64_t frame_ms = 16, frames_of_scene = 250;
+
+// The mover's height by time, a row in every frame.
+template <class Height, class X>
+MovingScene moving_scene(scene::Mover mover, const Height& height_at, const X& x_at) {
+    MovingScene made{std::move(mover), {}, {}};
+    made.trace.players = {0};
+    for (std::int64_t t = 0; t < frame_ms * frames_of_scene; t += frame_ms) {
+        const double time = static_cast<double>(t) * 1e-3;
+        add_frame(made.trace, t, {standing(0, Vec3d(x_at(time), -100.0, 100.0))});
+        made.rows.push_back(
+            {t * 1'000'000, 4, {Vec3d(0.0, 0.0, height_at(time)), Eigen::Quaterniond::Identity()}});
+    }
+    return made;
+}
+
+// The player walks through a door that falls shut behind it, before the camera has followed.
+MovingScene closing_door() {
+    return moving_scene(
+        box_mover({-8.0, -400.0, 0.0}, {8.0, 400.0, 250.0}),
+        [](double time) { return 300.0 * std::clamp((1.9 - time) / 0.3, 0.0, 1.0); },
+        [](double time) { return std::min(-200.0 + 150.0 * time, 200.0); });
+}
+
+// The player stands beside a lift, over which the camera hangs when it comes.
+MovingScene rising_lift() {
+    return moving_scene(
+        box_mover({-400.0, -400.0, -250.0}, {100.0, 400.0, 0.0}),
+        [](double time) { return 250.0 * std::clamp(time - 1.5, 0.0, 1.0); }, [](double) { return 150.0; });
+}
+
+// The figures of the tracker that knows the movers by `known`.
+MoverFigures tracked_figures(const MovingScene& moving, std::span<const MoverRow> known, double look_ahead) {
+    const auto made = record(baked_room(moving.mover), {}, moving.trace, known, moving.trace, look_ahead,
+                             [](std::uint64_t, std::uint64_t) {}, {})
+                          .value();
+    const scene::Scene scene = room();
+    const oracle::Oracle oracle(scene);
+    const auto reachability = oracle::Reachability::explore(oracle, scene, {}, {}).value();
+    const auto judgements =
+        judge(oracle, reachability, Thresholds(scene.metres_per_unit), moving.trace, made.cameras, {})
+            .value();
+    const std::vector<scene::Mover> all = {moving.mover};
+    const MoverTracks tracks(moving.rows, all, moving.trace);
+    return judge_movers(all, tracks, moving.trace, made.cameras, judgements, {}).value();
+}
+
+void expect_none(const MoverFigures& figures) {
+    EXPECT_EQ(figures.frames_inside, 0U);
+    EXPECT_EQ(figures.passages, 0U);
+    EXPECT_EQ(figures.seen_through, 0U);
+}
+
+TEST(Recording, KnowsDoors) {
+    const MovingScene door = closing_door();
+    const MoverFigures ignorant = tracked_figures(door, {}, 0.0);
+    EXPECT_GT(ignorant.passages, 0U);
+    EXPECT_GT(ignorant.seen_through, 0U);
+    expect_none(tracked_figures(door, door.rows, 0.0));
+    expect_none(tracked_figures(door, door.rows, 1.0));
+}
+
+TEST(Recording, KnowsLifts) {
+    const MovingScene lift = rising_lift();
+    EXPECT_GT(tracked_figures(lift, {}, 0.0).frames_inside, 0U);
+    expect_none(tracked_figures(lift, lift.rows, 0.0));
+    expect_none(tracked_figures(lift, lift.rows, 1.0));
+}
+
+// What comes later than the look-ahead changes nothing until then.
+TEST(Recording, KnowsMoversNoSoonerThanTheirTime) {
+    const MovingScene lift = rising_lift();
+    constexpr std::size_t until = 100;  // frames: the lift rises
+    const auto cameras_of = [&](std::size_t rows) {
+        return record(baked_room(lift.mover), {}, lift.trace, std::span(lift.rows).first(rows), lift.trace,
+                      0.0, [](std::uint64_t, std::uint64_t) {}, {})
+            .value()
+            .cameras;
+    };
+    const CameraPath all = cameras_of(lift.rows.size());
+    const CameraPath some = cameras_of(until);
+    for (std::size_t i = 0; i < until; ++i)
+        EXPECT_EQ(all[i].position, some[i].position) << i;
+    EXPECT_NE(all.back().position, some.back().position);
 }
 
 TEST(MoverFigures, AreNamedInTableAndJson) {

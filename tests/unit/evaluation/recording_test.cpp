@@ -47,7 +47,7 @@ const ProgressSink ignored = [](std::uint64_t, std::uint64_t) {};
 TEST(Recording, IsTheTrackerStepByStep) {
     const Trace trace = walk();
     const freespace::Freespace freespace = hall();
-    const auto recording = record(freespace, {}, trace, trace, 0.0, ignored, {});
+    const auto recording = record(freespace, {}, trace, {}, trace, 0.0, ignored, {});
     ASSERT_TRUE(recording);
     EXPECT_EQ(recording->step_nanoseconds.size(), 120U);
     for (const std::uint32_t player : trace.players) {
@@ -78,8 +78,8 @@ TEST(Recording, IsTheTrackerStepByStep) {
 
 TEST(Recording, IsDeterministic) {
     const Trace trace = walk();
-    const auto first = record(hall(), {}, trace, trace, 0.0, ignored, {});
-    const auto second = record(hall(), {}, trace, trace, 0.0, ignored, {});
+    const auto first = record(hall(), {}, trace, {}, trace, 0.0, ignored, {});
+    const auto second = record(hall(), {}, trace, {}, trace, 0.0, ignored, {});
     ASSERT_TRUE(first && second);
     EXPECT_EQ(format_cameras(trace, first->cameras), format_cameras(trace, second->cameras));
     EXPECT_EQ(format_terms(trace, *first), format_terms(trace, *second));
@@ -87,7 +87,7 @@ TEST(Recording, IsDeterministic) {
 
 TEST(Recording, WritesARowOfTermsForEachPose) {
     const Trace trace = walk();
-    const auto recording = record(hall(), {}, trace, trace, 0.0, ignored, {});
+    const auto recording = record(hall(), {}, trace, {}, trace, 0.0, ignored, {});
     ASSERT_TRUE(recording);
     const std::string text = format_terms(trace, *recording);
     EXPECT_THAT(text, testing::StartsWith("t_ms,player,visibility,distance,angle,inertia_distance,"
@@ -98,7 +98,7 @@ TEST(Recording, WritesARowOfTermsForEachPose) {
 TEST(Recording, StopsWhenAsked) {
     std::stop_source stop;
     stop.request_stop();
-    const auto recording = record(hall(), {}, walk(), walk(), 0.0, ignored, stop.get_token());
+    const auto recording = record(hall(), {}, walk(), {}, walk(), 0.0, ignored, stop.get_token());
     ASSERT_FALSE(recording);
     EXPECT_EQ(recording.error().code, ErrorCode::interrupted);
 }
