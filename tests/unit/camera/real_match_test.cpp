@@ -56,7 +56,7 @@ class RealMatch : public testing::Test {
         camera::Profile profile;
         profile.solver = solver;
         const auto recording =
-            record(*freespace_, profile, trace_, trace_, {}, look_ahead, [](auto, auto) {}, {});
+            record(*freespace_, profile, trace_, {}, trace_, look_ahead, [](auto, auto) {}, {});
         EXPECT_TRUE(recording);
         return *measure(*scene_, *oracle_, trace_, recording->cameras, [](auto) {}, {});
     }
