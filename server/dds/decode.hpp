@@ -22,9 +22,9 @@ enum class ValidationError : std::size_t {
     not_unit,      // the length of a quaternion or normal is off 1 by more than 1e-3
     out_of_range,  // a negative rate, delay or scale; a ball without radius, or one or a half space too far
                    // away; a term or rank beyond the greatest
-    duplicate,          // a mover is named twice
-    bad_hull,           // a hull of fewer than 4 half spaces, or empty, or unbounded
-    bad_match_id,       // empty, or not usable as the name of a partition
+    duplicate,     // a mover is named twice
+    bad_hull,      // a hull of fewer than 4 half spaces, or empty, or unbounded
+    bad_match_id,  // empty, or not usable as the name of a partition
     wrong_partition,    // the sample names another match than its partition does
     long_map_name,      // more than 255 bytes: no configured map has such a name
     not_owner,          // the match is another participant's, or the request another writer's
