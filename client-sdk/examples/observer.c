@@ -33,6 +33,8 @@ static void report_target(cdir_observer observer, const cdir_camera* camera, uin
     const cdir_status status = cdir_observer_match_info(observer, &info, players, CDIR_MAX_PLAYERS, &count);
     check("reading the match", status);
     if (status == CDIR_NO_DATA) return;
+    if (camera->target == CDIR_CHOOSE_TARGET)
+        fprintf(stderr, "target: none, a fixed camera%s%s\n", camera->reason[0] ? ": " : "", camera->reason);
     for (uint32_t i = 0; i < count; ++i) {
         if (players[i].id != camera->target) continue;
         fprintf(stderr, "target: %s%s%s\n", players[i].name, camera->reason[0] ? ": " : "", camera->reason);

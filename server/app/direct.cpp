@@ -21,7 +21,6 @@
 #include "director/edit.hpp"
 #include "evaluation/figures.hpp"
 #include "evaluation/recording.hpp"
-#include "freespace/fixed_shots.hpp"
 #include "freespace/visibility.hpp"
 #include "oracle/oracle.hpp"
 #include "report/programme_page.hpp"
@@ -276,7 +275,7 @@ Result<void> direct(const DirectOptions& options) {
     const auto inputs = read_inputs(options, line);
     if (!inputs) return tl::unexpected(inputs.error());
     reading.reset();
-    const double unit = scene::metres_of_nominal_unit / inputs->map.scene.metres_per_unit;
+    const double unit = metres_of_nominal_unit / inputs->map.scene.metres_per_unit;
     const auto rushes = shoot(options, *inputs, unit, line, stop);
     if (!rushes) return tl::unexpected(rushes.error());
     line.show("editing", 0, 0);

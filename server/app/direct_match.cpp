@@ -106,19 +106,21 @@ class BeatReader {
             const evaluation::CameraSample& camera = cameras_[frame.first_pose + i];
             const Index rush = index_of(trace_, poses[i].player);
             Take& take = takes[rush];
-            const auto shown = shown_by(poses, [&](const Vec3d& point) { return shows(camera, point); });
             present[rush] = true;
-            take.shown = first ? shown : take.shown & shown;
-            take.cut = take.cut || camera.cut;
             if (first) take.position = camera.position.cast<float>();
+            take.cut = take.cut || camera.cut;
+            look(take, first, camera.position, poses,
+                 [&](const Vec3d& point) { return evaluation::in_picture(camera, point, 1.0); });
         }
         for (std::size_t rush = 0; rush < present.size(); ++rush)
             if (!present[rush]) takes[rush].shown.reset();
         for (std::size_t i = 0; i < fixed_.size(); ++i) {
+            const freespace::FixedShot& shot = fixed_[i];
             Take& take = takes[present.size() + i];
-            const auto shown = shown_by(poses, [&](const Vec3d& point) { return shows(fixed_[i], point); });
-            take.shown = first ? shown : take.shown & shown;
-            take.position = fixed_[i].position;
+            take.position = shot.position;
+            look(take, first, shot.position.cast<double>(), poses, [&](const Vec3d& point) {
+                return freespace::frames(shot, point.cast<float>(), static_cast<float>(unit_));
+            });
         }
     }
 
@@ -134,21 +136,22 @@ class BeatReader {
             }
     }
 
-    template <class Shows>
-    [[nodiscard]] direction::PlayerSet shown_by(std::span<const TracePose> poses, const Shows& shows) const {
+    // frames(point): it is in the picture.
+    template <class Frames>
+    void look(Take& take, bool first, const Vec3d& camera, std::span<const TracePose> poses,
+              const Frames& frames) const {
+        direction::PlayerSet framed;
         direction::PlayerSet shown;
-        for (const TracePose& pose : poses)
-            if (shows(pose.eye) || shows(evaluation::player_box(pose, unit_).center()))
-                shown.set(index_of(trace_, pose.player));
-        return shown;
-    }
-
-    [[nodiscard]] bool shows(const evaluation::CameraSample& camera, const Vec3d& point) const {
-        return evaluation::in_picture(camera, point, 1.0) && clear_(camera.position, point);
-    }
-    [[nodiscard]] bool shows(const freespace::FixedShot& shot, const Vec3d& point) const {
-        return freespace::frames(shot, point.cast<float>(), static_cast<float>(unit_)) &&
-               clear_(shot.position.cast<double>(), point);
+        for (const TracePose& pose : poses) {
+            const Index player = index_of(trace_, pose.player);
+            for (const Vec3d& point : {pose.eye, Vec3d(evaluation::player_box(pose, unit_).center())}) {
+                if (!frames(point)) continue;
+                framed.set(player);
+                if (!shown[player] && clear_(camera, point)) shown.set(player);
+            }
+        }
+        take.shown = first ? shown : take.shown & shown;
+        if (first) take.framed = framed;
     }
 
     const Trace& trace_;

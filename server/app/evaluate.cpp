@@ -128,6 +128,7 @@ std::vector<report::Fact> facts_of(const EvaluateOptions& options, const Match& 
         {"Rates", "poses " + per_second(match.poses) + ", cameras " + per_second(match.frames)},
     };
     if (match.kills) facts.push_back({"Events", options.events.empty() ? options.trace : options.events});
+    if (match.movers) facts.push_back({"Movers", options.movers});
     if (!options.judge.empty()) facts.push_back({"Cameras", options.judge});
     if (!options.tracks()) return facts;
     facts.push_back(
@@ -184,6 +185,7 @@ Result<void> evaluate(const EvaluateOptions& options) {
     if (!map) return tl::unexpected(map.error());
     line.clear();
     warn_of_another_source(options.freespace, options.map, *map);
+    warn_of_unknown_movers(options, *match, *map);
     if (!options.group.empty()) {
         reading.reset();
         return evaluate_group(options, *match, *map, line, stop);

@@ -1,6 +1,9 @@
 #include "app/evaluate_inputs.hpp"
 
 #include <iostream>
+#include <map>
+#include <set>
+#include <span>
 
 #include "app/recorded_match.hpp"
 #include "evaluation/resample.hpp"
@@ -8,6 +11,20 @@
 #include "scene/load.hpp"
 
 namespace camdir::app {
+namespace {
+
+void warn_of_models_without(const std::map<std::uint32_t, std::uint32_t>& places, const std::string& file,
+                            const EvaluateOptions& options, std::span<const evaluation::MoverRow> rows) {
+    std::set<std::uint32_t> unknown;
+    for (const evaluation::MoverRow& row : rows)
+        if (!places.contains(row.model)) unknown.insert(row.model);
+    if (unknown.empty()) return;
+    std::cerr << "camera-director: warning: " << options.movers << ": " << unknown.size()
+              << " of its models are no movers of " << file << " and left out, *" << *unknown.begin()
+              << " first\n";
+}
+
+}  // namespace
 
 Result<Match> read_match(const EvaluateOptions& options, ProgressLine& line) {
     auto recorded = read_match(options.trace, line);
@@ -45,6 +62,15 @@ Result<SourceMap> open_map(const std::string& freespace, const std::string& map)
     if (!scene) return tl::unexpected(scene.error());
     const double d0 = opened->metadata().d0;
     return SourceMap{std::move(*scene), std::move(*opened), d0};
+}
+
+void warn_of_unknown_movers(const EvaluateOptions& options, const Match& match, const SourceMap& map) {
+    if (!match.movers) return;
+    warn_of_models_without(evaluation::places_by_model(std::span(map.scene.movers)), options.map, options,
+                           *match.movers);
+    if (map.freespace && options.tracks())
+        warn_of_models_without(evaluation::places_by_model(map.freespace->movers()), options.freespace,
+                               options, *match.movers);
 }
 
 void warn_of_another_source(const std::string& freespace, const std::string& map, const SourceMap& opened) {

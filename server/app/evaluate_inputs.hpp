@@ -58,6 +58,10 @@ struct SourceMap {
 // `freespace` may be empty; a point cloud needs one.
 [[nodiscard]] Result<SourceMap> open_map(const std::string& freespace, const std::string& map);
 
+// Warns on standard error of recorded movers that the map or the baked file, where there is one, does not
+// have.
+void warn_of_unknown_movers(const EvaluateOptions& options, const Match& match, const SourceMap& map);
+
 // Warns on standard error where these two files of opened maps do not belong together.
 void warn_of_another_source(const std::string& freespace, const std::string& map, const SourceMap& opened);
 

@@ -65,6 +65,10 @@ void print_counts(const std::vector<freespace::Count>& counts) {
     }
 }
 
+std::string degrees(float angle) {
+    return count_text(static_cast<double>(angle / radians_of_a_degree<float>));
+}
+
 std::string near_spawn_point(const freespace::FixedShot& shot) {
     return shot.spawn_point == freespace::none ? "" : ", near spawn point " + number(shot.spawn_point);
 }
@@ -86,9 +90,11 @@ void print_table(const Freespace& freespace) {
     for (const freespace::MoverShape& mover : freespace.movers())
         print_row("mover", mover.name + " " + mover.kind + ", " + number(mover.hulls.size()) + " hulls, " +
                                number(mover.balls.size()) + " balls, at " + triple(mover.rest));
-    for (const freespace::FixedShot& shot : freespace.fixed_shots())
-        print_row("fixed shot", triple(shot.position) + ", yaw " + number(shot.yaw) + ", pitch " +
-                                    number(shot.pitch) + near_spawn_point(shot));
+    const auto fixed_shots = freespace.fixed_shots();
+    for (std::size_t i = 0; i < fixed_shots.size(); ++i)
+        print_row("fixed shot " + number(i),
+                  triple(fixed_shots[i].position) + ", yaw " + degrees(fixed_shots[i].yaw) + ", pitch " +
+                      degrees(fixed_shots[i].pitch) + " degrees" + near_spawn_point(fixed_shots[i]));
     print_counts(metadata.counts);
 }
 

@@ -21,7 +21,8 @@ class Assembly {
         for (const director::Player& player : info.players)
             teams_[player.id] = player.team;
         const bool has_scale = info.metres_per_unit > 0.0F;
-        view_height_ = view_height * (has_scale ? 0.0254F / info.metres_per_unit : 1.0F);
+        view_height_ = view_height *
+                       (has_scale ? static_cast<float>(metres_of_nominal_unit) / info.metres_per_unit : 1.0F);
     }
 
     // Nothing of an epoch remains when the next one begins.

@@ -34,8 +34,8 @@ constexpr std::array<NamedStage, 16> of_surfaces{{
     {"reduce", &Pipeline::reduce},
     {"pack", &Pipeline::pack},
     {"recertify", &Pipeline::recertify},
-    {"fixed shots", &Pipeline::fixed_shots},
     {"movers", &Pipeline::movers},
+    {"fixed shots", &Pipeline::fixed_shots},
 }};
 
 // Points are their own samples, and nothing crosses a point. What is connected depends on the free distances.

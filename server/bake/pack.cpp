@@ -43,7 +43,7 @@ Result<freespace::Contents> pack(const MedialMesh& mesh, const std::vector<float
                                  const scene::Scene& scene, Stage& stage) {
     freespace::Contents contents;
     std::vector<std::uint32_t> new_index(mesh.vertices.size(), freespace::none);
-    const double threshold = min_free_distance * scene::metres_of_nominal_unit / scene.metres_per_unit;
+    const double threshold = min_free_distance * metres_of_nominal_unit / scene.metres_per_unit;
     const auto stored = [&](std::uint32_t vertex) {
         const float distance = free_distance[vertex];
         return distance > threshold ? distance : std::min(distance, 0.0F);

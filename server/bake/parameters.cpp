@@ -21,7 +21,7 @@ std::optional<Sampling> sampling_named(std::string_view name) {
 }
 
 double sampling_distance(const scene::Scene& scene, const Parameters& parameters) {
-    const double unit = scene::metres_of_nominal_unit / scene.metres_per_unit;
+    const double unit = metres_of_nominal_unit / scene.metres_per_unit;
     if (parameters.d0 > 0.0) return parameters.d0 * unit;
     if (scene.points.empty()) return default_d0 * unit;
     return std::clamp(scene.point_spacing, min_d0 * unit, max_d0 * unit);

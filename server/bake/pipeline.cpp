@@ -50,7 +50,7 @@ Pipeline::Pipeline(const scene::Scene& scene, const Parameters& parameters, unsi
       parameters_(parameters),
       threads_(threads),
       expected_(expected),
-      unit_(scene::metres_of_nominal_unit / scene.metres_per_unit),
+      unit_(metres_of_nominal_unit / scene.metres_per_unit),
       d0_(sampling_distance(scene, parameters)),
       obstacles_(scene),
       solids_(scene),

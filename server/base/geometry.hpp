@@ -13,8 +13,15 @@ using Quatf = Eigen::Quaternionf;
 using Box3f = Eigen::AlignedBox3f;
 using Box3d = Eigen::AlignedBox3d;
 
+// Metres of the nominal unit that the project's lengths are given in.
+inline constexpr double metres_of_nominal_unit = 0.0254;
+
 template <class Real>
 inline constexpr Real radians_of_a_degree = std::numbers::pi_v<Real> / Real(180);
+
+[[nodiscard]] constexpr float squared(float value) {
+    return value * value;
+}
 
 // How deep the point is in the box: the distance to its nearest face, negative outside.
 [[nodiscard]] inline double depth_in(const Box3d& box, const Vec3d& point) {

@@ -18,7 +18,7 @@ constexpr float snap_angle =
 constexpr float snap_length = 8.0F;      // units that it may be shorter
 // Vantages are kept for so long, s, while the spot behind the player is no further off than that.
 constexpr double kept_for = 0.05;
-constexpr float as_foreseen = 4.0F * radians_of_a_degree<float>;
+constexpr float near_foreseen = 4.0F * radians_of_a_degree<float>;
 
 class Choosing {
   public:
@@ -87,7 +87,7 @@ bool still_hold(const MapProfile& profile, const Plan& plan, const Vantages& van
     for (std::size_t knot = 0; knot < vantages.count; ++knot) {
         const std::size_t i = std::max(knot * plan.knot_spacing, vantages.age) - vantages.age;
         const Vec3f behind = direction_of(plan.behind(i, profile.elevation));
-        if (angle_between(behind, vantages.at_knots[knot].foreseen) > as_foreseen) return false;
+        if (angle_between(behind, vantages.at_knots[knot].foreseen) > near_foreseen) return false;
     }
     return true;
 }

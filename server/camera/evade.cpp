@@ -9,7 +9,6 @@ namespace {
 constexpr std::array moments = {0.0, 0.08, 0.16, 0.25};  // s from now
 constexpr float beyond_clearance = 1.01F;
 constexpr std::array ways = {0.5F, 1.0F, 2.0F, 4.0F, 8.0F};  // in clearances
-constexpr float inside_ball = 0.9F;                          // of a ball's radius: surely free
 
 // The choice among places that can be reached.
 class Refuge {
@@ -33,7 +32,8 @@ class Refuge {
 
   private:
     [[nodiscard]] bool can_reach(const Vec3f& target, float way, float clearance) const {
-        return (way < inside_ball * clearance || freespace::sight(space_.map(), place_, target).clear) &&
+        return (way < freespace::surely_inside * clearance ||
+                freespace::sight(space_.map(), place_, target).clear) &&
                space_.lets_pass(place_, target);
     }
 

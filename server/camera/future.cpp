@@ -23,7 +23,7 @@ constexpr float turn_begin = 0.13F;
 constexpr float turn_constant = 0.1F;
 constexpr float turn_end = 0.02F;
 constexpr float largest_turn = 2.0F;  // rad
-constexpr float steepest_view = 0.5F * std::numbers::pi_v<float>;
+constexpr float straight_up = 0.5F * std::numbers::pi_v<float>;
 
 Look view_of(const Pose& pose, float near_yaw) {
     Look view = look_along(pose.orientation.normalized() * Vec3f::UnitX(), near_yaw);
@@ -175,7 +175,7 @@ void foresee(const freespace::Space& space, const MapProfile& profile, Window wi
         if (moved.norm() > share * length) moved *= share * length / std::max(moved.norm(), 1e-6F);
         const float turn = faded(seconds, rates.persistence);
         const float turned = std::clamp(rates.yaw * turn, -largest_turn, largest_turn);
-        const float pitch = std::clamp(last.view.pitch + rates.pitch * turn, -steepest_view, steepest_view);
+        const float pitch = std::clamp(last.view.pitch + rates.pitch * turn, -straight_up, straight_up);
         future.samples[i] = {last.eye + moved, {last.view.yaw + turned, pitch}};
     }
 }

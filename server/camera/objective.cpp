@@ -11,10 +11,6 @@ namespace {
 constexpr float unseen = 1e6F;  // c_vis of a player who is not seen: finite, and worse than any other cost
 constexpr float least_clearance = 0.01F;  // units: what c_safe divides by at least
 
-float squared(float value) {
-    return value * value;
-}
-
 // 1/gamma of the paper, with the smallest clearance along the line of sight for gamma, in shares of what a
 // camera keeps anyway: 1 for a sight line as free as that or freer.
 float visibility(const MapProfile& profile, float sight_clearance) {

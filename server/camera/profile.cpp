@@ -16,8 +16,6 @@ constexpr const char* seconds = "s";
 constexpr const char* per_second = "1/s";
 constexpr const char* number = "";
 
-constexpr float metres_of_a_profile_unit = 0.0254F;
-
 constexpr std::array keys = {
     ProfileKey{"distance", units, 20.0F, 2000.0F, "desired distance between the camera and the player's eye",
                &Profile::distance},
@@ -144,7 +142,7 @@ std::span<const ShippedProfile> shipped_profiles() {
 }
 
 MapProfile::MapProfile(const Profile& profile, float metres_per_unit)
-    : Profile(profile), unit(metres_of_a_profile_unit / metres_per_unit) {
+    : Profile(profile), unit(static_cast<float>(metres_of_nominal_unit) / metres_per_unit) {
     for (const ProfileKey& key : keys) {
         this->*key.member *= scale(key.unit, unit);
     }

@@ -7,7 +7,6 @@
 namespace camdir::camera {
 namespace {
 
-constexpr float inside_ball = 0.9F;  // share of a ball's radius in which a beam surely starts
 constexpr float share_of_room = 0.675F;
 
 // A beam knows the clearance around a line of sight far better than a line does: the widest beam that matters
@@ -33,7 +32,7 @@ Candidate candidate(const freespace::Space& space, const MapProfile& profile, co
 
 float beam_radius(const MapProfile& profile, const PlayerTrack& track) {
     const float wanted = std::max(profile.minimum_clearance, profile.visibility_threshold);
-    return std::min(wanted, inside_ball * track.clearance);
+    return std::min(wanted, freespace::surely_inside * track.clearance);
 }
 
 float kept_clearance(const MapProfile& profile, const PlayerTrack& track) {
@@ -45,7 +44,7 @@ std::optional<Candidate> reach(const freespace::Space& space, const MapProfile& 
                                const PlayerTrack& track, const Vec3f& start, const Vec3f& target) {
     const freespace::Distance free = freespace::distance(space, target);
     if (!free.covered()) return std::nullopt;
-    const bool near = (target - start).norm() < inside_ball * free.value;
+    const bool near = (target - start).norm() < freespace::surely_inside * free.value;
     if (!near && !freespace::sight(space.map(), start, target).clear) return std::nullopt;
     if (!space.lets_pass(start, target)) return std::nullopt;
     return candidate(space, profile, track, target, free);

@@ -17,13 +17,9 @@ constexpr float yaw_step = 15.0F * radians_of_a_degree<float>;
 constexpr int yaw_steps = 12;  // to each side
 constexpr std::array elevations = {0.0F * radians_of_a_degree<float>, 20.0F * radians_of_a_degree<float>,
                                    -20.0F * radians_of_a_degree<float>, 45.0F * radians_of_a_degree<float>};
-constexpr float turn_cost = 0.2F;      // of leaving the camera's direction, against angle's own
+constexpr float leave_cost = 0.2F;     // of leaving the camera's direction, against angle's own
 constexpr float fan_interval = 0.06F;  // s
 constexpr float cut_distance_weight = 2.0F;
-
-float squared(float value) {
-    return value * value;
-}
 
 // How far the camera trails behind a turning player: what its filters delay.
 float lag(const MapProfile& profile) {
@@ -74,7 +70,7 @@ class Fan {
             profile_.weight_angle * squared(angle_between(direction, behind_) / profile_.angle_tolerance);
         if (towards_camera_ != nullptr) {
             const float turn = angle_between(direction, *towards_camera_) / profile_.angle_tolerance;
-            cost += turn_cost * profile_.weight_inertia_angle * squared(turn);
+            cost += leave_cost * profile_.weight_inertia_angle * squared(turn);
         }
         return cost;
     }

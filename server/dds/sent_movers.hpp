@@ -1,6 +1,7 @@
 // What the participants of a match have said of its movers.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -31,6 +32,10 @@ class SentMovers {
     void put(const SenderId& sender, std::shared_ptr<director::MoverInfo> described);
     void put(const SenderId& sender, std::shared_ptr<const director::MoverFrame> frame);
 
+    // A description waits for its bounds.
+    [[nodiscard]] bool has_described() const {
+        return std::ranges::any_of(senders_, [](const Sent& sent) { return sent.described != nullptr; });
+    }
     enum class Rank { owner, may_own, stranger };
     struct Described {
         SenderId sender;

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cassert>
 #include <chrono>
-#include <map>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -17,8 +16,7 @@ namespace camdir::dds {
 namespace {
 
 constexpr std::size_t samples_per_take = 32;
-// The shapes of a sample take up to 30 ms to check: what comes faster waits in its reader, which keeps the
-// newest.
+// The shapes of a sample take up to 30 ms to check: what comes faster waits, of each sender the newest.
 constexpr int bounding_share = 10;  // 1 / this of the thread's time at most
 
 }  // namespace
@@ -103,15 +101,17 @@ void Subscriber::run() noexcept {
     next_assertion_ = Clock::now();
     listened_ = Clock::now();
     while (!stopping_) {
-        const auto& ready = ready_.wait(std::min(next_assertion_.load(), next_decision_));
+        const auto next_bounding = to_bound_.empty() ? Clock::time_point::max() : next_bounding_;
+        const auto& ready = ready_.wait(std::min({next_assertion_.load(), next_decision_, next_bounding}));
         notice_absence();
         take_ready(ready);
+        bound_movers();
         remove_forgotten();
         put_new_shards_into_effect();
         take_signs_of_new_matches();  // an assertion decides too
         if (Clock::now() >= next_assertion_.load()) {
             assert_liveliness();
-            bound_waiting_movers();
+            ask_again_for_bounds();
             leave_matches();
             admit_waiting();
             take_signs_of_new_matches();
@@ -253,32 +253,51 @@ void Subscriber::take_mover_infos(Match& match) {
         const SenderId* sender = match.mover_info_senders.find(reader, info.publication_handle);
         static_cast<void>(keep(match, Topic::mover_info, sender, std::move(described)));
     });
-    bound_movers(match);
+    ask_for_bounds(match);
+    bound_movers();
 }
 
-// The only decoding that takes milliseconds waits where there is much of it.
-void Subscriber::bound_movers(Match& match) {
-    const auto rank = [&](const SenderId& sender) {
-        return match.ownership.owns(sender)    ? SentMovers::Rank::owner
-               : match.ownership.knows(sender) ? SentMovers::Rank::may_own
-                                               : SentMovers::Rank::stranger;
-    };
-    for (auto begun = Clock::now(); begun >= next_bounding_; begun = Clock::now()) {
-        const auto described = match.movers.take_described(rank);
-        if (!described) break;
-        if (const auto error = bound_hulls(*described->info)) {
-            drop(Topic::mover_info, *error, match.id());
-        } else {
-            if (match.ownership.owns(described->sender)) ++counters_.of(Topic::mover_info).accepted;
-            match.movers.put_bounded(described->sender, described->info);
-        }
+void Subscriber::ask_for_bounds(Match& match) {
+    if (match.movers.has_described() && !std::exchange(match.waits_for_bounds, true))
+        to_bound_.push_back(match.id());
+}
+
+// Whose description waits may own the match now.
+void Subscriber::ask_again_for_bounds() {
+    for (const auto& [id, match] : matches_)
+        ask_for_bounds(*match);
+}
+
+// The only decoding that takes milliseconds waits where there is much of it, and matches take turns.
+void Subscriber::bound_movers() {
+    for (auto begun = Clock::now(); !to_bound_.empty() && begun >= next_bounding_; begun = Clock::now()) {
+        const auto found = matches_.find(to_bound_.front());
+        to_bound_.pop_front();
+        if (found == matches_.end()) continue;
+        Match& match = *found->second;
+        match.waits_for_bounds = false;
+        if (!bound_next(match)) continue;
+        ask_for_bounds(match);
         next_bounding_ = Clock::now() + bounding_share * (Clock::now() - begun);
     }
 }
 
-void Subscriber::bound_waiting_movers() {
-    for (const auto& [id, match] : matches_)
-        bound_movers(*match);
+// False where only strangers have described movers.
+bool Subscriber::bound_next(Match& match) {
+    const auto described = match.movers.take_described([&](const SenderId& sender) {
+        return match.ownership.owns(sender)    ? SentMovers::Rank::owner
+               : match.ownership.knows(sender) ? SentMovers::Rank::may_own
+                                               : SentMovers::Rank::stranger;
+    });
+    if (!described) return false;
+    const bool is_of_owner = match.ownership.owns(described->sender);  // others' are counted already
+    if (const auto error = bound_hulls(*described->info)) {
+        if (is_of_owner) drop(Topic::mover_info, *error, match.id());
+        return true;
+    }
+    if (is_of_owner) ++counters_.of(Topic::mover_info).accepted;
+    match.movers.put_bounded(described->sender, described->info);
+    return true;
 }
 
 void Subscriber::take_mover_frames(Match& match) {
@@ -295,9 +314,9 @@ void Subscriber::take_mover_frames(Match& match) {
 
 template <class Movers>
 bool Subscriber::keep(Match& match, Topic topic, const SenderId* sender, std::shared_ptr<Movers> movers) {
-    const bool has_owner = match.ownership.has_owner();
-    if (sender != nullptr && has_owner) {
-        match.movers.admit(*sender, match.ownership.owner().sender);
+    if (sender != nullptr) {  // also before it is known whose the match is
+        match.movers.admit(*sender,
+                           match.ownership.has_owner() ? match.ownership.owner().sender : SenderId{});
         match.movers.put(*sender, std::move(movers));
     }
     const bool counts = sender != nullptr && match.ownership.owns(*sender);

@@ -88,6 +88,7 @@ class Subscriber {
         bool is_of_shard = true;
         SenderLookup pose_senders, event_senders, mover_info_senders, mover_frame_senders;
         SentMovers movers;
+        bool waits_for_bounds = false;  // is named in `to_bound_`
         Source poses{*this, &Subscriber::take_poses};
         Source mover_infos{*this, &Subscriber::take_mover_infos};
         Source mover_frames{*this, &Subscriber::take_mover_frames};
@@ -126,8 +127,10 @@ class Subscriber {
     void take_waiting_poses();
     void take_mover_infos(Match& match);
     void take_mover_frames(Match& match);
-    void bound_movers(Match& match);
-    void bound_waiting_movers();
+    void ask_for_bounds(Match& match);
+    void ask_again_for_bounds();
+    void bound_movers();
+    bool bound_next(Match& match);
     // Also of who does not own the match, which counts as dropped: then it returns false.
     template <class Movers>
     [[nodiscard]] bool keep(Match& match, Topic topic, const SenderId* sender,
@@ -199,6 +202,7 @@ class Subscriber {
     std::unordered_map<std::string, std::unique_ptr<Match>> matches_;
     std::vector<std::string> new_matches_;                        // whose signs were not looked at yet
     Clock::time_point poses_taken_{};                             // of all matches, between others that begin
+    std::deque<std::string> to_bound_;                            // matches with movers without bounds
     Clock::time_point next_bounding_{};                           // of hulls: not before
     Clock::time_point listened_{};                                // to all who send
     Clock::time_point next_decision_ = Clock::time_point::max();  // when matches may change hands

@@ -249,9 +249,13 @@ class Plan {
 
     // The first beat that is not known looks like the last that is: a live cut is made there.
     [[nodiscard]] bool breaks_continuity(Beat beat, std::size_t from, std::size_t to) const {
-        const Beat seen = std::min(beat, footage_.beats() - 1);
-        return seen >= 0 && beat - seen <= 1 &&
-               (jump_cut(footage_, rules_.grammar, seen, from, to) || crosses_line(footage_, seen, from, to));
+        const Grammar& grammar = rules_.grammar;
+        if (beat < footage_.beats())
+            return may_be_jump_cut(footage_, grammar, beat, from, to) ||
+                   may_cross_line(footage_, beat, from, to);
+        const Beat seen = footage_.beats() - 1;
+        return seen >= 0 && beat == seen + 1 &&
+               (jump_cut(footage_, grammar, seen, from, to) || crosses_line(footage_, seen, from, to));
     }
 
     [[nodiscard]] std::vector<Shot> read_out() const {
@@ -336,7 +340,7 @@ class Plan {
     std::vector<Choice> cuts_;                     // of a shot that ends at a beat: what comes next
     std::vector<double> after_end_;                // what a rush is worth until a beat, and what comes next
     std::vector<std::vector<WholeMoment>> whole_;  // of each rush
-    std::vector<std::size_t> choice_;              // ascending, the rushes
+    std::vector<std::size_t> choice_;              // the rushes
     struct Promise {
         double worth;
         std::size_t rush;

@@ -10,7 +10,6 @@ namespace {
 
 constexpr double mourning_s = 1.0;
 constexpr double fight_range = 1200.0;
-constexpr double idle_speed = 32.0;
 constexpr double too_short_s = 1.5;
 
 struct Beats {

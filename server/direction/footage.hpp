@@ -50,6 +50,7 @@ struct Meeting {
 struct Take {
     Vec3f position = Vec3f::Zero();  // of the camera, in the first frame
     PlayerSet shown;                 // in the picture and not hidden, in every frame of the beat
+    PlayerSet framed;                // in the picture in the first frame, hidden or not
     bool cut = false;                // the camera itself jumps
     // Whom the picture is of: of a rush that follows a player always they; of a fixed one nobody where it has
     // nobody to show.

@@ -24,6 +24,20 @@ bool sees_an_enemy(const Footage& footage, Beat beat, std::size_t player) {
     return false;
 }
 
+// At the subject of either rush, whom both have.
+bool looks_the_same_way(const Footage& footage, const Grammar& grammar, Beat beat, std::size_t from,
+                        std::size_t to, PlayerSet Take::*has) {
+    const Take& before = footage.take(beat, from);
+    const Take& after = footage.take(beat, to);
+    const auto near = static_cast<float>(grammar.jump_cosine);
+    for (const Index player : {before.subject, after.subject}) {
+        if (player == nobody || !(before.*has)[player] || !(after.*has)[player]) continue;
+        const Vec3f& eye = footage.player(beat, player).eye;
+        if ((eye - before.position).normalized().dot((eye - after.position).normalized()) > near) return true;
+    }
+    return false;
+}
+
 }  // namespace
 
 double length_cost(const Grammar& grammar, Beat length) {
@@ -33,18 +47,22 @@ double length_cost(const Grammar& grammar, Beat length) {
 }
 
 bool jump_cut(const Footage& footage, const Grammar& grammar, Beat beat, std::size_t from, std::size_t to) {
-    const Take& before = footage.take(beat, from);
-    const Take& after = footage.take(beat, to);
-    const auto near = static_cast<float>(grammar.jump_cosine);
-    for (const Index player : {before.subject, after.subject}) {
-        if (player == nobody || !before.shown[player] || !after.shown[player]) continue;
-        const Vec3f& eye = footage.player(beat, player).eye;
-        if ((eye - before.position).normalized().dot((eye - after.position).normalized()) > near) return true;
-    }
-    return false;
+    return looks_the_same_way(footage, grammar, beat, from, to, &Take::shown);
+}
+
+bool may_be_jump_cut(const Footage& footage, const Grammar& grammar, Beat beat, std::size_t from,
+                     std::size_t to) {
+    return looks_the_same_way(footage, grammar, beat, from, to, &Take::framed);
 }
 
 bool crosses_line(const Footage& footage, Beat beat, std::size_t from, std::size_t to) {
+    const Index subject = footage.take(beat, to).subject;
+    const Index before = footage.take(beat, from).subject;
+    return subject != nobody && before != nobody && footage.player(beat, before).sees[subject] &&
+           may_cross_line(footage, beat, from, to);
+}
+
+bool may_cross_line(const Footage& footage, Beat beat, std::size_t from, std::size_t to) {
     const Take& before = footage.take(beat, from);
     const Take& after = footage.take(beat, to);
     const Index a = before.subject;
@@ -52,7 +70,7 @@ bool crosses_line(const Footage& footage, Beat beat, std::size_t from, std::size
     if (a == nobody || b == nobody || a == b) return false;
     const PlayerState& one = footage.player(beat, a);
     const PlayerState& other = footage.player(beat, b);
-    if (!one.sees[b] || !one.alive || !other.alive || !enemies(one, other)) return false;
+    if (!one.alive || !other.alive || !enemies(one, other)) return false;
     return side_of(one.eye, other.eye, before.position) * side_of(one.eye, other.eye, after.position) < 0.0F;
 }
 

@@ -14,14 +14,24 @@ namespace camdir::direction {
 [[nodiscard]] bool jump_cut(const Footage& footage, const Grammar& grammar, Beat beat, std::size_t from,
                             std::size_t to);
 
+// Or would be one if nothing hid the subjects: whoever sees by the freespace may take somebody for hidden who
+// is not. Likewise.
+[[nodiscard]] bool may_be_jump_cut(const Footage& footage, const Grammar& grammar, Beat beat,
+                                   std::size_t from, std::size_t to);
+
 // A cut at `beat` crosses the line of action: the subjects are enemies in mutual sight, and the cameras are
 // on different sides of the line through them, seen from above. Likewise.
 [[nodiscard]] bool crosses_line(const Footage& footage, Beat beat, std::size_t from, std::size_t to);
+
+// Or would if the two saw each other. Likewise.
+[[nodiscard]] bool may_cross_line(const Footage& footage, Beat beat, std::size_t from, std::size_t to);
 
 // A cut at `beat` leaves a piece of less than 1.5 s between itself and a jump of either camera: the one
 // before jumped just now, or the one after soon will. What is not known counts as none.
 [[nodiscard]] bool jumped_just_before(const Footage& footage, Beat beat, std::size_t rush);
 [[nodiscard]] bool jumps_soon_after(const Footage& footage, Beat beat, std::size_t rush);
+
+inline constexpr double idle_speed = 32.0;  // units of 0.0254 m a second
 
 // The subject is alive and stands about: slower than `slow` in every beat of the two seconds before `beat`
 // and in sight of no enemy.

@@ -9,7 +9,6 @@
 namespace camdir::direction {
 namespace {
 
-constexpr double idle_speed = 32.0;        // units of 0.0254 m a second
 constexpr Beat recent = 8;                 // beats whose mean is what may go on
 constexpr double fixed_half_life_s = 1.0;  // players leave a picture that does not follow them
 constexpr double beats_a_minute = 60.0 / beat_s;

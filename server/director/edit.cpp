@@ -10,6 +10,7 @@
 #include "camera/evade.hpp"
 #include "direction/editor.hpp"
 #include "director/clock.hpp"
+#include "freespace/fixed_shots.hpp"
 
 namespace camdir::director {
 namespace {
@@ -29,12 +30,11 @@ constexpr direction::Beat scouted_ahead = catches_up;
 constexpr double longest_step_back_s = 1.0;
 constexpr double longest_gap_s = 30.0;
 constexpr double slowest_rate_hz = 10.0;
-constexpr double nominal_unit_m = 0.0254;
-constexpr float fixed_shot_room = 8.0F;  // units of 0.0254 m, that movers leave a fixed camera
+constexpr double threat_every_s = 0.25;  // as far as camera::is_threatened() looks
 constexpr std::int64_t cut_every_ns = 200'000'000;
 
 double unit_of(const freespace::Freespace& freespace) {
-    return nominal_unit_m / static_cast<double>(freespace.metadata().metres_per_unit);
+    return metres_of_nominal_unit / static_cast<double>(freespace.metadata().metres_per_unit);
 }
 
 // A multiple of the time between cuts, at or before; without overflow.
@@ -279,10 +279,11 @@ void Edit::add(const MatchEvent& event) {
 
 bool Edit::choose(AutomaticShot& shot, std::span<const std::uint32_t> group, const Roster& roster,
                   const Setting& setting) const {
-    std::vector<std::size_t> choice = choice_of(group, roster, setting);
     const std::size_t on_air = rush_of(shot);
-    const bool stays = std::ranges::find(choice, on_air) != choice.end();
-    if (choice.empty() || (stays && !due_)) return false;
+    const bool stays = may_stay(on_air, group, roster, setting);
+    if (stays && !due_) return false;
+    std::vector<std::size_t> choice = choice_of(on_air, group, roster, setting);
+    if (choice.empty()) return false;
     if (shot.edit != generation_) {
         shot.cutter = {};
         shot.edit = generation_;
@@ -302,19 +303,51 @@ bool Edit::choose(AutomaticShot& shot, std::span<const std::uint32_t> group, con
     return true;
 }
 
-std::vector<std::size_t> Edit::choice_of(std::span<const std::uint32_t> group, const Roster& roster,
-                                         const Setting& setting) const {
+bool Edit::may_stay(std::size_t rush, std::span<const std::uint32_t> group, const Roster& roster,
+                    const Setting& setting) const {
+    if (rush >= material_.footage().rushes()) return false;
+    if (rush >= fixed_) return is_to_be_had(rush, group, roster);
+    return has_fixed(group) && !is_threatened(setting.space, rush);
+}
+
+std::vector<std::size_t> Edit::choice_of(std::size_t on_air, std::span<const std::uint32_t> group,
+                                         const Roster& roster, const Setting& setting) const {
     std::vector<std::size_t> choice;
-    for (std::size_t place = 0; place < players_.size(); ++place)
-        if (in_group(players_[place], group) && roster.pose(players_[place]) != nullptr)
-            choice.push_back(fixed_ + place);
-    const direction::Footage& footage = material_.footage();
-    if (!group.empty() || choice.empty() || footage.beats() == footage.first()) return choice;
-    const float room = fixed_shot_room * static_cast<float>(unit_of(setting.space.map()));
-    for (std::size_t i = 0; i < fixed_; ++i)
-        if (!camera::is_threatened(setting.space, setting.space.map().fixed_shots()[i].position, room))
-            choice.push_back(i);
+    for (std::size_t rush = fixed_; rush < fixed_ + players_.size(); ++rush)
+        if (is_to_be_had(rush, group, roster)) choice.push_back(rush);
+    if (choice.empty() || !has_fixed(group)) return choice;
+    for (std::size_t rush = 0; rush < fixed_; ++rush)
+        if (rush == on_air ? !is_threatened(setting.space, rush) : may_begin(rush, roster, setting))
+            choice.push_back(rush);
     return choice;
+}
+
+bool Edit::is_to_be_had(std::size_t rush, std::span<const std::uint32_t> group, const Roster& roster) const {
+    const std::uint32_t player = players_[rush - fixed_];
+    return in_group(player, group) && roster.pose(player) != nullptr;
+}
+
+bool Edit::has_fixed(std::span<const std::uint32_t> group) const {
+    return group.empty() && material_.footage().beats() != material_.footage().first();
+}
+
+// The material knows no movers: none comes near the camera for as long as a shot lasts at least, and none is
+// between it and whom it would show.
+bool Edit::may_begin(std::size_t fixed, const Roster& roster, const Setting& setting) const {
+    const freespace::Space& now = setting.space;
+    if (!now.has_movers()) return true;
+    for (double later = 0.0; later <= setting.rules.grammar.minimum_shot_s; later += threat_every_s)
+        if (is_threatened(now.at(now.time() + later), fixed)) return false;
+    const direction::Footage& footage = material_.footage();
+    const direction::Beat seen = std::clamp(decided_, footage.first(), footage.beats() - 1);
+    const Index subject = footage.take(seen, fixed).subject;
+    const PlayerPose* pose = subject == nobody ? nullptr : roster.pose(players_[subject]);
+    return pose == nullptr || now.mover_sweep(now.map().fixed_shots()[fixed].position, pose->eye, 0.0F).clear;
+}
+
+bool Edit::is_threatened(const freespace::Space& space, std::size_t fixed) {
+    const float room = freespace::fixed_shot_room * static_cast<float>(unit_of(space.map()));
+    return camera::is_threatened(space, space.map().fixed_shots()[fixed].position, room);
 }
 
 void Edit::keep_living(std::vector<std::size_t>& choice, const Roster& roster) const {

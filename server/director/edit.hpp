@@ -66,8 +66,8 @@ class Edit {
 
     // Who is followed, or which fixed shot is shown, from the frame on that is shown. Candidates are the
     // players of `group` (ascending), or all when it is empty, who have a pose; without a group also the
-    // fixed shots that no mover comes near, as soon as it is known what they show. Returns whether a shot
-    // begins.
+    // fixed shots that no mover comes near or hides the player of, as soon as it is known what they show.
+    // Returns whether a shot begins.
     bool choose(AutomaticShot& shot, std::span<const std::uint32_t> group, const Roster& roster,
                 const Setting& setting) const;
     // Reasons are to be told again, for those who have come since they were: once a second.
@@ -98,8 +98,16 @@ class Edit {
     void append_finished();
     void finish(const Setting& setting);
     void add(const MatchEvent& event);
-    [[nodiscard]] std::vector<std::size_t> choice_of(std::span<const std::uint32_t> group,
+    // What is on the air may go on: it is still there, and nothing comes near it.
+    [[nodiscard]] bool may_stay(std::size_t rush, std::span<const std::uint32_t> group, const Roster& roster,
+                                const Setting& setting) const;
+    [[nodiscard]] std::vector<std::size_t> choice_of(std::size_t on_air, std::span<const std::uint32_t> group,
                                                      const Roster& roster, const Setting& setting) const;
+    [[nodiscard]] bool is_to_be_had(std::size_t rush, std::span<const std::uint32_t> group,
+                                    const Roster& roster) const;
+    [[nodiscard]] bool has_fixed(std::span<const std::uint32_t> group) const;
+    [[nodiscard]] bool may_begin(std::size_t fixed, const Roster& roster, const Setting& setting) const;
+    [[nodiscard]] static bool is_threatened(const freespace::Space& space, std::size_t fixed);
     // Where nobody else is to be had, those who are dead stay.
     void keep_living(std::vector<std::size_t>& choice, const Roster& roster) const;
     // Of what is on the air; rushes() for nothing that there is.

@@ -287,6 +287,7 @@ void Match::wait_for_map(std::string reason) {
 
 void Match::detach_map(std::string reason) {
     missing_map_ = std::move(reason);
+    reported_unknown_.clear();  // another map has others
     obstacles_.set_map(nullptr);
     freespace_.reset();
     scratch_.clear();

@@ -104,6 +104,10 @@ class Match final : public Strand {
     void place_obstacles(const PoseFrame& frame);
     // Of the map and the obstacles. There is a map.
     [[nodiscard]] freespace::Space space() const { return {*freespace_, &obstacles_.movers()}; }
+    // At the time of the frame that is shown.
+    [[nodiscard]] freespace::Space space_shown() const {
+        return space().at(by_timeline_ ? timeline_.shown() : causal_time_);
+    }
     void report_unknown_movers();
     [[nodiscard]] bool foresee(const PoseFrame& frame);
     // Makes the steps of the next frame, whose poses wait, so that its cameras leave when it is due.

@@ -24,8 +24,7 @@ std::string text_of(const AutomaticShot& shot) {
 }  // namespace
 
 Edit::Setting Match::edit_setting() const {
-    const double time = by_timeline_ ? timeline_.shown() : causal_time_;
-    return {space().at(time), config_->direction, static_cast<std::size_t>(config_->limits.players),
+    return {space_shown(), config_->direction, static_cast<std::size_t>(config_->limits.players),
             delay_.state().delay_s, static_cast<double>(info_->rate_hz)};
 }
 

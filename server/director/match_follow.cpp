@@ -66,7 +66,11 @@ void Match::follow(const Disagreement& disagreement) {
     const ShotCamera* newest = camera_of(own_frames_[newest_own_], own.camera_id);
     if (shot == shots.end() || newest == nullptr || has_cut_since(followed_, own.camera_id)) return;
     if (shown.target != own.target || shown.target == no_player) {
-        shot->automatic.follow(shown.target, fixed_shot_of(shown), followed_.frame_time,
+        const std::uint32_t fixed = fixed_shot_of(shown);
+        const bool is_unknown = shown.target == no_player && fixed == freespace::none;
+        if (is_unknown && (shown.flags & camera::target_absent) == 0)
+            return;  // another bake or configuration
+        shot->automatic.follow(shown.target, fixed, followed_.frame_time,
                                reason_of(followed_, own.camera_id));
         return;  // the next frame begins with it
     }
@@ -89,6 +93,7 @@ void Match::follow(const Disagreement& disagreement) {
 
 // Those of the same bake stand at the same places.
 std::uint32_t Match::fixed_shot_of(const ShotCamera& shown) const {
+    if (shown.target != no_player || !config_->direction.grammar.fixed_shots) return freespace::none;
     const auto shots = freespace_->fixed_shots();
     const auto found = std::ranges::find_if(shots, [&](const freespace::FixedShot& shot) {
         return agree(shown, still_camera(shown.camera_id, shot), freespace_->metadata().metres_per_unit,

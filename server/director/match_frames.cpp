@@ -249,7 +249,7 @@ ShotCamera Match::still_camera(std::uint32_t camera_id, const freespace::FixedSh
 
 ShotCamera Match::show_fixed(Shot& shot) {
     ShotCamera camera = still_camera(shot.camera_id, freespace_->fixed_shots()[shot.fixed]);
-    camera.clearance = freespace::distance(space(), camera.position).value;
+    camera.clearance = freespace::distance(space_shown(), camera.position).value;
     if (!std::exchange(shot.state.started, true)) {
         camera.flags = camera::cut;
         counters_.add(Counter::cuts);

@@ -12,8 +12,6 @@ namespace {
 constexpr float distance = 120.0F;   // units of 0.0254 m
 constexpr float clearance = 4.5F;    // likewise, round the way to the camera
 constexpr float to_centre = -22.0F;  // from the eye to the middle of the body
-constexpr float tan_across = 1.0F;
-constexpr float tan_up = 9.0F / 16.0F;
 
 // The middle of the body.
 Vec3f centre_below(const Vec3f& eye, float unit) {
@@ -32,8 +30,8 @@ class Picture {
     [[nodiscard]] bool has(const Vec3f& point) const {
         const Vec3f way = point - position_;
         const float depth = way.dot(forward_);
-        return depth > 0.0F && std::abs(way.dot(right_)) <= tan_across * depth &&
-               std::abs(way.dot(up_)) <= tan_up * depth;
+        return depth > 0.0F && std::abs(way.dot(right_)) <= freespace::fixed_shot_tan_across * depth &&
+               std::abs(way.dot(up_)) <= freespace::fixed_shot_tan_up * depth;
     }
 
   private:
@@ -74,12 +72,18 @@ void Scout::look_from_behind(const freespace::Freespace& freespace, float unit, 
     const float free = freespace::sight(freespace, player.eye, behind, clearance * unit).free_length;
     take.position = player.eye - free * player.facing;
     take.shown.set(self);
+    take.framed.set(self);
     const Picture picture(take.position, player.facing);
     const freespace::SightOrigin from_camera(freespace, take.position, 0.0F);
-    const auto shows = [&](const Vec3f& point) { return picture.has(point) && from_camera.to(point).clear; };
+    const auto look_at = [&](direction::Index other, const Vec3f& point) {
+        if (!picture.has(point)) return;
+        take.framed.set(other);
+        if (!take.shown[other] && from_camera.to(point).clear) take.shown.set(other);
+    };
     for (const direction::Index other : present) {
-        const Vec3f& eye = players[other].eye;
-        if (other != self && (shows(eye) || shows(centre_below(eye, unit)))) take.shown.set(other);
+        if (other == self) continue;
+        look_at(other, players[other].eye);
+        look_at(other, centre_below(players[other].eye, unit));
     }
 }
 
@@ -87,12 +91,16 @@ void Scout::look_from_fixed(const freespace::Freespace& freespace, float unit, d
     const Vec3f& eye = players[self].eye;
     for (std::size_t i = 0; i < fixed; ++i) {
         const freespace::FixedShot& shot = freespace.fixed_shots()[i];
-        takes[i].position = shot.position;
-        const auto shows = [&](const Vec3f& point) {
-            return freespace::frames(shot, point, unit) &&
-                   freespace::sight(freespace, shot.position, point).clear;
+        direction::Take& take = takes[i];
+        take.position = shot.position;
+        const auto look_at = [&](const Vec3f& point) {
+            if (!freespace::frames(shot, point, unit)) return;
+            take.framed.set(self);
+            if (!take.shown[self] && freespace::sight(freespace, shot.position, point).clear)
+                take.shown.set(self);
         };
-        takes[i].shown.set(self, shows(eye) || shows(centre_below(eye, unit)));
+        look_at(eye);
+        look_at(centre_below(eye, unit));
     }
 }
 

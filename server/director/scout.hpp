@@ -26,8 +26,7 @@ struct Scout {
     void add_player();
     [[nodiscard]] bool finished() const { return done == present.size(); }
     // Of the next one: whom the player sees of those after, what their camera shows, and which of the fixed
-    // cameras show them. `unit`: 0.0254 m in
-    // map units. Precondition: not finished.
+    // cameras show them. Movers hide nobody. `unit`: 0.0254 m in map units. Precondition: not finished.
     void look(const freespace::Freespace& freespace, float unit);
 
   private:

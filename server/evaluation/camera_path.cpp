@@ -11,8 +11,6 @@
 namespace camdir::evaluation {
 namespace {
 
-constexpr double largest_coordinate = 1e6;
-
 enum Field { t_ms, player, x, y, z, qw, qx, qy, qz, cut, field_count };
 
 constexpr Column columns[] = {

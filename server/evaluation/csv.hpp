@@ -11,6 +11,8 @@
 
 namespace camdir::evaluation {
 
+inline constexpr double largest_coordinate = 1e6;  // of positions in tables, map units
+
 struct Column {
     const char* name;
     double minimum;

@@ -17,7 +17,7 @@ namespace camdir::evaluation {
 
 // The limits of a good frame, map units.
 struct Thresholds {
-    explicit Thresholds(double metres_per_unit) : unit(scene::metres_of_nominal_unit / metres_per_unit) {}
+    explicit Thresholds(double metres_per_unit) : unit(metres_of_nominal_unit / metres_per_unit) {}
 
     double unit;                     // 0.0254 m
     double distance = 120.0 * unit;  // d_opt

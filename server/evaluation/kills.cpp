@@ -117,7 +117,7 @@ Result<std::optional<std::vector<Kill>>> kills_of(const RecordedMatch& match,
 double kill_in_view(const oracle::Oracle& oracle, double metres_per_unit, const Trace& trace,
                     std::span<const CameraSample> cameras, std::span<const Kill> kills) {
     assert(cameras.size() == trace.poses.size());
-    const KillJudge judge(oracle, scene::metres_of_nominal_unit / metres_per_unit, trace, cameras);
+    const KillJudge judge(oracle, metres_of_nominal_unit / metres_per_unit, trace, cameras);
     std::size_t counted = 0;
     std::size_t shown = 0;
     for (const Kill& kill : kills) {

@@ -1,8 +1,9 @@
 #include "evaluation/mover_tracks.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <map>
+#include <system_error>
 
 #include "base/file.hpp"
 #include "evaluation/csv.hpp"
@@ -12,14 +13,13 @@ namespace {
 
 enum MoverField { mover_time, mover_model, mover_x, mover_y, mover_z, mover_pitch, mover_yaw, mover_roll };
 
-constexpr double mover_coordinate = 1e6;
 constexpr double mover_angle = 1e6;
 constexpr Column mover_columns[] = {
     {"t_ms", 0.0, 1e12},
     {"mover", 0.0, 65535.0, true},
-    {"x", -mover_coordinate, mover_coordinate},
-    {"y", -mover_coordinate, mover_coordinate},
-    {"z", -mover_coordinate, mover_coordinate},
+    {"x", -largest_coordinate, largest_coordinate},
+    {"y", -largest_coordinate, largest_coordinate},
+    {"z", -largest_coordinate, largest_coordinate},
     {"pitch", -mover_angle, mover_angle},
     {"yaw", -mover_angle, mover_angle},
     {"roll", -mover_angle, mover_angle},
@@ -31,6 +31,14 @@ oracle::Placement part_way(const oracle::Placement& from, const oracle::Placemen
 }
 
 }  // namespace
+
+std::optional<std::uint32_t> model_of(std::string_view name) {
+    std::uint32_t model = 0;
+    const char* const end = name.data() + name.size();
+    if (!name.starts_with('*')) return std::nullopt;
+    const auto [read, error] = std::from_chars(name.data() + 1, end, model);
+    return error == std::errc{} && read == end ? std::optional(model) : std::nullopt;
+}
 
 Result<std::vector<MoverRow>> parse_movers(std::span<const std::byte> bytes, const std::string& name) {
     std::vector<MoverRow> rows;
@@ -59,11 +67,9 @@ Result<std::vector<MoverRow>> read_movers(const std::filesystem::path& path) {
 MoverTracks::MoverTracks(std::span<const MoverRow> rows, std::span<const scene::Mover> movers,
                          const Trace& poses)
     : samples_(movers.size()) {
-    std::map<std::string, std::size_t> places;
-    for (std::size_t i = 0; i < movers.size(); ++i)
-        places.emplace(movers[i].name, i);
+    const auto places = places_by_model(movers);
     for (const MoverRow& row : rows) {
-        const auto place = places.find("*" + std::to_string(row.model));
+        const auto place = places.find(row.model);
         if (place == places.end()) continue;
         std::vector<Sample>& samples = samples_[place->second];
         // The last frame before this row, in which it stood still.

@@ -4,9 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "evaluation/trace.hpp"
@@ -22,6 +24,18 @@ struct MoverRow {
     std::uint32_t model = 0;  // number of the map's brush model: 3 for "*3"
     oracle::Placement placement;
 };
+
+// 3 for "*3".
+[[nodiscard]] std::optional<std::uint32_t> model_of(std::string_view name);
+
+// The place in a list of movers of each model that one of them has by its name.
+template <class Mover>
+[[nodiscard]] std::map<std::uint32_t, std::uint32_t> places_by_model(std::span<const Mover> movers) {
+    std::map<std::uint32_t, std::uint32_t> places;
+    for (std::uint32_t i = 0; i < movers.size(); ++i)
+        if (const auto model = model_of(movers[i].name)) places.emplace(*model, i);
+    return places;
+}
 
 // Reads movers in Quake units and axes, CSV or CSV.gz, with at least the columns t_ms, mover, x, y, z, pitch,
 // yaw, roll: degrees, positive pitch looks down. Rows are ordered by t_ms. Errors name the file, the line,

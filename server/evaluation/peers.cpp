@@ -11,8 +11,7 @@ std::optional<Peer> find_peer(std::string_view name) {
 }
 
 CameraSample place(Peer peer, const TracePose& pose, double metres_per_unit) {
-    const double distance =
-        peer == Peer::rigid ? 120.0 * scene::metres_of_nominal_unit / metres_per_unit : 0.0;
+    const double distance = peer == Peer::rigid ? 120.0 * metres_of_nominal_unit / metres_per_unit : 0.0;
     const Vec3d forward = pose.orientation * Vec3d::UnitX();
     return {pose.eye - distance * forward, pose.orientation, pose.discontinuity};
 }

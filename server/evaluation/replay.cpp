@@ -10,8 +10,8 @@ namespace {
 
 constexpr double history = 0.5;     // s of poses before a camera that it is given
 constexpr double same_time = 1e-9;  // s
-// s. Beyond the horizon of every solver; of frames that follow each other so closely that this much of them
-// is more than Movers keeps, it would forget where a mover is now.
+// s. Beyond the horizon of every solver. Movers keeps it of up to 220 frames a second: of more it forgets
+// where a mover is now.
 constexpr double movers_ahead = 4.0;
 
 camera::Pose tracked(const TracePose& pose) {
@@ -53,13 +53,7 @@ KnownMovers::KnownMovers(const freespace::Freespace& freespace, std::span<const 
     auto movers = freespace::Movers::of(shapes);
     assert(movers);  // opening the freespace has checked them
     movers_ = std::move(*movers);
-    std::map<std::string, std::uint32_t> names;
-    for (std::uint32_t i = 0; i < shapes.size(); ++i)
-        names.emplace(shapes[i].name, i);
-    for (const MoverRow& row : rows)
-        if (!places_.contains(row.model))
-            if (const auto shape = names.find("*" + std::to_string(row.model)); shape != names.end())
-                places_.emplace(row.model, shape->second);
+    places_ = places_by_model(shapes);
 }
 
 const freespace::Movers& KnownMovers::at(double time) {

@@ -13,7 +13,6 @@ namespace {
 
 constexpr std::size_t max_players = 256;
 constexpr double largest_time_ms = 1e12;
-constexpr double largest_coordinate = 1e6;
 constexpr double largest_angle = 1e6;
 
 enum Field {

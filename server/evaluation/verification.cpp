@@ -11,7 +11,7 @@
 namespace camdir::evaluation {
 namespace {
 
-constexpr double unsafe_depth = 0.02 * 0.0254;  // metres
+constexpr double unsafe_depth = 0.02 * metres_of_nominal_unit;  // metres
 
 void verify_spawn_points(const freespace::Freespace& freespace, const scene::Scene& scene,
                          Verification& result) {

@@ -7,6 +7,9 @@
 
 namespace camdir::freespace {
 
+// The share of a ball's radius within which a point is free whatever the rounding.
+inline constexpr float surely_inside = 0.9F;
+
 struct Distance {
     // A lower bound of the clearance of the point: the largest d_f(m) - |c - m| over the points m of all
     // slabs, but for a rounding of 1e-6 of the map's size. -infinity when the point is in no slab, and for a

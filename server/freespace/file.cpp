@@ -24,7 +24,7 @@ static_assert(FLATBUFFERS_MAX_BUFFER_SIZE / sizeof(Triangle) < IndexChild::trian
 
 namespace {
 
-constexpr std::uint32_t format_version = 3;
+constexpr std::uint32_t format_version = 4;
 constexpr flatbuffers::uoffset_t table_depth_limit = 4;
 constexpr flatbuffers::uoffset_t table_limit =
     1 + count_limit + max_movers;      // the root, its counts and movers

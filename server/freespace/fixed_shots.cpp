@@ -2,24 +2,23 @@
 
 #include <array>
 #include <bitset>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include "freespace/lookouts.hpp"
+#include "freespace/movers.hpp"
 #include "freespace/visibility.hpp"
 
 namespace camdir::freespace {
 namespace {
 
-constexpr float unit_metres = 0.0254F;
 constexpr std::size_t most_places = 256;
 constexpr std::size_t most_aims = 512;
 constexpr std::size_t yaws = 16;
 constexpr std::array pitches{-0.5F, -0.2F};  // rad: from above
 constexpr std::size_t worth_a_shot = 100;    // a share of what there is to see
-constexpr float half_width = 1.0F;           // of the picture, as tangents
-constexpr float half_height = 9.0F / 16.0F;
 
 using Aims = std::bitset<most_aims>;
 
@@ -32,6 +31,17 @@ std::vector<Vec3f> sample(std::span<const Vec3f> positions, std::size_t most) {
     return some;
 }
 
+// As they are at time 0.
+Movers resting(std::span<const MoverShape> shapes) {
+    auto movers = Movers::of(shapes);
+    assert(movers);  // opening the freespace has checked them
+    std::vector<MoverPose> rest;
+    for (const MoverShape& shape : shapes)
+        rest.push_back({static_cast<std::uint32_t>(rest.size()), shape.rest, Quatf::Identity()});
+    movers->add(0.0, rest);
+    return std::move(*movers);
+}
+
 struct View {
     FixedShot shot;
     Aims seen;
@@ -41,10 +51,11 @@ class Search {
   public:
     explicit Search(const Freespace& freespace)
         : freespace_(freespace),
-          unit_(unit_metres / freespace.metadata().metres_per_unit),
+          unit_(static_cast<float>(metres_of_nominal_unit) / freespace.metadata().metres_per_unit),
           aims_(sample(freespace.lookouts().positions(), most_aims)) {
+        const Movers movers = resting(freespace.movers());
         for (const Vec3f& place : sample(freespace.lookouts().positions(), most_places))
-            add_views(place);
+            if (movers.distance(place, 0.0).value >= fixed_shot_room * unit_) add_views(place);
     }
 
     std::vector<FixedShot> choose() {
@@ -114,8 +125,8 @@ bool frames(const FixedShot& shot, const Vec3f& point, float unit) {
     const Vec3f way = point - shot.position;
     const float depth = way.dot(forward);
     return depth > 0.0F && way.norm() <= fixed_shot_range * unit &&
-           std::abs(way.dot(right)) <= half_width * depth &&
-           std::abs(way.dot(right.cross(forward))) <= half_height * depth;
+           std::abs(way.dot(right)) <= fixed_shot_tan_across * depth &&
+           std::abs(way.dot(right.cross(forward))) <= fixed_shot_tan_up * depth;
 }
 
 std::vector<FixedShot> find_fixed_shots(const Freespace& freespace) {

@@ -10,7 +10,6 @@
 namespace camdir::freespace {
 namespace {
 
-constexpr float unit_metres = 0.0254F;
 constexpr float least_spacing = 40.0F;   // units of 0.0254 m
 constexpr float least_clearance = 8.0F;  // likewise
 constexpr float reach_in_spacings = 3.0F;
@@ -43,7 +42,7 @@ std::vector<Vec3d> spread(const Freespace& freespace, std::span<const std::uint3
 }  // namespace
 
 Lookouts::Lookouts(const Freespace& freespace) {
-    const float unit = unit_metres / freespace.metadata().metres_per_unit;
+    const float unit = static_cast<float>(metres_of_nominal_unit) / freespace.metadata().metres_per_unit;
     const auto vertices = roomy_vertices(freespace, least_clearance * unit);
     float spacing = least_spacing * unit;
     std::vector<Vec3d> places = spread(freespace, vertices, spacing, limit);

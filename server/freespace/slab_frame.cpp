@@ -8,7 +8,7 @@
 namespace camdir::freespace {
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr float unbounded = std::numeric_limits<float>::infinity();
 
 // ---- The frames ----
 
@@ -39,7 +39,7 @@ double uphill_of(double length2, double rise) {
 
 struct Edge {
     float uphill = 0.0F;
-    float inverse_length2 = infinity;
+    float inverse_length2 = unbounded;
 
     Edge(const Vec3d& span, double rise) {
         const double length2 = span.squaredNorm();
@@ -60,15 +60,15 @@ SlabFrame point_frame(const Vertex& vertex) {
             .c_y = 0.0F,
             .gradient_x = 0.0F,
             .gradient_y = 0.0F,
-            .fall = infinity,
+            .fall = unbounded,
             .inverse_fall = 0.0F,
             .uphill_ab = 0.0F,
             .uphill_ac = 0.0F,
             .uphill_bc = 0.0F,
             .rise_ac = 0.0F,
             .rise_bc = 0.0F,
-            .inverse_ac2 = infinity,
-            .inverse_bc2 = infinity};
+            .inverse_ac2 = unbounded,
+            .inverse_bc2 = unbounded};
 }
 
 void set(float (&row)[3], const Vec3d& vector) {

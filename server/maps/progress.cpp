@@ -27,8 +27,8 @@ constexpr std::array<StageWeight, 16> surface_weights{{
     {"reduce", 0.449, false},
     {"pack", 0.001, false},
     {"recertify", 0.011, true},
-    {"fixed shots", 0.050, false},
     {"movers", 0.001, false},
+    {"fixed shots", 0.050, false},
 }};
 
 // The same of the point clouds room_scan1 and scan_430.

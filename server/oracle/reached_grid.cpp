@@ -77,7 +77,7 @@ Result<void> check_clearance(const scene::Scene& scene, double pitch, double min
 }  // namespace
 
 double grid_pitch(const scene::Scene& scene) {
-    return 8.0 * scene::metres_of_nominal_unit / scene.metres_per_unit;
+    return 8.0 * metres_of_nominal_unit / scene.metres_per_unit;
 }
 
 ReachedGrid::Place::Place(const Cell& cell)

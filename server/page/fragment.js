@@ -58,9 +58,11 @@ export async function readState(bytes, n) {
     return {beginTime, state: decodeRecords(content, name).reduce(apply, noState)};
 }
 
+const noPlayer = 0xffffffff;  // a camera's target: it is a fixed one
+
 function reasonOf(before, now, poses) {
     if (!before) return 'begin';
-    if (before.target !== now.target) return 'target';
+    if (before.target !== now.target || now.target === noPlayer) return 'target';
     const followed = poses.players.find(player => player.id === now.target);
     if (followed && followed.flags & playerFlag.discontinuity) return 'moved';
     return before.flags & cameraFlag.visible ? 'viewpoint' : 'hidden';

@@ -62,7 +62,7 @@ export class Rows {
 }
 
 export function shotEntry(camera, look, profile, pressed, choose) {
-    const mode = modeOf(camera.flags);
+    const mode = modeOf(camera);
     return {key: `camera ${camera.id}`, number: look.number, colour: look.colour, name: look.name, detail: profile, mode,
         modeText: modeText[mode], pressed, choose};
 }

@@ -2,7 +2,7 @@
 import {cameraFlag} from './protocol.js';
 import {clockText} from './words.js';
 
-const colours = {visible: '#7cc4ff', hidden: '#ffc857', searching: '#ffc857', held: '#55606e', absent: '#3a434f'};
+const colours = {visible: '#7cc4ff', hidden: '#ffc857', searching: '#ffc857', fixed: '#c4ccd6', held: '#55606e', absent: '#3a434f'};
 const spanMs = 5 * 60e3;
 const steps = [1, 2, 5, 10, 30, 60, 120, 300, 600, 1800, 3600].map(s => s * 1000);  // between times
 const minLabelPx = 56;
@@ -10,7 +10,7 @@ const thinFromMs = 10 * 60e3;  // of a timeline: cuts are thin lines
 
 const reasons = {
     begin: 'the shot begins',
-    target: 'another player is followed',
+    target: 'another player, or a fixed camera',
     moved: 'the player respawned or was moved',
     hidden: 'the player was out of sight',
     viewpoint: 'a better viewpoint',
@@ -23,15 +23,16 @@ export function reasonText(cut, nameOf) {
     return players.length > 0 ? `${cut.moment.rule}, ${players.join(' and ')}` : cut.moment.rule;
 }
 
-// What a shot does: visible, hidden, searching, held, absent.
-export function modeOf(flags) {
+// What a shot does: visible, hidden, searching, fixed, held, absent.
+export function modeOf({target, flags}) {
     if (flags & cameraFlag.absent) return 'absent';
     if (flags & cameraFlag.searching) return 'searching';
     if (flags & cameraFlag.held) return 'held';
+    if (target === null) return 'fixed';
     return flags & cameraFlag.visible ? 'visible' : 'hidden';
 }
 
-export const modeText = {visible: 'In view', hidden: 'Out of sight', searching: 'Searching', held: 'Held', absent: 'Absent'};
+export const modeText = {visible: 'In view', hidden: 'Out of sight', searching: 'Searching', fixed: 'Stands still', held: 'Held', absent: 'Absent'};
 
 export class TimelineView {
     constructor(element) {
@@ -84,11 +85,11 @@ export class TimelineView {
         c.fillRect(Math.min(Math.round(x(t)), width - 2) - 1, 2, 3, height - 14);
     }
 
-    drawSpan(c, {from, to, target, flags}, x, middle, colourOfSlot) {
-        const mode = modeOf(flags);
-        const left = x(from);
-        const width = Math.max(x(to) - left, 0.5);
-        c.fillStyle = mode === 'visible' ? colourOfSlot(target) : colours[mode];
+    drawSpan(c, span, x, middle, colourOfSlot) {
+        const mode = modeOf(span);
+        const left = x(span.from);
+        const width = Math.max(x(span.to) - left, 0.5);
+        c.fillStyle = mode === 'visible' ? colourOfSlot(span.target) : colours[mode];
         if (mode === 'hidden') {
             c.globalAlpha = 0.35;
             c.fillRect(left, middle - 6, width, 12);
@@ -107,7 +108,7 @@ export class TimelineView {
         c.globalAlpha = 0.65;
         others.forEach((id, row) => {
             for (const span of timeline.spans(id, from, to)) {
-                const mode = modeOf(span.flags);
+                const mode = modeOf(span);
                 c.fillStyle = mode === 'visible' ? colourOfSlot(span.target) : colours[mode];
                 c.fillRect(x(span.from), top + row * each, Math.max(x(span.to) - x(span.from), 0.5), Math.max(each - 1, 1));
             }

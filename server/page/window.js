@@ -30,8 +30,7 @@ const shotRows = new Rows(find('shots'), 'No camera is on: no spectator has aske
 const matchRows = new Rows(find('matches'), 'No match is running.');
 
 const look = slot => model.look(slot);
-// Of a shot of nobody.
-const lookOfShot = target => target === null ? {...look(target), name: 'fixed camera'} : look(target);
+const lookOfShot = shot => modeOf(shot) === 'fixed' ? {...look(null), name: 'fixed camera'} : look(shot.target);
 const feed = new Feed(find('feed'), look);
 const timelineView = new TimelineView(find('timeline'));
 
@@ -306,10 +305,10 @@ function showCaption() {
     const state = find('caption-state');
     name.hidden = state.hidden = !shot;
     if (!shot) return;
-    const {name: text, colour} = lookOfShot(shot.target);
+    const {name: text, colour} = lookOfShot(shot);
     setText('caption-name', text);
     if (name.dataset.colour !== colour) name.style.borderColor = name.dataset.colour = colour;
-    const mode = modeOf(shot.flags);
+    const mode = modeOf(shot);
     const cut = model.timeline.cutBefore(camera, model.clock.t);
     const fresh = cut && model.clock.t - cut.t < 2500 ? ` · cut: ${reasonText(cut, slot => look(slot).name)}` : '';
     state.dataset.mode = mode;
@@ -321,7 +320,7 @@ function showLists() {
     const profiles = new Map(shots.map(shot =>
         [shot.camera_id, shot.automatic ? `${shot.profile}, the director chooses` : shot.profile]));
     shotRows.show(shownCameras().map(shot =>
-        shotEntry(shot, lookOfShot(shot.target), profiles.get(shot.id) ?? '', shot.id === camera, () => chooseCamera(shot.id))));
+        shotEntry(shot, lookOfShot(shot), profiles.get(shot.id) ?? '', shot.id === camera, () => chooseCamera(shot.id))));
     matchRows.show(matches.map(({id, map, stream, goesOn}) => ({
         key: `match ${id}`, number: stream ? String(stream.players.length) : '▸', colour: '#c4ccd6', name: id,
         detail: `${map}, ${stream?.state ?? (goesOn ? 'broadcast' : 'recorded')}`, pressed: id === watched?.id,
@@ -337,7 +336,7 @@ function pictureShots() {
 
 // Lays a button over each small picture. Returns where on the stage they are: fewer, where the window is too small for all.
 function layPictures(shots) {
-    const looks = shots.map(shot => lookOfShot(shot.target));
+    const looks = shots.map(lookOfShot);
     const key = [view, resize.last, ...shots.map(({id}, i) => `${id} ${looks[i].name} ${looks[i].colour}`)].join('\n');
     if (layPictures.last === key) return layPictures.places;
     layPictures.last = key;
@@ -491,7 +490,7 @@ function describeTime(t) {
     const span = model.timeline.spans(camera, t, t + 1)[0];
     const near = model.cutNear(camera, t, 0.005 * Math.max(last - first, 300e3));
     const parts = [isRecorded() ? clockText(t - first) : `−${seconds(last - t)}`];
-    if (span) parts.push(`${lookOfShot(span.target).name}: ${modeText[modeOf(span.flags)].toLowerCase()}`);
+    if (span) parts.push(`${lookOfShot(span).name}: ${modeText[modeOf(span)].toLowerCase()}`);
     if (near) parts.push(`cut: ${reasonText(near, slot => look(slot).name)}`);
     return parts.join(' · ');
 }

@@ -12,7 +12,7 @@ constexpr double max_nominal_coordinate = 1 << 20;
 // Half of what a MAP.vfs holds: the mesh may reach out around the geometry.
 constexpr double file_coordinate_limit = 5e7;
 
-std::string text_of(const Vec3d& p) {
+std::string triple(const Vec3d& p) {
     std::ostringstream text;
     text.precision(12);
     text << '(' << p.x() << ", " << p.y() << ", " << p.z() << ')';
@@ -44,7 +44,7 @@ Result<Vec3d> CoordinateTransform::place(const Vec3d& source, const char* what, 
     const Vec3d moved = source - origin_;
     if (!is_within(moved, limit())) {
         std::ostringstream text;
-        text << what << ' ' << index << " at " << text_of(source) << ": expected finite coordinates below "
+        text << what << ' ' << index << " at " << triple(source) << ": expected finite coordinates below "
              << limit() << " map units; `--metres-per-unit` says how long a unit is, `--origin` moves what "
              << "lies far from (0, 0, 0)";
         return fail(text.str());
@@ -58,7 +58,7 @@ Result<Vec3d> CoordinateTransform::place_single(const Vec3d& source, const char*
     // Without an origin place() says what to do.
     if (origin_ != Vec3d::Zero() && !is_within(source, limit())) {
         std::ostringstream text;
-        text << what << ' ' << index << " at " << text_of(source) << " is in single precision, in steps of "
+        text << what << ' ' << index << " at " << triple(source) << " is in single precision, in steps of "
              << step_of(source.cwiseAbs().maxCoeff()) << " map units there; expected coordinates below "
              << limit()
              << ": subtract the origin in the program that wrote the file, or write OBJ, or PLY as "

@@ -13,9 +13,6 @@
 
 namespace camdir::scene {
 
-// Metres of the nominal unit that the project's lengths are given in.
-inline constexpr double metres_of_nominal_unit = 0.0254;
-
 // Obstacle half space: points with normal.dot(p) <= distance are on the solid's side. `normal` has length 1.
 struct Plane {
     Vec3d normal;

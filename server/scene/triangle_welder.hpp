@@ -12,6 +12,11 @@
 
 namespace camdir::scene {
 
+// Of every map, nominal units.
+inline constexpr double weld_tolerance = 0.01;
+// The world's box fits the geometry exactly; this leaves room for rounding.
+inline constexpr double box_margin = 1.0;
+
 // Collects triangles given by their corners. A corner becomes the first vertex within `tolerance` of it, or
 // a new one. Triangles that are flat afterwards (a corner less than a hundredth of the tolerance from the
 // opposite side) and repeated ones are dropped. The result depends on the order of the calls.

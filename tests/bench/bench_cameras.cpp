@@ -71,7 +71,7 @@ class MatchBench {
   public:
     explicit MatchBench(const Match& match)
         : match_(match), oracle_(match.scene), embree_(match.scene), bullet_(match.scene) {
-        const double unit = scene::metres_of_nominal_unit / match.scene.metres_per_unit;
+        const double unit = metres_of_nominal_unit / match.scene.metres_per_unit;
         add(rigid());
         add(swept_arm(bullet_, 0.0, unit));
         add(swept_arm(bullet_, 10.0, unit));

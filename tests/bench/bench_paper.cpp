@@ -41,7 +41,7 @@ struct Options {
 
 // The d0 at which the paper's rule takes about this many samples.
 Result<double> find_d0(const scene::Scene& scene, std::uint64_t target) {
-    const double unit = scene::metres_of_nominal_unit / scene.metres_per_unit;
+    const double unit = metres_of_nominal_unit / scene.metres_per_unit;
     double low = bake::min_d0;
     double high = bake::max_d0;
     for (int i = 0; i < 16; ++i) {

@@ -9,7 +9,7 @@ namespace {
 
 constexpr float format = 16.0F / 9.0F;
 constexpr float least_depth = 0.05F;  // of the distance: what is farther to the side is not looked at
-constexpr int rounds = 4;             // of centring, which converges quadratically
+constexpr int centrings = 4;          // which converge quadratically
 
 // Along the middle of the points' directions.
 Look first_look(const Vec3f& position, std::span<const Vec3f> points) {
@@ -72,7 +72,7 @@ std::optional<PictureExtent> extent_of(const Vec3f& position, const Look& look,
 std::optional<Look> look_at_all(const Vec3f& position, std::span<const Vec3f> points,
                                 const PictureShape& shape) {
     Look look = first_look(position, points);
-    for (int i = 0; i < rounds; ++i) {
+    for (int i = 0; i < centrings; ++i) {
         const auto extent = extent_of(position, look, points);
         if (!extent) return std::nullopt;
         look = shifted(look, -middle(extent->left, extent->right), middle(extent->bottom, extent->top));
@@ -86,7 +86,7 @@ Look look_within(const Vec3f& position, const Look& look, std::span<const Vec3f>
                  const PictureShape& shape) {
     if (points.empty()) return look;
     Look moved = look;
-    for (int i = 0; i < rounds; ++i) {
+    for (int i = 0; i < centrings; ++i) {
         const auto extent = extent_of(position, moved, points);
         if (!extent) {
             moved = first_look(position, points);

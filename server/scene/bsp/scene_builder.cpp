@@ -5,10 +5,6 @@
 namespace camdir::scene {
 namespace {
 
-constexpr double weld_tolerance = 0.01;
-// The world's box fits the geometry exactly; this leaves room for rounding.
-constexpr double box_margin = 1.0;
-
 const char* const outside = "outside the world's box";
 
 }  // namespace

@@ -15,9 +15,6 @@ namespace {
 
 // Nodes may repeat a mesh any number of times, so that the file's size is no limit.
 constexpr std::uint64_t max_triangles = 20'000'000;
-// Nominal units, as for BSP maps.
-constexpr double weld_tolerance = 0.01;
-constexpr double box_margin = 1.0;
 
 const char* name_of(MeshFormat format) {
     constexpr std::array<const char*, 5> names = {"OBJ", "PLY", "STL", "glTF", "glTF binary"};

@@ -20,7 +20,7 @@ void lower_to(Cost& best, const Cost& cost) {
 }  // namespace
 
 Result<EngineCost> measure_engine(Engine engine, const scene::Scene& scene, double d0, int runs) {
-    const double unit = scene::metres_of_nominal_unit / scene.metres_per_unit;
+    const double unit = metres_of_nominal_unit / scene.metres_per_unit;
     const double distance = 2.0 * d0 * unit;
     const auto samples = sample(scene, d0 * unit);
     if (!samples) return tl::unexpected(samples.error());

@@ -36,7 +36,7 @@ class Run {
         : pipeline_(pipeline),
           scene_(scene),
           settings_(settings),
-          unit_(scene::metres_of_nominal_unit / scene.metres_per_unit),
+          unit_(metres_of_nominal_unit / scene.metres_per_unit),
           d0_(settings.d0 * unit_),
           obstacles_(scene),
           solids_(scene) {}

@@ -8,16 +8,10 @@
 #include "scene/load.hpp"
 #include "support/openarena.hpp"
 #include "support/solid_scenes.hpp"
+#include "unit/bake/counts.hpp"
 
 namespace camdir::bake {
 namespace {
-
-double count_of(const Baked& baked, const std::string& stage, const std::string& what) {
-    for (const freespace::Count& count : baked.contents.metadata.counts)
-        if (count.stage == stage && count.what == what) return count.value;
-    ADD_FAILURE() << "nothing counted as " << stage << ": " << what;
-    return 0.0;
-}
 
 // Forecast samples over those that the bake made.
 double forecast_ratio(const scene::Scene& scene, const Parameters& parameters) {

@@ -13,7 +13,7 @@ namespace camdir::camera {
 namespace {
 
 constexpr double error = 4e-7;
-constexpr float pi = std::numbers::pi_v<float>;
+constexpr float half_turn = std::numbers::pi_v<float>;
 
 TEST(Float4Angles, SinesAndCosinesAreExactWithinTheirError) {
     const auto expect_exact = [](float angle) {
@@ -25,7 +25,7 @@ TEST(Float4Angles, SinesAndCosinesAreExactWithinTheirError) {
     };
     for (int i = -100; i <= 100; ++i)
         for (const float beside : {-1e-3F, 0.0F, 1e-3F})
-            expect_exact(static_cast<float>(i) * 0.25F * pi + beside);
+            expect_exact(static_cast<float>(i) * 0.25F * half_turn + beside);
     std::mt19937 random(1);
     std::uniform_real_distribution<float> angles(-200.0F, 200.0F);
     for (int i = 0; i < 100000; ++i)

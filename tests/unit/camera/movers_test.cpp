@@ -24,7 +24,7 @@ using freespace::MoverShape;
 using test::box_hull;
 using test::PlacedMover;
 
-constexpr double frame_time = 1.0 / 60.0;
+constexpr double frame_s = 1.0 / 60.0;
 constexpr double delay = 1.0;  // s, of shots with look-ahead
 
 // Where a mover is at a time, s.
@@ -245,11 +245,11 @@ class ToldMovers {
 
     // All that is known at `time`; nobody asks for what was 0.5 s before `asked`.
     const Movers& until(double time, double asked) {
-        for (; told_ * frame_time <= time + 1e-9; ++told_) {
+        for (; told_ * frame_s <= time + 1e-9; ++told_) {
             std::vector<MoverPose> poses;
             for (const MoverMotion& motion : scene_.motions)
-                poses.push_back(motion(told_ * frame_time));
-            EXPECT_EQ(movers_.add(told_ * frame_time, poses), 0U);
+                poses.push_back(motion(told_ * frame_s));
+            EXPECT_EQ(movers_.add(told_ * frame_s, poses), 0U);
         }
         movers_.forget_before(asked - 0.5);
         return movers_;
@@ -263,12 +263,12 @@ class ToldMovers {
 
 std::vector<TimedPose> poses_of(const Scene& scene, double until) {
     std::vector<TimedPose> poses;
-    for (int i = 0; i * frame_time < until; ++i) {
-        const double time = i * frame_time;
+    for (int i = 0; i * frame_s < until; ++i) {
+        const double time = i * frame_s;
         poses.push_back({time, scene.player(time), true});
         if (i > 0)
             poses.back().pose.velocity =
-                (poses.back().pose.eye - poses[poses.size() - 2].pose.eye) / static_cast<float>(frame_time);
+                (poses.back().pose.eye - poses[poses.size() - 2].pose.eye) / static_cast<float>(frame_s);
     }
     return poses;
 }
@@ -279,9 +279,9 @@ Findings run(const Scene& scene, Solver solver, double look_ahead, double second
     ToldMovers movers(scene);
     Scratch scratch(freespace);
     ShotState state;
-    state.time = -frame_time;
+    state.time = -frame_s;
     Judge judge(scene);
-    const auto ahead = static_cast<std::size_t>(std::lround(look_ahead / frame_time));
+    const auto ahead = static_cast<std::size_t>(std::lround(look_ahead / frame_s));
     for (std::size_t i = 0; i + ahead < poses.size(); ++i) {
         const std::size_t first = i - std::min<std::size_t>(i, 20);
         const freespace::Space space(freespace, &movers.until(poses[i + ahead].time, poses[i].time));
@@ -384,10 +384,10 @@ TEST(AmongMovers, WithoutAPoseTheyChangeNothing) {
     ShotState with;
     ShotState without;
     for (int i = 0; i < 300; ++i) {
-        const Pose pose = scene.player(i * frame_time);
+        const Pose pose = scene.player(i * frame_s);
         const freespace::Space space(freespace, &silent);
-        const Camera a = step(space, {}, &pose, frame_time, with, scratch);
-        const Camera b = step(freespace, {}, &pose, frame_time, without, scratch);
+        const Camera a = step(space, {}, &pose, frame_s, with, scratch);
+        const Camera b = step(freespace, {}, &pose, frame_s, without, scratch);
         ASSERT_EQ(a.position, b.position);
         ASSERT_EQ(a.orientation.coeffs(), b.orientation.coeffs());
         ASSERT_EQ(a.flags, b.flags);
@@ -403,9 +403,9 @@ Findings run_group(const Scene& scene, const Vec3f& other, double look_ahead) {
         pose.pose = pose_at(other, 0.0F);
     ToldMovers movers(scene);
     GroupState state;
-    state.time = -frame_time;
+    state.time = -frame_s;
     Judge judge(scene);
-    const auto ahead = static_cast<std::size_t>(std::lround(look_ahead / frame_time));
+    const auto ahead = static_cast<std::size_t>(std::lround(look_ahead / frame_s));
     for (std::size_t i = 0; i + ahead < first.size(); ++i) {
         const freespace::Space space(freespace, &movers.until(first[i + ahead].time, first[i].time));
         const std::array windows = {Window(first).first(i + ahead + 1), Window(second).first(i + ahead + 1)};

@@ -23,7 +23,7 @@ std::vector<TimedPose> run(const test::Plan& plan, std::uint32_t seed, double ra
     return list;
 }
 
-test::Plan hall() {
+test::Plan long_hall() {
     return test::Plan({"###############",  //
                        "#.............#",  //
                        "#.............#",  //
@@ -97,7 +97,7 @@ TEST(Planner, ShotsThatBeginTogetherPlanInDifferentFrames) {
 
 // Frames 20 to 39 of a causal shot in which it planned.
 std::vector<int> planning_frames(const std::vector<TimedPose>& poses, std::uint32_t phase) {
-    const freespace::Freespace freespace = hall().freespace();
+    const freespace::Freespace freespace = long_hall().freespace();
     Scratch scratch(freespace);
     ShotState state;
     state.plan.phase = phase;
@@ -114,8 +114,8 @@ TEST(Planner, FollowsAPlanForASecondFrameWhileThePlayerDoesWhatItForesaw) {
     std::vector<TimedPose> standing;
     std::vector<TimedPose> flicking = {};
     for (int i = 0; i < 40; ++i) {
-        standing.push_back({i / 60.0, pose_at(hall().eye('s'), 0.0F), true});
-        flicking.push_back({i / 60.0, pose_at(hall().eye('s'), i % 2 == 0 ? 0.0F : 0.05F), true});
+        standing.push_back({i / 60.0, pose_at(long_hall().eye('s'), 0.0F), true});
+        flicking.push_back({i / 60.0, pose_at(long_hall().eye('s'), i % 2 == 0 ? 0.0F : 0.05F), true});
     }
     const auto of_one = planning_frames(standing, 0);
     const auto of_another = planning_frames(standing, 1);
@@ -271,7 +271,7 @@ TEST(Planner, NeedsNoMoreHistoryThanItKeeps) {
 // Somebody in a hall who looks to and fro, 115 degrees, twice a second: between the two views there is a
 // place that is behind both.
 TEST(Planner, StandsBehindBothViewsOfAPlayerWhoLooksToAndFro) {
-    const test::Plan plan = hall();
+    const test::Plan plan = long_hall();
     std::vector<TimedPose> poses;
     for (int i = 0; i < 600; ++i)
         poses.push_back({i / 60.0, pose_at(plan.eye('s'), i / 15 % 2 == 0 ? 0.0F : 2.0F), true});

@@ -45,6 +45,16 @@ TEST(Grammar, ACutBetweenPlayersWhoAreNotBothShownIsNoJumpCut) {
     EXPECT_FALSE(jump_cut(script.footage(), Grammar{}, 0, 0, 1));
 }
 
+TEST(Grammar, WhoIsHiddenMayNotBe) {
+    Script script(2, 1);
+    script.take(0, 0).position = script.take(0, 1).position;
+    EXPECT_FALSE(may_be_jump_cut(script.footage(), Grammar{}, 0, 0, 1));
+    for (const std::size_t rush : {0U, 1U})
+        script.take(0, rush).framed.set(0);
+    EXPECT_FALSE(jump_cut(script.footage(), Grammar{}, 0, 0, 1));
+    EXPECT_TRUE(may_be_jump_cut(script.footage(), Grammar{}, 0, 0, 1));
+}
+
 TEST(Grammar, WhateverShowsAPlayerOfEitherPictureMayJump) {
     Script script(2, 1, 2);
     for (const std::size_t rush : {2U, 3U}) {
@@ -62,6 +72,7 @@ TEST(Grammar, TheLineOfActionJoinsEnemiesInSight) {
     script.take(0, 0).position = {-50.0F, 20.0F, 0.0F};
     script.take(0, 1).position = {150.0F, -20.0F, 0.0F};
     EXPECT_FALSE(crosses_line(script.footage(), 0, 0, 1));  // they do not see each other
+    EXPECT_TRUE(may_cross_line(script.footage(), 0, 0, 1));
     script.meet(0, 0, 1);
     EXPECT_TRUE(crosses_line(script.footage(), 0, 0, 1));
     EXPECT_TRUE(crosses_line(script.footage(), 0, 1, 0));
@@ -70,6 +81,7 @@ TEST(Grammar, TheLineOfActionJoinsEnemiesInSight) {
     script.player(0, 0).team = 1;
     script.take(0, 1).position.y() = 20.0F;
     EXPECT_FALSE(crosses_line(script.footage(), 0, 0, 1));
+    EXPECT_FALSE(may_cross_line(script.footage(), 0, 0, 1));
 }
 
 TEST(Grammar, ACutNextToAJumpOfACameraLeavesAFragment) {

@@ -98,6 +98,11 @@ inline Script random_script(std::size_t players, std::size_t beats, std::mt19937
             if (subject != nobody) take.shown.set(subject, chance(0.9));
         }
     }
+    // Who is shown soon is in the picture already.
+    for (std::size_t rush = 0; rush < players + fixed; ++rush)
+        for (std::size_t beat = 0; beat < beats; ++beat)
+            script.take(beat, rush).framed =
+                script.take(beat, rush).shown | script.take(std::min(beat + 1, beats - 1), rush).shown;
     return script;
 }
 

@@ -96,10 +96,6 @@ PoseFrame teleported(std::uint32_t number, std::uint32_t since) {
     return frame;
 }
 
-bool cuts(const CameraFrame& frame) {
-    return (frame.cameras.at(0).flags & camera::cut) != 0;
-}
-
 TEST(LostFrames, ATeleportCutsAtTheNextFrame) {
     Stage stage;
     stage.start();

@@ -10,6 +10,7 @@
 #include "direction/programme.hpp"
 #include "stage.hpp"
 #include "support/freespace_meshes.hpp"
+#include "support/mover_twins.hpp"
 
 namespace camdir::director {
 namespace {
@@ -58,7 +59,9 @@ struct Cut {
 
 class EditTest : public testing::TestWithParam<double> {
   protected:
-    [[nodiscard]] Edit::Setting setting(double delay_s) const { return {space_, rules_, 256, delay_s, 20.0}; }
+    [[nodiscard]] Edit::Setting setting(double delay_s) const {
+        return {{space_, &movers_}, rules_, 256, delay_s, 20.0};
+    }
     [[nodiscard]] static double unit() {
         return 0.0254 / static_cast<double>(Stage::square().metadata().metres_per_unit);
     }
@@ -153,6 +156,7 @@ class EditTest : public testing::TestWithParam<double> {
     }
 
     freespace::Freespace space_ = Stage::square();
+    freespace::Movers movers_;
     direction::Rules rules_ = direction::default_rules();
 };
 
@@ -172,8 +176,28 @@ TEST_P(EditTest, ShowsTheProgrammeOfThePureEditor) {
 
 TEST_P(EditTest, FollowsPlayersAloneWhereSetSo) {
     rules_.grammar.fixed_shots = false;
-    for (const Cut& cut : shown(random_match(1), GetParam(), 1))
+    const auto cuts = shown(random_match(2), GetParam(), 1);
+    EXPECT_GT(cuts.size(), 1U);
+    for (const Cut& cut : cuts)
         EXPECT_NE(cut.player, no_player);
+}
+
+// The only fixed shot of the map: none begins beside a mover, nor one whose player a mover hides.
+TEST_F(EditTest, ShowsNoFixedShotThatAMoverIsInTheWayOf) {
+    const freespace::FixedShot& shot = space_.fixed_shots()[0];
+    const Quatf yaw(Eigen::AngleAxisf(shot.yaw, Vec3f::UnitZ()));
+    const auto fixed_cuts = [&](const Vec3f& min, const Vec3f& max) {
+        freespace::MoverShape plate;
+        plate.hulls = {test::box_hull(min, max)};
+        movers_ = *freespace::Movers::of(std::vector{plate});
+        movers_.add(0.0, std::vector<freespace::MoverPose>{{0, shot.position, yaw}});
+        const auto cuts = shown(random_match(1), 5.0, 1);
+        return std::ranges::count(cuts, no_player, &Cut::player);
+    };
+    const auto unit = static_cast<float>(EditTest::unit());
+    EXPECT_GT(fixed_cuts({-20.0F * unit, -1.0F, -1.0F}, {-10.0F * unit, 1.0F, 1.0F}), 0) << "behind it";
+    EXPECT_EQ(fixed_cuts({-20.0F * unit, -1.0F, -1.0F}, {-7.0F * unit, 1.0F, 1.0F}), 0) << "near behind it";
+    EXPECT_EQ(fixed_cuts({9.0F * unit, -40.0F, -40.0F}, {10.0F * unit, 40.0F, 40.0F}), 0) << "before it";
 }
 
 TEST_P(EditTest, WhatLiesBeyondTheDelayChangesNothing) {

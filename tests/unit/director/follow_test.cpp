@@ -150,6 +150,22 @@ TEST_F(FollowAutomatic, NewsThatComesAFrameLateCountsToo) {
     EXPECT_LT(distance(leader_, standby_), 10.0F);
 }
 
+// Of a leader with another bake, or where fixed cameras are switched on alone.
+TEST_F(FollowAutomatic, AFixedCameraThatIsNotThereChangesNothing) {
+    for (std::uint32_t number = joins; number < joins + 40; ++number) {
+        standby_.send(Stage::poses(number));
+        alone_.send(Stage::poses(number));
+        CameraFrame news = standby_.publisher.frames().back();
+        news.cameras.at(0).target = no_player;
+        news.cameras.at(0).flags = 0;
+        news.cameras.at(0).position += Vec3f(10.0F, 0.0F, 0.0F);
+        standby_.director.follow("m", news);
+        standby_.director.flush();
+        EXPECT_EQ(camera(standby_).target, camera(alone_).target);
+        EXPECT_EQ(distance(standby_, alone_), 0.0F);
+    }
+}
+
 TEST_F(FollowTest, AFixedCameraIsTheLeaders) {
     wanted_ = Stage::request("a", no_player);
     leader_.ask(wanted_);

@@ -21,10 +21,6 @@ MatchInfo on_map(const std::string& map_name, std::uint64_t epoch = 1) {
     return info;
 }
 
-bool cuts(const CameraFrame& frame) {
-    return (frame.cameras.at(0).flags & camera::cut) != 0;
-}
-
 TEST(MatchLife, ARequestWaitsForAnUnknownMap) {
     Stage stage;
     stage.start(on_map("nowhere"));

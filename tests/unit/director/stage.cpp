@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "camera/camera.hpp"
 #include "support/freespace_meshes.hpp"
 
 namespace camdir::director {
@@ -150,6 +151,10 @@ void Stage::ask(const ObserverRequest& wanted) {
 void Stage::send(const PoseFrame& frame, const std::string& match_id) {
     receive(director, match_id, frame);
     director.flush();
+}
+
+bool cuts(const CameraFrame& frame) {
+    return (frame.cameras.at(0).flags & camera::cut) != 0;
 }
 
 }  // namespace camdir::director

@@ -72,4 +72,7 @@ struct Stage {
     Director director;
 };
 
+// The first camera cuts.
+[[nodiscard]] bool cuts(const CameraFrame& frame);
+
 }  // namespace camdir::director

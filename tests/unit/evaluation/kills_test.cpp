@@ -24,7 +24,7 @@ Trace players_4_and_9() {
     return trace;
 }
 
-Result<std::vector<Kill>> parse(std::string_view text) {
+Result<std::vector<Kill>> kills_in(std::string_view text) {
     return parse_kills(std::as_bytes(std::span(text)), "events.csv", players_4_and_9());
 }
 
@@ -37,7 +37,7 @@ TEST(Kills, AreReadFromBothKindsOfTables) {
                              "100,item,9,,rl\r\n"
                              "1256.5,kill,4,9,rl\r\n"
                              "3000,kill,9,4,sg"}) {
-        const auto kills = parse(text);
+        const auto kills = kills_in(text);
         ASSERT_TRUE(kills) << kills.error().message;
         ASSERT_EQ(kills->size(), 2U);
         EXPECT_EQ((*kills)[0].time, 1'256'500'000);
@@ -49,7 +49,7 @@ TEST(Kills, AreReadFromBothKindsOfTables) {
 
 TEST(Kills, OfNobodyAndOfOneselfAreLeftOut) {
     const auto kills =
-        parse("t_ms,event,player,other\n1,kill,,4\n2,kill,4,\n3,kill,,\n4,kill,9,9\n5,kill,1022,4\n");
+        kills_in("t_ms,event,player,other\n1,kill,,4\n2,kill,4,\n3,kill,,\n4,kill,9,9\n5,kill,1022,4\n");
     ASSERT_TRUE(kills) << kills.error().message;
     EXPECT_TRUE(kills->empty());
 }
@@ -74,7 +74,7 @@ TEST(Kills, AreTheMatchsOwnWhereNoFileIsNamed) {
 
 TEST(Kills, ErrorsNameTheLineAndTheReason) {
     const auto error_of = [](const std::string& text) {
-        const auto kills = parse(text);
+        const auto kills = kills_in(text);
         return kills ? "no error" : kills.error().message;
     };
     const std::string header = "t_ms,event,player,other\n";

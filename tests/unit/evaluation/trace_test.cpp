@@ -20,17 +20,17 @@ using testing::HasSubstr;
 constexpr const char* header =
     "t_ms,player,x,y,z,pitch,yaw,roll,vx,vy,vz,viewheight,health,team,teleport_bit,alive\n";
 
-Result<Trace> parse(const std::string& text) {
+Result<Trace> trace_in(const std::string& text) {
     return parse_trace(std::as_bytes(std::span(text)), "match.csv");
 }
 
 std::string error_of(const std::string& text) {
-    const auto trace = parse(text);
+    const auto trace = trace_in(text);
     return trace ? "no error" : trace.error().message;
 }
 
 TEST(Trace, ReadsAPose) {
-    const auto trace = parse(std::string(header) + "8,3,1.5,-2,10,30,-270,0,4,5,6,26,99,2,1,1\n");
+    const auto trace = trace_in(std::string(header) + "8,3,1.5,-2,10,30,-270,0,4,5,6,26,99,2,1,1\n");
     ASSERT_TRUE(trace) << trace.error().message;
     ASSERT_EQ(trace->poses.size(), 1U);
     const TracePose& pose = trace->poses[0];
@@ -66,7 +66,7 @@ TEST(Trace, OrientationMatchesQuakesAngleVectors) {
 }
 
 TEST(Trace, FindsColumnsByName) {
-    const auto trace = parse(
+    const auto trace = trace_in(
         "alive,extra,teleport_bit,team,viewheight,vz,vy,vx,roll,yaw,pitch,z,y,x,player,t_ms\r\n"
         "1,7,0,0,26,0,0,0,0,0,0,3,2,1,5,16.5\r\n");
     ASSERT_TRUE(trace) << trace.error().message;
@@ -76,10 +76,10 @@ TEST(Trace, FindsColumnsByName) {
 }
 
 TEST(Trace, GroupsFramesAndOrdersPlayers) {
-    const auto trace = parse(std::string(header) +
-                             "8,2,0,0,0,0,0,0,0,0,0,26,1,0,0,1\n"
-                             "8,1,0,0,0,0,0,0,0,0,0,26,1,0,0,1\n"
-                             "24,1,0,0,0,0,0,0,0,0,0,26,1,0,0,1");
+    const auto trace = trace_in(std::string(header) +
+                                "8,2,0,0,0,0,0,0,0,0,0,26,1,0,0,1\n"
+                                "8,1,0,0,0,0,0,0,0,0,0,26,1,0,0,1\n"
+                                "24,1,0,0,0,0,0,0,0,0,0,26,1,0,0,1");
     ASSERT_TRUE(trace) << trace.error().message;
     EXPECT_THAT(trace->players, ElementsAre(1, 2));
     ASSERT_EQ(trace->frames.size(), 2U);
@@ -98,7 +98,7 @@ TEST(Trace, MarksDiscontinuities) {
         line.replace(line.find('%'), 1, "0,0,0,0,0,0,0,0,0,26,1,0");
         text += line + "\n";
     }
-    const auto trace = parse(text);
+    const auto trace = trace_in(text);
     ASSERT_TRUE(trace) << trace.error().message;
     std::vector<bool> marks;
     for (const TracePose& pose : trace->poses)
@@ -132,7 +132,7 @@ TEST(Trace, ErrorsNameLineColumnAndExpectation) {
 TEST(Trace, ReadsGzipWithSeveralMembers) {
     const std::string first = header;
     const std::string second = "8,0,0,0,0,0,0,0,0,0,0,26,1,0,0,1\n16,0,0,0,0,0,0,0,0,0,0,26,1,0,0,1\n";
-    const auto trace = parse(gzip(first) + gzip(second));
+    const auto trace = trace_in(gzip(first) + gzip(second));
     ASSERT_TRUE(trace) << trace.error().message;
     EXPECT_EQ(trace->frames.size(), 2U);
 }
@@ -142,12 +142,12 @@ TEST(Trace, RefusesDamagedGzip) {
     for (int i = 0; i < 2000; ++i)
         text += std::to_string(8 * i) + ",0,0,0,0,0,0,0,0,0,0,26,1,0,0,1\n";
     const std::string packed = gzip(text);
-    ASSERT_TRUE(parse(packed));
+    ASSERT_TRUE(trace_in(packed));
     EXPECT_THAT(error_of(packed.substr(0, packed.size() / 2)), HasSubstr("end too early"));
     std::string damaged = packed;
     for (std::size_t i = 40; i < 60; ++i)
         damaged[i] = '\x55';
-    EXPECT_FALSE(parse(damaged));
+    EXPECT_FALSE(trace_in(damaged));
 }
 
 TEST(Trace, RefusesTextThatExpandsTooFar) {
@@ -177,7 +177,7 @@ TEST(Trace, RandomDamageNeverBreaksInvariants) {
         std::string broken = text;
         for (int i = 0; i < 2; ++i)
             broken[random() % broken.size()] = static_cast<char>("0123456789,\n.-e"[random() % 15]);
-        const auto trace = parse(broken);
+        const auto trace = trace_in(broken);
         if (!trace) continue;
         ++accepted;
         std::uint32_t next = 0;

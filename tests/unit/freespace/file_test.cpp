@@ -219,11 +219,11 @@ TEST(File, ErrorsSayWhatIsWrong) {
     EXPECT_THAT(error_of(Bytes(1'000, std::byte{'x'})), HasSubstr("is not a baked map"));
     const Bytes good = encode(square_contents());
     Bytes newer = good;
-    newer[position_of(good, std::uint64_t{good.size()}) - 8] = std::byte{4};
-    EXPECT_THAT(error_of(newer), HasSubstr("was written by a newer version: format 4, this program reads 3"));
+    newer[position_of(good, std::uint64_t{good.size()}) - 8] = std::byte{5};
+    EXPECT_THAT(error_of(newer), HasSubstr("was written by a newer version: format 5, this program reads 4"));
     Bytes older = good;
-    older[position_of(good, std::uint64_t{good.size()}) - 8] = std::byte{2};
-    EXPECT_THAT(error_of(older), HasSubstr("was written by an older version: format 2, this program reads 3; "
+    older[position_of(good, std::uint64_t{good.size()}) - 8] = std::byte{3};
+    EXPECT_THAT(error_of(older), HasSubstr("was written by an older version: format 3, this program reads 4; "
                                            "bake the map again"));
     Bytes damaged = good;
     damaged.back() ^= std::byte{1};

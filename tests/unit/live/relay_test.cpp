@@ -127,14 +127,16 @@ TEST(Relay, NamesTheMomentForWhichAnAutomaticShotWasCut) {
         cameras.reasons = {{cameras.cameras.at(0).camera_id, {1, 2, "duel"}}};
         relay.show("cup", poses_of({1, 2}, number, pose_flags), cameras);
     };
-    show(1, 1, 1);  // begins
-    show(2, 2, 1);  // another player
-    show(3, 2, 3);  // respawned: told again, but not why it cuts
+    show(1, 1, 1);                    // begins
+    show(2, 2, 1);                    // another player
+    show(3, 2, 3);                    // respawned: told again, but not why it cuts
+    show(4, director::no_player, 1);  // a fixed camera, then another one
+    show(5, director::no_player, 1);
     std::vector<json> moments;
     for (const json& note : take_all(*watcher))
         if (note.is_object() && note["kind"] == "cut") moments.push_back(note.value("moment", json()));
     const json duel = {{"rule", "duel"}, {"actor", 0}, {"subject", 1}};
-    EXPECT_EQ(moments, (std::vector<json>{duel, duel, json()}));
+    EXPECT_EQ(moments, (std::vector<json>{duel, duel, json(), duel, duel}));
 }
 
 TEST(Relay, KeepsThePlayersSlots) {

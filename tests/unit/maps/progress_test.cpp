@@ -42,7 +42,7 @@ scene::Scene room_cloud(int spacing) {
                 if (x == 0 || x == 256 || y == 0 || y == 192 || z == 0 || z == 128)
                     cloud.points.emplace_back(x, y, z);
     cloud.point_spacing = 1.25 * spacing;  // to the nearest 8
-    cloud.metres_per_unit = scene::metres_of_nominal_unit;
+    cloud.metres_per_unit = metres_of_nominal_unit;
     cloud.bounds = Box3d(Vec3d::Zero(), Vec3d(256.0, 192.0, 128.0));
     cloud.spawn_points.push_back({Vec3d(128.0, 96.0, 64.0), 0.0F, "test"});
     return cloud;

@@ -1,6 +1,7 @@
 import assert from 'node:assert/strict';
 import {test} from 'node:test';
-import {reasonText} from '../../../server/page/timeline_view.js';
+import {cameraFlag} from '../../../server/page/protocol.js';
+import {modeOf, reasonText} from '../../../server/page/timeline_view.js';
 
 const names = ['Ann', 'Bob'];
 const nameOf = slot => names[slot];
@@ -15,4 +16,11 @@ test('a cut of an automatic shot says which moment it shows, and of whom', () =>
     assert.equal(reasonText(cut(0, 1), nameOf), 'duel, Ann and Bob');
     assert.equal(reasonText(cut(1, null), nameOf), 'duel, Bob');
     assert.equal(reasonText(cut(null, null), nameOf), 'duel');
+});
+
+test('a shot of nobody is a fixed camera, unless its player is absent', () => {
+    assert.equal(modeOf({target: null, flags: 0}), 'fixed');
+    assert.equal(modeOf({target: null, flags: cameraFlag.absent}), 'absent');
+    assert.equal(modeOf({target: 3, flags: 0}), 'hidden');
+    assert.equal(modeOf({target: 3, flags: cameraFlag.visible}), 'visible');
 });

@@ -22,8 +22,8 @@ using test::QuakeMap;
 using test::skipped_counts;
 using test::surface_of;
 
-const Box3d hall(Vec3d(-256.0, -192.0, 0.0), Vec3d(256.0, 192.0, 256.0));
-const Box3d crate(Vec3d(10.0, 10.0, 10.0), Vec3d(74.0, 74.0, 74.0));
+const Box3d wide_hall(Vec3d(-256.0, -192.0, 0.0), Vec3d(256.0, 192.0, 256.0));
+const Box3d iron_crate(Vec3d(10.0, 10.0, 10.0), Vec3d(74.0, 74.0, 74.0));
 const Vec3d crate_top(42.0, 42.0, 74.0);
 
 class QuakeScene : public testing::TestWithParam<std::int32_t> {
@@ -31,7 +31,7 @@ class QuakeScene : public testing::TestWithParam<std::int32_t> {
     [[nodiscard]] static QuakeMap room() {
         QuakeMap map;
         map.version = GetParam();
-        map.room = hall;
+        map.room = wide_hall;
         return map;
     }
 };
@@ -41,7 +41,7 @@ INSTANTIATE_TEST_SUITE_P(Versions, QuakeScene, testing::Values(quake::version_qu
 
 TEST_P(QuakeScene, RoomIsItsInnerSurface) {
     const Scene scene = test::scene_of(room());
-    EXPECT_NEAR(area_of(scene), surface_of(hall), 1e-6);
+    EXPECT_NEAR(area_of(scene), surface_of(wide_hall), 1e-6);
     EXPECT_EQ(scene.vertices.size(), 8U) << "welded";
     EXPECT_EQ(scene.triangles.size(), 12U);
     EXPECT_DOUBLE_EQ(scene.metres_per_unit, 0.0254);
@@ -58,14 +58,14 @@ TEST_P(QuakeScene, SolidAndSkyAreObstaclesAndLiquidsAreNot) {
                              Kind{"!water", -3, false}, Kind{"*lava", -5, false}}) {
         SCOPED_TRACE(kind.texture);
         QuakeMap map = room();
-        map.boxes = {{crate, kind.texture, kind.contents}};
+        map.boxes = {{iron_crate, kind.texture, kind.contents}};
         const Scene scene = test::scene_of(map);
         EXPECT_EQ(has_surface_at(scene, crate_top), kind.is_obstacle);
-        EXPECT_EQ(depth_in_solid(scene, crate.center()) >= 0.0, kind.is_obstacle);
+        EXPECT_EQ(depth_in_solid(scene, iron_crate.center()) >= 0.0, kind.is_obstacle);
         if (kind.is_obstacle) continue;
         const std::string name = std::string("liquid: ") + kind.texture;
         EXPECT_EQ(skipped_counts(scene)[name], 6U);
-        EXPECT_NEAR(test::skipped_areas(scene)[name], surface_of(crate), 1e-3);
+        EXPECT_NEAR(test::skipped_areas(scene)[name], surface_of(iron_crate), 1e-3);
     }
 }
 
@@ -75,13 +75,13 @@ TEST_P(QuakeScene, StaticEntitiesAreTakenWhereTheyStand) {
                              "func_recharge", "func_button", "func_rot_button", "func_pushable"}) {
         SCOPED_TRACE(name);
         QuakeMap map = room();
-        map.entities = {{name, origin, {{crate}}}};
+        map.entities = {{name, origin, {{iron_crate}}}};
         const Scene scene = test::scene_of(map);
         EXPECT_TRUE(has_surface_at(scene, crate_top + origin));
         EXPECT_FALSE(has_surface_at(scene, crate_top));
-        EXPECT_GE(depth_in_solid(scene, crate.center() + origin), 0.0);
-        EXPECT_LT(depth_in_solid(scene, crate.center()), 0.0);
-        EXPECT_NEAR(area_of(scene), surface_of(hall) + surface_of(crate), 1e-6);
+        EXPECT_GE(depth_in_solid(scene, iron_crate.center() + origin), 0.0);
+        EXPECT_LT(depth_in_solid(scene, iron_crate.center()), 0.0);
+        EXPECT_NEAR(area_of(scene), surface_of(wide_hall) + surface_of(iron_crate), 1e-6);
     }
 }
 
@@ -89,10 +89,10 @@ TEST_P(QuakeScene, OtherEntitiesAreSkippedByClass) {
     QuakeMap map = room();
     for (const char* name : {"func_door", "func_rotating", "func_wall_toggle", "func_illusionary",
                              "func_detail_illusionary", "trigger_once", "func_of_a_mod"})
-        map.entities.push_back({name, Vec3d::Zero(), {{crate}}});
+        map.entities.push_back({name, Vec3d::Zero(), {{iron_crate}}});
     const Scene scene = test::scene_of(map);
-    EXPECT_NEAR(area_of(scene), surface_of(hall), 1e-6);
-    EXPECT_LT(depth_in_solid(scene, crate.center()), 0.0);
+    EXPECT_NEAR(area_of(scene), surface_of(wide_hall), 1e-6);
+    EXPECT_LT(depth_in_solid(scene, iron_crate.center()), 0.0);
     EXPECT_THAT(skipped_counts(scene),
                 testing::UnorderedElementsAre(testing::Pair("kept as a mover: func_door", 6),
                                               testing::Pair("kept as a mover: func_rotating", 6),
@@ -101,15 +101,15 @@ TEST_P(QuakeScene, OtherEntitiesAreSkippedByClass) {
                                               testing::Pair("no obstacle: func_detail_illusionary", 6),
                                               testing::Pair("no obstacle: trigger_once", 6),
                                               testing::Pair("unknown class: func_of_a_mod", 6)));
-    EXPECT_NEAR(test::skipped_areas(scene)["kept as a mover: func_door"], surface_of(crate), 1e-3);
+    EXPECT_NEAR(test::skipped_areas(scene)["kept as a mover: func_door"], surface_of(iron_crate), 1e-3);
 }
 
 TEST_P(QuakeScene, MoversAreTheirSolidLeavesInTheirOwnFrame) {
     const Vec3d origin(64.0, -32.0, 100.0);
     const Box3d shelf(Vec3d(-64.0, 0.0, 0.0), Vec3d(-32.0, 32.0, 8.0));
     QuakeMap map = room();
-    map.entities = {{"func_door", origin, {{crate}, {shelf}}},
-                    {"func_wall", Vec3d(150.0, 0.0, 0.0), {{crate}}}};
+    map.entities = {{"func_door", origin, {{iron_crate}, {shelf}}},
+                    {"func_wall", Vec3d(150.0, 0.0, 0.0), {{iron_crate}}}};
     const Scene scene = test::scene_of(map);
     ASSERT_EQ(scene.movers.size(), 1U);
     const Mover& door = scene.movers[0];
@@ -123,19 +123,19 @@ TEST_P(QuakeScene, MoversAreTheirSolidLeavesInTheirOwnFrame) {
                                [&](const Plane& plane) { return plane.normal.dot(point) <= plane.distance; });
         });
     };
-    for (const Box3d& box : {crate, shelf}) {
+    for (const Box3d& box : {iron_crate, shelf}) {
         EXPECT_TRUE(is_solid_at(box.center()));
         EXPECT_TRUE(is_solid_at(box.min() + Vec3d::Constant(0.1)));
         EXPECT_TRUE(is_solid_at(box.max() - Vec3d::Constant(0.1)));
         EXPECT_FALSE(is_solid_at(box.max() + Vec3d::Constant(0.1)));
     }
-    EXPECT_FALSE(is_solid_at((crate.center() + shelf.center()) / 2.0));
+    EXPECT_FALSE(is_solid_at((iron_crate.center() + shelf.center()) / 2.0));
 }
 
 TEST_P(QuakeScene, MoversWithoutASolidPartAreSkippedByClass) {
     QuakeMap map = room();
-    map.entities = {{"func_door", Vec3d::Zero(), {{crate, "trigger"}}},
-                    {"func_plat", Vec3d::Zero(), {{crate, "!water", quake::Contents(-3)}}}};
+    map.entities = {{"func_door", Vec3d::Zero(), {{iron_crate, "trigger"}}},
+                    {"func_plat", Vec3d::Zero(), {{iron_crate, "!water", quake::Contents(-3)}}}};
     const Scene scene = test::scene_of(map);
     EXPECT_TRUE(scene.movers.empty());
     EXPECT_EQ(skipped_counts(scene)["mover without a solid part: func_door"], 6U);
@@ -144,9 +144,9 @@ TEST_P(QuakeScene, MoversWithoutASolidPartAreSkippedByClass) {
 
 TEST_P(QuakeScene, ClassNamesFromTheFileAreReportedAsShortText) {
     QuakeMap map = room();
-    map.entities = {{"func_\xff", Vec3d::Zero(), {{crate}}},
-                    {std::string(1000, 'x'), Vec3d::Zero(), {{crate}}},
-                    {"", Vec3d::Zero(), {{crate}}}};
+    map.entities = {{"func_\xff", Vec3d::Zero(), {{iron_crate}}},
+                    {std::string(1000, 'x'), Vec3d::Zero(), {{iron_crate}}},
+                    {"", Vec3d::Zero(), {{iron_crate}}}};
     EXPECT_THAT(skipped_counts(test::scene_of(map)),
                 testing::UnorderedElementsAre(testing::Pair("unknown class: func_?", 6),
                                               testing::Pair("unknown class: " + std::string(64, 'x'), 6),
@@ -157,11 +157,11 @@ TEST_P(QuakeScene, ToolTexturesAreSkipped) {
     for (const char* texture : {"clip", "CLIPBevel", "AAATRIGGER", "null", "Skip", "hint", "origin"}) {
         SCOPED_TRACE(texture);
         QuakeMap map = room();
-        map.boxes = {{crate, texture, quake::empty}};
-        map.entities = {{"func_wall", Vec3d(-150.0, 0.0, 0.0), {{crate, texture}}}};
+        map.boxes = {{iron_crate, texture, quake::empty}};
+        map.entities = {{"func_wall", Vec3d(-150.0, 0.0, 0.0), {{iron_crate, texture}}}};
         const Scene scene = test::scene_of(map);
-        EXPECT_NEAR(area_of(scene), surface_of(hall), 1e-6);
-        EXPECT_LT(depth_in_solid(scene, crate.center() - Vec3d(150.0, 0.0, 0.0)), 0.0);
+        EXPECT_NEAR(area_of(scene), surface_of(wide_hall), 1e-6);
+        EXPECT_LT(depth_in_solid(scene, iron_crate.center() - Vec3d(150.0, 0.0, 0.0)), 0.0);
         EXPECT_EQ(skipped_counts(scene)[std::string("tool texture: ") + texture], 12U);
     }
 }
@@ -169,32 +169,32 @@ TEST_P(QuakeScene, ToolTexturesAreSkipped) {
 TEST_P(QuakeScene, ToolTexturesThatCloseRockStay) {
     QuakeMap map = room();
     map.wall_texture = "NULL";
-    map.boxes = {{crate, "skip", quake::solid}};
+    map.boxes = {{iron_crate, "skip", quake::solid}};
     const Scene scene = test::scene_of(map);
-    EXPECT_NEAR(area_of(scene), surface_of(hall) + surface_of(crate), 1e-6);
+    EXPECT_NEAR(area_of(scene), surface_of(wide_hall) + surface_of(iron_crate), 1e-6);
     EXPECT_TRUE(scene.skipped.empty());
 }
 
 TEST_P(QuakeScene, SurfacesAreClosedWhateverFacesTheCompilerKept) {
     QuakeMap map = room();
-    map.boxes = {{crate}, {crate.translated(Vec3d(100.0, 0.0, 64.0)), "sky", quake::sky}};
-    map.entities = {{"func_wall", Vec3d(-150.0, 0.0, 0.0), {{crate}}}};
+    map.boxes = {{iron_crate}, {iron_crate.translated(Vec3d(100.0, 0.0, 64.0)), "sky", quake::sky}};
+    map.entities = {{"func_wall", Vec3d(-150.0, 0.0, 0.0), {{iron_crate}}}};
     quake::Bsp bsp = test::bsp_of(map);
     // One face stays: an entity without any is no obstacle.
     bsp.models[0].face_count = 0;
     bsp.models[1].face_count = 1;
     const Result<Scene> scene = read_quake_scene(test::encode(bsp));
     ASSERT_TRUE(scene.has_value()) << scene.error().message;
-    EXPECT_NEAR(area_of(*scene), surface_of(hall) + 3.0 * surface_of(crate), 1e-6);
+    EXPECT_NEAR(area_of(*scene), surface_of(wide_hall) + 3.0 * surface_of(iron_crate), 1e-6);
     EXPECT_TRUE(has_surface_at(*scene, crate_top - Vec3d(150.0, 0.0, 0.0)));
 }
 
 TEST_P(QuakeScene, FacesWithoutRockBehindThemAreSurfaces) {
     QuakeMap map = room();
-    map.boxes = {{crate, "stone", quake::empty}};
+    map.boxes = {{iron_crate, "stone", quake::empty}};
     const Scene scene = test::scene_of(map);
-    EXPECT_NEAR(area_of(scene), surface_of(hall) + surface_of(crate), 1e-6);
-    EXPECT_LT(depth_in_solid(scene, crate.center()), 0.0);
+    EXPECT_NEAR(area_of(scene), surface_of(wide_hall) + surface_of(iron_crate), 1e-6);
+    EXPECT_LT(depth_in_solid(scene, iron_crate.center()), 0.0);
 }
 
 TEST_P(QuakeScene, SpawnPointsStandAtEyeHeight) {
@@ -230,16 +230,16 @@ TEST_P(QuakeScene, VolumesAreTheRockAndNothingElse) {
             map.boxes.push_back({Box3d(box.min().array().floor(), box.max().array().ceil())});
         }
         const Scene scene = test::scene_of(map);
-        double surface = surface_of(hall);
+        double surface = surface_of(wide_hall);
         for (const test::QuakeBox& box : map.boxes)
             surface += surface_of(box.box);
         EXPECT_NEAR(area_of(scene), surface, 1e-3);
-        const Box3d around(hall.min() - Vec3d::Constant(15.0), hall.max() + Vec3d::Constant(15.0));
+        const Box3d around(wide_hall.min() - Vec3d::Constant(15.0), wide_hall.max() + Vec3d::Constant(15.0));
         for (int i = 0; i < 2000; ++i) {
             const Vec3d point = test::random_point_in(random, around);
-            const bool in_rock =
-                !hall.contains(point) || std::any_of(map.boxes.begin(), map.boxes.end(),
-                                                     [&](const auto& b) { return b.box.contains(point); });
+            const bool in_rock = !wide_hall.contains(point) ||
+                                 std::any_of(map.boxes.begin(), map.boxes.end(),
+                                             [&](const auto& b) { return b.box.contains(point); });
             ASSERT_EQ(depth_in_solid(scene, point) >= 0.0, in_rock) << point.transpose();
         }
     }
