@@ -160,7 +160,7 @@ std::string reference() {
     for (const Section& section : sections()) {
         const bool list =
             section.pointer == "/maps" || section.pointer == "/profiles" || section.pointer == "/moments";
-        page += "### `" + section.pointer.substr(1) + "`\n\n" + section.help + "\n\n";
+        page += "## `" + section.pointer.substr(1) + "`\n\n" + section.help + "\n\n";
         std::string rows;
         for (const Key& key : keys())
             if (key.section == section.pointer + (list ? "/*" : "")) rows += row(key);

@@ -4,7 +4,7 @@
 namespace camdir::service {
 
 // One arena for all threads: each would have gaps of its own between what Cyclone DDS keeps
-// (server/README.md, Memory over months). To be called before the first other thread begins. Its lock is
+// (README.md, Memory over months). To be called before the first other thread begins. Its lock is
 // rarely waited for: small blocks come from each thread's own cache.
 void keep_heap_compact();
 // Gives back what is free now.

@@ -1,13 +1,11 @@
 #include "game_server.hpp"
 
-#include <netinet/in.h>
 #include <sys/socket.h>
-#include <unistd.h>
 
 #include <fstream>
-#include <stdexcept>
 
 #include "support/eventually.hpp"
+#include "support/free_port.hpp"
 #include "support/shared_files.hpp"
 
 namespace camdir::test {
@@ -15,20 +13,6 @@ namespace {
 
 const std::filesystem::path server_program = "/usr/games/mvdsv";
 const std::filesystem::path mod_folder = "/usr/share/games/quake/ktx";
-
-// Free for TCP or UDP (type) now.
-int free_port(int type) {
-    const int socket = ::socket(AF_INET, type | SOCK_CLOEXEC, 0);
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t size = sizeof address;
-    const bool bound = ::bind(socket, reinterpret_cast<sockaddr*>(&address), size) == 0 &&
-                       ::getsockname(socket, reinterpret_cast<sockaddr*>(&address), &size) == 0;
-    ::close(socket);
-    if (!bound) throw std::runtime_error("no free port");
-    return ntohs(address.sin_port);
-}
 
 std::string map_name() {
     return std::string("maps/") + bot_map + ".bsp";

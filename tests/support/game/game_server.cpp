@@ -1,32 +1,17 @@
 #include "support/game/game_server.hpp"
 
-#include <arpa/inet.h>
-#include <netinet/in.h>
 #include <sys/socket.h>
-#include <unistd.h>
 
 #include <array>
 #include <fstream>
-#include <stdexcept>
+
+#include "support/free_port.hpp"
 
 namespace camdir::test {
 namespace {
 
 constexpr std::array bot_names = {"penguin", "sarge", "gargoyle", "sergei",
                                   "kyonshi", "tony",  "angelyss", "rai"};
-
-int free_udp_port() {
-    const int socket = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t size = sizeof address;
-    const bool bound = ::bind(socket, reinterpret_cast<sockaddr*>(&address), size) == 0 &&
-                       ::getsockname(socket, reinterpret_cast<sockaddr*>(&address), &size) == 0;
-    ::close(socket);
-    if (!bound) throw std::runtime_error("no free UDP port");
-    return ntohs(address.sin_port);
-}
 
 std::string line_to_add(int bot) {
     return std::string("addbot ") + bot_names.at(static_cast<std::size_t>(bot)) + " " +
@@ -49,7 +34,9 @@ std::filesystem::path plain_module() {
 }
 
 GameServer::GameServer(const GameServerOptions& options)
-    : port_(free_udp_port()), outer_(home_ / "baseoa/qagamex86_64.so.log"), inner_(home_ / "inner.so.log") {
+    : port_(free_port(SOCK_DGRAM)),
+      outer_(home_ / "baseoa/qagamex86_64.so.log"),
+      inner_(home_ / "inner.so.log") {
     std::filesystem::create_directories(home_ / "baseoa");
     place_witness(home_ / "baseoa/qagamex86_64.so", options.module);
     std::ofstream config(home_ / "baseoa/test.cfg");

@@ -43,8 +43,8 @@ TEST(Reference, HasARowForEveryKey) {
         EXPECT_THAT(page, testing::HasSubstr("| `" + key.name + "` | ")) << key.name;
 }
 
-TEST(Reference, IsInTheServersReadme) {
-    const Bytes readme = read_file(CAMERA_DIRECTOR_SERVER_README).value();
+TEST(Reference, IsInTheReadme) {
+    const Bytes readme = read_file(CAMERA_DIRECTOR_REFERENCE).value();
     const std::string text(reinterpret_cast<const char*>(readme.data()), readme.size());
     std::string page = reference();
     page.pop_back();  // the empty line after the last table
