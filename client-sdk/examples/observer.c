@@ -28,12 +28,12 @@ static void report_target(cdir_observer observer, const cdir_camera* camera, uin
     static cdir_player players[CDIR_MAX_PLAYERS];
     cdir_match_info info = cdir_match_info_default();
     uint32_t count = 0;
-    if (camera->target == *last_target) return;
+    if (camera->target == *last_target && (camera->flags & CDIR_CAMERA_CUT) == 0) return;
     players[0] = cdir_player_default();
     const cdir_status status = cdir_observer_match_info(observer, &info, players, CDIR_MAX_PLAYERS, &count);
     check("reading the match", status);
     if (status == CDIR_NO_DATA) return;
-    if (camera->target == CDIR_CHOOSE_TARGET)
+    if (camera->target == CDIR_CHOOSE_TARGET && (camera->flags & CDIR_CAMERA_TARGET_ABSENT) == 0)
         fprintf(stderr, "target: none, a fixed camera%s%s\n", camera->reason[0] ? ": " : "", camera->reason);
     for (uint32_t i = 0; i < count; ++i) {
         if (players[i].id != camera->target) continue;

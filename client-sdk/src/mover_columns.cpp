@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "borrow.hpp"
 #include "checks.hpp"
@@ -23,14 +24,19 @@ bool all_normals(std::span<const float> planes) {
 }  // namespace
 
 MoverColumns::MoverColumns(std::span<const cdir_mover> movers) {
-    for (const cdir_mover& mover : movers)
-        add(mover);
+    for (const cdir_mover& mover : movers) {
+        try {
+            add(mover);
+        } catch (const Failure& failure) {
+            throw Failure{failure.status, "mover " + std::to_string(mover.id) + ": " + failure.text};
+        }
+    }
 }
 
 void MoverColumns::add(const cdir_mover& mover) {
-    require(std::ranges::find(ids_, mover.id) == ids_.end(), "two movers have the same id");
-    (void)checked_string("a mover's model", mover.model, 0, sizeof mover.model - 1);
-    (void)checked_string("a mover's kind", mover.kind, 0, sizeof mover.kind - 1);
+    require(std::ranges::find(ids_, mover.id) == ids_.end(), "an earlier mover has the same id");
+    (void)checked_string("model", mover.model, 0, sizeof mover.model - 1);
+    (void)checked_string("kind", mover.kind, 0, sizeof mover.kind - 1);
     ids_.push_back(mover.id);
     copy_string(models_.emplace_back().text, mover.model);
     copy_string(kinds_.emplace_back().text, mover.kind);
@@ -39,20 +45,19 @@ void MoverColumns::add(const cdir_mover& mover) {
 }
 
 void MoverColumns::add_hulls(const cdir_mover& mover) {
-    require(mover.hull_count <= CDIR_MAX_HULLS, "a mover's hull_count is greater than CDIR_MAX_HULLS");
+    require(mover.hull_count <= CDIR_MAX_HULLS, "hull_count is greater than CDIR_MAX_HULLS");
     hulls_.push_back(mover.hull_count);
     if (mover.hull_count == 0) return;
-    require(mover.hull_sizes != nullptr && mover.half_spaces != nullptr,
-            "a mover's hull_sizes or half_spaces is null");
+    require(mover.hull_sizes != nullptr && mover.half_spaces != nullptr, "hull_sizes or half_spaces is null");
     const float* next = mover.half_spaces;
     for (const std::uint32_t size : std::span(mover.hull_sizes, mover.hull_count)) {
         require(size >= 4 && size <= CDIR_MAX_HALF_SPACES,
-                "one of a mover's hull_sizes is not 4 to CDIR_MAX_HALF_SPACES");
+                "one of hull_sizes is not 4 to CDIR_MAX_HALF_SPACES");
         require(planes_.size() / 4 + size <= CDIR_MAX_SHAPES,
                 "the movers have more half spaces than CDIR_MAX_SHAPES");
         const std::span<const float> planes(next, 4 * std::size_t{size});
-        require(all_finite(planes.data(), planes.size()), "a mover's half space is not finite");
-        require(all_normals(planes), "a normal of a mover's half_spaces is not of length 1");
+        require(all_finite(planes.data(), planes.size()), "a half space is not finite");
+        require(all_normals(planes), "a normal of half_spaces is not of length 1");
         half_spaces_.push_back(size);
         planes_.insert(planes_.end(), planes.begin(), planes.end());
         next += planes.size();
@@ -60,16 +65,16 @@ void MoverColumns::add_hulls(const cdir_mover& mover) {
 }
 
 void MoverColumns::add_balls(const cdir_mover& mover) {
-    require(mover.ball_count <= CDIR_MAX_HULLS, "a mover's ball_count is greater than CDIR_MAX_HULLS");
+    require(mover.ball_count <= CDIR_MAX_HULLS, "ball_count is greater than CDIR_MAX_HULLS");
     balls_.push_back(mover.ball_count);
     if (mover.ball_count == 0) return;
-    require(mover.balls != nullptr, "a mover's balls is null");
+    require(mover.balls != nullptr, "balls is null");
     require(spheres_.size() / 4 + mover.ball_count <= CDIR_MAX_SHAPES,
             "the movers have more balls than CDIR_MAX_SHAPES");
     const std::span<const float> spheres(mover.balls, 4 * std::size_t{mover.ball_count});
-    require(all_finite(spheres.data(), spheres.size()), "a mover's ball is not finite");
+    require(all_finite(spheres.data(), spheres.size()), "a ball is not finite");
     for (std::size_t i = 3; i < spheres.size(); i += 4)
-        require(spheres[i] > 0.0F, "the radius of a mover's ball is not greater than 0");
+        require(spheres[i] > 0.0F, "the radius of a ball is not greater than 0");
     spheres_.insert(spheres_.end(), spheres.begin(), spheres.end());
 }
 

@@ -86,7 +86,7 @@ void print_table(const Freespace& freespace) {
     print_row("bytes", number(freespace.byte_size()));
     print_row("bounds", triple(freespace.bounds().min()) + " .. " + triple(freespace.bounds().max()));
     for (const freespace::SpawnPoint& spawn : freespace.spawn_points())
-        print_row("spawn point", triple(spawn.eye) + ", yaw " + number(spawn.yaw));
+        print_row("spawn point", triple(spawn.eye) + ", yaw " + degrees(spawn.yaw) + " degrees");
     for (const freespace::MoverShape& mover : freespace.movers())
         print_row("mover", mover.name + " " + mover.kind + ", " + number(mover.hulls.size()) + " hulls, " +
                                number(mover.balls.size()) + " balls, at " + triple(mover.rest));

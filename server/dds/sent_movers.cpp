@@ -16,13 +16,16 @@ void SentMovers::admit(const SenderId& sender, const SenderId& owner) {
         if (senders_.size() >= max_senders)
             senders_.erase(
                 std::ranges::find_if(senders_, [&](const Sent& sent) { return sent.sender != owner; }));
-        known = senders_.insert(senders_.end(), Sent{sender, {}, {}, {}, {}, {}});
+        known = senders_.insert(senders_.end(), Sent{sender, {}, {}, {}, {}, {}, {}});
     }
     std::rotate(known, known + 1, senders_.end());
 }
 
-void SentMovers::put(const SenderId& sender, std::shared_ptr<director::MoverInfo> described) {
-    find(sender)->described = std::move(described);
+void SentMovers::put(const SenderId& sender, std::shared_ptr<director::MoverInfo> described,
+                     bool is_counted) {
+    Sent& sent = *find(sender);
+    sent.described = std::move(described);
+    sent.is_counted = is_counted;
 }
 
 void SentMovers::put_bounded(const SenderId& sender, std::shared_ptr<const director::MoverInfo> info) {

@@ -251,7 +251,8 @@ void Subscriber::take_mover_infos(Match& match) {
         auto described = std::make_shared<director::MoverInfo>();
         if (!is_valid(match, Topic::mover_info, sample, *described)) return;
         const SenderId* sender = match.mover_info_senders.find(reader, info.publication_handle);
-        static_cast<void>(keep(match, Topic::mover_info, sender, std::move(described)));
+        const bool is_owners = admit_movers(match, Topic::mover_info, sender);
+        if (sender != nullptr) match.movers.put(*sender, std::move(described), !is_owners);
     });
     ask_for_bounds(match);
     bound_movers();
@@ -290,12 +291,11 @@ bool Subscriber::bound_next(Match& match) {
                                                : SentMovers::Rank::stranger;
     });
     if (!described) return false;
-    const bool is_of_owner = match.ownership.owns(described->sender);  // others' are counted already
     if (const auto error = bound_hulls(*described->info)) {
-        if (is_of_owner) drop(Topic::mover_info, *error, match.id());
+        if (!described->is_counted) drop(Topic::mover_info, *error, match.id());
         return true;
     }
-    if (is_of_owner) ++counters_.of(Topic::mover_info).accepted;
+    if (!described->is_counted) ++counters_.of(Topic::mover_info).accepted;
     match.movers.put_bounded(described->sender, described->info);
     return true;
 }
@@ -307,21 +307,18 @@ void Subscriber::take_mover_frames(Match& match) {
         auto frame = std::make_shared<director::MoverFrame>();
         if (!is_valid(match, Topic::mover_frame, sample, *frame)) return;
         const SenderId* sender = match.mover_frame_senders.find(reader, info.publication_handle);
-        if (keep(match, Topic::mover_frame, sender, std::move(frame)))
-            ++counters_.of(Topic::mover_frame).accepted;
+        if (admit_movers(match, Topic::mover_frame, sender)) ++counters_.of(Topic::mover_frame).accepted;
+        if (sender != nullptr) match.movers.put(*sender, std::move(frame));
     });
 }
 
-template <class Movers>
-bool Subscriber::keep(Match& match, Topic topic, const SenderId* sender, std::shared_ptr<Movers> movers) {
-    if (sender != nullptr) {  // also before it is known whose the match is
+bool Subscriber::admit_movers(Match& match, Topic topic, const SenderId* sender) {
+    if (sender != nullptr)  // also before it is known whose the match is
         match.movers.admit(*sender,
                            match.ownership.has_owner() ? match.ownership.owner().sender : SenderId{});
-        match.movers.put(*sender, std::move(movers));
-    }
-    const bool counts = sender != nullptr && match.ownership.owns(*sender);
-    if (!counts) drop(topic, ValidationError::not_owner, match.id());
-    return counts;
+    const bool is_owners = sender != nullptr && match.ownership.owns(*sender);
+    if (!is_owners) drop(topic, ValidationError::not_owner, match.id());
+    return is_owners;
 }
 
 void Subscriber::hand_on_poses() {

@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <chrono>
+#include <deque>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -131,10 +132,9 @@ class Subscriber {
     void ask_again_for_bounds();
     void bound_movers();
     bool bound_next(Match& match);
-    // Also of who does not own the match, which counts as dropped: then it returns false.
-    template <class Movers>
-    [[nodiscard]] bool keep(Match& match, Topic topic, const SenderId* sender,
-                            std::shared_ptr<Movers> movers);
+    // What comes from the sender is kept. Who does not own the match counts as dropped: then it returns
+    // false.
+    [[nodiscard]] bool admit_movers(Match& match, Topic topic, const SenderId* sender);
     void take_events(Match& match);
     void take_requests(Match& match);
     void request_found(Match& match, WriterHandle writer);

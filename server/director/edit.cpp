@@ -331,12 +331,13 @@ bool Edit::has_fixed(std::span<const std::uint32_t> group) const {
     return group.empty() && material_.footage().beats() != material_.footage().first();
 }
 
-// The material knows no movers: none comes near the camera for as long as a shot lasts at least, and none is
-// between it and whom it would show.
+// The material knows no movers: none comes near the camera for as long as a shot lasts at least, as far as
+// the delay lets it be known, and none is between it and whom it would show.
 bool Edit::may_begin(std::size_t fixed, const Roster& roster, const Setting& setting) const {
     const freespace::Space& now = setting.space;
     if (!now.has_movers()) return true;
-    for (double later = 0.0; later <= setting.rules.grammar.minimum_shot_s; later += threat_every_s)
+    const double ahead = std::min(setting.rules.grammar.minimum_shot_s, setting.delay_s);
+    for (double later = 0.0; later <= ahead; later += threat_every_s)
         if (is_threatened(now.at(now.time() + later), fixed)) return false;
     const direction::Footage& footage = material_.footage();
     const direction::Beat seen = std::clamp(decided_, footage.first(), footage.beats() - 1);

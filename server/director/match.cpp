@@ -236,6 +236,8 @@ void Match::attach_map() {
     freespace_ = entry->freespace;
     map_generation_ = entry->generation;
     obstacles_.set_map(&*freespace_);
+    reported_unknown_.clear();  // another map has others
+    report_unknown_movers();
     scratch_.clear();
     edit_.clear();
     requests_.restart_shots();
@@ -287,7 +289,6 @@ void Match::wait_for_map(std::string reason) {
 
 void Match::detach_map(std::string reason) {
     missing_map_ = std::move(reason);
-    reported_unknown_.clear();  // another map has others
     obstacles_.set_map(nullptr);
     freespace_.reset();
     scratch_.clear();

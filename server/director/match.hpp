@@ -90,7 +90,8 @@ class Match final : public Strand {
     struct Disagreement {
         const ShotCamera &own, &shown;  // at the same pose
     };
-    void follow(const Disagreement& disagreement);
+    // False: the leader shows what this director does not have, and the shot goes on.
+    bool follow(const Disagreement& disagreement);
     [[nodiscard]] std::span<const CameraFrame> own_frames() const;
     [[nodiscard]] const CameraFrame* own_frame(const CameraFrame& shown) const;
     [[nodiscard]] bool has_cut_since(const CameraFrame& shown, std::uint32_t camera_id) const;

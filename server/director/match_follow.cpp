@@ -52,33 +52,32 @@ void Match::follow() {
         const ShotCamera* shown = camera_of(followed_, own.camera_id);
         if (shown == nullptr || agree(own, *shown, freespace_->metadata().metres_per_unit, tolerance))
             continue;
-        follow({own, *shown});
-        agrees = false;
+        if (follow({own, *shown})) agrees = false;
     }
     if (!agrees) own_frame_count_ = 0;  // they are not what the shots go on from
 }
 
 // Where this director is ahead, the leader's camera is taken to have moved since as its own did.
-void Match::follow(const Disagreement& disagreement) {
+bool Match::follow(const Disagreement& disagreement) {
     const auto& [own, shown] = disagreement;
     std::vector<Shot>& shots = requests_.shots();
     const auto shot = std::ranges::find(shots, own.camera_id, &Shot::camera_id);
     const ShotCamera* newest = camera_of(own_frames_[newest_own_], own.camera_id);
-    if (shot == shots.end() || newest == nullptr || has_cut_since(followed_, own.camera_id)) return;
+    if (shot == shots.end() || newest == nullptr || has_cut_since(followed_, own.camera_id)) return true;
     if (shown.target != own.target || shown.target == no_player) {
         const std::uint32_t fixed = fixed_shot_of(shown);
         const bool is_unknown = shown.target == no_player && fixed == freespace::none;
         if (is_unknown && (shown.flags & camera::target_absent) == 0)
-            return;  // another bake or configuration
+            return false;  // another bake or configuration
         shot->automatic.follow(shown.target, fixed, followed_.frame_time,
                                reason_of(followed_, own.camera_id));
-        return;  // the next frame begins with it
+        return true;  // the next frame begins with it
     }
     const ShotCamera* before = camera_of(followed_before_, own.camera_id);
     const double dt = seconds_between(followed_before_.frame_time, followed_.frame_time);
     const bool moved = before != nullptr && followed_before_.epoch == followed_.epoch && dt > 0.0 &&
                        dt <= longest_step_s && (shown.flags & camera::cut) == 0;
-    if (!moved) return;
+    if (!moved) return true;
     const Vec3f way = newest->position - own.position;
     const Quatf turn = newest->orientation * own.orientation.conjugate();
     const auto since = [&](const ShotCamera& camera) {
@@ -89,6 +88,7 @@ void Match::follow(const Disagreement& disagreement) {
             ? camera::go_on_from(space(), since(*before), since(shown), dt, shot->group)
             : camera::go_on_from(space(), shot->profile, since(*before), since(shown), dt, shot->state);
     if (goes_on) shot->is_prepared = false;
+    return true;
 }
 
 // Those of the same bake stand at the same places.

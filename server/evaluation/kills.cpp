@@ -8,7 +8,6 @@
 #include "base/file.hpp"
 #include "evaluation/csv.hpp"
 #include "evaluation/picture.hpp"
-#include "scene/scene.hpp"
 
 namespace camdir::evaluation {
 namespace {

@@ -1,7 +1,5 @@
 #include "evaluation/peers.hpp"
 
-#include "scene/scene.hpp"
-
 namespace camdir::evaluation {
 
 std::optional<Peer> find_peer(std::string_view name) {

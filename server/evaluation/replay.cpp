@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cassert>
 #include <ctime>
-#include <string>
 
 namespace camdir::evaluation {
 namespace {

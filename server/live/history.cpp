@@ -16,7 +16,7 @@ bool was_moved(const director::PoseFrame& poses, std::uint32_t player) {
 
 CutReason reason_of(const ShotState* before, const ShotState& now, const director::PoseFrame& poses) {
     if (before == nullptr) return CutReason::begin;
-    const bool is_fixed = now.target == director::no_player;  // and so may the one before have been
+    const bool is_fixed = now.target == director::no_player && (now.flags & camera::target_absent) == 0;
     if (before->target != now.target || is_fixed) return CutReason::target;
     if (was_moved(poses, now.target)) return CutReason::moved;
     if ((before->flags & camera::target_visible) == 0) return CutReason::hidden;

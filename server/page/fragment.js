@@ -58,11 +58,12 @@ export async function readState(bytes, n) {
     return {beginTime, state: decodeRecords(content, name).reduce(apply, noState)};
 }
 
-const noPlayer = 0xffffffff;  // a camera's target: it is a fixed one
+const noPlayer = 0xffffffff;
+const isFixed = ({target, flags}) => target === noPlayer && !(flags & cameraFlag.absent);
 
 function reasonOf(before, now, poses) {
     if (!before) return 'begin';
-    if (before.target !== now.target || now.target === noPlayer) return 'target';
+    if (before.target !== now.target || isFixed(now)) return 'target';
     const followed = poses.players.find(player => player.id === now.target);
     if (followed && followed.flags & playerFlag.discontinuity) return 'moved';
     return before.flags & cameraFlag.visible ? 'viewpoint' : 'hidden';

@@ -28,8 +28,8 @@ export function modeOf({target, flags}) {
     if (flags & cameraFlag.absent) return 'absent';
     if (flags & cameraFlag.searching) return 'searching';
     if (flags & cameraFlag.held) return 'held';
-    if (target === null) return 'fixed';
-    return flags & cameraFlag.visible ? 'visible' : 'hidden';
+    if (flags & cameraFlag.visible) return 'visible';
+    return target === null ? 'fixed' : 'hidden';
 }
 
 export const modeText = {visible: 'In view', hidden: 'Out of sight', searching: 'Searching', fixed: 'Stands still', held: 'Held', absent: 'Absent'};

@@ -277,7 +277,7 @@ TEST_F(Calls, WrongArgumentsAreRefusedAndNamed) {
     EXPECT_EQ(cdir_match_set_movers(match_, fleet.data(), CDIR_MAX_MOVERS + 1), CDIR_INVALID_ARGUMENT);
     EXPECT_THAT(cdir_last_error(), HasSubstr("CDIR_MAX_MOVERS"));
     EXPECT_EQ(cdir_match_set_movers(match_, fleet.data(), 2), CDIR_INVALID_ARGUMENT);
-    EXPECT_THAT(cdir_last_error(), HasSubstr("two movers have the same id"));
+    EXPECT_THAT(cdir_last_error(), HasSubstr("mover 0: an earlier mover has the same id"));
     EXPECT_EQ(match.id + observer.id, 0U);
 }
 

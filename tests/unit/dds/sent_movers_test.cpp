@@ -22,10 +22,13 @@ std::shared_ptr<const director::MoverFrame> places_in(std::uint64_t epoch, std::
 
 class SentMoversTest : public testing::Test {
   protected:
-    template <class Movers>
-    void sends(const SenderId& sender, std::shared_ptr<Movers> movers) {
+    void sends(const SenderId& sender, std::shared_ptr<const director::MoverFrame> frame) {
         movers_.admit(sender, owner);
-        movers_.put(sender, std::move(movers));
+        movers_.put(sender, std::move(frame));
+    }
+    void sends(const SenderId& sender, std::shared_ptr<director::MoverInfo> described) {
+        movers_.admit(sender, owner);
+        movers_.put(sender, std::move(described), false);
         const auto rank = [](const SenderId& of) {
             return of == owner ? SentMovers::Rank::owner : SentMovers::Rank::may_own;
         };
@@ -107,12 +110,15 @@ TEST_F(SentMoversTest, ACrowdOfStrangersTakesNoOwnersPlace) {
 TEST_F(SentMoversTest, TheOwnersDescriptionIsTheFirstToHaveBoundsAndAStrangersWaits) {
     for (const SenderId& sender : {other, owner}) {
         movers_.admit(sender, owner);
-        movers_.put(sender, movers_in(1));
+        movers_.put(sender, movers_in(1), sender == other);
     }
     auto others = SentMovers::Rank::stranger;
     const auto rank = [&](const SenderId& of) { return of == owner ? SentMovers::Rank::owner : others; };
     const auto next = [&] {
         const auto described = movers_.take_described(rank);
+        if (described) {
+            EXPECT_EQ(described->is_counted, described->sender == other);
+        }
         return described ? described->sender : SenderId{};
     };
     EXPECT_EQ(next(), owner);

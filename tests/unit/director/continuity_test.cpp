@@ -6,7 +6,6 @@
 
 #include <map>
 
-#include "camera/camera.hpp"
 #include "stage.hpp"
 #include "support/eventually.hpp"
 

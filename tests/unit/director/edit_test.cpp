@@ -186,17 +186,21 @@ TEST_P(EditTest, FollowsPlayersAloneWhereSetSo) {
 TEST_F(EditTest, ShowsNoFixedShotThatAMoverIsInTheWayOf) {
     const freespace::FixedShot& shot = space_.fixed_shots()[0];
     const Quatf yaw(Eigen::AngleAxisf(shot.yaw, Vec3f::UnitZ()));
-    const auto fixed_cuts = [&](const Vec3f& min, const Vec3f& max) {
+    const auto fixed_cuts = [&](const Vec3f& min, const Vec3f& max, double arrives = 0.0) {
         freespace::MoverShape plate;
         plate.hulls = {test::box_hull(min, max)};
         movers_ = *freespace::Movers::of(std::vector{plate});
-        movers_.add(0.0, std::vector<freespace::MoverPose>{{0, shot.position, yaw}});
+        const Vec3f below = shot.position - 1000.0F * Vec3f::UnitZ();
+        if (arrives > 0.0) movers_.add(0.0, std::vector<freespace::MoverPose>{{0, below, yaw}});
+        movers_.add(arrives, std::vector<freespace::MoverPose>{{0, shot.position, yaw}});
         const auto cuts = shown(random_match(1), 5.0, 1);
         return std::ranges::count(cuts, no_player, &Cut::player);
     };
     const auto unit = static_cast<float>(EditTest::unit());
     EXPECT_GT(fixed_cuts({-20.0F * unit, -1.0F, -1.0F}, {-10.0F * unit, 1.0F, 1.0F}), 0) << "behind it";
     EXPECT_EQ(fixed_cuts({-20.0F * unit, -1.0F, -1.0F}, {-7.0F * unit, 1.0F, 1.0F}), 0) << "near behind it";
+    EXPECT_EQ(fixed_cuts({-20.0F * unit, -1.0F, -1.0F}, {-7.0F * unit, 1.0F, 1.0F}, 1.5), 0) << "soon";
+    EXPECT_GT(fixed_cuts({-20.0F * unit, -1.0F, -1.0F}, {-7.0F * unit, 1.0F, 1.0F}, 4.0), 0) << "later";
     EXPECT_EQ(fixed_cuts({9.0F * unit, -40.0F, -40.0F}, {10.0F * unit, 40.0F, 40.0F}), 0) << "before it";
 }
 

@@ -35,6 +35,10 @@ class FollowTest : public testing::Test {
     static float distance(const Stage& a, const Stage& b) {
         return (camera(a).position - camera(b).position).norm();
     }
+    // frame_time
+    static std::int64_t begun(Stage& stage) {
+        return stage.director.view(std::chrono::seconds(30)).matches.at(0).shots.at(0).since;
+    }
     static ShotCamera camera(const Stage& stage) { return stage.publisher.frames().back().cameras.at(0); }
 
     ObserverRequest wanted_ = Stage::request("a", 1);
@@ -163,6 +167,7 @@ TEST_F(FollowAutomatic, AFixedCameraThatIsNotThereChangesNothing) {
         standby_.director.flush();
         EXPECT_EQ(camera(standby_).target, camera(alone_).target);
         EXPECT_EQ(distance(standby_, alone_), 0.0F);
+        EXPECT_EQ(begun(standby_), begun(alone_));
     }
 }
 

@@ -4,7 +4,6 @@
 
 #include <atomic>
 
-#include "camera/camera.hpp"
 #include "stage.hpp"
 #include "support/eventually.hpp"
 #include "support/freespace_meshes.hpp"

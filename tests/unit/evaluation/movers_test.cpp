@@ -143,6 +143,13 @@ TEST(MoverFigures, CountCamerasInMoversAndPassages) {
     EXPECT_EQ(carried.passages, 0U) << "both move alike";
 }
 
+TEST(MoverTracks, AModelIsNamedByItsNumber) {
+    EXPECT_EQ(model_of("*3"), 3U);
+    EXPECT_EQ(model_of("*4294967295"), 4294967295U);
+    for (const char* name : {"", "*", "3", "boulder", "*3a", "*-3", "* 3", "*4294967296"})
+        EXPECT_EQ(model_of(name), std::nullopt) << name;
+}
+
 freespace::MoverShape shape_of(const scene::Mover& mover) {
     freespace::MoverShape shape{mover.name, mover.kind, {}, {}, mover.rest.cast<float>()};
     for (const auto& part : mover.parts) {

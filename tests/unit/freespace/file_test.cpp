@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <random>
 #include <sstream>
 
 #include "freespace/check.hpp"
@@ -243,6 +245,35 @@ TEST(FileDeathTest, ContentsThatBreakTheirPromisesAreABug) {
     Contents namesakes = square_contents();
     namesakes.movers[1].name = namesakes.movers[0].name;
     EXPECT_DEATH(static_cast<void>(encode(namesakes)), "find_movers_flaw");
+}
+
+// What the fuzzer of MAP.vfs begins with: of an older format it would not come past the header.
+std::vector<std::pair<std::string, Bytes>> seeds() {
+    std::mt19937 random(1);
+    Contents no_movers = square_contents();
+    no_movers.movers.clear();
+    const Bytes square = encode(square_contents());
+    Bytes damaged = square;
+    damaged[damaged.size() / 2] ^= std::byte{1};
+    return {
+        {"square", square},
+        {"no_movers", encode(no_movers)},
+        {"no_mesh", encode(empty_contents())},
+        {"loose_triangles", encode(random_contents(random, 3, 3, 20))},
+        {"damaged", damaged},
+        {"cut_off", Bytes(square.begin(), square.begin() + static_cast<std::ptrdiff_t>(square.size() / 2))}};
+}
+
+TEST(File, TheFuzzersSeedsAreOfThisFormat) {
+    for (const auto& [name, bytes] : seeds()) {
+        const std::string file = std::string(CAMDIR_VFS_SEEDS) + "/" + name + ".vfs";
+        if (std::getenv("CAMDIR_WRITE_SEEDS") != nullptr) {
+            ASSERT_TRUE(write_file(file, bytes));
+        }
+        EXPECT_EQ(read_file(file).value(), bytes) << file << ": run this test with CAMDIR_WRITE_SEEDS=1";
+    }
+    for (const char* name : {"square", "no_movers", "loose_triangles"})
+        EXPECT_TRUE(Freespace::open(std::string(CAMDIR_VFS_SEEDS) + "/" + name + ".vfs")) << name;
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 import assert from 'node:assert/strict';
 import {test} from 'node:test';
 import {ByteSource, Damaged} from '../../../server/page/bytes.js';
+import {cutsOf} from '../../../server/page/fragment.js';
+import {cameraFlag} from '../../../server/page/protocol.js';
 import {decodeRecords, decodeResource, decodeStart, decodeSync} from '../../../server/page/recording.js';
 import * as writer from './recording_writer.mjs';
 
@@ -101,4 +103,17 @@ test('start and sync are checked', async () => {
         {recording: undefined}, {fragment_duration_s: 0}])
         assert.throws(() => decodeSync(JSON.stringify({...sync, ...wrong}), 'sync'), Damaged, JSON.stringify(wrong));
     for (const text of ['', '{', 'null', '1', '[]', ' '.repeat(5000)]) assert.throws(() => decodeSync(text, 'sync'), Damaged, text);
+});
+
+test('a cut to a fixed camera says which moment it shows, also from another one', () => {
+    const nobody = 0xffffffff;
+    const frame = (target, flags = cameraFlag.cut) => ({cameras: [{id: 5, target, flags}],
+        reasons: [{camera: 5, rule: 'duel', actor: 1, subject: 2}]});
+    const cut = (before, now) => cutsOf(before, now, {players: []}, id => id === nobody ? null : id)[0];
+    for (const before of [frame(1), frame(nobody)]) {
+        const {reason, target, moment} = cut(before, frame(nobody));
+        assert.deepEqual({reason, target, moment}, {reason: 'target', target: null, moment: {rule: 'duel', actor: 1, subject: 2}});
+    }
+    const absent = frame(nobody, cameraFlag.cut | cameraFlag.absent);
+    assert.equal(cut(absent, absent).moment, undefined);
 });

@@ -72,23 +72,24 @@ std::string refusal_of(const Spoil& spoil) {
 
 TEST(MoverColumns, RefuseWhatIsOutOfItsRange) {
     EXPECT_EQ(refusal_of([](cdir_mover&) {}), "");
-    EXPECT_EQ(refusal_of([](cdir_mover& mover) { mover.id = 5; }), "two movers have the same id");
+    EXPECT_EQ(refusal_of([](cdir_mover& mover) { mover.id = 5; }),
+              "mover 5: an earlier mover has the same id");
     EXPECT_EQ(refusal_of([](cdir_mover& mover) { std::memset(mover.model, 'x', sizeof mover.model); }),
-              "a mover's model must have 0 to 63 bytes before its zero byte");
+              "mover 4: model must have 0 to 63 bytes before its zero byte");
     EXPECT_EQ(refusal_of([](cdir_mover& mover) { mover.hull_count = 257; }),
-              "a mover's hull_count is greater than CDIR_MAX_HULLS");
+              "mover 4: hull_count is greater than CDIR_MAX_HULLS");
     EXPECT_EQ(refusal_of([](cdir_mover& mover) { mover.half_spaces = nullptr; }),
-              "a mover's hull_sizes or half_spaces is null");
+              "mover 4: hull_sizes or half_spaces is null");
     static constexpr std::uint32_t three[] = {3};
     EXPECT_EQ(refusal_of([](cdir_mover& mover) { mover.hull_sizes = three; }),
-              "one of a mover's hull_sizes is not 4 to CDIR_MAX_HALF_SPACES");
+              "mover 4: one of hull_sizes is not 4 to CDIR_MAX_HALF_SPACES");
     static constexpr float skewed[24] = {1, 1};
     EXPECT_EQ(refusal_of([](cdir_mover& mover) { mover.half_spaces = skewed; }),
-              "a normal of a mover's half_spaces is not of length 1");
-    EXPECT_EQ(refusal_of([](cdir_mover& mover) { mover.balls = nullptr; }), "a mover's balls is null");
+              "mover 4: a normal of half_spaces is not of length 1");
+    EXPECT_EQ(refusal_of([](cdir_mover& mover) { mover.balls = nullptr; }), "mover 4: balls is null");
     static constexpr float point[] = {0, 0, 0, 1, 0, 0, 0, 0};
     EXPECT_EQ(refusal_of([](cdir_mover& mover) { mover.balls = point; }),
-              "the radius of a mover's ball is not greater than 0");
+              "mover 4: the radius of a ball is not greater than 0");
 }
 
 TEST(MoverColumns, RefuseMoreShapesThanAMatchMayHave) {
