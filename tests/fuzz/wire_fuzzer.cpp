@@ -100,7 +100,7 @@ class Receiver {
             case 6:
                 return take<camera_director_MoverInfo, director::MoverInfo>(
                     camera_director_MoverInfo_desc, fields, [&](const auto& /*match_id*/, const auto& info) {
-                        movers_.put(sender_, std::make_shared<director::MoverInfo>(info));
+                        movers_.put_bounded(sender_, std::make_shared<director::MoverInfo>(info));
                     });
             case 7:
                 return take<camera_director_MoverFrame, director::MoverFrame>(
