@@ -3,9 +3,9 @@
 # integration tests (matches on OpenArena's own server and client among them), a short soak and unit tests, and unit
 # tests under the address and undefined-behaviour sanitizers; most unit tests in one of the two.
 #     test.sh [--all]
-# --all: also all unit tests in both, networks that are cut, a scenario of chaos, all unit tests and another scenario under these sanitizers and
-# the thread sanitizer, clang-tidy, every fuzzer for a minute, the client library on i386, and the Debian packages in an
-# empty Debian
+# --all: also networks that are cut, a scenario of chaos, all unit tests in the release build and, with another scenario,
+# under these sanitizers and the thread sanitizer, the benchmarks' build, clang-tidy, every fuzzer for a minute, the client
+# library on i386, and the Debian packages in an empty Debian
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -87,7 +87,7 @@ step "Release tests: unit, integration, soak"
 # a busy machine.
 some=()
 $all || some=(--label-exclude '^chaos$' --exclude-regex
-    "SightOnMap[^ ]*[01245789]( |\$)|^unit[.-]$(either "${sanitized[@]}")(\.|_NOT_BUILT)|^(bench|raw)-.*_NOT_BUILT")
+    "SightOnMap[^ ]*[01245789]( |\$)|^unit[.-]$(either "${sanitized[@]}")(\.|_NOT_BUILT)")
 run_tests release "${some[@]}"
 
 step "Address and undefined-behaviour sanitizers: unit tests, chaos"

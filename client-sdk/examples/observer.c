@@ -23,23 +23,27 @@ static void report_status(cdir_observer observer, uint32_t* last_state) {
     *last_state = status.state;
 }
 
-/* Says who is shown, and why, when that has changed. */
-static void report_target(cdir_observer observer, const cdir_camera* camera, uint32_t* last_target) {
+/* Says who is shown, and why, when that differs from the last camera of which it was said; NULL: there is
+ * none. Returns false when it is not known yet. */
+static bool report_target(cdir_observer observer, const cdir_camera* camera, const cdir_camera* last) {
     static cdir_player players[CDIR_MAX_PLAYERS];
     cdir_match_info info = cdir_match_info_default();
     uint32_t count = 0;
-    if (camera->target == *last_target && (camera->flags & CDIR_CAMERA_CUT) == 0) return;
+    if (last != NULL && camera->target == last->target && strcmp(camera->reason, last->reason) == 0)
+        return true;
     players[0] = cdir_player_default();
     const cdir_status status = cdir_observer_match_info(observer, &info, players, CDIR_MAX_PLAYERS, &count);
     check("reading the match", status);
-    if (status == CDIR_NO_DATA) return;
+    if (status == CDIR_NO_DATA) return false;
+    const char* name = NULL;
     if (camera->target == CDIR_CHOOSE_TARGET && (camera->flags & CDIR_CAMERA_TARGET_ABSENT) == 0)
-        fprintf(stderr, "target: none, a fixed camera%s%s\n", camera->reason[0] ? ": " : "", camera->reason);
+        name = "none, a fixed camera";
     for (uint32_t i = 0; i < count; ++i) {
-        if (players[i].id != camera->target) continue;
-        fprintf(stderr, "target: %s%s%s\n", players[i].name, camera->reason[0] ? ": " : "", camera->reason);
+        if (players[i].id == camera->target) name = players[i].name;
     }
-    *last_target = camera->target;
+    if (name != NULL)
+        fprintf(stderr, "target: %s%s%s\n", name, camera->reason[0] ? ": " : "", camera->reason);
+    return true;
 }
 
 static void print_camera(const cdir_camera* camera, const cdir_view* view) {
@@ -63,8 +67,8 @@ static void watch(cdir_observer observer, double rate, double seconds, double pa
     const int64_t start = monotonic_ns();
     const int64_t period = (int64_t)(1e9 / rate);
     uint32_t last_state = CDIR_SHOT_NOT_REQUESTED;
-    uint32_t last_target = CDIR_CHOOSE_TARGET;
-    bool seen = false;
+    cdir_camera last = cdir_camera_default();
+    bool seen = false, told = false;
     printf("frame_time,target,x,y,z,qx,qy,qz,qw,vertical_fov,clearance,flags,segment\n");
     for (int64_t number = 0; !stop_requested; ++number) {
         const double elapsed = (double)(number * period) / 1e9;
@@ -83,7 +87,10 @@ static void watch(cdir_observer observer, double rate, double seconds, double pa
         if (cdir_observer_display_time(observer, &display_time) == CDIR_OK &&
             cdir_observer_camera_at(observer, display_time, &camera, &view) == CDIR_OK) {
             print_camera(&camera, &view);
-            report_target(observer, &camera, &last_target);
+            if (report_target(observer, &camera, told ? &last : NULL)) {
+                last = camera;
+                told = true;
+            }
             seen = true;
         }
         if (fflush(stdout) != 0) {

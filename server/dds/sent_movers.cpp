@@ -22,10 +22,10 @@ void SentMovers::admit(const SenderId& sender, const SenderId& owner) {
 }
 
 void SentMovers::put(const SenderId& sender, std::shared_ptr<director::MoverInfo> described,
-                     bool is_counted) {
+                     bool counted_as_dropped) {
     Sent& sent = *find(sender);
     sent.described = std::move(described);
-    sent.is_counted = is_counted;
+    sent.counted_as_dropped = counted_as_dropped;
 }
 
 void SentMovers::put_bounded(const SenderId& sender, std::shared_ptr<const director::MoverInfo> info) {

@@ -28,8 +28,8 @@ class SentMovers {
     // but for the owner's.
     void admit(const SenderId& sender, const SenderId& owner);
     // Of a sender that has been admitted since others were. Not null. A description, whose hulls have no
-    // bounds yet, replaces the one that waits, and counts from put_bounded() on. `is_counted`: as dropped.
-    void put(const SenderId& sender, std::shared_ptr<director::MoverInfo> described, bool is_counted);
+    // bounds yet, replaces the one that waits, and counts from put_bounded() on.
+    void put(const SenderId& sender, std::shared_ptr<director::MoverInfo> described, bool counted_as_dropped);
     void put(const SenderId& sender, std::shared_ptr<const director::MoverFrame> frame);
 
     // A description waits for its bounds.
@@ -40,7 +40,7 @@ class SentMovers {
     struct Described {
         SenderId sender;
         std::shared_ptr<director::MoverInfo> info;
-        bool is_counted;
+        bool counted_as_dropped;
     };
     // The description that is to have bounds next, which waits no longer: the owner's first, and no
     // stranger's.
@@ -49,7 +49,8 @@ class SentMovers {
         for (const Rank rank : {Rank::owner, Rank::may_own})
             for (Sent& sent : senders_)
                 if (sent.described && rank_of(sent.sender) == rank)
-                    return Described{sent.sender, std::exchange(sent.described, nullptr), sent.is_counted};
+                    return Described{sent.sender, std::exchange(sent.described, nullptr),
+                                     sent.counted_as_dropped};
         return std::nullopt;
     }
     void put_bounded(const SenderId& sender, std::shared_ptr<const director::MoverInfo> info);
@@ -64,7 +65,7 @@ class SentMovers {
     struct Sent {
         SenderId sender{};
         std::shared_ptr<director::MoverInfo> described;  // newer than `info`
-        bool is_counted = false;                         // what is described
+        bool counted_as_dropped = false;                 // what is described
         std::shared_ptr<const director::MoverInfo> info;
         Frame frame;                 // as of the last poses
         std::vector<Frame> waiting;  // in the order of arrival

@@ -292,10 +292,10 @@ bool Subscriber::bound_next(Match& match) {
     });
     if (!described) return false;
     if (const auto error = bound_hulls(*described->info)) {
-        if (!described->is_counted) drop(Topic::mover_info, *error, match.id());
+        if (!described->counted_as_dropped) drop(Topic::mover_info, *error, match.id());
         return true;
     }
-    if (!described->is_counted) ++counters_.of(Topic::mover_info).accepted;
+    if (!described->counted_as_dropped) ++counters_.of(Topic::mover_info).accepted;
     match.movers.put_bounded(described->sender, described->info);
     return true;
 }

@@ -117,7 +117,7 @@ TEST_F(SentMoversTest, TheOwnersDescriptionIsTheFirstToHaveBoundsAndAStrangersWa
     const auto next = [&] {
         const auto described = movers_.take_described(rank);
         if (described) {
-            EXPECT_EQ(described->is_counted, described->sender == other);
+            EXPECT_EQ(described->counted_as_dropped, described->sender == other);
         }
         return described ? described->sender : SenderId{};
     };
