@@ -8,6 +8,7 @@
 # library on i386, and the Debian packages in an empty Debian
 set -euo pipefail
 cd "$(dirname "$0")/.."
+. deploy/processes.sh
 
 all=false
 case "${1:-}" in
@@ -16,8 +17,6 @@ case "${1:-}" in
     --all) all=true ;;
     *) echo "usage: deploy/test.sh [--all]" >&2; exit 2 ;;
 esac
-
-step() { printf '\n== %s (%s s)\n' "$1" "$SECONDS"; }
 
 # The number of skipped tests in a JUnit report, and, on the same line, what they need: each prints a line "needs ...".
 describe_skipped() {
@@ -69,6 +68,7 @@ find client-sdk server tests -name '*.[ch]pp' -print0 -o -name '*.[ch]' -print0 
 # What reads the bytes of others, and what has threads, is tested under the sanitizers alone; queries and cameras, whose
 # vectors are those of the optimised build, in both.
 sanitized=(base config dds director evaluation http live recording scene sdk soak)
+rooms=("${sanitized[@]}" camera freespace)
 either() { (IFS='|'; echo "($*)"); }
 
 step "Release build"
@@ -78,28 +78,34 @@ if $all; then
 else
     # Benchmarks that no test runs are left out, too.
     mapfile -t targets < <(ninja -C build/release -t targets all | sed -nE 's/: C(XX)?_.*_LINKER_.*//p' |
-        grep -vE "^bin/(unit-$(either "${sanitized[@]}")|bench-(display|movers|openarena|queries|serve)|raw-director)$")
+        grep -vE "^bin/(fuzz-.*|unit-$(either "${sanitized[@]}")|bench-(display|movers|openarena|queries|serve)|raw-director)$")
     cmake --build --preset release --target "${targets[@]}"
 fi
 
-step "Release tests: unit, integration, soak"
+step "Release tests: unit, integration, soak; the build with sanitizers beside them"
+# Most of these tests wait. What is compiled meanwhile takes what they leave of the processors.
+cmake --preset asan
+programs=(fuzz-tests "${rooms[@]/#/unit-}")
+! $all || programs=(unit-tests chaos)
+nice -n 19 ninja -C build/asan "${programs[@]}" >build/asan/build.log 2>&1 &
+sanitized_build=$!
+
 # The sight of two maps in ten, by their numbers: that of all takes minutes. No chaos: its gaps are also those of
 # a busy machine.
 some=()
 $all || some=(--label-exclude '^chaos$' --exclude-regex
-    "SightOnMap[^ ]*[01245789]( |\$)|^unit[.-]$(either "${sanitized[@]}")(\.|_NOT_BUILT)")
+    "SightOnMap[^ ]*[01245789]( |\$)|^fuzz\.|^unit[.-]$(either "${sanitized[@]}")(\.|_NOT_BUILT)")
 run_tests release "${some[@]}"
 
+step "Address and undefined-behaviour sanitizers: the rest of the build"
+wait "$sanitized_build" || { cat build/asan/build.log; fail "the build with sanitizers failed, see above"; }
+
 step "Address and undefined-behaviour sanitizers: unit tests, chaos"
-cmake --preset asan
 if $all; then
-    cmake --build --preset asan --target unit-tests chaos
     # Queries and cameras on real maps: minutes of the same code that the random worlds run.
     run_tests asan --label-regex '^unit$' --exclude-regex '^unit\.(camera|freespace)-maps\.'
     run_tests asan --tests-regex '^soak\.chaos$'
 else
-    rooms=("${sanitized[@]}" camera freespace)
-    cmake --build --preset asan --target fuzz-tests "${rooms[@]/#/unit-}"
     run_tests asan --tests-regex "^(fuzz|unit\.$(either "${rooms[@]}"))\."
 fi
 
