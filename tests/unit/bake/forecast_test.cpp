@@ -38,7 +38,7 @@ TEST(Forecast, KnowsTheNumberOfSamplesOfARealMap) {
     const auto map = test::openarena_map("oa_dm1");
     if (!map) GTEST_SKIP() << "needs OpenArena's maps";
     const auto scene = scene::load(*map).value();
-    for (const double d0 : {12.0, 16.0, 32.0}) {
+    for (const double d0 : {16.0, 32.0}) {
         Parameters parameters;
         parameters.d0 = d0;
         parameters.loss = 0.0;
