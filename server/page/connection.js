@@ -12,19 +12,21 @@ export class Connection {
         this.token = token;
         this.on = on;
         this.retryMs = firstRetryMs;
+        this.refusals = 0;  // in a row
     }
 
     watch(matchId) {
         this.close();
         this.matchId = matchId;
         this.retryMs = firstRetryMs;
+        this.refusals = 0;
         this.open();
     }
 
     close() {
         clearTimeout(this.timer);
         clearTimeout(this.silence);
-        this.isSilent = false;
+        this.isSilent = this.isOpen = false;
         const socket = this.socket;
         this.socket = null;
         socket?.close();
@@ -43,6 +45,8 @@ export class Connection {
         socket.binaryType = 'arraybuffer';
         socket.onopen = () => {
             if (socket !== this.socket) return;
+            this.refusals = 0;
+            this.isOpen = true;
             this.on.state('open');
         };
         socket.onmessage = ({data}) => {
@@ -54,7 +58,9 @@ export class Connection {
             if (typeof data === 'string') this.on.note(JSON.parse(data)); else this.on.frame(data);
         };
         socket.onclose = () => {
-            if (socket === this.socket) this.retry();
+            if (socket !== this.socket) return;
+            if (!this.isOpen) ++this.refusals;
+            this.retry();
         };
         this.expectMore();
     }
@@ -71,8 +77,9 @@ export class Connection {
         this.on.state('silent');
     }
 
-    // The server does not answer otherwise either: a stream that is silent is lost.
+    // The server does not answer otherwise either: it refuses nobody, and a stream that is silent is lost.
     unreachable() {
+        this.refusals = 0;
         if (this.isSilent) this.retry();
     }
 

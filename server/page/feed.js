@@ -1,4 +1,5 @@
 // What has just happened, in words.
+import {shownEvents} from './protocol.js';
 
 const shownMs = 6000;
 const maxShown = 4;
@@ -18,7 +19,7 @@ export class Feed {
     }
 
     show(events, t) {
-        const recent = events.filter(event => event.event in verbs && event.t <= t && t - event.t < shownMs).slice(-maxShown);
+        const recent = events.filter(event => shownEvents.has(event.event) && event.t <= t && t - event.t < shownMs).slice(-maxShown);
         const key = recent.map(event => `${event.t} ${event.event} ${event.subject}`).join();
         if (key === this.shown) return;
         this.shown = key;

@@ -39,6 +39,9 @@ export class LiveSource {
         this.link.close();
     }
 
+    // How often in a row the server has not opened the stream.
+    get refusals() { return this.link.refusals; }
+
     // The server does not answer otherwise either.
     unreachable() {
         this.link.unreachable();
@@ -48,7 +51,7 @@ export class LiveSource {
         match: note => {
             if (note.version !== version) return this.on.problem('The server speaks another version: reload this page.');
             const before = this.model.note;
-            if (before && (before.epoch !== note.epoch || this.ended)) this.model.begin(kept);
+            if (before && (before.epoch !== note.epoch || this.ended || this.isOfAnother(note))) this.model.begin(kept);
             this.ended = false;
             this.step = note.position_step;
             this.model.setMatch(note);
@@ -71,6 +74,13 @@ export class LiveSource {
             if (this.ended) this.link.close();
         },
     };
+
+    // A server that was started again has given slots anew: what is kept would be read as of others. One that runs names all
+    // that it has ever given.
+    isOfAnother(note) {
+        const ids = new Map(note.players.map(({slot, id}) => [slot, id]));
+        return [...this.model.players].some(([slot, {id}]) => ids.get(slot) !== id);
+    }
 
     add(data) {
         const {step} = this;

@@ -124,6 +124,7 @@ function addNormals({geometry}) {
 export class MapView {
     constructor() {
         this.group = new three.Group();
+        this.changes = 0;
         this.uniforms = {cut: {value: 0}, heights: {value: new three.Vector2()}, metre: {value: 1}, fade: {value: 0},
             ground: {value: new three.Color(background)}, colour: {value: new three.Color(edgeColour)}, weight: {value: 1}};
         const faces = (defines, side) => new three.ShaderMaterial({vertexShader: faceVertexShader, fragmentShader: faceFragmentShader,
@@ -145,6 +146,7 @@ export class MapView {
     clear() {
         for (const {geometry} of this.group.children) geometry.dispose();
         this.group.remove(...this.group.children);
+        ++this.changes;
         this.faces = [];
         this.edges = [];
         this.mesh = null;
@@ -180,6 +182,7 @@ export class MapView {
             this.group.add(object);
             this.bounds.expandByObject(object);
         }
+        ++this.changes;
         const {min, max} = this.bounds;
         this.uniforms.heights.value.set(min.z, max.z);
         this.uniforms.fade.value = 1.1 / max.distanceTo(min);
@@ -189,6 +192,12 @@ export class MapView {
     // Lowest and highest.
     get heights() {
         return this.bounds ? [this.bounds.min.z, this.bounds.max.z] : [0, 1];
+    }
+
+    // Says all that is seen of the obstacles from outside.
+    get look() {
+        const {cut, weight} = this.uniforms;
+        return `${this.changes} ${Math.min(cut.value, this.heights[1])} ${weight.value}`;
     }
 
     // How much edges are seen: less where a pixel is large; 0: not at all.

@@ -3,6 +3,9 @@
 export const version = 1;
 export const subprotocol = `camera-director.v${version}`;
 
+// The events that the page shows.
+export const shownEvents = new Set(['kill', 'flag taken', 'flag captured', 'objective', 'award', 'round']);
+
 export const playerFlag = {alive: 1, discontinuity: 2, spectator: 4};
 export const cameraFlag = {cut: 1, visible: 2, searching: 4, absent: 8, held: 16};
 

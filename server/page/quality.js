@@ -1,14 +1,14 @@
 // How finely the match is drawn: as finely as this machine draws smoothly, 60 pictures a second.
 
-// From the finest. scale: of the screen's resolution; inTurn: with each picture one of the small ones is drawn, not all;
-// edges: of the map are drawn.
+// From the finest. scale: of the screen's resolution; smallEvery: so many pictures bring one of the small ones up to date, 0:
+// each brings all; edges: of the map are drawn.
 export const levels = [
-    {scale: 1, inTurn: false, edges: true},
-    {scale: 1, inTurn: true, edges: true},
-    {scale: 0.75, inTurn: true, edges: true},
-    {scale: 0.5, inTurn: true, edges: true},
-    {scale: 0.5, inTurn: true, edges: false},
-    {scale: 0.35, inTurn: true, edges: false},
+    {scale: 1, smallEvery: 0, edges: true},
+    {scale: 1, smallEvery: 1, edges: true},
+    {scale: 0.75, smallEvery: 1, edges: true},
+    {scale: 0.5, smallEvery: 1, edges: true},
+    {scale: 0.5, smallEvery: 2, edges: false},
+    {scale: 0.35, smallEvery: 2, edges: false},
 ];
 
 const processorPixels = 160e3;
@@ -21,7 +21,7 @@ export function scaleOf({scale}, pixels) {
 
 // The level to begin with for a picture of so many pixels where no graphics card draws it.
 export function levelOfProcessor(pixels) {
-    const found = levels.findIndex(({scale, inTurn}) => inTurn && scale * scale * pixels <= processorPixels);
+    const found = levels.findIndex(({scale, smallEvery}) => smallEvery > 0 && scale * scale * pixels <= processorPixels);
     return found < 0 ? levels.length - 1 : found;
 }
 
@@ -33,13 +33,15 @@ const firstPatienceMs = 5e3;
 const longestPatienceMs = 300e3;
 
 export class Quality {
-    constructor(level) {
+    // hasCard: a graphics card draws, and is fast as soon as the map is there.
+    constructor(level, hasCard) {
         this.level = level;
         this.wantedRate = smoothRate;
         this.patienceMs = firstPatienceMs;  // how long it is smooth before a finer level is tried
         this.onTrial = false;               // this level is finer than the last one was
         this.slowWindows = 0;
         this.smoothSince = null;
+        this.wasSmooth = hasCard;           // ever: until then a coarser level is found soon
         this.beginWindow(0);
     }
 
@@ -66,7 +68,7 @@ export class Quality {
         const isHalf = rate < this.wantedRate / 2;
         if (this.level === levels.length - 1) {
             this.wantedRate = rate;  // this machine or its display has no more
-        } else if (isHalf || ++this.slowWindows > 1) {
+        } else if (isHalf || !this.wasSmooth || ++this.slowWindows > 1) {
             if (this.onTrial) this.patienceMs = Math.min(2 * this.patienceMs, longestPatienceMs);
             this.change(isHalf ? 2 : 1);
             this.onTrial = false;
@@ -75,6 +77,7 @@ export class Quality {
 
     smooth(rate, at) {
         this.slowWindows = 0;
+        this.wasSmooth = true;
         this.wantedRate = Math.min(Math.max(this.wantedRate, rate), smoothRate);
         this.smoothSince ??= at;
         if (at - this.smoothSince < this.patienceMs || this.level === 0) return;

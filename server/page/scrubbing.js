@@ -2,9 +2,10 @@
 
 const keySteps = {ArrowLeft: -1000, ArrowDown: -1000, ArrowRight: 1000, ArrowUp: 1000, PageDown: -30e3, PageUp: 30e3};
 
-// `match`: range() [first, last] of what is kept or null, now() what is shown, timeAt(clientX), describe(t),
+// `match`: range() [first, last] of what is kept or null, axis(): a value that changes when the times do, now() what is shown, timeAt(clientX), describe(t),
 // seek(t), goToBegin(), goLive().
 export function attachScrubbing(element, tip, match) {
+    let grabbed = null;  // the axis that is dragged on
     element.addEventListener('keydown', event => {
         if (match.range() === null) return;
         if (event.key in keySteps) match.seek(match.now() + keySteps[event.key]);
@@ -16,12 +17,13 @@ export function attachScrubbing(element, tip, match) {
     element.addEventListener('pointerdown', event => {
         if (match.range() === null) return;
         element.setPointerCapture(event.pointerId);
+        grabbed = match.axis();
         match.seek(match.timeAt(event.clientX));
     });
     element.addEventListener('pointermove', event => {
         if (match.range() === null) return;
         const t = match.timeAt(event.clientX);
-        if (event.buttons & 1) match.seek(t);
+        if (event.buttons & 1 && grabbed === match.axis()) match.seek(t);
         showTip(event.clientX, match.describe(t));
     });
     element.addEventListener('pointerleave', () => { tip.hidden = true; });

@@ -1,14 +1,13 @@
 // What is asked of the server, with the token where it wants one.
 
 const key = 'camera-director-token';
-const limitMs = 20e3;
+const silenceMs = 20e3;
 
 // A link may carry `#token=...&match=...`: what follows # is never sent. The token leaves the address bar.
 function takeFromAddress() {
     const given = new URLSearchParams(location.hash.slice(1));
-    const token = given.get('token');
-    if (token) {
-        sessionStorage.setItem(key, token);
+    if (given.get('token')) {
+        setToken(given.get('token'));
         given.delete('token');
         history.replaceState(null, '', `${location.pathname}${location.search}#${given}`);
     }
@@ -28,19 +27,35 @@ export function token() {
     return sessionStorage.getItem(key);
 }
 
+// What is not of a token, spaces of any width that were copied with it, could not be sent.
 export function setToken(value) {
-    sessionStorage.setItem(key, value);
+    sessionStorage.setItem(key, value.replace(/[^\x21-\x7e]/g, ''));
 }
 
-// `abort`: an AbortSignal that ends it, or none. Only this page's own server is given the token.
-export function ask(path, abort) {
+// `abort`: an AbortSignal that ends it, or none. It ends by itself when nothing comes for some time. Only this page's own
+// server is given the token.
+export async function ask(path, abort) {
     const url = new URL(path, location.href);
     const given = url.origin === location.origin ? token() : null;
     const limit = new AbortController();
-    setTimeout(() => limit.abort(), limitMs);
+    let silence = 0;
+    const expectMore = () => {
+        clearTimeout(silence);
+        silence = setTimeout(() => limit.abort(), silenceMs);
+    };
     if (abort?.aborted) limit.abort();
     abort?.addEventListener('abort', () => limit.abort());
-    return fetch(url, {headers: given ? {Authorization: `Bearer ${given}`} : {}, signal: limit.signal});
+    expectMore();
+    const answer = await fetch(url, {headers: given ? {Authorization: `Bearer ${given}`} : {}, signal: limit.signal});
+    if (!answer.body || !globalThis.TransformStream) return answer;
+    const content = answer.body.pipeThrough(new TransformStream({
+        transform(part, to) {
+            expectMore();
+            to.enqueue(part);
+        },
+        flush: () => clearTimeout(silence),
+    }));
+    return new Response(content, answer);
 }
 
 // The map's picture; null with a reason where there is none.

@@ -1,12 +1,7 @@
 // Pictures in a corner of the large one, each kept until it is drawn anew.
 import * as three from './three.js';
+import {Cover} from './cover.js';
 
-const vertexShader = `
-    varying vec2 at;
-    void main() {
-        at = 0.5 * position.xy + 0.5;
-        gl_Position = vec4(position.xy, 0.0, 1.0);
-    }`;
 const fragmentShader = `
     varying vec2 at;
     uniform sampler2D picture;
@@ -18,12 +13,7 @@ export class SmallPictures {
         Object.assign(this, {renderer, finer});
         this.kept = [];  // {target, of: what is seen in it}
         this.picture = {value: null};
-        const cover = new three.BufferGeometry();
-        cover.setAttribute('position', new three.BufferAttribute(new Float32Array([-1, -1, 0, 3, -1, 0, -1, 3, 0]), 3));
-        this.sheet = new three.Mesh(cover, new three.ShaderMaterial({vertexShader, fragmentShader, uniforms: {picture: this.picture},
-            depthTest: false, depthWrite: false}));
-        this.sheet.frustumCulled = false;
-        this.camera = new three.Camera();
+        this.cover = new Cover({fragmentShader, uniforms: {picture: this.picture}, depthTest: false, depthWrite: false});
     }
 
     // Whether picture i shows this already, whatever the time, in this size in pixels.
@@ -46,6 +36,6 @@ export class SmallPictures {
     // Puts picture i where the renderer's viewport is.
     paste(i) {
         this.picture.value = this.kept[i].target.texture;
-        this.renderer.render(this.sheet, this.camera);
+        this.cover.draw(this.renderer);
     }
 }

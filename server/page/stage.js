@@ -4,6 +4,7 @@ import {Figures} from './figures.js';
 import {MapView, background} from './map_view.js';
 import {Marks} from './marks.js';
 import {SmallPictures} from './small_pictures.js';
+import {StillMap} from './still_map.js';
 
 // From a camera's axes in the match, x forward and z up, to three's: -z forward, y up.
 const cameraAxes = new three.Quaternion().setFromRotationMatrix(new three.Matrix4().makeBasis(
@@ -34,6 +35,7 @@ export class Stage {
         this.marks = new Marks();
         this.scene = new three.Scene();
         this.scene.add(this.map.group, this.marks.group, this.figures.group);
+        this.stillMap = new StillMap(this.renderer);
         this.pictures = new SmallPictures(this.renderer, this.hasCard ? 2 : 1);
         this.eye = new three.PerspectiveCamera(60, 1, 1, 10000);
         this.flat = new three.OrthographicCamera(-1, 1, 1, -1, -1e5, 1e5);
@@ -138,7 +140,25 @@ export class Stage {
         if (this.marks.group.visible) this.marks.show(this.sample, this.chosen, this.metre);
         this.figures.aim(camera, size, {times, names, namesHidden});
         this.renderer.clear();
+        // The free space is seen through, and drawn after those who stand in it.
+        if (inside || this.hasCard || this.map.mesh?.visible) this.renderer.render(this.scene, camera);
+        else this.drawOverMap(camera, size);
+    }
+
+    // What moves over the map, which may stand still.
+    drawOverMap(camera, {width, height, ratio}) {
+        const moving = [this.figures.group, this.marks.group];
+        const shown = moving.map(({visible}) => visible);
+        camera.updateMatrixWorld();
+        const key = [...camera.matrixWorld.elements, ...camera.projectionMatrix.elements, this.map.look].join(' ');
+        this.stillMap.draw(key, Math.floor(width * ratio), Math.floor(height * ratio), () => {
+            for (const group of moving) group.visible = false;
+            this.renderer.render(this.scene, camera);
+            moving.forEach((group, i) => { group.visible = shown[i]; });
+        });
+        this.map.group.visible = false;
         this.renderer.render(this.scene, camera);
+        this.map.group.visible = true;
     }
 }
 

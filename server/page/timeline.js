@@ -1,5 +1,5 @@
 // What happened in a match, as far as it is known: how each shot went, cuts with their reasons, events.
-import {cameraFlag} from './protocol.js';
+import {cameraFlag, shownEvents} from './protocol.js';
 
 const maxGapMs = 300;  // between parts that follow each other
 
@@ -50,7 +50,9 @@ export class Timeline {
         this.forget(frame.t - this.keptMs);
     }
 
+    // A cut, or an event, which is kept where the page shows such.
     addNote(note) {
+        if (note.kind !== 'cut' && !shownEvents.has(note.event)) return;
         const marks = note.kind === 'cut' ? this.cuts : this.events;
         marks.push(note);
         if (marks.length > this.maxMarks) marks.shift();

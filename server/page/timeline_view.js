@@ -90,15 +90,19 @@ export class TimelineView {
         const left = x(span.from);
         const width = Math.max(x(span.to) - left, 0.5);
         c.fillStyle = mode === 'visible' ? colourOfSlot(span.target) : colours[mode];
-        if (mode === 'hidden') {
+        if (mode === 'hidden' || mode === 'searching') {
             c.globalAlpha = 0.35;
             c.fillRect(left, middle - 6, width, 12);
             c.globalAlpha = 1;
-            for (let at = Math.ceil(left / 4) * 4; at < left + width; at += 4) c.fillRect(at, middle - 6, 1.5, 12);
-            return;
         }
-        const half = mode === 'held' || mode === 'absent' ? 2 : 6;
-        c.fillRect(left, middle - half, width, 2 * half);
+        if (mode === 'hidden') {
+            for (let at = Math.ceil(left / 4) * 4; at < left + width; at += 4) c.fillRect(at, middle - 6, 1.5, 12);
+        } else if (mode === 'searching') {
+            for (const edge of [-6, 4]) c.fillRect(left, middle + edge, width, 2);
+        } else {
+            const half = mode === 'held' || mode === 'absent' ? 2 : 6;
+            c.fillRect(left, middle - half, width, 2 * half);
+        }
     }
 
     drawOthers(c, timeline, camera, from, to, x, top, bottom, colourOfSlot) {
@@ -109,8 +113,9 @@ export class TimelineView {
         others.forEach((id, row) => {
             for (const span of timeline.spans(id, from, to)) {
                 const mode = modeOf(span);
+                const tall = Math.max(each - 1, 1) * (mode === 'visible' ? 1 : 0.4);  // not by colour alone
                 c.fillStyle = mode === 'visible' ? colourOfSlot(span.target) : colours[mode];
-                c.fillRect(x(span.from), top + row * each, Math.max(x(span.to) - x(span.from), 0.5), Math.max(each - 1, 1));
+                c.fillRect(x(span.from), top + row * each, Math.max(x(span.to) - x(span.from), 0.5), tall);
             }
         });
         c.globalAlpha = 1;

@@ -1,5 +1,6 @@
 // The window: anyone who has the link watches the match through the director's cameras.
 import {Broadcast, Refused} from './broadcast.js';
+import {choose, isFull} from './choice.js';
 import {Feed} from './feed.js';
 import {Rows, shotEntry} from './lists.js';
 import {LiveSource} from './live_source.js';
@@ -16,6 +17,8 @@ import {Viewpoint, attach} from './viewpoint.js';
 import {clockText, seconds, stateText} from './words.js';
 
 const listPeriodMs = 3000;
+const longestMapRetryMs = 60e3;
+const fullForMs = 60e3;   // a stream that had no room is not tried again before
 const maxPictures = 3;
 const stepMs = 5000;
 const noticeMs = 6000;
@@ -38,18 +41,23 @@ let stage = null;
 let quality = null;
 let source = null;        // LiveSource or Playback: what feeds the model
 let watched = null;       // the entry of `matches` that it shows
+let missed = 0;           // lists in a row that did not have its stream
+let fullUntil = 0;        // its stream has no room
 let matches = [];         // of findMatches
 let camera = null;        // the id of the camera that is shown
+let wished = null;        // the one that the viewer has chosen, which may not be there at the time that is shown
 let view = 'camera';
 let pictures = !calm.matches;
 let sample = null;
 let mapShown = null;      // its name
+let mapRetry = {of: null, at: 0, waitMs: listPeriodMs};
 let obstaclesNote = '';
 let noticeTimer = 0;
 let framesDrawn = 0;
 let framesCounted = 0;  // in drawRate
 let drawRate = 0;
 let dirty = true;
+let untold = true;        // the time that is shown, to screen readers
 
 const now = () => performance.now();
 const isRecorded = () => source instanceof Playback;
@@ -68,9 +76,12 @@ const reports = {
 function watch(id, begin) {
     const entry = matches.find(other => other.id === id);
     if (!entry) return;
-    if (watched) server.rememberMatch(id);
-    if (watched?.id !== id) camera = null;
+    if (watched?.id !== id) {
+        camera = wished = null;
+        fullUntil = 0;
+    }
     watched = entry;
+    missed = 0;
     source?.close();
     if (entry.stream && !begin) {
         source = new LiveSource(id, model, server.token, reports);
@@ -79,7 +90,7 @@ function watch(id, begin) {
         source.open(begin ?? (entry.goesOn ? {} : {t: 0}));
     }
     sample = null;
-    dirty = true;
+    untold = dirty = true;
 }
 
 function showMatch(note) {
@@ -108,8 +119,10 @@ function showMessage(text, asksForToken = false) {
 
 // Obstacles where the server has them, and the medial mesh.
 async function showMap(name) {
-    if (mapShown === name) return;
+    if (mapShown === name || mapRetry.of === name && now() < mapRetry.at) return;
     mapShown = name;
+    const waitMs = mapRetry.of === name ? mapRetry.waitMs : listPeriodMs;
+    mapRetry = {of: name, at: now() + waitMs, waitMs: Math.min(2 * waitMs, longestMapRetryMs)};
     stage.map.clear();
     let obstacles;
     let mesh;
@@ -121,7 +134,7 @@ async function showMap(name) {
         fitView();
         mesh = await server.model(name, 'mesh.glb');
     } catch {
-        mapShown = null;  // asked for with the next list
+        if (mapShown === name) mapShown = null;  // asked for again
         return;
     }
     if (mapShown !== name) return;
@@ -132,7 +145,7 @@ async function showMap(name) {
         : `This map cannot be shown: ${mesh.reason}.`;
     find('map-note').textContent = obstaclesNote;
     find('map-note').hidden = obstaclesNote === '';
-    if (!mesh.file && !obstacles.file) mapShown = null;  // it may be loading still: asked for with the next list
+    if (!mesh.file && !obstacles.file) mapShown = null;  // it may be loading still: asked for again
     dirty = true;
 }
 
@@ -144,16 +157,16 @@ function fitView() {
 async function refreshList() {
     try {
         matches = await findMatches();
-        showMessage(matches.length > 0 ? '' : server.broadcastOfAddress === null
+        chooseMatch();
+        showMessage(matches.length > 0 || isInTouch() ? '' : server.broadcastOfAddress === null
             ? 'No match is running. This page shows one as soon as it begins.'
             : 'Nothing is broadcast. This page shows a match as soon as one is.');
-        chooseMatch();
-        if (model.note && mapShown === null && !isRecorded()) showMap(model.note.map);
+        if (model.note && mapShown === null) showMap(model.note.map);
     } catch (error) {
+        source?.unreachable?.();
         if (error instanceof Refused && error.status === 401) {
             showMessage('This server asks for a token.', true);
         } else {
-            source?.unreachable?.();
             if (!source) showMessage(error instanceof Refused ? `There is nothing to watch: ${error.message}.`
                 : 'The server cannot be reached. Trying again.');
         }
@@ -162,23 +175,36 @@ async function refreshList() {
     setTimeout(refreshList, listPeriodMs);
 }
 
-// Stays with what is watched as long as it goes on, and with recordings.
+// A stream that runs, or a recording.
+const isInTouch = () => isRecorded() || source?.connection === 'open' && !source.ended;
+
 function chooseMatch() {
     const entry = matches.find(other => other.id === watched?.id);
     if (entry) watched = entry;
-    if (isRecorded()) {
-        if (source.state === 'ended' && entry?.goesOn && !entry.stream) watch(entry.id);  // another one begins
-        return;
-    }
-    if (source && entry?.stream && !source.ended) return;
-    const wanted = source ? entry?.stream ? entry : matches.find(other => other.stream)
-        : matches.find(other => other.id === server.matchOfAddress) ?? matches.find(other => other.goesOn) ?? matches[0];
-    if (wanted) watch(wanted.id);
+    missed = entry?.stream ? 0 : missed + 1;
+    const next = choose(matches, {id: watched?.id ?? null, isRecorded: isRecorded(), hasEnded: source?.state === 'ended',
+        isOpen: isInTouch(), missed, refusals: source?.refusals ?? 0}, server.matchOfAddress);
+    if (next?.from === 'broadcast') watchBroadcast(); else if (next) watch(next.id);
+}
+
+// Where a stream has no room for more, the broadcast has: what is shown goes on there.
+function watchBroadcast() {
+    const {buffer, clock} = model;
+    const {paused} = clock;
+    watch(watched.id, clock.live || clock.t === null || buffer.last === null ? {} : {behind: buffer.last - clock.t});
+    model.clock.setPaused(paused);
+    fullUntil = now() + fullForMs;
 }
 
 function chooseCamera(id) {
-    camera = id;
+    camera = wished = id;
     dirty = true;
+}
+
+// What the viewer has chosen, as soon as it is there; until then any.
+function findCamera() {
+    if (sample?.cameras.has(wished)) camera = wished;
+    else if (!shownCamera()) camera = shownCameras()[0]?.id ?? camera;
 }
 
 function setView(name) {
@@ -189,6 +215,12 @@ function setView(name) {
     }
     find('tools').hidden = name === 'camera';
     find('stage').dataset.view = name;
+    dirty = true;
+}
+
+function setPictures(shown) {
+    pictures = shown;
+    find('pictures-toggle').setAttribute('aria-pressed', shown);
     dirty = true;
 }
 
@@ -204,7 +236,7 @@ function seek(t) {
     const {paused} = model.clock;
     if (!isRecorded() && watched.sync && t < first - 1) watch(watched.id, {behind: last - t}); else source.seek(t);
     model.clock.setPaused(paused);
-    dirty = true;
+    untold = dirty = true;
 }
 
 function goToBegin() {
@@ -238,10 +270,10 @@ function stepSpeed(by) {
 const canGoLive = () => Boolean(watched?.stream || source?.isLive);
 
 function goLive() {
-    if (isRecorded() && watched.stream) watch(watched.id);
+    if (isRecorded() && watched.stream && now() >= fullUntil) watch(watched.id);
     else if (canGoLive()) source.goLive();
     else if (source?.range) seek(source.range[1]);
-    dirty = true;
+    untold = dirty = true;
 }
 
 function shownCameras() {
@@ -260,8 +292,9 @@ function facts() {
     const behindMs = isRecorded() ? source.isLive && source.range ? source.newest() - clock.t : null : buffer.last - clock.t;
     const {age} = source ?? {};
     const lateMs = isRecorded() ? behindMs === null ? null : behindMs + source.sync.delayMs
-        : age !== null && age > -1000 && age < 600e3 ? Math.max(age, 0) + behindMs : null;
-    return {retryInMs: (source?.retryAt ?? 0) - now(), known: note !== null, entry: entry?.stream?.state, behindMs, lateMs};
+        : behindMs + (age !== null && age > -1000 && age < 600e3 ? Math.max(age, 0) : (entry?.stream?.delay_s ?? 0) * 1000);
+    return {retryInMs: (source?.retryAt ?? 0) - now(), known: note !== null, isFull: isFull(entry, source?.refusals ?? 0),
+        entry: entry?.stream?.state, behindMs, lateMs};
 }
 
 function shownTime() {
@@ -324,7 +357,10 @@ function showLists() {
     matchRows.show(matches.map(({id, map, stream, goesOn}) => ({
         key: `match ${id}`, number: stream ? String(stream.players.length) : '▸', colour: '#c4ccd6', name: id,
         detail: `${map}, ${stream?.state ?? (goesOn ? 'broadcast' : 'recorded')}`, pressed: id === watched?.id,
-        choose: () => watch(id),
+        choose: () => {
+            server.rememberMatch(id);
+            watch(id);
+        },
     })));
 }
 
@@ -388,7 +424,8 @@ function drawStage() {
         const followed = sample.players.get(shot.target);
         if (followed) viewpoint.centre.set(...followed.position);
     }
-    places.forEach((place, i) => stage.drawSmall(i, shots[i], place, !level().inTurn || i === framesDrawn % places.length));
+    const {smallEvery} = level();
+    places.forEach((place, i) => stage.drawSmall(i, shots[i], place, !smallEvery || framesDrawn % (smallEvery * places.length) === smallEvery * i));
     if (view === 'camera' && shot) stage.drawThrough(shot);
     else if (view === 'plan') stage.drawPlan(viewpoint);
     else stage.drawOrbit(viewpoint);
@@ -396,14 +433,24 @@ function drawStage() {
     ++framesDrawn;
 }
 
+// To screen readers, which read it out when it changes: while the timeline has the focus only after a step.
+function tellTime() {
+    const {clock} = model;
+    if (!source?.range || clock.t === null) return;
+    untold = false;
+    const [first, last] = source.range;
+    const element = find('timeline');
+    element.setAttribute('aria-valuemin', Math.round(first));
+    element.setAttribute('aria-valuemax', Math.round(last));
+    element.setAttribute('aria-valuenow', Math.round(clock.t));
+    element.setAttribute('aria-valuetext', isRecorded() ? shownTime() : `${seconds(last - clock.t)} before the newest frame`);
+}
+
 function drawTimeline() {
     const [first, last] = source?.range ?? [0, 0];
     const {clock, timeline} = model;
     const element = find('timeline');
-    element.setAttribute('aria-valuemin', Math.round(first));
-    element.setAttribute('aria-valuemax', Math.round(last));
-    element.setAttribute('aria-valuenow', Math.round(clock.t ?? 0));
-    element.setAttribute('aria-valuetext', isRecorded() ? shownTime() : `${seconds(last - (clock.t ?? last))} before the newest frame`);
+    if (document.activeElement !== element || untold) tellTime();
     if (source?.range && clock.t !== null)
         timelineView.draw({timeline, camera, t: clock.t, first, last, whole: isRecorded(), colourOfSlot: slot => look(slot).colour});
 }
@@ -417,7 +464,7 @@ function frame(at) {
     if (draws) {
         dirty = false;
         sample = source?.state === 'loading' ? sample : model.sample() ?? sample;
-        if (!shownCamera()) camera = shownCameras()[0]?.id ?? camera;
+        findCamera();
         drawStage();
         showCaption();
         feed.show(model.timeline.events, model.clock.t ?? 0);
@@ -451,7 +498,7 @@ const keys = {
     l: goLive,
     f: () => find('follow').click(),
     m: () => find('mesh').click(),
-    i: () => { pictures = !pictures; },
+    i: () => setPictures(!pictures),
     c: () => moveCut(-0.05),
     C: () => moveCut(0.05),
     '?': () => find('help').showModal(),
@@ -476,6 +523,7 @@ document.addEventListener('keydown', event => {
 
 attachScrubbing(find('timeline'), find('tip'), {
     range: () => source?.range ?? null,
+    axis: () => source,
     now: () => model.clock.t,
     timeAt: clientX => timelineView.timeAt(clientX, ...source.range, isRecorded()),
     describe: describeTime,
@@ -507,6 +555,9 @@ for (const button of document.querySelectorAll('[data-view]')) {
     });
 }
 find('help-open').addEventListener('click', keys['?']);
+find('pictures-toggle').addEventListener('click', keys.i);
+find('cut-before').addEventListener('click', keys['[']);
+find('cut-after').addEventListener('click', keys[']']);
 find('back').addEventListener('click', keys.j);
 find('ahead').addEventListener('click', keys.k);
 find('play').addEventListener('click', keys[' ']);
@@ -540,13 +591,14 @@ window.cameraDirector = {
 
 try {
     stage = new Stage(find('canvas'));
-    quality = new Quality(stage.hasCard ? 0 : levelOfProcessor(screenPixels()));
+    quality = new Quality(stage.hasCard ? 0 : levelOfProcessor(screenPixels()), stage.hasCard);
     attach(find('canvas'), viewpoint, {
         active: () => view !== 'camera' || !shownCamera(),
         isPlan: () => view === 'plan',
         changed: () => { dirty = true; },
     });
     setView('camera');
+    setPictures(pictures);
     refreshList();
     requestAnimationFrame(frame);
 } catch (error) {

@@ -13,13 +13,14 @@ export function clockText(ms, tenths = true) {
     return tenths ? `${text}.${Math.floor(Math.max(ms, 0) / 100) % 10}` : text;
 }
 
-// What the source does: [state, text]. `facts`: {retryInMs, known: whether there is a match already, entry: its state in
-// the list, behindMs: behind what is newest, lateMs: behind the game or null}.
-export function stateText(state, {retryInMs, known, entry, behindMs, lateMs}) {
+// What the source does: [state, text]. `facts`: {retryInMs, known: whether there is a match already, isFull: the server takes
+// no more viewers, entry: the match's state in the list, behindMs: behind what is newest, lateMs: behind the game or null}.
+export function stateText(state, {retryInMs, known, isFull, entry, behindMs, lateMs}) {
     const texts = {
         none: () => ['empty', 'No match'],
         connecting: () => ['connecting', known ? 'Reconnecting' : 'Connecting'],
-        waiting: () => ['waiting', `Reconnecting in ${Math.max(1, Math.round(retryInMs / 1000))} s`],
+        waiting: () => ['waiting', `${isFull ? 'No room for another viewer: trying again' : 'Reconnecting'} in ${
+            Math.max(1, Math.round(retryInMs / 1000))} s`],
         opening: () => ['connecting', 'Opening'],
         loading: () => ['loading', 'Loading'],
         ended: () => ['ended', 'Ended'],

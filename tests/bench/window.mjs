@@ -8,7 +8,7 @@ const [bin, folder, domain, players, cameras, seconds, hold, pictures] = process
 const url = `http://127.0.0.1:${20000 + Number(domain) * 100}`;
 const sizes = [{width: 1280, height: 720}, {width: 360, height: 640}];
 const views = ['camera', 'orbit', 'plan'];
-const settleMs = 6000;   // the page finds what this machine can draw
+const settleMs = 10e3;  // the page finds what this machine can draw
 const frameCategory = 'disabled-by-default-devtools.timeline.frame';
 
 const json = path => fetch(url + path).then(answer => answer.json());

@@ -20,7 +20,7 @@ function run(quality, seconds, costMs, {at = 0, displayMs = 1000 / 60, draws = (
 
 test('a fast machine draws as finely as there is, from wherever it begins', () => {
     for (const first of [0, 2, worst]) {
-        const quality = new Quality(first);
+        const quality = new Quality(first, true);
         const {seen} = run(quality, 60, () => 5);
         assert.equal(quality.level, 0);
         assert.ok(seen.every((level, i) => i === 0 || level <= seen[i - 1]), `${seen}`);
@@ -28,7 +28,7 @@ test('a fast machine draws as finely as there is, from wherever it begins', () =
 });
 
 test('a slow machine comes to the finest level that is smooth, and is rarely bothered by trials of a finer one', () => {
-    const quality = new Quality(0);
+    const quality = new Quality(0, true);
     const costs = [200, 60, 25, 12, 9, 8];
     const begin = run(quality, 30, level => costs[level]);
     const {seen} = run(quality, 600, level => costs[level], begin);
@@ -37,21 +37,21 @@ test('a slow machine comes to the finest level that is smooth, and is rarely bot
 });
 
 test('where no level is smooth it stays at the last one, or where the same rate is reached', () => {
-    const quality = new Quality(0);
+    const quality = new Quality(0, true);
     const {seen} = run(quality, 600, level => 140 - 20 * level);
     assert.equal(quality.level, worst);
     assert.ok(seen.filter(level => level !== worst).length < 60, `${seen}`);
 });
 
 test('a display that shows 30 frames a second keeps the finest level', () => {
-    const quality = new Quality(0);
+    const quality = new Quality(0, true);
     const begin = run(quality, 90, () => 5, {displayMs: 1000 / 30});
     assert.equal(quality.level, 0);
     assert.ok(run(quality, 60, () => 5, {...begin, displayMs: 1000 / 30}).seen.every(level => level === 0));
 });
 
 test('a busy machine is drawn coarsely for, and finely again when it is not busy any more', () => {
-    const quality = new Quality(0);
+    const quality = new Quality(0, true);
     const busy = run(quality, 30, level => [60, 50, 40, 30, 20, 10][level]);
     assert.equal(quality.level, worst);
     run(quality, 90, () => 5, busy);
@@ -59,7 +59,7 @@ test('a busy machine is drawn coarsely for, and finely again when it is not busy
 });
 
 test('frames in which nothing is drawn say nothing, nor does the time in which the page is hidden', () => {
-    const quality = new Quality(3);
+    const quality = new Quality(3, true);
     const paused = run(quality, 60, () => 5, {draws: () => false});
     assert.equal(quality.level, 3);
     run(quality, 2, () => 5, {at: paused.at + 600e3});

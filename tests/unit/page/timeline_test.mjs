@@ -58,7 +58,9 @@ test('it is bounded whatever happens', () => {
     for (let i = 0; i < 20000; ++i) {
         timeline.addState(i, 5, 0, i % 2 ? visible : searching);
         timeline.addNote({kind: 'cut', t: i, camera: 5});
+        timeline.addNote({kind: 'event', t: i, event: i === 0 ? 'kill' : 'damage'});
     }
+    assert.deepEqual(timeline.events, [{kind: 'event', t: 0, event: 'kill'}], 'only what the page shows');
     assert.ok(timeline.shots.get(5).length <= 4096);
     assert.ok(timeline.cuts.length <= 1024);
 });
@@ -71,7 +73,7 @@ function parts() {
             part.addFrame(t < 8000 ? frame(t, [5, 1, t < 4000 ? visible : searching]) : frame(t));
         part.addNote({kind: 'cut', t: n * 3000, camera: 5, target: 1, reason: 'begin'});
         part.addNote({kind: 'event', t: n * 3000 + 5, event: 'kill'});
-        part.addNote({kind: 'event', t: n * 3000 + 1, event: 'item'});
+        part.addNote({kind: 'event', t: n * 3000 + 1, event: 'award'});
         return {part, end: n * 3000 + 2900};
     });
 }

@@ -23,4 +23,5 @@ test('only what is live is called so', () => {
     assert.equal(of('playing', {behindMs: null})[1], 'Recording');
     assert.equal(of('paused', {behindMs: null})[1], 'Paused');
     assert.equal(of('connecting', {known: false})[1], 'Connecting');
+    assert.equal(of('waiting', {isFull: true})[1], 'No room for another viewer: trying again in 2 s');
 });

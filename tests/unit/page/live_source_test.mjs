@@ -1,0 +1,87 @@
+// A match's stream as the page takes it, from a server of which only the WebSocket is made up.
+import assert from 'node:assert/strict';
+import {test} from 'node:test';
+import {LiveSource} from '../../../server/page/live_source.js';
+import {Model} from '../../../server/page/model.js';
+
+class Socket {
+    static OPEN = 1;
+    static made = [];
+
+    constructor() {
+        Socket.made.push(this);
+        this.readyState = 0;
+    }
+
+    open() {
+        this.readyState = Socket.OPEN;
+        this.onopen();
+    }
+
+    note(content) {
+        this.onmessage({data: JSON.stringify(content)});
+    }
+
+    close() {}
+}
+
+globalThis.WebSocket = Socket;
+globalThis.location = {protocol: 'http:', host: 'here'};
+
+const newest = () => Socket.made[Socket.made.length - 1];
+// `listed`: how many of them the game server lists still.
+const matchOf = (players, {epoch = 1, listed = players.length} = {}) => ({kind: 'match', version: 1, match_id: 'cup', epoch, map: 'hall', metres_per_unit: 0.0254,
+    position_step: 0.01, rate_hz: 60, players: players.map((id, slot) => ({slot, id, listed: slot < listed, name: `p${id}`}))});
+
+function stream() {
+    const model = new Model();
+    const source = new LiveSource('cup', model, () => null, {match() {}, problem() {}, change() {}});
+    return {model, source};
+}
+
+// As if frames had come.
+function fill(model) {
+    for (const t of [0, 16, 32]) model.buffer.add(t, 100, () => ({t, players: new Map(), cameras: new Map()}));
+}
+
+test('who joins or leaves changes nothing of what is kept', () => {
+    const {model, source} = stream();
+    newest().open();
+    newest().note(matchOf([7, 9]));
+    fill(model);
+    newest().note(matchOf([7, 9, 11]));
+    newest().note(matchOf([7, 9, 11], {listed: 1}));
+    assert.equal(model.buffer.last, 32);
+    source.close();
+});
+
+test('frames are forgotten when a server that was started again has given their slots to others', () => {
+    const {model, source} = stream();
+    newest().open();
+    newest().note(matchOf([7, 9]));
+    fill(model);
+    for (const restarted of [[9, 7], [7]]) {
+        fill(model);
+        newest().note(matchOf(restarted));
+        assert.equal(model.buffer.last, null, `${restarted}`);
+        assert.equal(model.players.get(0).id, restarted[0]);
+        newest().note(matchOf([7, 9]));
+    }
+    source.close();
+});
+
+test('a server that does not open the stream has refused, until it opens it or does not answer at all', () => {
+    const {source} = stream();
+    newest().onclose();
+    assert.equal(source.refusals, 1);
+    source.link.open();
+    newest().onclose();
+    assert.equal(source.refusals, 2);
+    source.unreachable();
+    assert.equal(source.refusals, 0);
+    source.link.open();
+    newest().open();
+    newest().onclose();
+    assert.equal(source.refusals, 0, 'it was open');
+    source.close();
+});
