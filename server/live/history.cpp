@@ -1,6 +1,7 @@
 #include "live/history.hpp"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "camera/camera.hpp"
@@ -8,6 +9,12 @@
 
 namespace camdir::live {
 namespace {
+
+// Kills, flags taken and captured, objectives, awards, rounds.
+bool is_told_later(std::uint32_t kind) {
+    static constexpr std::array<std::uint32_t, 6> told = {1, 2, 3, 4, 6, 8};
+    return std::ranges::find(told, kind) != told.end();
+}
 
 bool was_moved(const director::PoseFrame& poses, std::uint32_t player) {
     const auto pose = std::ranges::find(poses.poses, player, &director::PlayerPose::player_id);
@@ -61,9 +68,15 @@ void History::add_state(const ShotState& state) {
     if (states_.size() > max_states) states_.pop_front();
 }
 
-void History::keep(SharedMessage note) {
-    notes_.push_back(std::move(note));
-    if (notes_.size() > max_notes) notes_.pop_front();
+void History::keep_cut(SharedMessage note) {
+    cuts_.push_back(std::move(note));
+    if (cuts_.size() > max_cuts) cuts_.pop_front();
+}
+
+void History::keep(const director::MatchEvent& event, SharedMessage note) {
+    if (!is_told_later(event.kind)) return;
+    events_.push_back(std::move(note));
+    if (events_.size() > max_events) events_.pop_front();
 }
 
 }  // namespace camdir::live

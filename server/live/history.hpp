@@ -41,23 +41,29 @@ struct Cut {
 class History {
   public:
     static constexpr std::size_t max_states = 2048;
-    static constexpr std::size_t max_notes = 256;
+    static constexpr std::size_t max_cuts = 1024;
+    static constexpr std::size_t max_events = 256;
 
     // The cuts of the frame's cameras.
     std::vector<Cut> add(const director::PoseFrame& poses, const director::CameraFrame& cameras);
-    // A note of an event or a cut, to be kept.
-    void keep(SharedMessage note);
+    // The note of a cut, to be kept.
+    void keep_cut(SharedMessage note);
+    // Of an event likewise, where viewers are told of what happened before: not of wounds and things taken,
+    // which are many.
+    void keep(const director::MatchEvent& event, SharedMessage note);
 
     // The newest, by time.
     [[nodiscard]] const std::deque<ShotState>& states() const { return states_; }
-    [[nodiscard]] const std::deque<SharedMessage>& notes() const { return notes_; }
+    [[nodiscard]] const std::deque<SharedMessage>& cuts() const { return cuts_; }
+    [[nodiscard]] const std::deque<SharedMessage>& events() const { return events_; }
 
   private:
     void add_state(const ShotState& state);
 
     std::map<std::uint32_t, ShotState> shots_;  // by camera, as of the last frame
     std::deque<ShotState> states_;
-    std::deque<SharedMessage> notes_;
+    std::deque<SharedMessage> cuts_;
+    std::deque<SharedMessage> events_;
 };
 
 }  // namespace camdir::live

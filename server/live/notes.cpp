@@ -67,10 +67,11 @@ SharedMessage history_note(const History& history, const SlotOf& slot_of) {
         text += ',' + (state.present ? std::to_string(state.flags) : "null") + ']';
     }
     text += R"(],"notes":[)";
-    for (const SharedMessage& kept : history.notes()) {
-        if (text.back() == '}') text += ',';
-        text += kept->content;
-    }
+    for (const auto* kept : {&history.cuts(), &history.events()})
+        for (const SharedMessage& note : *kept) {
+            if (text.back() == '}') text += ',';
+            text += note->content;
+        }
     return std::make_shared<Message>(Message{Message::Kind::note, text + "]}"});
 }
 

@@ -72,7 +72,7 @@ void Relay::Channel::show(const director::PoseFrame& poses, const director::Came
     add_unlisted(poses);
     for (const Cut& cut : history_->add(poses, cameras)) {
         const SharedMessage note = cut_note(cut, slots());
-        history_->keep(note);
+        history_->keep_cut(note);
         put(note);
     }
     forget_left();
@@ -83,7 +83,7 @@ void Relay::Channel::show(const director::MatchEvent& event) {
     const std::lock_guard lock(mutex_);
     if (!history_) return;
     const SharedMessage note = event_note(event, slots());
-    history_->keep(note);
+    history_->keep(event, note);
     put(note);
 }
 

@@ -1,5 +1,6 @@
 #include "recording/broadcast.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <nlohmann/json.hpp>
 #include <vector>
@@ -13,7 +14,7 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
-constexpr std::chrono::minutes ended_for{10};
+constexpr std::chrono::minutes unwanted_for{10};
 
 std::string dump(const json& object) {
     return object.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
@@ -61,30 +62,29 @@ std::optional<std::string> file_of(const Channel& channel, const std::vector<std
 
 }  // namespace
 
-void Broadcast::set(const std::string& match_id, Channel channel) {
+void Broadcast::set(const std::string& match_id, Channel channel, Time now) {
     const std::lock_guard lock(mutex_);
-    ended_at_.erase(match_id);
+    wanted_at_.erase(match_id);
     channels_[match_id] = std::move(channel);
-    drop_ended(Channel::Clock::now());
+    drop_ended(now);
 }
 
-void Broadcast::end(const std::string& match_id) {
+void Broadcast::end(const std::string& match_id, Time now) {
     const std::lock_guard lock(mutex_);
-    const auto now = Channel::Clock::now();
     if (const auto channel = channels_.find(match_id); channel != channels_.end()) {
         channel->second.is_live = false;
-        ended_at_[match_id] = now;
+        wanted_at_[match_id] = now;
     }
     drop_ended(now);
 }
 
 void Broadcast::drop_ended(Time now) {
-    std::erase_if(ended_at_, [&](const auto& ended) {
-        return now - ended.second > ended_for && channels_.erase(ended.first) > 0;
+    std::erase_if(wanted_at_, [&](const auto& ended) {
+        return now - ended.second > unwanted_for && channels_.erase(ended.first) > 0;
     });
 }
 
-std::optional<Broadcast::Answer> Broadcast::get(std::string_view path) const {
+std::optional<Broadcast::Answer> Broadcast::get(std::string_view path, Time now) const {
     if (path.empty()) return Answer{true, "", list()};
     const auto parts = parts_of(path);
     const auto match_id = parts.empty() ? std::nullopt : percent_decoded(parts[0]);
@@ -94,6 +94,7 @@ std::optional<Broadcast::Answer> Broadcast::get(std::string_view path) const {
     const auto file = parts[1] == channel->recording_id ? file_of(*channel, parts) : std::nullopt;
     const auto bytes = file ? read_file(channel->folder / *file) : Result<Bytes>();
     if (!file || !bytes) return std::nullopt;
+    keep_for_longer(*match_id, now);
     return Answer{false, channel->recording_id + "/" + *file,
                   std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size())};
 }
@@ -102,6 +103,12 @@ std::optional<Channel> Broadcast::find(const std::string& match_id) const {
     const std::lock_guard lock(mutex_);
     const auto found = channels_.find(match_id);
     return found == channels_.end() ? std::nullopt : std::optional(found->second);
+}
+
+void Broadcast::keep_for_longer(const std::string& match_id, Time now) const {
+    const std::lock_guard lock(mutex_);
+    if (const auto ended = wanted_at_.find(match_id); ended != wanted_at_.end())
+        ended->second = std::max(ended->second, now);
 }
 
 std::string Broadcast::list() const {

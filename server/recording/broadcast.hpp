@@ -30,10 +30,13 @@ struct Channel {
 // Thread-safe.
 class Broadcast {
   public:
+    using Time = Channel::Clock::time_point;
+
     // Replaces the match's channel, which may be of another recording.
-    void set(const std::string& match_id, Channel channel);
-    // Nothing more follows. The channel stays for ten minutes, or until the match is set again.
-    void end(const std::string& match_id);
+    void set(const std::string& match_id, Channel channel, Time now = Channel::Clock::now());
+    // Nothing more follows. The channel stays until nobody has read a part of it for ten minutes, or the
+    // match is set again.
+    void end(const std::string& match_id, Time now = Channel::Clock::now());
 
     struct Answer {
         bool is_json = false;
@@ -43,18 +46,17 @@ class Broadcast {
     // The resource of a path below /broadcast: "" is the list of matches, "/MATCH/sync",
     // "/MATCH/RECORDING/start" and so on. Reads a file. The path, from outside, is only looked up in the
     // table; nullopt: there is no such resource, or no more.
-    [[nodiscard]] std::optional<Answer> get(std::string_view path) const;
+    [[nodiscard]] std::optional<Answer> get(std::string_view path, Time now = Channel::Clock::now()) const;
 
   private:
-    using Time = Channel::Clock::time_point;
-
     void drop_ended(Time now);
     [[nodiscard]] std::string list() const;
     [[nodiscard]] std::optional<Channel> find(const std::string& match_id) const;
+    void keep_for_longer(const std::string& match_id, Time now) const;
 
     mutable std::mutex mutex_;
-    std::map<std::string, Channel> channels_;  // by match
-    std::map<std::string, Time> ended_at_;
+    std::map<std::string, Channel> channels_;        // by match
+    mutable std::map<std::string, Time> wanted_at_;  // of those that have ended: at their end, or later
 };
 
 }  // namespace camdir::recording

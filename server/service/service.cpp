@@ -22,6 +22,7 @@ constexpr std::chrono::seconds trim_period(10);
 constexpr std::chrono::seconds start_extension{60};
 constexpr std::chrono::milliseconds max_turn{5000};  // whoever takes longer has hung
 constexpr std::chrono::milliseconds view_timeout{500};
+constexpr std::chrono::seconds live_list_age{1};          // every viewer asks for it every few seconds
 constexpr std::chrono::milliseconds viewers_leave{1000};  // a stop waits so long for them
 
 void log_lines(spdlog::level::level_enum level, const std::string& text) {
@@ -68,7 +69,9 @@ Service::Service(std::filesystem::path file, std::string shard, config::Config c
       models_(maps_),
       relay_(static_cast<std::size_t>(config_.http.viewers)),
       director_(config_, maps_, *gateway_, audiences()),
-      loader_(map_sink()) {
+      loader_(map_sink()),
+      live_list_([this] { return http::live_page(director_.view(view_timeout), recorder_ != nullptr); },
+                 live_list_age) {
     for (const config::Map& map : config_.maps)
         maps_.add(map.name, map.strict);
 }
@@ -130,7 +133,7 @@ http::Sources Service::sources() {
         return recorder_ ? viewers_resource(recorder_->broadcast(), path) : std::nullopt;
     };
     sources.status = [this] { return http::status_page(director_.view(view_timeout), maps_.entries()); };
-    sources.live = [this] { return http::live_page(director_.view(view_timeout), recorder_ != nullptr); };
+    sources.live = [this] { return live_list_.at(http::KeptAnswer::Clock::now()); };
     sources.model = [this](const std::string& map, live::ModelKind kind) { return models_.find(map, kind); };
     sources.join = [this](const std::string& match_id, const std::shared_ptr<live::Viewer>& viewer) {
         return relay_.join(match_id, viewer);

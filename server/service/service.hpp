@@ -10,6 +10,7 @@
 #include "config/config.hpp"
 #include "dds/gateway.hpp"
 #include "director/director.hpp"
+#include "http/kept_answer.hpp"
 #include "http/server.hpp"
 #include "live/models.hpp"
 #include "live/relay.hpp"
@@ -56,6 +57,7 @@ class Service {
     live::Relay relay_;
     director::Director director_;
     maps::Loader loader_;
+    http::KeptAnswer live_list_;
     std::unique_ptr<http::Server> http_;  // null when off
 };
 

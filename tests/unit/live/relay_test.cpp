@@ -52,6 +52,10 @@ director::CameraFrame cameras_of(const director::PoseFrame& poses, std::uint32_t
     return frame;
 }
 
+director::MatchEvent event_of(std::uint32_t number, std::uint32_t kind) {
+    return {1, number * 16'000'000LL, kind, 1, director::no_player, 1.0F, ""};
+}
+
 std::shared_ptr<Viewer> viewer() {
     return std::make_shared<Viewer>([] {});
 }
@@ -191,12 +195,37 @@ TEST(Relay, BoundsHistory) {
     for (std::uint32_t number = 1; number < 5000; ++number) {
         const auto poses = poses_of({1}, number);
         relay.show("cup", poses, cameras_of(poses, 1, 1 | (number % 2) << 1));
+        relay.show("cup", event_of(number, 1));
     }
     const auto late = viewer();
     ASSERT_EQ(relay.join("cup", late), Relay::Admission::joined);
     const auto told = take_all(*late);
     EXPECT_EQ(told[1]["states"].size(), History::max_states);
-    EXPECT_EQ(told[1]["notes"].size(), History::max_notes);
+    EXPECT_EQ(told[1]["notes"].size(), History::max_cuts + History::max_events);
+}
+
+TEST(Relay, ManyWoundsPushNoCutOrKillOutOfTheHistory) {
+    constexpr std::uint32_t kill = 1;
+    constexpr std::uint32_t damage = 5;
+    Relay relay(10);
+    relay.show(match_info("cup", {{1, "", "", 0}}));
+    const auto poses = poses_of({1}, 1);
+    relay.show("cup", poses, cameras_of(poses, 1, 1));
+    relay.show("cup", event_of(1, kill));
+    const auto there = viewer();
+    ASSERT_EQ(relay.join("cup", there), Relay::Admission::joined);
+    take_all(*there);
+    relay.show("cup", event_of(2, damage));
+    EXPECT_EQ(take_all(*there).size(), 1U) << "who is there is told of wounds";
+    there->leave();
+    for (std::uint32_t number = 3; number < 5000; ++number)
+        relay.show("cup", event_of(number, damage));
+    const auto late = viewer();
+    ASSERT_EQ(relay.join("cup", late), Relay::Admission::joined);
+    const auto notes = take_all(*late)[1]["notes"];
+    ASSERT_EQ(notes.size(), 2U);
+    EXPECT_EQ(notes[0]["kind"], "cut");
+    EXPECT_EQ(notes[1]["event"], "kill");
 }
 
 TEST(Relay, LetsInSoManyViewersAndNoMore) {

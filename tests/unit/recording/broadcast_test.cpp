@@ -133,6 +133,18 @@ TEST_F(BroadcastTest, AnEndedMatchCanBeSeenToItsEnd) {
     EXPECT_EQ(json::parse(content("/m%2F1/sync"))["live"], true);
 }
 
+TEST_F(BroadcastTest, AnEndedMatchStaysAsLongAsSomebodyWatchesIt) {
+    const Broadcast::Time end = Channel::Clock::now();
+    const auto after = [&](int minutes) { return end + std::chrono::minutes(minutes); };
+    broadcast_.end("m/1", end);
+    for (int minutes = 5; minutes <= 30; minutes += 5) {
+        broadcast_.set("another", channel("its"), after(minutes));
+        EXPECT_TRUE(broadcast_.get("/m%2F1/id/3/delta", after(minutes))) << minutes;
+    }
+    broadcast_.set("another", channel("its"), after(41));
+    EXPECT_FALSE(broadcast_.get("/m%2F1/id/3/delta", after(41)));
+}
+
 TEST_F(BroadcastTest, ARotatedFragmentIsGone) {
     std::filesystem::remove_all(folder_ / "r" / "2");
     EXPECT_FALSE(broadcast_.get("/m%2F1/id/2/full"));
