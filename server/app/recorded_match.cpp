@@ -1,8 +1,13 @@
 #include "app/recorded_match.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <iostream>
 #include <map>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "director/roster.hpp"
 #include "recording/reader.hpp"
@@ -12,6 +17,13 @@ namespace {
 
 constexpr std::size_t max_players = 256;  // of a trace
 constexpr float view_height = 26.0F;      // units of 0.0254 m; of a standing player of Quake's
+
+// As tables of events name what the wire counts from 1.
+std::string kind_name(std::uint32_t kind) {
+    static constexpr std::array names = {"kill",  "flag_taken", "flag_captured", "objective", "damage",
+                                         "award", "item",       "round",         "spawn",     "weapon"};
+    return kind >= 1 && kind <= names.size() ? names[kind - 1] : std::to_string(kind);
+}
 
 // Takes the records in their order.
 class Assembly {
@@ -31,6 +43,7 @@ class Assembly {
             trace_ = {};
             last_seen_.clear();
             epoch_ = frame.epoch;
+            std::erase_if(events_, [&](const Event& event) { return event.epoch != frame.epoch; });
         }
         if (!trace_.frames.empty() && frame.frame_time <= trace_.frames.back().time) return;
         std::map<std::uint32_t, const director::PlayerPose*> poses;  // by player
@@ -41,6 +54,34 @@ class Assembly {
                                  static_cast<std::uint32_t>(poses.size())});
         for (const auto& [player, pose] : poses)
             add(*pose);
+    }
+
+    // One of an epoch may come before its first poses.
+    void add(const director::MatchEvent& event) {
+        if (events_.size() == evaluation::max_events)
+            events_.erase(events_.begin(), events_.begin() + evaluation::max_events / 8);
+        const auto player = [](std::uint32_t id) {
+            return id == director::no_player ? std::nullopt : std::optional(id);
+        };
+        std::string detail = event.detail;
+        if (detail.empty() && std::isfinite(event.value) && event.value != 0.0F)
+            detail = std::to_string(std::lround(event.value));
+        events_.push_back({event.epoch,
+                           {event.frame_time, kind_name(event.kind), player(event.actor),
+                            player(event.subject), std::move(detail)}});
+    }
+
+    // Of players whom the trace knows.
+    std::vector<evaluation::TraceEvent> events_of(const evaluation::Trace& trace) {
+        const auto known = [&](const std::optional<std::uint32_t>& player) {
+            return !player || std::ranges::binary_search(trace.players, *player);
+        };
+        std::vector<evaluation::TraceEvent> events;
+        for (Event& event : events_)
+            if (event.epoch == epoch_ && known(event.row.actor) && known(event.row.subject))
+                events.push_back(std::move(event.row));
+        std::ranges::stable_sort(events, {}, &evaluation::TraceEvent::time);
+        return events;
     }
 
     Result<evaluation::Trace> finish(const std::string& name) {
@@ -76,7 +117,13 @@ class Assembly {
         seen->second = now;
     }
 
+    struct Event {
+        std::uint64_t epoch;
+        evaluation::TraceEvent row;
+    };
+
     evaluation::Trace trace_;
+    std::vector<Event> events_;
     std::optional<std::uint64_t> epoch_;
     float view_height_ = view_height;
     std::map<std::uint32_t, std::uint8_t> teams_;
@@ -85,7 +132,7 @@ class Assembly {
 
 }  // namespace
 
-Result<evaluation::Trace> trace_of_recording(const std::filesystem::path& folder) {
+Result<evaluation::RecordedMatch> match_of_recording(const std::filesystem::path& folder) {
     const auto reader = recording::Reader::open(folder);
     if (!reader) return tl::unexpected(reader.error());
     const auto begin = reader->begin_time(reader->first_fragment());
@@ -95,18 +142,19 @@ Result<evaluation::Trace> trace_of_recording(const std::filesystem::path& folder
     const auto read = reader->replay(*begin, [&](const recording::Record& record) {
         if (const auto* info = std::get_if<director::MatchInfo>(&record.message)) assembly.add(*info);
         if (const auto* frame = std::get_if<director::PoseFrame>(&record.message)) assembly.add(*frame);
+        if (const auto* event = std::get_if<director::MatchEvent>(&record.message)) assembly.add(*event);
     });
     if (!read) return tl::unexpected(read.error());
-    return assembly.finish(folder.string());
+    auto trace = assembly.finish(folder.string());
+    if (!trace) return tl::unexpected(trace.error());
+    evaluation::RecordedMatch match{std::move(*trace), {}, {}};
+    if (auto events = assembly.events_of(match.trace); !events.empty()) match.events = std::move(events);
+    return match;
 }
 
 Result<evaluation::RecordedMatch> read_match(const std::filesystem::path& path, ProgressLine& line) {
     line.show("reading " + path.string(), 0, 0);
-    if (std::filesystem::is_directory(path)) {
-        auto trace = trace_of_recording(path);
-        if (!trace) return tl::unexpected(trace.error());
-        return evaluation::RecordedMatch{std::move(*trace), {}, {}};
-    }
+    if (std::filesystem::is_directory(path)) return match_of_recording(path);
     auto match = evaluation::read_match(path);
     if (!match || match->warning.empty()) return match;
     line.clear();

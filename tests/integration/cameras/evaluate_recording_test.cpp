@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "evaluation/events.hpp"
 #include "evaluation/trace.hpp"
 #include "hall_match.hpp"
 #include "recording/writer.hpp"
@@ -15,7 +16,7 @@ using nlohmann::json;
 
 class EvaluateRecording : public HallMatch {
   protected:
-    // The poses of the trace, after those of an epoch that is not looked at, and a spectator.
+    // The poses and kills of the trace, after those of an epoch that is not looked at, and a spectator.
     void SetUp() override {
         HallMatch::SetUp();
         const auto trace = evaluation::read_trace(trace_);
@@ -31,9 +32,20 @@ class EvaluateRecording : public HallMatch {
             frame.frame_number = number;
             ASSERT_TRUE(writer->append({number++ * 16'000'000LL, frame}));
         };
+        const auto append_kill = [&](director::MatchEvent kill) {
+            kill.kind = 1;
+            ASSERT_TRUE(writer->append({number * 16'000'000LL, kill}));
+        };
         append({1, 0, 77, 0, {{5, Vec3f::Zero(), Quatf::Identity(), Vec3f::Zero(), 1, {}}}});
+        append_kill({1, 77, 0, 5, 5, 0.0F, ""});
         start.match.epoch = 2;
         ASSERT_TRUE(writer->append({16'000'000, start.match}));
+        const auto events = evaluation::read_events(events_, *trace);
+        ASSERT_TRUE(events);
+        for (const evaluation::TraceEvent& event : *events)
+            append_kill({2, event.time, 0, event.actor.value_or(director::no_player),
+                         event.subject.value_or(director::no_player), 0.0F, event.detail});
+        append_kill({2, trace->frames.front().time, 0, 9, 9, 0.0F, "a spectator"});
         for (const evaluation::TraceFrame& frame : trace->frames) {
             director::PoseFrame poses{2, 0, frame.time, 0, {}};
             for (const evaluation::TracePose& pose : trace->poses_of(frame))
@@ -48,10 +60,11 @@ class EvaluateRecording : public HallMatch {
         ASSERT_TRUE(writer->finish());
     }
 
-    [[nodiscard]] json figures_of(const std::string& trace) const {
+    [[nodiscard]] json figures_of(const std::vector<std::string>& match) const {
         const std::string file = folder_ / "figures.json";
-        test::ChildProcess process(
-            {CAMERA_DIRECTOR, "evaluate", vfs_, "--map", map_, "--trace", trace, "--json", file});
+        std::vector<std::string> command = {CAMERA_DIRECTOR, "evaluate", vfs_, "--map", map_, "--json", file};
+        command.insert(command.end(), match.begin(), match.end());
+        test::ChildProcess process(command);
         EXPECT_EQ(process.wait(), 0) << process.errors();
         const Bytes bytes = read_file(file).value();
         return json::parse(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
@@ -61,9 +74,10 @@ class EvaluateRecording : public HallMatch {
 };
 
 TEST_F(EvaluateRecording, HasTheFiguresOfTheSameMatchAsATable) {
-    const json of_table = figures_of(trace_);
-    const json of_recording = figures_of(recording_);
+    const json of_table = figures_of({"--trace", trace_, "--events", events_});
+    const json of_recording = figures_of({"--trace", recording_});
     ASSERT_EQ(of_table.size(), of_recording.size());
+    EXPECT_TRUE(of_table.at("kill_in_view").is_number());
     for (const auto& [name, value] : of_table.items()) {
         if (!value.is_number()) continue;
         EXPECT_NEAR(of_recording.at(name).get<double>(), value.get<double>(),
