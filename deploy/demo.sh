@@ -90,8 +90,18 @@ run "$work/director.log" "$bin/camera-director" serve --config "$work/demo.json"
 
 # Of the page that shows the match. Empty while the director does not listen yet.
 link() { sed -n 's|.*http: listening on \(.*\) port \(.*\)|http://\1:\2/|p' "$work/director.log"; }
-for ((i = 0; i < 100; ++i)); do [ -z "$(link)" ] || break; sleep 0.1; done
+director=$!
+while [ -z "$(link)" ]; do
+    running "$director" || { tail -n 5 "$work/director.log" >&2; fail "the director ended, see above"; }
+    sleep 0.1
+done
 step "Watch the match in a browser: $(link)"
+
+watch_again() {
+    local recordings=("$1"/recordings/*/sync)
+    [ ! -e "${recordings[-1]}" ] || echo "Watch it again, from its beginning:
+    $bin/camera-director play $(dirname "${recordings[-1]}") $1/oa_dm1.vfs --map $map" >&2
+}
 
 if $openarena; then
     work=$work/openarena
@@ -104,6 +114,7 @@ if $openarena; then
     start_match
     how_to_connect
     film_match "$seconds" "$video"
+    watch_again "${work%/*}"
     exit 0
 fi
 
@@ -127,9 +138,7 @@ trap 'send INT "$probe"' INT  # the observers print their summary
 while running "$probe"; do wait "$probe" || true; done  # a signal ends a wait
 status=0
 wait "$probe" || status=$?
-recordings=("$work"/recordings/*/sync)
-[ ! -e "${recordings[-1]}" ] || echo "Watch it again, from its beginning:
-    $bin/camera-director play $(dirname "${recordings[-1]}") $work/oa_dm1.vfs --map $map" >&2
+watch_again "$work"
 if [ "$status" -eq 0 ]; then
     echo "All checks held: every camera frame arrived, no camera was in a wall or moved through one, every jump was declared."
 elif [ "$status" -ne 130 ]; then  # 130: Ctrl-C twice

@@ -21,6 +21,7 @@ apt=(apt-get -q -o APT::Architecture=i386 -o APT::Architectures=i386 -o APT::San
      -o Dir::State="$work/apt" -o Dir::State::status=/dev/null -o Dir::State::lists="$work/apt/lists"
      -o Dir::Cache="$work/apt" -o Acquire::Languages=none)
 "${apt[@]}" update || echo "i386-packages.sh: a package list is missing; trying with the others" >&2
+# shellcheck disable=SC2154  # packages.sh sets it
 (cd "$work/debs" && "${apt[@]}" download "${i386_packages[@]}")
 for package in "$work"/debs/*.deb; do
     dpkg-deb --extract "$package" "$work/root"

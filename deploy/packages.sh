@@ -36,7 +36,7 @@ test_packages=(
 # kubectl builds the files for Kubernetes. Where it is another vendor's, Debian's package cannot be installed.
 command -v kubectl >/dev/null || test_packages+=(kubernetes-client)
 # What test.sh --all needs in addition.
-lint_packages=(clang-14 clang-tidy-14 libclang-rt-14-dev)
+lint_packages=(clang-14 clang-tidy-14 libclang-rt-14-dev shellcheck)
 # For building Debian packages, and for testing them in an empty Debian.
 package_packages=(dpkg-dev file debootstrap)
 # What i386-packages.sh unpacks: the libraries of 32-bit game servers, and what to build against them.

@@ -52,8 +52,10 @@ JSON
 # serve LOG: starts the server as systemd would, waits until it is ready, and stops it.
 serve() {
     local i port
+    # shellcheck disable=SC2046  # words of a command
     as_service $(of_unit ExecStartPre) || fail "the unit's ExecStartPre fails"
     inside install -d -o "$(of_unit User)" "/var/lib/$(of_unit StateDirectory)"
+    # shellcheck disable=SC2046  # words of a command
     run "$1" chroot --userspec="$(of_unit User)" "$root" $(of_unit ExecStart)
     for ((i = 0; i < 600; ++i)); do
         if grep -q 'info: ready' "$1" || ! running $!; then break; fi
@@ -84,6 +86,7 @@ install_package "$server" systemd-standalone-sysusers
 inside getent passwd camera-director
 inside qtv-publisher --version
 expect "$(stat -c %U:%a "$config")" = root:644
+# shellcheck disable=SC2046  # words of a command
 as_service $(of_unit ExecStartPre) || fail "the configuration of the package is not valid"
 
 step "Configure and start"

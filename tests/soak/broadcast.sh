@@ -38,6 +38,7 @@ for tool in wrk curl; do command -v "$tool" >/dev/null || needs "the package $to
 
 source "$here/../../deploy/processes.sh"
 lock_domain
+# shellcheck disable=SC2154  # lock_domain sets it
 director_port=$((19000 + domain)) cache_port=$((19100 + domain))
 
 rm -rf "$work/broadcast"
@@ -108,7 +109,7 @@ mapfile -t broadcasts < <(list)
 [ "${#broadcasts[@]}" = "$matches" ] || fail "not all of the $matches matches are broadcast: see $PWD/director.log"
 step "$viewers viewers for $seconds s"
 wrk --threads 2 --connections "$viewers" --duration "${seconds}s" --timeout 10s --script "$here/broadcast.lua" \
-    "$url" -- ${broadcasts[*]} >wrk.txt || fail "wrk failed: $(cat wrk.txt)"
+    "$url" -- "${broadcasts[@]}" >wrk.txt || fail "wrk failed: $(cat wrk.txt)"
 
 # Times that the director was asked, each with its path; the fragments alone.
 grep -E '/(full|delta|start)$' asked.log | sort | uniq -c | sort -rn >fragments.txt ||

@@ -62,6 +62,7 @@ lock_domain
 
 # write_config SECURITY: a folder of an identity, or nothing.
 write_config() {
+    # shellcheck disable=SC2154  # lock_domain sets it
     cat >"$work/soak.json" <<CONFIG
 {
   "dds": {"domain": $domain, "security": "$1"},
