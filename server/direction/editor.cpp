@@ -1,6 +1,7 @@
 #include "direction/editor.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <limits>
 
@@ -190,7 +191,7 @@ class Plan {
     // Of the shot on each rush that ends at `beat`, which rush is next. The most promising are asked first:
     // the costs of a cut are looked up for few.
     void choose_cuts(Beat beat) {
-        const Spanning spanning = spanning_at(beat);
+        span_at(beat);
         promising_.clear();
         for (const std::size_t rush : choice_) {
             jumped_[rush] = jumped_just_before(footage_, beat, rush);
@@ -205,9 +206,9 @@ class Plan {
             Choice& best = cuts_[at(beat, from)];
             best = ending(worst, beat, from);
             for (const auto& [before, to] : promising_) {
-                if (before + spanning.worth <= best.worth) break;
+                if (before + spanning_.worth <= best.worth) break;
                 if (to == from) continue;
-                double worth = before - cost_of_dividing(spanning, beat, from, to);
+                double worth = before - cost_of_dividing(from, to);
                 if (jumped_[from] || jumps_[to]) worth -= rules_.grammar.inner_cut;
                 if (worth <= best.worth) continue;  // looking at the pictures takes longest
                 if (breaks_continuity(beat, from, to)) worth -= never;
@@ -217,32 +218,52 @@ class Plan {
         }
     }
 
-    // The moments that a cut at a beat divides, and what they are worth together.
+    // The moments that a cut at a beat divides, and what they are worth together. Moment m has bit m % 64 of
+    // word m / 64: of the rushes that show it up to there, and of those that show it from there on, word
+    // after word of all.
     struct Spanning {
         std::vector<const Credit*> credits;
         double worth = 0.0;
+        std::vector<Footage::Word> until, from;
+        std::vector<Footage::Word> coming_kills;
     };
 
-    [[nodiscard]] Spanning spanning_at(Beat beat) const {
-        Spanning spanning;
+    void span_at(Beat beat) {
+        Spanning& spanning = spanning_;
+        spanning.credits.clear();
+        spanning.worth = 0.0;
         for (const Credit& credit : value_.credits()) {
             if (beat <= credit.begin || beat >= credit.end) continue;
             spanning.credits.push_back(&credit);
             spanning.worth += credit.worth;
         }
-        return spanning;
+        const std::size_t words = (spanning.credits.size() + Footage::word_bits - 1) / Footage::word_bits;
+        spanning.until.assign(words * rushes_, 0);
+        spanning.from.assign(words * rushes_, 0);
+        spanning.coming_kills.assign(words, 0);
+        for (std::size_t i = 0; i < spanning.credits.size(); ++i) {
+            const Credit& credit = *spanning.credits[i];
+            const std::size_t word = i / Footage::word_bits;
+            const Footage::Word bit = Footage::Word{1} << i % Footage::word_bits;
+            if (credit.kill && beat <= credit.peak) spanning.coming_kills[word] |= bit;
+            for (const std::size_t rush : choice_) {
+                if (credit.until[rush] >= beat) spanning.until[word * rushes_ + rush] |= bit;
+                if (credit.from[rush] <= beat) spanning.from[word * rushes_ + rush] |= bit;
+            }
+        }
     }
 
     // Less the divided moments that both shots together show.
-    [[nodiscard]] double cost_of_dividing(const Spanning& spanning, Beat beat, std::size_t from,
-                                          std::size_t to) const {
+    [[nodiscard]] double cost_of_dividing(std::size_t from, std::size_t to) const {
         double cost = 0.0;
-        for (const Credit* credit : spanning.credits) {
-            const bool seen = credit->until[from] >= beat && credit->from[to] <= beat;
-            if (seen)
-                cost -= credit->worth;
-            else if (credit->kill && beat <= credit->peak)
-                cost += never;
+        for (std::size_t word = 0; word < spanning_.coming_kills.size(); ++word) {
+            const std::size_t row = word * rushes_;
+            const Footage::Word seen = spanning_.until[row + from] & spanning_.from[row + to];
+            cost += never * std::popcount(spanning_.coming_kills[word] & ~seen);
+            for (Footage::Word left = seen; left != 0; left &= left - 1) {
+                const auto bit = static_cast<std::size_t>(std::countr_zero(left));
+                cost -= spanning_.credits[word * Footage::word_bits + bit]->worth;
+            }
         }
         return cost;
     }
@@ -345,6 +366,7 @@ class Plan {
         double worth;
         std::size_t rush;
     };
+    Spanning spanning_;                 // of a beat
     std::vector<char> jumped_, jumps_;  // of each rush at a beat: a camera's jump is too near to a cut
     std::vector<Promise> promising_;    // at a beat, the best next one first
     std::vector<double> length_costs_;  // by length

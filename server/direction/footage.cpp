@@ -1,5 +1,6 @@
 #include "direction/footage.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <utility>
@@ -60,12 +61,14 @@ Index subject_in(const Take& take, std::span<const PlayerState> players) {
 }
 
 Footage::Footage(std::size_t players, std::vector<Index> followed)
-    : players_(players), followed_(std::move(followed)) {
+    : players_(players), followed_(std::move(followed)), jumps_(followed_.size()) {
     assert(players_ <= max_players);
 }
 
 void Footage::append(std::span<const PlayerState> players, std::span<const Take> takes) {
     assert(players.size() == players_ && takes.size() == followed_.size());
+    for (std::size_t rush = 0; rush < takes.size(); ++rush)
+        if (takes[rush].cut) jumps_[rush].push_back(beats());
     Row& row = rows_.emplace_back();
     row.players.assign(players.begin(), players.end());
     row.takes.assign(takes.begin(), takes.end());
@@ -86,6 +89,7 @@ void Footage::add_player() {
     assert(players_ < max_players);
     const auto player = static_cast<Index>(players_++);
     followed_.push_back(player);
+    jumps_.emplace_back();
     for (Row& row : rows_) {
         row.players.emplace_back();
         row.takes.emplace_back().subject = player;
@@ -102,6 +106,8 @@ std::size_t Footage::rush_following(Index player) const {
 void Footage::forget_before(Beat beat) {
     for (; first_ < std::min(beat, beats()); ++first_)
         rows_.pop_front();
+    for (std::vector<Beat>& jumps : jumps_)
+        jumps.erase(jumps.begin(), std::ranges::lower_bound(jumps, first_));
 }
 
 }  // namespace camdir::direction

@@ -91,6 +91,9 @@ class Footage {
     [[nodiscard]] std::span<const Take> takes_at(Beat beat) const { return row(beat).takes; }
     [[nodiscard]] std::span<const Meeting> meetings_at(Beat beat) const { return row(beat).meetings; }
 
+    // The beats in which a rush's camera jumps, ascending.
+    [[nodiscard]] const std::vector<Beat>& jumps(std::size_t rush) const { return jumps_[rush]; }
+
     // The rushes that show a player: rush r by bit r % 64 of word r / 64. Of nobody none, in as many words.
     using Word = std::uint64_t;
     static constexpr std::size_t word_bits = 64;
@@ -114,6 +117,7 @@ class Footage {
     std::vector<Index> followed_;
     Beat first_ = 0;
     std::deque<Row> rows_;
+    std::vector<std::vector<Beat>> jumps_;  // by rush
 };
 
 }  // namespace camdir::direction

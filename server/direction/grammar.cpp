@@ -24,6 +24,13 @@ bool sees_an_enemy(const Footage& footage, Beat beat, std::size_t player) {
     return false;
 }
 
+// From `begin` to before `end`.
+bool jumps_between(const Footage& footage, std::size_t rush, Beat begin, Beat end) {
+    const std::vector<Beat>& jumps = footage.jumps(rush);
+    const auto next = std::ranges::lower_bound(jumps, begin);
+    return next != jumps.end() && *next < end;
+}
+
 // At the subject of either rush, whom both have.
 bool looks_the_same_way(const Footage& footage, const Grammar& grammar, Beat beat, std::size_t from,
                         std::size_t to, PlayerSet Take::*has) {
@@ -75,17 +82,11 @@ bool may_cross_line(const Footage& footage, Beat beat, std::size_t from, std::si
 }
 
 bool jumped_just_before(const Footage& footage, Beat beat, std::size_t rush) {
-    const Beat end = std::min(beat, footage.beats());
-    for (Beat b = std::max(footage.first(), beat - shortest_piece + 1); b < end; ++b)
-        if (footage.take(b, rush).cut) return true;
-    return false;
+    return jumps_between(footage, rush, beat - shortest_piece + 1, beat);
 }
 
 bool jumps_soon_after(const Footage& footage, Beat beat, std::size_t rush) {
-    const Beat end = std::min(beat + shortest_piece, footage.beats());
-    for (Beat b = std::max(footage.first(), beat + 1); b < end; ++b)
-        if (footage.take(b, rush).cut) return true;
-    return false;
+    return jumps_between(footage, rush, beat + 1, beat + shortest_piece);
 }
 
 bool stands_idle(const Footage& footage, Beat beat, std::size_t player, double slow) {

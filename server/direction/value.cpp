@@ -38,6 +38,8 @@ Value::Value(const Footage& footage, std::span<const Moment> moments, const Rule
       rushes_(footage.rushes()),
       sums_(static_cast<std::size_t>(horizon - first_ + 1) * rushes_, 0.0) {
     rate_beats();
+    worth_of_showing_.resize(static_cast<std::size_t>(std::max<Beat>(known_ - first_, 0)) *
+                             footage.players());
     for (std::size_t i = 0; i < moments.size(); ++i) {
         const Rule& rule = rules_.moments[moments[i].rule];
         if (rule.whole)
@@ -45,6 +47,7 @@ Value::Value(const Footage& footage, std::span<const Moment> moments, const Rule
         else
             add_span(moments[i], rule);
     }
+    add_players();
     fade();
     charge_inner_cuts();
     sum_up();
@@ -71,20 +74,37 @@ double Value::base_rate(Beat beat, std::size_t rush) const {
     return worth * beat_s;
 }
 
+// Players meet many others at a time: what showing each is worth is summed up first, as if it counted for
+// each of two; for who shows both it is then set right.
 void Value::add_span(const Moment& moment, const Rule& rule) {
     const double one = rule.worth * beat_s;
-    const double both = rule.worth_both * beat_s;
+    const double both = rule.worth_both * beat_s - one;
     for (Beat beat = std::max(moment.begin, first_); beat < std::min(moment.end, known_); ++beat) {
+        for (const Index player : {moment.actor, moment.subject})
+            if (player != nobody) worth_of_showing(beat, player) += one;
         const auto actor = footage_.showing(beat, moment.actor);
         const auto subject = footage_.showing(beat, moment.subject);
-        double* const rates = &rate(beat, 0);
         for (std::size_t word = 0; word < actor.size(); ++word)
-            for (Footage::Word left = actor[word] | subject[word]; left != 0; left &= left - 1) {
-                const auto bit = static_cast<std::size_t>(std::countr_zero(left));
-                const bool shows_both = ((actor[word] & subject[word]) >> bit & 1U) != 0;
-                rates[word * Footage::word_bits + bit] += one + (shows_both ? both : 0.0);
-            }
+            add_to_rushes(beat, word, actor[word] & subject[word], both);
     }
+}
+
+void Value::add_players() {
+    for (Beat beat = first_; beat < known_; ++beat)
+        for (Index player = 0; player < footage_.players(); ++player) {
+            const double worth = worth_of_showing(beat, player);
+            if (worth == 0.0) continue;
+            const auto showing = footage_.showing(beat, player);
+            for (std::size_t word = 0; word < showing.size(); ++word)
+                add_to_rushes(beat, word, showing[word], worth);
+        }
+}
+
+// Of this word of all rushes' bits.
+void Value::add_to_rushes(Beat beat, std::size_t word, Footage::Word rushes, double worth) {
+    double* const rates = &rate(beat, word * Footage::word_bits);
+    for (; rushes != 0; rushes &= rushes - 1)
+        rates[std::countr_zero(rushes)] += worth;
 }
 
 void Value::add_credit(std::size_t index, const Moment& moment, const Rule& rule) {
@@ -112,20 +132,23 @@ void Value::add_credit(std::size_t index, const Moment& moment, const Rule& rule
 
 void Value::fade() {
     const Beat source = std::max(first_, known_ - recent);
-    for (std::size_t rush = 0; rush < rushes_; ++rush) {
-        const double half_life = footage_.is_fixed(rush) ? fixed_half_life_s : rules_.grammar.half_life_s;
-        double mean = 0.0;
+    std::vector<double> means(rushes_, 0.0);
+    for (std::size_t rush = 0; rush < rushes_; ++rush)
         for (Beat beat = source; beat < known_; ++beat)
-            mean += rate(beat, rush) / static_cast<double>(known_ - source);
-        for (Beat beat = std::max(known_, first_); beat < horizon_; ++beat)
-            rate(beat, rush) = mean * std::exp2(-static_cast<double>(beat - known_ + 1) * beat_s / half_life);
+            means[rush] += rate(beat, rush) / static_cast<double>(known_ - source);
+    for (Beat beat = std::max(known_, first_); beat < horizon_; ++beat) {
+        const double age = static_cast<double>(beat - known_ + 1) * beat_s;
+        const double left = std::exp2(-age / rules_.grammar.half_life_s);
+        const double left_of_fixed = std::exp2(-age / fixed_half_life_s);
+        for (std::size_t rush = 0; rush < rushes_; ++rush)
+            rate(beat, rush) = means[rush] * (footage_.is_fixed(rush) ? left_of_fixed : left);
     }
 }
 
 void Value::charge_inner_cuts() {
-    for (Beat beat = first_; beat < known_; ++beat)
-        for (std::size_t rush = 0; rush < rushes_; ++rush)
-            if (footage_.take(beat, rush).cut) rate(beat, rush) -= rules_.grammar.inner_cut;
+    for (std::size_t rush = 0; rush < rushes_; ++rush)
+        for (const Beat beat : footage_.jumps(rush))
+            if (beat >= first_ && beat < known_) rate(beat, rush) -= rules_.grammar.inner_cut;
 }
 
 void Value::sum_up() {

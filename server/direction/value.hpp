@@ -42,10 +42,15 @@ class Value {
     void rate_beats();
     [[nodiscard]] double base_rate(Beat beat, std::size_t rush) const;
     void add_span(const Moment& moment, const Rule& rule);
+    void add_players();
+    void add_to_rushes(Beat beat, std::size_t word, Footage::Word rushes, double worth);
     void add_credit(std::size_t index, const Moment& moment, const Rule& rule);
     void fade();
     void charge_inner_cuts();
     void sum_up();
+    double& worth_of_showing(Beat beat, Index player) {
+        return worth_of_showing_[static_cast<std::size_t>(beat - first_) * footage_.players() + player];
+    }
     double& rate(Beat beat, std::size_t rush) {
         return sums_[static_cast<std::size_t>(beat - first_ + 1) * rushes_ + rush];
     }
@@ -60,6 +65,7 @@ class Value {
     Beat first_;  // that is rated
     std::size_t rushes_;
     std::vector<double> sums_;
+    std::vector<double> worth_of_showing_;  // of each known beat and player, by moments that last
     std::vector<Credit> credits_;
 };
 

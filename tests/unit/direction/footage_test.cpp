@@ -51,6 +51,22 @@ TEST(Footage, MeetingsAreOfLivingEnemiesInSight) {
     }
 }
 
+TEST(Footage, KnowsTheJumpsOfEachRush) {
+    std::mt19937 random(13);
+    Footage footage = random_script(5, 60, random, 2).footage();
+    for (const Beat forgotten : {0, 7, 60}) {
+        footage.forget_before(forgotten);
+        for (std::size_t rush = 0; rush < footage.rushes(); ++rush) {
+            std::vector<Beat> jumps;
+            for (Beat beat = footage.first(); beat < footage.beats(); ++beat)
+                if (footage.take(beat, rush).cut) jumps.push_back(beat);
+            EXPECT_EQ(footage.jumps(rush), jumps) << rush;
+        }
+    }
+    footage.add_player();
+    EXPECT_TRUE(footage.jumps(footage.rushes() - 1).empty());
+}
+
 TEST(Footage, WhoComesLaterIsShownByNoRushBefore) {
     Footage footage(0, {nobody});
     const std::vector<Take> takes(1);
