@@ -22,7 +22,7 @@ struct Options {
     double seconds = 10.0;
     int runs = 1;
     std::vector<std::string> only;
-    double longest_gap_ms = 450.0;  // the lease and as much again, for a busy machine
+    double longest_gap_ms = 250.0;  // the lease, and what a take-over needs
     bool logs = false;
 };
 
@@ -81,6 +81,7 @@ HandOver play(const Row& row, const Options& options, const evaluation::Trace& t
 // What no viewer should see; empty when there was none of it.
 std::string fault(const HandOver& found, const Row& row, const Options& options) {
     constexpr double longest_silence_s = 1.0;
+    constexpr double gap_filled_by_s = 1.0;  // of delay
     // Cameras turn round a player faster than the player moves, also while a busy machine shows nothing.
     const double farthest_leap = std::max(40.0, 0.1 * found.gap_ms);
     if (found.silent_s > longest_silence_s) return "no cameras any more";
@@ -88,6 +89,9 @@ std::string fault(const HandOver& found, const Row& row, const Options& options)
     if (found.changes > row.changes) return "the match taken from a leader that serves it";
     if (found.unforced > row.forced) return "a cut without a reason";
     if (found.leap > farthest_leap) return "a jump";
+    if (row.planned && found.lost > 1) return "lost frames";
+    if (options.stage.delay_s >= gap_filled_by_s && row.more_gap_ms == 0.0 && found.lost > 0)
+        return "lost frames";
     if (found.gap_ms > options.longest_gap_ms + row.more_gap_ms) return "a long gap";
     return "";
 }

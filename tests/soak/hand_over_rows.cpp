@@ -95,8 +95,11 @@ std::vector<Row> process_rows() {
     return {
         {.name = "nothing", .happens = [](Stage&) {}},
         {.name = "leader killed", .happens = [](Stage& s) { s.leader->signal(SIGKILL); }, .changes = 1},
-        {.name = "leader SIGTERM", .happens = [](Stage& s) { s.leader->signal(SIGTERM); }, .changes = 1},
-        {.name = "leader hands over", .happens = hand_over, .changes = 1},
+        {.name = "leader SIGTERM",
+         .happens = [](Stage& s) { s.leader->signal(SIGTERM); },
+         .changes = 1,
+         .planned = true},
+        {.name = "leader hands over", .happens = hand_over, .changes = 1, .planned = true},
         {.name = "leader stopped 6 s",
          .happens =
              [=](Stage& s) {

@@ -17,6 +17,7 @@ struct Row {
     double more_gap_ms = 0.0;   // where it is not the directors' fault
     std::uint64_t forced = 0;   // cuts where the game's own poses jump
     std::uint64_t changes = 0;  // of the director, where the leader fails or leaves
+    bool planned = false;       // the leader hands over: at most one frame is lost
     enum class Means { processes, hosts, clocks } means = Means::processes;
 };
 
