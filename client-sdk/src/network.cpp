@@ -80,7 +80,8 @@ std::string network_configuration(const cdir_context_options& options) {
     const std::string discovery = element("ParticipantIndex", "none") +
                                   element("MaxAutoParticipantIndex", "0") + element("SPDPInterval", "1s") +
                                   element("Peers", peer_elements(options.directors));
-    const std::string internal = element("MaxSampleSize", "1MB");
+    // The end of a writer waits for receivers, which may have stopped, that acknowledge its last samples.
+    const std::string internal = element("MaxSampleSize", "1MB") + element("WriterLingerDuration", "50ms");
     return element("CycloneDDS",
                    element("Domain", element("General", general) + element("Discovery", discovery) +
                                          element("Internal", internal)));

@@ -96,6 +96,7 @@ dds_return_t Observer::write_request() {
     sample.group._length = sample.group._maximum = static_cast<std::uint32_t>(request_.group.size());
     copy_string(sample.profile, request_.profile.c_str());
     copy_string(sample.overrides, request_.overrides.c_str());
+    reminder_.asked(steady_ns());
     return dds_write(request_writer_.get(), &sample);
 }
 
@@ -113,8 +114,7 @@ cdir_status Observer::wait(std::int64_t timeout) {
         if (ending_) return CDIR_INTERRUPTED;
         ++waiters_;
     }
-    const dds_return_t triggered =
-        dds_waitset_wait(waitset_.get(), nullptr, 0, timeout < 0 ? DDS_INFINITY : timeout);
+    const dds_return_t triggered = wait_for_news(timeout);
     const std::lock_guard lock(wait_mutex_);
     const bool interrupted = interrupted_ || ending_;
     if (--waiters_ == 0) {
@@ -125,6 +125,21 @@ cdir_status Observer::wait(std::int64_t timeout) {
     if (interrupted) return CDIR_INTERRUPTED;
     check_dds("cannot wait", triggered);
     return triggered > 0 ? CDIR_OK : CDIR_TIMEOUT;
+}
+
+// Whoever waits for the answer to a request does not poll meanwhile.
+dds_return_t Observer::wait_for_news(std::int64_t timeout) {
+    while (true) {
+        const std::int64_t step = timeout < 0 ? Reminder::interval : std::min(timeout, Reminder::interval);
+        const dds_return_t triggered = dds_waitset_wait(waitset_.get(), nullptr, 0, step);
+        if (triggered != 0) return triggered;
+        {
+            const std::lock_guard lock(mutex_);
+            ask_again();
+        }
+        if (timeout == step) return triggered;
+        if (timeout > 0) timeout -= step;
+    }
 }
 
 void Observer::interrupt() {
@@ -143,7 +158,7 @@ void Observer::end_waits() {
 std::uint32_t Observer::poll() {
     const std::lock_guard lock(mutex_);
     take_info_and_status();
-    ask_again_after_loss();
+    ask_again();
     std::uint32_t count = 0;
     while (take_frame()) {
         ++count;
@@ -154,7 +169,7 @@ std::uint32_t Observer::poll() {
 bool Observer::next_frame(cdir_camera_frame& frame, const StructArray<cdir_camera>& cameras) {
     const std::lock_guard lock(mutex_);
     take_info_and_status();
-    ask_again_after_loss();
+    ask_again();
     if (!take_frame()) return false;
     frame.camera_count = frame_sample_->camera_id._length;
     frame.epoch = frame_sample_->epoch;
@@ -195,12 +210,14 @@ void Observer::take_info_and_status() {
                                                 : match_.statuses_abandoned(status_sample_->bucket);
         unanswered_loss_ = unanswered_loss_ || !holds;  // also of a writer that is back already
     }
+    unanswered_loss_ = lost_director() || unanswered_loss_;
 }
 
-// A director that was only silent does not answer again by itself.
-void Observer::ask_again_after_loss() {
-    unanswered_loss_ = lost_director() || unanswered_loss_;
-    if (unanswered_loss_ && match_.requested()) unanswered_loss_ = write_request() < 0;
+// A director that was only silent does not answer again by itself, and none answers what it had no room for.
+void Observer::ask_again() {
+    const bool answered = match_.shot_status().state != CDIR_SHOT_UNANSWERED;
+    const bool due = reminder_.due(answered, steady_ns()) || unanswered_loss_;
+    if (due && match_.requested()) unanswered_loss_ = write_request() < 0;
 }
 
 bool Observer::lost_director() const {

@@ -5,6 +5,7 @@
 #include <camera_director/camera_director.h>
 
 #include <condition_variable>
+#include <cstdint>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -17,6 +18,24 @@
 #include "wire_sample.hpp"
 
 namespace camdir::sdk {
+
+// When to write a request again that nobody answers. No clock: times are parameters, in ns.
+class Reminder {
+  public:
+    static constexpr std::int64_t interval = 2'000'000'000;
+
+    void asked(std::int64_t now) { since_ = now; }
+
+    // `answered`: there is nothing to wait for now. To be called again and again: the time in which there was
+    // does not count.
+    [[nodiscard]] bool due(bool answered, std::int64_t now) {
+        if (answered) since_ = now;
+        return now - since_ >= interval;
+    }
+
+  private:
+    std::int64_t since_ = 0;
+};
 
 // Thread-safe: calls are serialised, except that wait() does not delay others. All may throw a Failure.
 class Observer {
@@ -57,8 +76,10 @@ class Observer {
 
     [[nodiscard]] static Request checked_request(const cdir_shot_request& request);
     [[nodiscard]] dds_return_t write_request();
+    // Returns what dds_waitset_wait() does.
+    [[nodiscard]] dds_return_t wait_for_news(std::int64_t timeout);
     void take_info_and_status();
-    void ask_again_after_loss();
+    void ask_again();
     // True when a director has left or fallen silent since the last call.
     [[nodiscard]] bool lost_director() const;
     [[nodiscard]] bool take_frame();
@@ -71,6 +92,7 @@ class Observer {
     ReceivedMatch match_;
     Request request_;               // the last one
     bool unanswered_loss_ = false;  // a director was lost, and the request not written again
+    Reminder reminder_;
     WireSample<camera_director_ShownMatch> info_sample_{camera_director_ShownMatch_desc};
     std::uint32_t info_disposals_ = 0;  // of the last one
     WireSample<camera_director_ObserverStatusBucket> status_sample_{

@@ -38,14 +38,15 @@ class LogBudget {
 
     explicit LogBudget(std::uint64_t per_second) : per_second_(per_second) {}
 
-    // Nothing when there is no room for a line now. Otherwise how many had none since the last line.
-    [[nodiscard]] std::optional<std::uint64_t> take(Time now) {
+    // Nothing when there is no room for a line now; for a `vital` one there always is. Otherwise how many had
+    // none since the last line.
+    [[nodiscard]] std::optional<std::uint64_t> take(Time now, bool vital = false) {
         const std::lock_guard lock(mutex_);
         if (now - begun_ >= std::chrono::seconds(1)) {
             begun_ = now;
             lines_ = 0;
         }
-        if (lines_ == per_second_) {
+        if (lines_ >= per_second_ && !vital) {
             ++left_out_;
             return std::nullopt;
         }

@@ -22,9 +22,8 @@ struct WireCounters {
 
     WireCounter shown_matches_written{0};  // and disposed; not those written again
     WireCounter camera_frames_written{0};
-    WireCounter statuses_written{0};
-    WireCounter statuses_withdrawn{0};
-    WireCounter write_failures{0};                  // samples lost because DDS refused them or timed out
+    WireCounter statuses_written{0};                // buckets of them
+    WireCounter write_failures{0};                  // because DDS refused a sample or timed out
     WireCounter endpoint_failures{0};               // matches whose endpoints could not be created
     WireCounter liveliness_withheld{0};             // assertions omitted: the director did not respond
     std::atomic<std::uint32_t> matches{0};          // with endpoints now

@@ -255,14 +255,23 @@ std::optional<ValidationError> decode(const camera_director_MoverInfo& sample, d
     return std::nullopt;
 }
 
-std::optional<ValidationError> bound_hulls(director::MoverInfo& message) {
+std::optional<ValidationError> bound_hulls(director::MoverInfo& message, std::size_t most) {
     for (director::Mover& mover : message.movers)
         for (freespace::ConvexHull& hull : mover.shape.hulls) {
+            if (!hull.bounds.isEmpty()) continue;
+            if (most-- == 0) return std::nullopt;
             const auto bounds = freespace::bounds_of(hull.half_spaces);
             if (!bounds) return ValidationError::bad_hull;
             hull.bounds = *bounds;
         }
     return std::nullopt;
+}
+
+bool has_bounds(const director::MoverInfo& message) {
+    return std::ranges::none_of(message.movers, [](const director::Mover& mover) {
+        return std::ranges::any_of(mover.shape.hulls,
+                                   [](const freespace::ConvexHull& hull) { return hull.bounds.isEmpty(); });
+    });
 }
 
 std::optional<ValidationError> decode(const camera_director_MoverFrame& sample,

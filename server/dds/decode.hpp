@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string_view>
 
@@ -21,7 +22,7 @@ enum class ValidationError : std::size_t {
     not_finite,    // a number is infinite or not a number
     not_unit,      // the length of a quaternion or normal is off 1 by more than 1e-3
     out_of_range,  // a negative rate, delay or scale; a ball without radius, or one or a half space too far
-                   // away; a term or rank beyond the greatest
+                   // away; a term or rank beyond the greatest, or a term far beyond one's own
     duplicate,     // a mover is named twice
     bad_hull,      // a hull of fewer than 4 half spaces, or empty, or unbounded
     bad_match_id,  // empty, or not usable as the name of a partition
@@ -50,8 +51,11 @@ inline constexpr std::array<const char*, 14> validation_error_names = {
 // The hulls have no bounds yet.
 [[nodiscard]] std::optional<ValidationError> decode(const camera_director_MoverInfo& sample,
                                                     director::MoverInfo& message);
-// Then: up to 1 ms a hull.
-[[nodiscard]] std::optional<ValidationError> bound_hulls(director::MoverInfo& message);
+// Then, for the next `most` of those without: up to 1 ms a hull.
+[[nodiscard]] std::optional<ValidationError> bound_hulls(
+    director::MoverInfo& message, std::size_t most = std::numeric_limits<std::size_t>::max());
+// All hulls have theirs.
+[[nodiscard]] bool has_bounds(const director::MoverInfo& message);
 [[nodiscard]] std::optional<ValidationError> decode(const camera_director_MoverFrame& sample,
                                                     director::MoverFrame& message);
 [[nodiscard]] std::optional<ValidationError> decode(const camera_director_ObserverRequest& sample,

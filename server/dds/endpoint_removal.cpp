@@ -14,18 +14,18 @@ bool EndpointRemoval::has_room() const {
     return pending_.size() < capacity_;
 }
 
+bool EndpointRemoval::removes(const std::string& match_id) const {
+    const std::lock_guard lock(mutex_);
+    return pending_.contains(match_id);
+}
+
 void EndpointRemoval::add(MatchTable::Endpoints endpoints) {
     {
         const std::lock_guard lock(mutex_);
         pending_.insert(endpoints->match_id());
         waiting_.push_back(std::move(endpoints));
     }
-    changed_.notify_all();
-}
-
-void EndpointRemoval::finish(const std::string& match_id) {
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return !pending_.contains(match_id); });
+    changed_.notify_one();
 }
 
 void EndpointRemoval::run(const std::stop_token& stop, TurnTimer& turn) {
@@ -40,7 +40,6 @@ void EndpointRemoval::run(const std::stop_token& stop, TurnTimer& turn) {
         turn.end();
         lock.lock();
         pending_.erase(pending_.find(match_id));
-        changed_.notify_all();
     }
 }
 

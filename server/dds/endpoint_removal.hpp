@@ -29,13 +29,13 @@ class EndpointRemoval {
     EndpointRemoval& operator=(const EndpointRemoval&) = delete;
 
     [[nodiscard]] bool has_room() const;
+    // New endpoints of this match would be taken for its former ones, which are not deleted yet.
+    [[nodiscard]] bool removes(const std::string& match_id) const;
     // False when the endpoints of a match take longer than `limit`.
     [[nodiscard]] bool responsive(std::chrono::nanoseconds limit) const {
         return std::ranges::all_of(turns_, [&](const TurnTimer& turn) { return turn.within(limit); });
     }
     void add(MatchTable::Endpoints endpoints);
-    // Waits until those of this match are deleted: new ones would be taken for them.
-    void finish(const std::string& match_id);
 
   private:
     void run(const std::stop_token& stop, TurnTimer& turn);

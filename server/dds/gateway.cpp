@@ -95,16 +95,15 @@ void Gateway::publish(const std::string& match_id, const director::CameraFrame& 
     count(match->write(frame), counters_.camera_frames_written, Topic::camera_frame, match_id);
 }
 
-void Gateway::publish(const director::ObserverStatus& status) {
+bool Gateway::publish(const director::ObserverStatus& status) {
     const auto match = table_.find(status.match_id);
-    if (!match) return;
-    count(match->write(status), counters_.statuses_written, Topic::observer_status, status.match_id);
+    if (!match) return false;
+    return match->write(status);
 }
 
 void Gateway::withdraw(const std::string& match_id, const std::string& observer_id) {
     const auto match = table_.find(match_id);
-    if (!match) return;
-    count(match->withdraw(observer_id), counters_.statuses_withdrawn, Topic::observer_status, match_id);
+    if (match) match->withdraw(observer_id);
 }
 
 void Gateway::count(Written written, WireCounter& counter, Topic topic, const std::string& match_id) {

@@ -55,11 +55,13 @@ class Gateway final : public director::Publisher {
     // after stop_receiving(); what is published afterwards is lost.
     void close();
 
-    // See director::Publisher. Samples that DDS refuses are counted and logged.
+    // See director::Publisher. Samples that DDS refuses are counted and logged. A status is published where
+    // it is kept to be written: after the next camera frame or, when none comes, at the next beat of the
+    // reception; by a standby when it takes over.
     void publish(const director::MatchInfo& shown) override;
     void end(const std::string& match_id) override;
     void publish(const std::string& match_id, const director::CameraFrame& frame) override;
-    void publish(const director::ObserverStatus& status) override;
+    bool publish(const director::ObserverStatus& status) override;
     void withdraw(const std::string& match_id, const std::string& observer_id) override;
     void forget(const std::string& match_id) override { subscriber_.forget(match_id); }
 

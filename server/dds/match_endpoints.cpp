@@ -12,6 +12,9 @@ namespace {
 // A quarter of the shortest lease: some may come late. Each is a packet for every observer.
 constexpr std::chrono::milliseconds slow_assertion_interval{250};
 constexpr std::size_t max_kept = 32;  // as many as a reader of cameras keeps
+// Each is sent to every observer: the next frame and other matches must not wait for many.
+constexpr std::size_t statuses_after_a_frame = 4;
+constexpr std::size_t kept_in_a_step = 4;
 // Of what is kept until the leader's lease ends, and of its last frame.
 constexpr std::chrono::seconds max_age_beyond_lease{1};
 
@@ -36,7 +39,8 @@ MatchEndpoints::MatchEndpoints(std::string match_id, const Leadership& leadershi
       succession_(director_id, leadership.rank, leadership.lease, Clock::now()),
       in_effect_(succession_.own()),
       encoder_(match_id_, director_id),
-      status_encoder_(match_id_) {}
+      status_encoder_(match_id_),
+      strength_(strength_of(in_effect_)) {}
 
 Result<std::unique_ptr<MatchEndpoints>> MatchEndpoints::open(const Participant& participant,
                                                              const std::string& match_id,
@@ -93,7 +97,7 @@ Result<void> MatchEndpoints::open_writers(const Participant& participant, const 
           std::pair{Topic::observer_status, &status_writer_},
           std::pair{Topic::director_sign, &sign_writer_}}) {
         Qos qos = topic == Topic::director_sign ? sign_qos() : writer_qos(topic, leadership.lease);
-        dds_qset_ownership_strength(qos.get(), strength_of(in_effect_));
+        dds_qset_ownership_strength(qos.get(), strength_);
         *writer = dds_create_writer(publisher_.handle(), participant.topic(topic), qos.get(), nullptr);
         if (*writer < 0) {
             return dds_failure("creating the writer of " + partition + " " + topic_name(topic), *writer);
@@ -125,21 +129,26 @@ bool MatchEndpoints::put_into_effect() {
     if (part == before) return part.leads;
     if (part.leads != before.leads)
         spdlog::info("match {}: this director {}", match_id_, part.leads ? "leads" : "stands by");
-    // Readers would take what it wrote as leader for a standby's, which will own the match.
-    if (before.leads && !part.leads) stand_by();
-    if (part.term != before.term) set_strength(part);
     write_sign();  // before what may take long
+    if (before.leads && !part.leads) stand_by();
     if (part.leads && !before.leads) take_over();
+    set_strength();
+    note_what_is_owed();
     return part.leads;
 }
 
-void MatchEndpoints::set_strength(const Sign& part) {
+// Readers would take what it wrote as leader for a standby's, which will own the match: not before they have
+// forgotten that.
+void MatchEndpoints::set_strength() {
+    const std::int32_t strength = strength_of(in_effect_);
+    if (strength == strength_ || (!in_effect_.leads && is_registered())) return;
+    strength_ = strength;
     const Qos qos(dds_create_qos());
-    dds_qset_ownership_strength(qos.get(), strength_of(part));
+    dds_qset_ownership_strength(qos.get(), strength);
     for (const dds_entity_t writer : {shown_writer_, camera_writer_, status_writer_}) {
         const dds_return_t set = dds_set_qos(writer, qos.get());
         if (set < 0)
-            spdlog::error("match {}: ownership strength {} not set: {}", match_id_, strength_of(part),
+            spdlog::error("match {}: ownership strength {} not set: {}", match_id_, strength,
                           dds_strretcode(set));
     }
 }
@@ -153,16 +162,65 @@ bool MatchEndpoints::leads() {
     return put_into_effect();
 }
 
+bool MatchEndpoints::may_write() {
+    if (!leads()) return false;
+    show_kept(kept_.size());
+    return true;
+}
+
+// The thread that finds this out has other matches too, and its own signs to write.
 void MatchEndpoints::take_over() {
+    owes_shown_ = is_shown_registered_ = true;
+    owed_statuses_ = written_statuses_;  // some may be empty meanwhile
+    for (const auto& [number, bucket] : statuses_.used())
+        if (!bucket.empty()) owed_statuses_.insert(number);
+}
+
+bool MatchEndpoints::catch_up() {
+    const std::lock_guard lock(writing_);
+    status_failed_ = false;
+    if (!leads())
+        unregister_next();
+    else if (owes_cameras())
+        show_kept(kept_in_a_step);
+    else
+        write_owed_statuses(1);
+    note_what_is_owed();
+    return owes_ && !status_failed_;
+}
+
+void MatchEndpoints::show_kept(std::size_t most) {
+    if (!owes_cameras()) return;
     forget_shown();
     if (std::exchange(ended_unwritten_, false)) dispose_shown();
-    if (shown_)
+    if (std::exchange(owes_shown_, false) && shown_)
         count(dds_write(shown_writer_, &shown_encoder_.encode(*shown_)), counters_.shown_matches_written);
-    for (const auto& [number, bucket] : statuses_.used())
-        count(write_now(number), counters_.statuses_written);
-    for (const Kept& kept : kept_)
-        count(write_now(kept.frame), counters_.camera_frames_written);
-    kept_.clear();
+    for (; most > 0 && !kept_.empty(); --most) {
+        count(write_now(kept_.front().frame), counters_.camera_frames_written);
+        kept_.pop_front();
+    }
+}
+
+void MatchEndpoints::write_owed_statuses(std::size_t most) {
+    for (; most > 0 && !owed_statuses_.empty() && !status_failed_; --most)
+        write_next_status();
+}
+
+// In turn: one that changes again and again keeps no other waiting.
+void MatchEndpoints::write_next_status() {
+    auto next = owed_statuses_.upper_bound(last_status_);
+    if (next == owed_statuses_.end()) next = owed_statuses_.begin();
+    last_status_ = *next;
+    written_statuses_.insert(*next);
+    const dds_return_t written =
+        dds_write(status_writer_, &status_encoder_.encode(*next, statuses_.bucket(*next)));
+    count(written, counters_.statuses_written);
+    status_failed_ = written < 0;
+    if (!status_failed_) owed_statuses_.erase(next);
+}
+
+void MatchEndpoints::note_what_is_owed() {
+    owes_ = in_effect_.leads ? owes_cameras() || !owed_statuses_.empty() : is_registered();
 }
 
 // What is too old to go on from, or to be shown.
@@ -173,22 +231,35 @@ void MatchEndpoints::forget_shown() {
         drop_kept();
 }
 
-// What a take-over writes; of all else the caller counts.
+// Of what a take-over writes, and of statuses; of all else the caller counts.
 void MatchEndpoints::count(dds_return_t written, WireCounter& counter) {
-    ++(written >= 0 ? counter : counters_.write_failures);
+    if (written >= 0) {
+        ++counter;
+        return;
+    }
+    ++counters_.write_failures;
+    if (const auto failures = failure_log_.due())
+        spdlog::error("match {}: not written: {} ({} failures since the last such line)", match_id_,
+                      dds_strretcode(written), *failures);
 }
 
-// Readers forget what this director wrote.
+// The signs of other matches do not wait until readers have forgotten what this director wrote.
 void MatchEndpoints::stand_by() {
-    if (shown_) {
-        const camera_director_ShownMatch any{};
+    owes_shown_ = false;
+    owed_statuses_.clear();
+}
+
+void MatchEndpoints::unregister_next() {
+    if (std::exchange(is_shown_registered_, false)) {
+        const camera_director_ShownMatch any{};  // it has no key
         dds_unregister_instance(shown_writer_, &any);
-    }
-    for (const auto& [number, bucket] : statuses_.used()) {
-        const camera_director_ObserverStatusBucket key = observer_status_key(number);
+        unregister_cameras();
+    } else if (!written_statuses_.empty()) {
+        const camera_director_ObserverStatusBucket key = observer_status_key(*written_statuses_.begin());
         dds_unregister_instance(status_writer_, &key);
+        written_statuses_.erase(written_statuses_.begin());
     }
-    unregister_cameras();
+    set_strength();
 }
 
 void MatchEndpoints::unregister_cameras() const {
@@ -205,7 +276,7 @@ void MatchEndpoints::write_sign() {
 
 Written MatchEndpoints::write(const director::MatchInfo& shown) {
     const std::lock_guard lock(writing_);
-    const bool writes = leads();
+    const bool writes = may_write();
     shown_ = shown;
     if (!writes) return std::nullopt;
     return dds_write(shown_writer_, &shown_encoder_.encode(shown));
@@ -213,7 +284,7 @@ Written MatchEndpoints::write(const director::MatchInfo& shown) {
 
 Written MatchEndpoints::end_shown() {
     const std::lock_guard lock(writing_);
-    const bool writes = leads();
+    const bool writes = may_write();
     shown_.reset();
     last_shown_.reset();
     kept_.clear();
@@ -229,36 +300,38 @@ dds_return_t MatchEndpoints::dispose_shown() {
 
 Written MatchEndpoints::write(const director::CameraFrame& frame) {
     const std::lock_guard lock(writing_);
-    const bool writes = leads();
+    const bool writes = may_write();
     if (!frame.cameras.empty()) {
         const std::lock_guard deciding(deciding_);
         succession_.produce(Clock::now());
     }
     if (writes) forget_shown();  // it may be of a match whose epoch was later
     if (is_shown({frame.epoch, frame.pose_number})) return std::nullopt;
-    if (writes) return write_now(frame);
-    keep(frame);
-    return std::nullopt;
+    if (!writes) {
+        keep(frame);
+        return std::nullopt;
+    }
+    const dds_return_t written = write_now(frame);
+    write_owed_statuses(statuses_after_a_frame);
+    note_what_is_owed();
+    return written;
 }
 
-Written MatchEndpoints::write(const director::ObserverStatus& status) {
+bool MatchEndpoints::write(const director::ObserverStatus& status) {
     const std::lock_guard lock(writing_);
-    const bool writes = leads();
-    if (!statuses_.put(status)) return DDS_RETCODE_OUT_OF_RESOURCES;
-    if (!writes) return std::nullopt;
-    return write_now(StatusBuckets::number_of(status.observer_id));
+    if (!statuses_.put(status)) return false;
+    owe_status(status.observer_id);
+    return true;
 }
 
-Written MatchEndpoints::withdraw(const std::string& observer_id) {
+void MatchEndpoints::withdraw(const std::string& observer_id) {
     const std::lock_guard lock(writing_);
-    const bool writes = leads();
-    statuses_.erase(observer_id);
-    if (!writes) return std::nullopt;
-    return write_now(StatusBuckets::number_of(observer_id));
+    if (statuses_.erase(observer_id)) owe_status(observer_id);
 }
 
-dds_return_t MatchEndpoints::write_now(StatusBuckets::Number number) {
-    return dds_write(status_writer_, &status_encoder_.encode(number, statuses_.bucket(number)));
+void MatchEndpoints::owe_status(const std::string& observer_id) {
+    if (leads()) owed_statuses_.insert(StatusBuckets::number_of(observer_id));
+    note_what_is_owed();
 }
 
 dds_return_t MatchEndpoints::write_now(const director::CameraFrame& frame) {
@@ -352,9 +425,9 @@ void MatchEndpoints::assert_liveliness() {
     if (now < next_slow_assertion_) return;
     next_slow_assertion_ = now + slow_assertion_interval;
     dds_assert_liveliness(status_writer_);
-    // A take-over writes everything that is kept. It comes again.
+    // Whoever writes may take long. It comes again.
     const std::unique_lock lock(writing_, std::try_to_lock);
-    if (lock && shown_ && leads())
+    if (lock && shown_ && leads() && !owes_shown_)
         dds_write(shown_writer_, &shown_encoder_.encode(*shown_));  // which asserts it too
     else
         dds_assert_liveliness(shown_writer_);

@@ -8,8 +8,10 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 
+#include "base/log_limit.hpp"
 #include "dds/counters.hpp"
 #include "dds/encode.hpp"
 #include "dds/entity.hpp"
@@ -19,7 +21,8 @@
 
 namespace camdir::dds {
 
-// DDS's return code; nothing where a standby keeps what it would write, to write it when it takes over.
+// DDS's return code; nothing where nothing has changed, or a standby keeps what it would write, to write it
+// when it takes over.
 using Written = std::optional<dds_return_t>;
 
 class MatchEndpoints {
@@ -47,9 +50,11 @@ class MatchEndpoints {
     // Disposes it.
     [[nodiscard]] Written end_shown();
     [[nodiscard]] Written write(const director::CameraFrame& frame);
-    [[nodiscard]] Written write(const director::ObserverStatus& status);
+    // Of the buckets that have changed since, some are written after each frame, and one by each catch_up().
+    // Returns false where there is no room for the status; else it is kept to be written.
+    [[nodiscard]] bool write(const director::ObserverStatus& status);
     // The observer has no status any more.
-    [[nodiscard]] Written withdraw(const std::string& observer_id);
+    void withdraw(const std::string& observer_id);
 
     // The game server has sent a pose frame. Returns whether decide() is due. One thread at a time, as for
     // all that follows up to decide().
@@ -65,6 +70,13 @@ class MatchEndpoints {
     // Takes over or stands by as time demands. To be called when all signs that have come are seen, and again
     // by the time that it returns.
     Succession::Time decide();
+    // Writes the next part of what it owes the readers. Of a leader: what is shown, and some of the cameras
+    // that it has kept, unless another thread has written a frame and these before it; then one bucket of
+    // answers after the other. Of one that stands by: that what it wrote is no longer its own. Returns
+    // whether there is more to be written now: what DDS has refused is for later.
+    bool catch_up();
+    // Whether there is anything. Thread-safe.
+    [[nodiscard]] bool owes() const { return owes_; }
     // Leaves the match to the next director at once, if there is one, until assert_liveliness() is called.
     void resign();
     // The following are thread-safe. As resign(), to a director that can serve the match as well; false where
@@ -93,11 +105,20 @@ class MatchEndpoints {
     void write_sign();
     // The following with writing_ held. Whether this director still leads.
     [[nodiscard]] bool leads();
+    // The same. Then the cameras that it owes have been written.
+    [[nodiscard]] bool may_write();
     bool put_into_effect();
-    void set_strength(const Sign& part);
+    void set_strength();
     void take_over();
+    [[nodiscard]] bool owes_cameras() const { return owes_shown_ || !kept_.empty(); }
+    void show_kept(std::size_t most);
+    void write_owed_statuses(std::size_t most);
+    void write_next_status();
     void stand_by();
+    [[nodiscard]] bool is_registered() const { return is_shown_registered_ || !written_statuses_.empty(); }
+    void unregister_next();
     void unregister_cameras() const;
+    void note_what_is_owed();
     void count(dds_return_t written, WireCounter& counter);
     void forget_shown();
     dds_return_t dispose_shown();
@@ -109,12 +130,13 @@ class MatchEndpoints {
     void drop_kept();
     [[nodiscard]] bool misses_frames() const;
     [[nodiscard]] bool is_shown(const PoseId& frame) const;
-    dds_return_t write_now(StatusBuckets::Number number);
+    void owe_status(const std::string& observer_id);
     dds_return_t write_now(const director::CameraFrame& frame);
     void number_on(const director::CameraFrame& first);
 
     std::string match_id_;
     WireCounters& counters_;
+    LogLimit failure_log_;
     const Clock::duration lease_;
     Entity subscriber_;  // owns the readers
     Entity publisher_;   // owns the writers
@@ -130,6 +152,7 @@ class MatchEndpoints {
     dds_entity_t shown_writer_ = 0;
     dds_entity_t sign_writer_ = 0;
     std::atomic<bool> wrote_frame_{false};  // since the last assert_liveliness()
+    std::atomic<bool> owes_{false};
     Clock::time_point next_slow_assertion_{};
 
     // Held for no longer than a decision or a sign. Guards the next two; in_effect_ is written with both
@@ -153,6 +176,15 @@ class MatchEndpoints {
     };
     std::deque<Kept> kept_;
     std::optional<PoseId> dropped_;  // the newest that was dropped from there
+    // Of a leader: not written yet.
+    bool owes_shown_ = false;
+    std::set<StatusBuckets::Number> owed_statuses_;
+    StatusBuckets::Number last_status_ = 0;  // that was written
+    bool status_failed_ = false;             // since the last catch_up()
+    // What readers have of this director's writers, of a standby: still.
+    bool is_shown_registered_ = false;  // with its cameras
+    std::set<StatusBuckets::Number> written_statuses_;
+    std::int32_t strength_;
     struct Shown {
         std::uint64_t epoch = 0;
         std::uint32_t frame_number = 0, pose_number = 0;

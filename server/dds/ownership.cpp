@@ -10,9 +10,9 @@ Ownership::Standing Ownership::describe(Claim claim, Time now) {
     if (known == claims_.end()) {
         if (claims_.size() >= max_claims) return Standing::stranger;
         if (claims_.empty()) sent_ = now;
-        known = claims_.insert(known, std::move(claim));
+        known = claims_.insert(known, Claimant{std::move(claim)});
     } else {
-        *known = std::move(claim);
+        static_cast<Claim&>(*known) = std::move(claim);
     }
     const bool owns = known == claims_.begin();
     if (!owns && !lost_) return Standing::stranger;
@@ -29,10 +29,20 @@ Ownership::Standing Ownership::send(const SenderId& sender, std::chrono::nanosec
         return Standing::owner;
     }
     const auto known = std::ranges::find(claims_, sender, &Claim::sender);
-    if (known == claims_.end() || now - std::max(sent_, listening_since_) <= silence_limit)
-        return Standing::stranger;
+    if (known == claims_.end() || !may_take(*known, silence_limit, now)) return Standing::stranger;
+    if (!known->was_silent) {
+        if (std::ranges::none_of(claims_, &Claimant::was_silent)) claims_.front().was_silent = true;
+    } else if (!gave_back(owner().sender)) {
+        returners_.push_back({owner().sender, owner().writer});
+    }
     pass_to(known, now);
     return Standing::successor;
+}
+
+bool Ownership::may_take(const Claimant& claimant, std::chrono::nanoseconds silence_limit, Time now) const {
+    if (claimant.was_silent) return true;
+    const int patience = gave_back(claimant.sender) ? patience_after_return : 1;
+    return now - std::max(sent_, listening_since_) > patience * silence_limit;
 }
 
 Ownership::Change Ownership::dispose(WriterHandle writer, bool certain, Time now) {
@@ -56,8 +66,9 @@ Ownership::Change Ownership::lose() {
 }
 
 Ownership::Change Ownership::retain(std::span<const WriterHandle> matched, Time now) {
+    const auto gone = [&](const auto& of) { return !std::ranges::binary_search(matched, of.writer); };
+    std::erase_if(returners_, gone);
     if (claims_.empty()) return Change::none;
-    const auto gone = [&](const Claim& claim) { return !std::ranges::binary_search(matched, claim.writer); };
     claims_.erase(std::remove_if(claims_.begin() + 1, claims_.end(), gone), claims_.end());
     if (!gone(claims_.front())) return Change::none;
     if (claims_.size() > 1 || contested_) return end_owner(now);
@@ -69,17 +80,24 @@ Ownership::Change Ownership::retain(std::span<const WriterHandle> matched, Time 
 void Ownership::pass_to(Claims::iterator successor, Time now) {
     std::rotate(claims_.begin(), successor, successor + 1);
     if (owner_is_gone_) claims_.erase(claims_.begin() + 1);
-    sent_ = now;
-    lost_ = owner_is_gone_ = false;
+    begin_to_own(now);
 }
 
 Ownership::Change Ownership::end_owner(Time now) {
     claims_.erase(claims_.begin());
+    if (!claims_.empty()) {
+        begin_to_own(now);
+        return Change::succeeded;
+    }
+    lost_ = owner_is_gone_ = contested_ = false;
+    return Change::ended;
+}
+
+void Ownership::begin_to_own(Time now) {
+    claims_.front().was_silent = false;
+    std::erase_if(returners_, [&](const Returner& returner) { return owns(returner.sender); });
     sent_ = now;
     lost_ = owner_is_gone_ = false;
-    if (!claims_.empty()) return Change::succeeded;
-    contested_ = false;
-    return Change::ended;
 }
 
 }  // namespace camdir::dds

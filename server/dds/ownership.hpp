@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <ranges>
 #include <span>
 #include <vector>
 
@@ -14,12 +15,15 @@ namespace camdir::dds {
 
 // A match belongs to the participant that opened it until that one disposes its description, is gone, or has
 // sent no poses for as long as makes a match silent while another who describes the match sends them. Others
-// who describe it wait for that. One thread at a time; times are the caller's.
+// who describe it wait for that. Who was only silent gets the match back with its next poses, and whoever
+// has given it back takes it for silence again only after patience_after_return times as long. One thread at
+// a time; times are the caller's.
 class Ownership {
   public:
     using Time = std::chrono::steady_clock::time_point;
 
     static constexpr std::size_t max_claims = 8;  // the owner's and those that wait
+    static constexpr int patience_after_return = 10;
 
     struct Claim {
         SenderId sender{};
@@ -54,6 +58,13 @@ class Ownership {
     [[nodiscard]] bool knows(const SenderId& sender) const {
         return std::ranges::find(claims_, sender, &Claim::sender) != claims_.end();
     }
+    // All who do, but for the owner.
+    [[nodiscard]] std::vector<SenderId> heirs() const {
+        std::vector<SenderId> senders;
+        for (const Claim& claim : claims_ | std::views::drop(1))
+            senders.push_back(claim.sender);
+        return senders;
+    }
     [[nodiscard]] bool has_owner() const { return !claims_.empty(); }
     [[nodiscard]] bool has_live_owner() const { return has_owner() && !lost_; }
     // The following are to be called while there has been an owner since the last `ended`.
@@ -61,12 +72,26 @@ class Ownership {
     [[nodiscard]] const director::MatchInfo& info() const { return owner().info; }
 
   private:
-    using Claims = std::vector<Claim>;
+    struct Claimant : Claim {
+        bool was_silent = false;  // and lost the match for it
+    };
+    using Claims = std::vector<Claimant>;
+    struct Returner {
+        SenderId sender;
+        WriterHandle writer;
+    };
 
+    [[nodiscard]] bool may_take(const Claimant& claimant, std::chrono::nanoseconds silence_limit,
+                                Time now) const;
+    [[nodiscard]] bool gave_back(const SenderId& sender) const {
+        return std::ranges::find(returners_, sender, &Returner::sender) != returners_.end();
+    }
     void pass_to(Claims::iterator successor, Time now);
     [[nodiscard]] Change end_owner(Time now);
+    void begin_to_own(Time now);
 
-    Claims claims_;  // the owner's first, then in the order of arrival
+    Claims claims_;                    // the owner's first, then in the order of arrival
+    std::vector<Returner> returners_;  // gave the match back, as long as they are matched, claims or not
     bool lost_ = false;
     bool owner_is_gone_ = false;  // for good, but its match waits for another
     // The description has been disposed, and the match goes on. DDS may not tell of another disposal: the

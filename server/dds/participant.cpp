@@ -108,15 +108,16 @@ constexpr std::uint64_t max_messages_per_second = 20;
 
 void log_message(void* /*unused*/, const dds_log_data_t* message) {
     static LogBudget budget(max_messages_per_second);
-    const auto left_out = budget.take(std::chrono::steady_clock::now());
     const bool is_last = (message->priority & DDS_LC_FATAL) != 0;
-    if (!left_out && !is_last) return;
-    if (left_out.value_or(0) > 0) spdlog::warn("Cyclone DDS: {} messages left out", *left_out);
-    const bool error = (message->priority & (DDS_LC_FATAL | DDS_LC_ERROR)) != 0;
+    const auto left_out = budget.take(std::chrono::steady_clock::now(), is_last);
+    if (!left_out) return;
+    if (*left_out > 0) spdlog::warn("Cyclone DDS: {} messages left out", *left_out);
+    const bool error = (message->priority & DDS_LC_ERROR) != 0;
     std::string text(message->message, message->size);
     while (!text.empty() && text.back() == '\n')
         text.pop_back();
-    spdlog::log(error ? spdlog::level::err : spdlog::level::warn, "Cyclone DDS: {}", text);
+    const auto level = is_last ? spdlog::level::critical : error ? spdlog::level::err : spdlog::level::warn;
+    spdlog::log(level, "Cyclone DDS: {}", text);
 }
 
 }  // namespace

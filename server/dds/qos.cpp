@@ -17,6 +17,7 @@ constexpr dds_duration_t min_slow_lease = DDS_SECS(1);
 // Of one match or observer: several participants may write, and one must not replace what another has
 // written.
 constexpr std::int32_t kept_until_taken = 8;
+constexpr std::int32_t events_kept_until_taken = 256;
 
 }  // namespace
 
@@ -28,6 +29,11 @@ Qos reader_qos(Topic topic) {
     if (topic == Topic::match_info || topic == Topic::pose_frame || topic == Topic::observer_request ||
         topic == Topic::mover_info || topic == Topic::mover_frame)
         dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, kept_until_taken);
+    // A reader that refuses a sample puts DDS's receive thread to sleep: the oldest one leaves instead.
+    if (topic == Topic::match_event) {
+        dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, events_kept_until_taken);
+        dds_qset_resource_limits(qos.get(), DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
+    }
     // A director does not receive its own samples.
     dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);
     return qos;

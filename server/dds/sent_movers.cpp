@@ -10,15 +10,25 @@ SentMovers::Sent* SentMovers::find(const SenderId& sender) {
     return found == senders_.end() ? nullptr : &*found;
 }
 
-void SentMovers::admit(const SenderId& sender, const SenderId& owner) {
+bool SentMovers::admit(const SenderId& sender, const SenderId& owner, std::span<const SenderId> heirs) {
     auto known = std::ranges::find(senders_, sender, &Sent::sender);
     if (known == senders_.end()) {
-        if (senders_.size() >= max_senders)
-            senders_.erase(
-                std::ranges::find_if(senders_, [&](const Sent& sent) { return sent.sender != owner; }));
+        if (senders_.size() >= max_senders) {
+            const auto leaves = std::ranges::find_if(senders_, [&](const Sent& sent) {
+                return sent.sender != owner && std::ranges::find(heirs, sent.sender) == heirs.end();
+            });
+            if (leaves == senders_.end()) return false;
+            senders_.erase(leaves);
+        }
         known = senders_.insert(senders_.end(), Sent{sender, {}, {}, {}, {}, {}, {}});
     }
     std::rotate(known, known + 1, senders_.end());
+    return true;
+}
+
+void SentMovers::retain(std::span<const SenderId> matched) {
+    std::erase_if(senders_,
+                  [&](const Sent& sent) { return std::ranges::find(matched, sent.sender) == matched.end(); });
 }
 
 void SentMovers::put(const SenderId& sender, std::shared_ptr<director::MoverInfo> described,
@@ -29,7 +39,7 @@ void SentMovers::put(const SenderId& sender, std::shared_ptr<director::MoverInfo
 }
 
 void SentMovers::put_bounded(const SenderId& sender, std::shared_ptr<const director::MoverInfo> info) {
-    find(sender)->info = std::move(info);
+    if (Sent* sent = find(sender)) sent->info = std::move(info);
 }
 
 void SentMovers::put(const SenderId& sender, Frame frame) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -24,9 +25,11 @@ class SentMovers {
 
     [[nodiscard]] bool empty() const { return senders_.empty(); }
 
-    // For `sender` there is a place; where all are taken the one that was longest without a sample leaves,
-    // but for the owner's.
-    void admit(const SenderId& sender, const SenderId& owner);
+    // Returns whether there is a place for `sender`. Where all are taken the one that was longest without a
+    // sample leaves, but for the owner's and those of `heirs`, who may own the match.
+    bool admit(const SenderId& sender, const SenderId& owner, std::span<const SenderId> heirs = {});
+    // Who is not among these is gone.
+    void retain(std::span<const SenderId> matched);
     // Of a sender that has been admitted since others were. Not null. A description, whose hulls have no
     // bounds yet, replaces the one that waits, and counts from put_bounded() on.
     void put(const SenderId& sender, std::shared_ptr<director::MoverInfo> described, bool counted_as_dropped);
@@ -53,6 +56,7 @@ class SentMovers {
                                      sent.counted_as_dropped};
         return std::nullopt;
     }
+    // Nothing when the sender has left meanwhile.
     void put_bounded(const SenderId& sender, std::shared_ptr<const director::MoverInfo> info);
 
     // The movers of this sender as of a pose frame of its. Null where they are of another epoch, or not

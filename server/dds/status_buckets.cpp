@@ -15,8 +15,9 @@ bool StatusBuckets::put(const director::ObserverStatus& status) {
     return true;
 }
 
-void StatusBuckets::erase(const std::string& observer_id) {
-    buckets_[number_of(observer_id)].erase(observer_id);
+bool StatusBuckets::erase(const std::string& observer_id) {
+    const auto bucket = buckets_.find(number_of(observer_id));
+    return bucket != buckets_.end() && bucket->second.erase(observer_id) > 0;
 }
 
 }  // namespace camdir::dds

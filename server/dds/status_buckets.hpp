@@ -24,9 +24,10 @@ class StatusBuckets {
 
     // Returns false where there is no room for it.
     [[nodiscard]] bool put(const director::ObserverStatus& status);
-    void erase(const std::string& observer_id);
+    // Returns false where there was none.
+    [[nodiscard]] bool erase(const std::string& observer_id);
     [[nodiscard]] const Bucket& bucket(Number number) { return buckets_[number]; }
-    // All that have been used, by number. Those that are empty now are written too: absence is an answer.
+    // All that have been used, by number. Some may be empty now.
     [[nodiscard]] const std::map<Number, Bucket>& used() const { return buckets_; }
 
   private:

@@ -16,8 +16,10 @@ namespace camdir::dds {
 namespace {
 
 constexpr std::size_t samples_per_take = 32;
-// The shapes of a sample take up to 30 ms to check: what comes faster waits, of each sender the newest.
+// The shapes of a sample take up to 30 ms to check, a hull up to 1 ms: what comes faster waits, of each
+// sender the newest.
 constexpr int bounding_share = 10;  // 1 / this of the thread's time at most
+constexpr std::chrono::milliseconds bounding_turn{1};
 
 }  // namespace
 
@@ -102,7 +104,9 @@ void Subscriber::run() noexcept {
     listened_ = Clock::now();
     while (!stopping_) {
         const auto next_bounding = to_bound_.empty() ? Clock::time_point::max() : next_bounding_;
-        const auto& ready = ready_.wait(std::min({next_assertion_.load(), next_decision_, next_bounding}));
+        const auto next_catching_up = to_catch_up_.empty() ? Clock::time_point::max() : next_catching_up_;
+        const auto& ready =
+            ready_.wait(std::min({next_assertion_.load(), next_decision_, next_bounding, next_catching_up}));
         notice_absence();
         take_ready(ready);
         bound_movers();
@@ -120,6 +124,7 @@ void Subscriber::run() noexcept {
         }
         // Last, when all signs that had come by then are seen.
         if (Clock::now() >= next_decision_) decide();
+        if (!to_catch_up_.empty() && Clock::now() >= next_catching_up_) catch_up();
     }
     next_assertion_ = Clock::time_point::max();
 }
@@ -162,14 +167,47 @@ void Subscriber::assert_liveliness() {
         for (const auto& [id, match] : matches_)
             match->endpoints->assert_liveliness();
     }
+    for (const auto& [id, match] : matches_)
+        notice_what_is_owed(*match);
     counters_.matches_led = static_cast<std::uint32_t>(std::ranges::count_if(
         matches_, [](const auto& entry) { return entry.second->endpoints->is_leading(); }));
 }
 
+// In turn: those for which there is no time have theirs after a pause.
 void Subscriber::decide() {
+    const auto end = Clock::now() + longest_turn();
     next_decision_ = Clock::time_point::max();
-    for (const auto& [id, match] : matches_)
+    auto next = matches_.find(next_to_decide_);
+    for (std::size_t left = matches_.size(); left > 0; --left, ++next) {
+        if (next == matches_.end()) next = matches_.begin();
+        const auto& [id, match] = *next;
+        if (Clock::now() >= end) {
+            next_to_decide_ = id;
+            next_decision_ = std::min(next_decision_, Clock::now() + longest_turn());
+            return;
+        }
         next_decision_ = std::min(next_decision_, match->endpoints->decide());
+        notice_what_is_owed(*match);
+    }
+}
+
+void Subscriber::notice_what_is_owed(Match& match) {
+    if (match.endpoints->owes() && !std::exchange(match.catches_up, true)) to_catch_up_.push_back(match.id());
+}
+
+// Matches take turns, a step each, and of each its cameras come first. What takes too long goes on after a
+// pause, and what failed with the next assertion.
+void Subscriber::catch_up() {
+    const auto end = Clock::now() + longest_turn();
+    while (!to_catch_up_.empty() && Clock::now() < end) {
+        const auto found = matches_.find(to_catch_up_.front());
+        to_catch_up_.pop_front();
+        if (found == matches_.end()) continue;
+        Match& match = *found->second;
+        match.catches_up = false;
+        if (match.endpoints->catch_up()) notice_what_is_owed(match);
+    }
+    next_catching_up_ = to_catch_up_.empty() ? Clock::time_point{} : Clock::now() + longest_turn();
 }
 
 void Subscriber::drop(Topic topic, ValidationError error, const std::string& match_id) {
@@ -251,15 +289,16 @@ void Subscriber::take_mover_infos(Match& match) {
         auto described = std::make_shared<director::MoverInfo>();
         if (!is_valid(match, Topic::mover_info, sample, *described)) return;
         const SenderId* sender = match.mover_info_senders.find(reader, info.publication_handle);
-        const bool is_owners = admit_movers(match, Topic::mover_info, sender);
-        if (sender != nullptr) match.movers.put(*sender, std::move(described), !is_owners);
+        const bool counts = is_owners(match, Topic::mover_info, sender);
+        if (admit_movers(match, sender, info.publication_handle))
+            match.movers.put(*sender, std::move(described), !counts);
     });
     ask_for_bounds(match);
     bound_movers();
 }
 
 void Subscriber::ask_for_bounds(Match& match) {
-    if (match.movers.has_described() && !std::exchange(match.waits_for_bounds, true))
+    if ((match.bounding || match.movers.has_described()) && !std::exchange(match.waits_for_bounds, true))
         to_bound_.push_back(match.id());
 }
 
@@ -269,34 +308,40 @@ void Subscriber::ask_again_for_bounds() {
         ask_for_bounds(*match);
 }
 
-// The only decoding that takes milliseconds waits where there is much of it, and matches take turns.
+// The only decoding that takes milliseconds waits where there is much of it, and matches take turns, a hull
+// at a time.
 void Subscriber::bound_movers() {
-    for (auto begun = Clock::now(); !to_bound_.empty() && begun >= next_bounding_; begun = Clock::now()) {
+    const auto begun = Clock::now();
+    if (to_bound_.empty() || begun < next_bounding_) return;
+    while (!to_bound_.empty() && Clock::now() < begun + bounding_turn) {
         const auto found = matches_.find(to_bound_.front());
         to_bound_.pop_front();
         if (found == matches_.end()) continue;
         Match& match = *found->second;
         match.waits_for_bounds = false;
-        if (!bound_next(match)) continue;
-        ask_for_bounds(match);
-        next_bounding_ = Clock::now() + bounding_share * (Clock::now() - begun);
+        if (bound_next(match)) ask_for_bounds(match);
     }
+    next_bounding_ = Clock::now() + bounding_share * (Clock::now() - begun);
 }
 
 // False where only strangers have described movers.
 bool Subscriber::bound_next(Match& match) {
-    const auto described = match.movers.take_described([&](const SenderId& sender) {
-        return match.ownership.owns(sender)    ? SentMovers::Rank::owner
-               : match.ownership.knows(sender) ? SentMovers::Rank::may_own
-                                               : SentMovers::Rank::stranger;
-    });
-    if (!described) return false;
-    if (const auto error = bound_hulls(*described->info)) {
-        if (!described->counted_as_dropped) drop(Topic::mover_info, *error, match.id());
+    if (!match.bounding)
+        match.bounding = match.movers.take_described([&](const SenderId& sender) {
+            return match.ownership.owns(sender)    ? SentMovers::Rank::owner
+                   : match.ownership.knows(sender) ? SentMovers::Rank::may_own
+                                                   : SentMovers::Rank::stranger;
+        });
+    if (!match.bounding) return false;
+    const auto error = bound_hulls(*match.bounding->info, 1);
+    if (!error && !has_bounds(*match.bounding->info)) return true;
+    const SentMovers::Described described = *std::exchange(match.bounding, std::nullopt);
+    if (error) {
+        if (!described.counted_as_dropped) drop(Topic::mover_info, *error, match.id());
         return true;
     }
-    if (!described->counted_as_dropped) ++counters_.of(Topic::mover_info).accepted;
-    match.movers.put_bounded(described->sender, described->info);
+    if (!described.counted_as_dropped) ++counters_.of(Topic::mover_info).accepted;
+    match.movers.put_bounded(described.sender, described.info);
     return true;
 }
 
@@ -307,18 +352,39 @@ void Subscriber::take_mover_frames(Match& match) {
         auto frame = std::make_shared<director::MoverFrame>();
         if (!is_valid(match, Topic::mover_frame, sample, *frame)) return;
         const SenderId* sender = match.mover_frame_senders.find(reader, info.publication_handle);
-        if (admit_movers(match, Topic::mover_frame, sender)) ++counters_.of(Topic::mover_frame).accepted;
-        if (sender != nullptr) match.movers.put(*sender, std::move(frame));
+        if (is_owners(match, Topic::mover_frame, sender)) ++counters_.of(Topic::mover_frame).accepted;
+        if (admit_movers(match, sender, info.publication_handle)) match.movers.put(*sender, std::move(frame));
     });
 }
 
-bool Subscriber::admit_movers(Match& match, Topic topic, const SenderId* sender) {
-    if (sender != nullptr)  // also before it is known whose the match is
-        match.movers.admit(*sender,
-                           match.ownership.has_owner() ? match.ownership.owner().sender : SenderId{});
-    const bool is_owners = sender != nullptr && match.ownership.owns(*sender);
-    if (!is_owners) drop(topic, ValidationError::not_owner, match.id());
-    return is_owners;
+bool Subscriber::is_owners(const Match& match, Topic topic, const SenderId* sender) {
+    if (sender != nullptr && match.ownership.owns(*sender)) return true;
+    drop(topic, ValidationError::not_owner, match.id());
+    return false;
+}
+
+bool Subscriber::admit_movers(Match& match, const SenderId* sender, WriterHandle writer) {
+    if (sender == nullptr) return false;
+    // Also before it is known whose the match is.
+    const SenderId owner = match.ownership.has_owner() ? match.ownership.owner().sender : SenderId{};
+    if (!match.movers.admit(*sender, owner, match.ownership.heirs())) return false;
+    match.mover_writers[writer] = *sender;
+    return true;
+}
+
+void Subscriber::notice_unmatched_movers(Match& match) {
+    // Else what is still to be read of a sender that is gone would be kept.
+    match.mover_info_senders = match.mover_frame_senders = {};
+    const auto infos = matched_writers(match.endpoints->mover_info_reader());
+    const auto frames = matched_writers(match.endpoints->mover_frame_reader());
+    std::erase_if(match.mover_writers, [&](const auto& known) {
+        return !std::ranges::binary_search(infos, known.first) &&
+               !std::ranges::binary_search(frames, known.first);
+    });
+    std::vector<SenderId> senders;
+    for (const auto& [writer, sender] : match.mover_writers)
+        senders.push_back(sender);
+    match.movers.retain(senders);
 }
 
 void Subscriber::hand_on_poses() {
@@ -342,8 +408,7 @@ void Subscriber::take_events(Match& match) {
              if (!info.valid_data || !is_valid(match, Topic::match_event, sample, match_event_)) return;
              const SenderId* sender =
                  match.event_senders.find(match.endpoints->event_reader(), info.publication_handle);
-             if (sender == nullptr || !match.ownership.owns(*sender))
-                 return drop(Topic::match_event, ValidationError::not_owner, match.id());
+             if (!is_owners(match, Topic::match_event, sender)) return;
              if (accept(match, Topic::match_event)) ingress_->receive(match.id(), match_event_);
          });
 }
@@ -417,12 +482,13 @@ void Subscriber::take_signs(Match& match) {
              if (info.instance_state == DDS_NOT_ALIVE_DISPOSED_INSTANCE_STATE) {
                  match.endpoints->leave(sample.director_id);
              } else if (info.valid_data && is_valid(match, Topic::director_sign, sample, sign)) {
-                 ++counters_.of(Topic::director_sign).accepted;
                  if (sign.director_id == options_.director_id) return warn_of_namesake(match.id());
                  match.endpoints->see(sign);
+                 ++counters_.of(Topic::director_sign).accepted;
                  next_decision_ = std::min(next_decision_, match.endpoints->decide());
              }
          });
+    notice_what_is_owed(match);
 }
 
 // The director may have taken longer to begin them than it looks for others.

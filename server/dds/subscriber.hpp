@@ -1,6 +1,7 @@
 // The receiving half of the gateway: one thread that takes samples, validates them and hands them on.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <chrono>
@@ -89,10 +90,15 @@ class Subscriber {
         bool is_of_shard = true;
         SenderLookup pose_senders, event_senders, mover_info_senders, mover_frame_senders;
         SentMovers movers;
-        bool waits_for_bounds = false;  // is named in `to_bound_`
+        std::unordered_map<WriterHandle, SenderId> mover_writers;  // of those whose movers are kept
+        std::optional<SentMovers::Described> bounding;             // some hulls have bounds
+        bool waits_for_bounds = false;                             // is named in `to_bound_`
+        bool catches_up = false;                                   // is named in `to_catch_up_`
         Source poses{*this, &Subscriber::take_poses};
         Source mover_infos{*this, &Subscriber::take_mover_infos};
         Source mover_frames{*this, &Subscriber::take_mover_frames};
+        Source mover_info_writers{*this, &Subscriber::notice_unmatched_movers};
+        Source mover_frame_writers{*this, &Subscriber::notice_unmatched_movers};
         Source events{*this, &Subscriber::take_events};
         Source requests{*this, &Subscriber::take_requests};
         Source requesters{*this, &Subscriber::notice_unmatched_requests};
@@ -106,8 +112,14 @@ class Subscriber {
     [[nodiscard]] std::chrono::milliseconds assertion_interval() const {
         return options_.leadership.lease / Succession::beats;
     }
+    // Of what changes hands: so long that neither assertions nor poses are late, and as long a pause.
+    [[nodiscard]] std::chrono::milliseconds longest_turn() const {
+        return std::min(assertion_interval() / 2, std::chrono::milliseconds(25));
+    }
     void assert_liveliness();
     void decide();
+    void notice_what_is_owed(Match& match);
+    void catch_up();
 
     // Counts the sample and logs each reason at most once a second.
     void drop(Topic topic, ValidationError error, const std::string& match_id);
@@ -132,9 +144,11 @@ class Subscriber {
     void ask_again_for_bounds();
     void bound_movers();
     bool bound_next(Match& match);
-    // What comes from the sender is kept. Who does not own the match counts as dropped: then it returns
-    // false.
-    [[nodiscard]] bool admit_movers(Match& match, Topic topic, const SenderId* sender);
+    // The sender owns the match; else its sample counts as dropped.
+    [[nodiscard]] bool is_owners(const Match& match, Topic topic, const SenderId* sender);
+    // What comes from the sender is to be kept.
+    [[nodiscard]] bool admit_movers(Match& match, const SenderId* sender, WriterHandle writer);
+    void notice_unmatched_movers(Match& match);
     void take_events(Match& match);
     void take_requests(Match& match);
     void request_found(Match& match, WriterHandle writer);
@@ -158,6 +172,9 @@ class Subscriber {
     void keep_waiting(WaitingMatches& waiting, Ownership::Claim claim);
     // Counts what it refuses.
     [[nodiscard]] bool admit(const Ownership::Claim& claim);
+    // Null: it is served.
+    [[nodiscard]] WaitingMatches* queue_for(const Ownership::Claim& claim);
+    [[nodiscard]] bool has_room_for(const std::string& match_id) const;
     [[nodiscard]] bool may_own_another(const SenderId& sender) const;
     // Returns false after logging why its endpoints could not be created.
     [[nodiscard]] bool add_match(const std::string& match_id);
@@ -204,8 +221,11 @@ class Subscriber {
     Clock::time_point poses_taken_{};                             // of all matches, between others that begin
     std::deque<std::string> to_bound_;                            // matches with movers without bounds
     Clock::time_point next_bounding_{};                           // of hulls: not before
+    std::deque<std::string> to_catch_up_;                         // matches that owe something
+    Clock::time_point next_catching_up_{};                        // not before
     Clock::time_point listened_{};                                // to all who send
     Clock::time_point next_decision_ = Clock::time_point::max();  // when matches may change hands
+    std::string next_to_decide_;                                  // the match, or any
     TakeBuffer<camera_director_MatchInfo> match_info_samples_;
     TakeBuffer<camera_director_PoseFrame> pose_samples_;
     TakeBuffer<camera_director_MoverInfo> mover_info_samples_;

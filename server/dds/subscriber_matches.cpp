@@ -30,20 +30,15 @@ void Subscriber::match_info_found(const camera_director_MatchInfo& sample, const
 
 bool Subscriber::described(Ownership::Claim claim) {
     const std::string match_id = claim.info.match_id;
-    waiting_.remove(match_id, claim.writer);  // an older description
-    elsewhere_.remove(match_id, claim.writer);
-    if (!matches_.contains(match_id)) {
-        if (!shards_.serves(match_id)) {
-            keep_waiting(elsewhere_, std::move(claim));
-            return false;
-        }
-        if (!admit(claim)) {
-            keep_waiting(waiting_, std::move(claim));
-            return false;
-        }
-        // The endpoints first, because the director publishes at once.
-        if (!add_match(match_id)) return true;
+    WaitingMatches* const queue = queue_for(claim);
+    for (WaitingMatches* other : {&waiting_, &elsewhere_})
+        if (other != queue) other->remove(match_id, claim.writer);  // an older description
+    if (queue != nullptr) {
+        keep_waiting(*queue, std::move(claim));
+        return false;
     }
+    // The endpoints first, because the director publishes at once.
+    if (!matches_.contains(match_id) && !add_match(match_id)) return true;
     Match& match = *matches_[match_id];
     const auto standing = match.ownership.describe(std::move(claim), Clock::now());
     if (standing == Ownership::Standing::stranger) {
@@ -58,6 +53,12 @@ bool Subscriber::described(Ownership::Claim claim) {
         if (!match.forgotten) cancel_forget(match_id);
     }
     return true;
+}
+
+WaitingMatches* Subscriber::queue_for(const Ownership::Claim& claim) {
+    if (matches_.contains(claim.info.match_id)) return nullptr;
+    if (!shards_.serves(claim.info.match_id)) return &elsewhere_;
+    return admit(claim) ? nullptr : &waiting_;
 }
 
 void Subscriber::keep_waiting(WaitingMatches& waiting, Ownership::Claim claim) {
@@ -75,7 +76,7 @@ bool Subscriber::admit(const Ownership::Claim& claim) {
         return false;
     }
     // It counts and logs what it refuses.
-    if (!removal_.has_room() || !ingress_->admit(claim.info.match_id)) return false;
+    if (!has_room_for(claim.info.match_id) || !ingress_->admit(claim.info.match_id)) return false;
     rate_.take(claim.sender, Clock::now());
     return true;
 }
@@ -83,12 +84,17 @@ bool Subscriber::admit(const Ownership::Claim& claim) {
 // No more at once than leave the matches that run their beat.
 void Subscriber::admit_waiting() {
     const auto is_wanted = [this](const Ownership::Claim& claim) {
-        return may_own_another(claim.sender) && rate_.allows(claim.sender, Clock::now());
+        return may_own_another(claim.sender) && rate_.allows(claim.sender, Clock::now()) &&
+               has_room_for(claim.info.match_id);
     };
-    for (int i = 0; i < admissions_a_beat && removal_.has_room() && ingress_->has_room(); ++i) {
+    for (int i = 0; i < admissions_a_beat && ingress_->has_room(); ++i) {
         std::optional<Ownership::Claim> claim = waiting_.take(is_wanted);
         if (!claim || !described(std::move(*claim))) return;
     }
+}
+
+bool Subscriber::has_room_for(const std::string& match_id) const {
+    return removal_.has_room() && !removal_.removes(match_id);
 }
 
 bool Subscriber::may_own_another(const SenderId& sender) const {
@@ -162,7 +168,6 @@ bool Subscriber::add_match(const std::string& match_id) {
 
 // On failure the caller removes the match.
 Result<void> Subscriber::open_match(const std::string& match_id) {
-    removal_.finish(match_id);
     auto endpoints =
         MatchEndpoints::open(participant_, match_id, options_.leadership, options_.director_id, counters_);
     if (!endpoints) return tl::unexpected(endpoints.error());
@@ -186,8 +191,11 @@ Result<void> Subscriber::watch(Match& match) {
     if (watched) watched = ready_.watch(endpoints.camera_reader(), match.cameras);
     if (watched) watched = ready_.watch(endpoints.sign_reader(), match.signs);
     if (!participant_.has_movers()) return watched;
-    if (watched) watched = ready_.watch(endpoints.mover_info_reader(), match.mover_infos);
-    if (watched) watched = ready_.watch(endpoints.mover_frame_reader(), match.mover_frames);
+    if (watched)
+        watched = ready_.watch(endpoints.mover_info_reader(), match.mover_infos, &match.mover_info_writers);
+    if (watched)
+        watched =
+            ready_.watch(endpoints.mover_frame_reader(), match.mover_frames, &match.mover_frame_writers);
     return watched;
 }
 
@@ -199,8 +207,8 @@ void Subscriber::unwatch(Match& match) {
     ready_.unwatch(endpoints.camera_reader(), match.cameras);
     ready_.unwatch(endpoints.sign_reader(), match.signs);
     if (!participant_.has_movers()) return;
-    ready_.unwatch(endpoints.mover_info_reader(), match.mover_infos);
-    ready_.unwatch(endpoints.mover_frame_reader(), match.mover_frames);
+    ready_.unwatch(endpoints.mover_info_reader(), match.mover_infos, &match.mover_info_writers);
+    ready_.unwatch(endpoints.mover_frame_reader(), match.mover_frames, &match.mover_frame_writers);
 }
 
 void Subscriber::remove_match(const std::string& match_id) {

@@ -40,6 +40,7 @@ void Succession::see(const Sign& other, Time now) {
     }
     if (known->second.sign.has_cameras != other.has_cameras) known->second.camera_change = now;
     known->second.sign = other;
+    known->second.sign.lease = std::min(other.lease, max_other_lease * own_.lease);
     known->second.seen = now;
     notice_reunion(now);
     decide(now);

@@ -49,6 +49,8 @@ class Succession {
     // After so long a first leader's term is later than that of one that begins and has not found it yet.
     static constexpr std::chrono::seconds establishing{1};
     static constexpr std::size_t max_others = 64;
+    // Of another's lease in own ones: what is longer would keep the match without cameras for that long.
+    static constexpr int max_other_lease = 10;
     // Calls of live() in a lease: some may come late.
     static constexpr int beats = 4;
 

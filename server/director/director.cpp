@@ -75,7 +75,7 @@ struct Director::Impl {
     void set_pace(std::int64_t now);
     Statistics sum_up() const;
     std::int64_t release_due();
-    std::vector<std::string> notify_silent();
+    std::vector<std::string> notify();
     void retire(const std::vector<std::string>& match_ids);
     bool remove_abandoned(const std::string& match_id, Match& match);
 
@@ -197,7 +197,7 @@ void Director::Impl::run_housekeeping(const std::stop_token& stop) {
         if (now_ns() < next_check) continue;
         housekeeping.begin();
         next_check = now_ns() + housekeeping_ns;
-        const auto leaving = notify_silent();
+        const auto leaving = notify();
         if (!leaving.empty()) retire(leaving);
         if (const std::int64_t now = now_ns(); now - observed_ns >= pace_interval_ns) set_pace(now);
     }
@@ -250,14 +250,16 @@ std::int64_t Director::Impl::release_due() {
     return next;
 }
 
-// Notifies matches that are without poses. Returns those that may have to be retired.
-std::vector<std::string> Director::Impl::notify_silent() {
+// Notifies matches that are without poses, or have to answer again. Returns those that may have to be
+// retired.
+std::vector<std::string> Director::Impl::notify() {
     std::vector<std::string> leaving;
     const std::shared_lock lock(mutex);
     const auto forget_ns = static_cast<std::int64_t>(config->matches.forget_s * 1e9);
     const std::int64_t now = now_ns();
     for (auto& [match_id, entry] : matches) {
         if (entry.match->poses_missing(now)) post(*entry.match, PosesMissing{});
+        if (entry.match->answers_due(now)) pool.schedule(*entry.match);
         if (entry.match->abandoned() || entry.match->server_lost_for(forget_ns, now))
             leaving.push_back(match_id);
     }

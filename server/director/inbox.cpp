@@ -9,6 +9,8 @@ namespace camdir::director {
 namespace {
 
 constexpr std::size_t max_events = 256;
+constexpr std::size_t max_view_requests = 64;
+constexpr std::ptrdiff_t max_infos = 8;  // of different epochs
 
 // By epoch, then by frame number, which may wrap. Equal frames count as older.
 bool older(const PoseFrame& a, const PoseFrame& b) {
@@ -32,19 +34,94 @@ bool came_together(const PoseFrame& first, std::int64_t first_received_ns, const
     return 2.0 * static_cast<double>(second_received_ns - first_received_ns) < sent_apart;
 }
 
+template <class Kind>
+bool is(const Message& message) {
+    return std::holds_alternative<Kind>(message);
+}
+
+bool is_of_server(const Message& message) {
+    return is<MatchInfo>(message) || is<ServerLost>(message) || is<MatchRefused>(message) ||
+           is<MatchEvent>(message);
+}
+
+// A description after it says that it is over.
+bool is_interruption(const Message& message) {
+    return is<ServerLost>(message) || is<MatchRefused>(message);
+}
+
+// It says only that something is to be looked at again.
+bool is_reminder(const Message& message) {
+    return is<PosesMissing>(message) || is<MapsChanged>(message) || is<DelayChanged>(message);
+}
+
 }  // namespace
 
 void Inbox::put(Message message) {
-    const bool event = std::holds_alternative<MatchEvent>(message);
-    const bool of_observer =
-        std::holds_alternative<ObserverRequest>(message) || std::holds_alternative<ViewRequest>(message);
+    const bool event = is<MatchEvent>(message);
+    const bool view = is<ViewRequest>(message);
     const std::lock_guard lock(mutex_);
+    if (auto* request = std::get_if<ObserverRequest>(&message)) return requests_.put(std::move(*request));
+    if (const auto* ended = std::get_if<RequestEnded>(&message)) return requests_.end(ended->observer_id);
+    if (auto* info = std::get_if<MatchInfo>(&message); info != nullptr && merge(*info)) return;
+    if (is<MatchEnded>(message) && merge_end()) return;
+    const auto same = first_like(message);
+    if (is_reminder(message) && same != waiting_.messages.end()) return;
+    if (is_interruption(message) && same != waiting_.messages.end()) forget(same);
     if (event && events_ >= max_events) return counters_.add(Counter::drop_events);
-    if (of_observer && observer_messages_ >= max_observer_messages_)
-        return counters_.add(Counter::drop_messages);
+    if (view && view_requests_ >= max_view_requests) return counters_.add(Counter::drop_messages);
     events_ += event ? 1 : 0;
-    observer_messages_ += of_observer ? 1 : 0;
+    view_requests_ += view ? 1 : 0;
     waiting_.messages.push_back(std::move(message));
+}
+
+Inbox::Place Inbox::first_like(const Message& message) {
+    return std::ranges::find_if(waiting_.messages,
+                                [&](const Message& waiting) { return waiting.index() == message.index(); });
+}
+
+void Inbox::forget(Place place) {
+    const auto before = static_cast<std::size_t>(place - waiting_.messages.begin());
+    if (before < waiting_.messages_before_frame) --waiting_.messages_before_frame;
+    waiting_.messages.erase(place);
+}
+
+// Nothing would be seen of epochs that pass so fast that many wait.
+bool Inbox::merge(MatchInfo& info) {
+    std::vector<Message>& messages = waiting_.messages;
+    const auto last = std::find_if(messages.rbegin(), messages.rend(), [](const Message& message) {
+        return is<MatchInfo>(message) || is<MatchEnded>(message);
+    });
+    if (last == messages.rend() || is<MatchEnded>(*last)) return false;
+    auto& waiting = std::get<MatchInfo>(*last);
+    if (info.epoch < waiting.epoch) {
+        counters_.add(Counter::drop_old_epoch);
+        return true;
+    }
+    const bool begins = info.epoch > waiting.epoch || info.map_name != waiting.map_name;
+    if (begins && std::ranges::count_if(messages, is<MatchInfo>) < max_infos) return false;
+    if (std::any_of(messages.rbegin(), last, is_interruption)) {
+        forget(std::prev(last.base()));
+        return false;
+    }
+    waiting = std::move(info);
+    return true;
+}
+
+// Nothing would be seen of a match that begins and ends while an end waits.
+bool Inbox::merge_end() {
+    std::vector<Message>& messages = waiting_.messages;
+    const auto end = std::ranges::find_if(messages, is<MatchEnded>);
+    if (end == messages.end()) return false;
+    const auto before = static_cast<std::size_t>(end - messages.begin());
+    if (waiting_.has_frame && waiting_.messages_before_frame > before) {
+        counters_.add(is_due_ ? Counter::drop_superseded : Counter::drop_paced);
+        waiting_.has_frame = is_due_ = false;
+    }
+    const auto events = static_cast<std::size_t>(std::count_if(end, messages.end(), is<MatchEvent>));
+    counters_.add(Counter::drop_events, events);
+    events_ -= events;
+    messages.erase(std::remove_if(end, messages.end(), is_of_server), messages.end());
+    return true;
 }
 
 bool Inbox::put(PoseFrame& frame, std::int64_t received_ns) {
@@ -84,10 +161,12 @@ void Inbox::put(const CameraFrame& shown) {
 
 void Inbox::take(Content& content) {
     content.messages.clear();
+    content.messages_before_frame = 0;
     content.has_frame = false;
     content.has_shown = false;
     const std::lock_guard lock(mutex_);
     std::swap(content, waiting_);
+    put_first_requests(content);
     if (content.has_frame && !is_due_) {
         std::swap(content.frame, waiting_.frame);
         waiting_.has_frame = std::exchange(content.has_frame, false);
@@ -96,7 +175,20 @@ void Inbox::take(Content& content) {
     }
     is_due_ = false;
     events_ = 0;
-    observer_messages_ = 0;
+    view_requests_ = 0;
+}
+
+void Inbox::put_first_requests(Content& content) {
+    std::vector<Message>& messages = content.messages;
+    const auto others = static_cast<std::ptrdiff_t>(messages.size());
+    for (std::size_t i = 0; i < max_observers_taken && !requests_.empty(); ++i) {
+        ObserverNews news = requests_.take();
+        if (news.ended) messages.emplace_back(RequestEnded{std::move(news.observer_id)});
+        if (news.request) messages.emplace_back(std::move(*news.request));
+    }
+    content.leaves_requests = !requests_.empty();
+    content.messages_before_frame += messages.size() - static_cast<std::size_t>(others);
+    std::rotate(messages.begin(), messages.begin() + others, messages.end());
 }
 
 }  // namespace camdir::director

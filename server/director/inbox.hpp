@@ -13,6 +13,7 @@
 #include "director/counters.hpp"
 #include "director/messages.hpp"
 #include "director/pace.hpp"
+#include "director/request_queue.hpp"
 
 namespace camdir::director {
 
@@ -39,15 +40,17 @@ using Message =
                  RequestEnded, MapsChanged, DelayChanged, Reconfigured, ViewRequest>;
 
 // Keeps messages in their order of arrival, and only the newest pose frame, which waits until the pace lets
-// one of its match be taken. Events and what observers ask for
-// are bounded, and drops are counted. Messages about the match itself are never dropped, and neither are the
-// ends of requests: observers who have left would keep their places. Each match has its own inbox.
-// Thread-safe. Does not allocate once its buffers have grown.
+// one of its match be taken. Whatever others send, what waits is bounded. Of each observer, of an epoch's
+// descriptions with one map, of losses of the game server, and of refusals only the newest waits. Of the
+// match that begins after an end that waits, nothing is left once it ends. Few epochs wait, a bounded number
+// of events and of view requests: drops of these are counted. Each match has its own inbox. Thread-safe.
+// Frames do not allocate once its buffers have grown.
 class Inbox {
   public:
-    // `max_observer_messages` bounds requests and view requests together. At most 256 events wait.
-    Inbox(std::size_t max_observer_messages, const Pace& pace, MatchCounters& counters)
-        : max_observer_messages_(max_observer_messages), pace_(pace), counters_(counters) {}
+    // Requests of so many observers are taken at once: what they do delays a frame no more than that.
+    static constexpr std::size_t max_observers_taken = 32;
+
+    Inbox(const Pace& pace, MatchCounters& counters) : pace_(pace), counters_(counters) {}
 
     void put(Message message);
 
@@ -61,7 +64,8 @@ class Inbox {
     void put(const CameraFrame& shown);
 
     struct Content {
-        std::vector<Message> messages;
+        std::vector<Message> messages;  // those of observers come first
+        bool leaves_requests = false;   // for another turn
         bool has_frame = false;
         PoseFrame frame;
         std::size_t messages_before_frame = 0;
@@ -70,20 +74,32 @@ class Inbox {
         CameraFrame shown;  // by the director that leads the match
     };
 
-    // Moves everything that waits into `content`, whose memory is reused; not a frame that is not due.
+    // Moves what waits into `content`, whose memory is reused; not a frame that is not due, and not the
+    // requests of more observers than max_observers_taken.
     void take(Content& content);
 
   private:
+    using Place = std::vector<Message>::iterator;
+
+    // The first of the same kind that waits.
+    [[nodiscard]] Place first_like(const Message& message);
+    void forget(Place place);
+    // Makes one of the description and of that which waits; a late one is dropped. Returns false when it is
+    // to wait in its own place.
+    [[nodiscard]] bool merge(MatchInfo& info);
+    // Makes one of an end and of that which waits. Returns false when none does.
+    [[nodiscard]] bool merge_end();
+    void put_first_requests(Content& content);
     // Why the waiting frame is dropped for this one.
     [[nodiscard]] Counter reason_to_replace(const PoseFrame& frame, std::int64_t received_ns) const;
 
     std::mutex mutex_;
     Content waiting_;
-    bool is_due_ = false;                // the waiting frame
-    std::uint32_t left_out_ = 0;         // frames since one was due
-    std::size_t events_ = 0;             // in waiting_.messages
-    std::size_t observer_messages_ = 0;  // in waiting_.messages
-    const std::size_t max_observer_messages_;
+    bool is_due_ = false;            // the waiting frame
+    std::uint32_t left_out_ = 0;     // frames since one was due
+    std::size_t events_ = 0;         // in waiting_.messages
+    std::size_t view_requests_ = 0;  // likewise
+    RequestQueue requests_;
     const Pace& pace_;
     MatchCounters& counters_;
 };

@@ -16,7 +16,6 @@ namespace camdir::director {
 namespace {
 
 constexpr double default_rate_hz = 30.0;  // of game servers that state none
-constexpr std::size_t max_view_requests = 64;
 constexpr float scale_tolerance = 1e-3F;  // relative: games state rounded lengths
 
 constexpr const char* no_server = "no game server runs this match";
@@ -58,7 +57,7 @@ Match::Match(std::string match_id, std::shared_ptr<const config::Config> config,
       pace_(pace),
       publisher_(publisher),
       audiences_(audiences),
-      inbox_(2 * static_cast<std::size_t>(config->limits.observers) + max_view_requests, pace, counters_),
+      inbox_(pace, counters_),
       delay_(static_cast<std::size_t>(config->limits.delay_mib) << 20U),
       config_(std::move(config)),
       missing_map_(no_server),
@@ -77,6 +76,7 @@ void Match::turn(Turn& turn) noexcept {  // NOLINT(bugprone-exception-escape)
     } else {
         handle_all(messages);
     }
+    if (content_.leaves_requests) turn.again();
     follow();
     prepare(turn);
     // A lookout that is asked for the first time takes milliseconds.
@@ -86,7 +86,7 @@ void Match::turn(Turn& turn) noexcept {  // NOLINT(bugprone-exception-escape)
 void Match::handle_all(std::span<Message> messages) {
     for (Message& message : messages)
         std::visit([this](auto& content) { handle(content); }, message);
-    if (reconcile_needed_) reconcile();
+    if (reconcile_needed_ || answers_due(now_ns())) reconcile();
 }
 
 void Match::handle(MatchInfo& info) {
@@ -184,11 +184,11 @@ void Match::handle(const MatchEvent& event) {
 }
 
 void Match::handle(const ObserverRequest& request) {
+    reconcile_needed_ = true;
+    if (!requests_.put(request, *config_, epoch())) return;
     counters_.add(Counter::requests);
-    requests_.put(request, *config_, epoch());
     for (Audience* audience : audiences_)
         audience->request(request);
-    reconcile_needed_ = true;
 }
 
 void Match::handle(const RequestEnded& ended) {
@@ -305,7 +305,8 @@ void Match::reconcile() {
     waits_for_delay_ = !waiting.empty();
     requests_.reconcile({*config_, roster_, epoch(), refusal_.empty() ? delay.refusal : refusal_,
                          waits_for_delay_ ? waiting : missing_map_,
-                         holds ? "the game server is silent: the camera holds" : ""});
+                         holds ? "the game server is silent: the camera holds" : "", now_ns()});
+    next_answers_ns_ = requests_.next_answers();
     observer_count_ = requests_.observers();
     shot_count_ = requests_.shots().size();
     abandoned_.store(!info_ && requests_.observers() == 0, std::memory_order_release);

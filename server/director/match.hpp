@@ -48,6 +48,8 @@ class Match final : public Strand {
     [[nodiscard]] bool poses_missing(std::int64_t now_ns) const;
     // The game server's liveliness is lost, and there has been no pose for `ns`.
     [[nodiscard]] bool server_lost_for(std::int64_t ns, std::int64_t now_ns) const;
+    // Observers are to be answered again.
+    [[nodiscard]] bool answers_due(std::int64_t now_ns) const { return now_ns >= next_answers_ns_; }
     // Neither game server nor observers, as of the last turn, and nothing waits to be shown.
     [[nodiscard]] bool abandoned() const {
         return abandoned_.load(std::memory_order_acquire) && !delay_.waits();
@@ -153,7 +155,8 @@ class Match final : public Strand {
     std::atomic<std::int64_t> silence_limit_ns_{0};  // time without poses after which the match is silent
     std::atomic<std::uint64_t> observer_count_{0};
     std::atomic<std::uint64_t> shot_count_{0};
-    std::atomic<std::int64_t> last_pose_ns_{0};  // receipt of the last accepted frame
+    std::atomic<std::int64_t> last_pose_ns_{0};                   // receipt of the last accepted frame
+    std::atomic<std::int64_t> next_answers_ns_{Requests::never};  // see answers_due()
 
     // Used by the strand only.
     std::shared_ptr<const config::Config> config_;

@@ -117,6 +117,8 @@ struct ObserverRequest {
     std::vector<std::uint32_t> group;
     std::string profile;
     std::string overrides;
+
+    bool operator==(const ObserverRequest&) const = default;
 };
 
 enum class RequestState : std::uint32_t {
@@ -133,6 +135,8 @@ struct ObserverStatus {
     RequestState state = RequestState::refused;
     std::uint32_t camera_id = 0;
     std::string reason;  // at most 255 bytes
+
+    bool operator==(const ObserverStatus&) const = default;
 };
 
 struct ShotCamera {

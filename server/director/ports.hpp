@@ -55,8 +55,10 @@ class Publisher {
     // The match has been shown to its end.
     virtual void end(const std::string& match_id) = 0;
     virtual void publish(const std::string& match_id, const CameraFrame& frame) = 0;
-    virtual void publish(const ObserverStatus& status) = 0;
-    // The observer's request has ended: its status is disposed.
+    // Written soon, after the next frame. Returns false when there is no room for it: to be tried again
+    // later.
+    virtual bool publish(const ObserverStatus& status) = 0;
+    // The observer's request has ended: its status is disposed, likewise soon.
     virtual void withdraw(const std::string& match_id, const std::string& observer_id) = 0;
     // The match has neither a game server nor observers: its endpoints can be closed. Nothing more is
     // published for it until its MatchInfo is received again; an Ingress::receive of that MatchInfo which

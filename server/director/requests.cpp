@@ -12,6 +12,8 @@ namespace camdir::director {
 namespace {
 
 constexpr std::size_t max_reason_bytes = 255;  // ObserverStatus.reason
+// Each is sent with all answers of its bucket, to every observer.
+constexpr std::int64_t repeat_interval_ns = 1'000'000'000;
 
 std::string shortened(std::string text) {
     text.resize(utf8_prefix(text, max_reason_bytes));
@@ -95,41 +97,53 @@ std::uint32_t camera_id_of(const ShotKey& key) {
 
 }  // namespace
 
-void Requests::put(const ObserverRequest& request, const config::Config& config, std::uint64_t epoch) {
+bool Requests::put(const ObserverRequest& request, const config::Config& config, std::uint64_t epoch) {
     const bool has_place = observers_.contains(request.observer_id) ||
                            observers_.size() < static_cast<std::size_t>(config.limits.observers);
-    if (has_place)
-        keep(request, config);
-    else
-        wait(request, config, epoch);
+    return has_place ? keep(request, config) : wait(request, config, epoch);
 }
 
-void Requests::keep(const ObserverRequest& request, const config::Config& config) {
+bool Requests::keep(const ObserverRequest& request, const config::Config& config) {
     Observer& observer = observers_[request.observer_id];
+    observer.answer.published = false;  // or it has been lost
+    turned_away_.erase(request.observer_id);
+    if (observer.request == request) return false;
     observer.request = request;
-    observer.published = false;  // the answer is sent again even if it is the same
     resolve(observer, config);
+    return true;
 }
 
-void Requests::wait(const ObserverRequest& request, const config::Config& config, std::uint64_t epoch) {
+bool Requests::wait(const ObserverRequest& request, const config::Config& config, std::uint64_t epoch) {
     const auto most = static_cast<std::size_t>(config.limits.observers);
     const auto known = std::ranges::find_if(
         waiting_, [&](const Waiting& waiting) { return waiting.request.observer_id == request.observer_id; });
-    std::string reason = too_many_observers(config);
     if (known != waiting_.end()) {
-        *known = {request, epoch};
+        known->answer.published = false;
+        if (known->request == request) return false;
+        known->request = request;
     } else if (waiting_.size() < most) {
-        waiting_.push_back({request, epoch});
+        waiting_.push_back({request, {}});
+        turned_away_.erase(request.observer_id);
     } else {
-        reason += ", and as many wait";
+        return turn_away(request, config, epoch);
     }
-    counters_.add(Counter::refused_requests);
-    publisher_.publish({match_id_, request.observer_id, epoch, RequestState::refused, 0, reason});
+    return true;
+}
+
+bool Requests::turn_away(const ObserverRequest& request, const config::Config& config, std::uint64_t epoch) {
+    const ObserverStatus refusal{match_id_, request.observer_id,
+                                 epoch,     RequestState::refused,
+                                 0,         too_many_observers(config) + ", and as many wait"};
+    publisher_.publish(refusal);  // an observer whom it does not reach asks again
+    const bool is_new = turned_away_.insert(request.observer_id).second;
+    if (is_new) count_refusal(refusal);
+    return is_new;
 }
 
 void Requests::remove(const std::string& observer_id, const config::Config& config) {
     std::erase_if(waiting_,
                   [&](const Waiting& waiting) { return waiting.request.observer_id == observer_id; });
+    turned_away_.erase(observer_id);
     const bool leaves_place = observers_.erase(observer_id) > 0;
     publisher_.withdraw(match_id_, observer_id);
     if (!leaves_place || waiting_.empty()) return;
@@ -175,6 +189,7 @@ Requests::Decision Requests::decide(const Observer& observer, const RequestConte
 }
 
 void Requests::reconcile(const RequestContext& context) {
+    next_answers_ = never;
     // Shots without observers end first, so that new ones can take their places.
     std::vector<Decision> decisions;
     for (Shot& shot : shots_)
@@ -192,7 +207,10 @@ void Requests::reconcile(const RequestContext& context) {
     for (auto& [id, observer] : observers_) {
         if (decision->state == RequestState::accepted)
             assign(observer, context.config.limits.shots, *decision);
-        publish(observer, std::move(*decision), context.epoch);
+        publish(observer.answer,
+                {match_id_, id, context.epoch, decision->state, decision->camera_id,
+                 shortened(std::move(decision->reason))},
+                context.now);
         ++decision;
     }
     refuse_waiting(context);
@@ -200,13 +218,11 @@ void Requests::reconcile(const RequestContext& context) {
 
 // Observers take no refusal of an epoch before.
 void Requests::refuse_waiting(const RequestContext& context) {
-    for (Waiting& waiting : waiting_) {
-        if (waiting.epoch == context.epoch) continue;
-        waiting.epoch = context.epoch;
-        counters_.add(Counter::refused_requests);
-        publisher_.publish({match_id_, waiting.request.observer_id, context.epoch, RequestState::refused, 0,
-                            too_many_observers(context.config)});
-    }
+    for (Waiting& waiting : waiting_)
+        publish(waiting.answer,
+                {match_id_, waiting.request.observer_id, context.epoch, RequestState::refused, 0,
+                 too_many_observers(context.config)},
+                context.now);
 }
 
 void Requests::assign(const Observer& observer, std::int64_t max_shots, Decision& decision) {
@@ -248,22 +264,22 @@ Shot& Requests::add_shot(const ShotKey& key) {
     return *shots_.insert(place, std::move(shot));
 }
 
-void Requests::publish(Observer& observer, Decision decision, std::uint64_t epoch) {
-    ObserverStatus status{match_id_,          observer.request.observer_id,         epoch, decision.state,
-                          decision.camera_id, shortened(std::move(decision.reason))};
-    ObserverStatus& current = observer.status;
-    if (observer.published && current.epoch == status.epoch && current.state == status.state &&
-        current.camera_id == status.camera_id && current.reason == status.reason)
-        return;
-    if (status.state == RequestState::refused) {
-        counters_.add(Counter::refused_requests);
-        if (const auto times = refusals_.due())
-            spdlog::info("match {}: observer {} is refused: {} ({} since the last such line)", match_id_,
-                         status.observer_id, status.reason, *times);
+void Requests::publish(Answer& answer, ObserverStatus status, std::int64_t now) {
+    const bool changed = status != answer.status;
+    if (changed || (!answer.published && now >= answer.repeats_at)) {
+        if (changed && status.state == RequestState::refused) count_refusal(status);
+        answer.status = std::move(status);
+        answer.published = publisher_.publish(answer.status);
+        answer.repeats_at = now + repeat_interval_ns;
     }
-    current = std::move(status);
-    observer.published = true;
-    publisher_.publish(current);
+    if (!answer.published) next_answers_ = std::min(next_answers_, answer.repeats_at);
+}
+
+void Requests::count_refusal(const ObserverStatus& status) {
+    counters_.add(Counter::refused_requests);
+    if (const auto times = refusals_.due())
+        spdlog::info("match {}: observer {} is refused: {} ({} since the last such line)", match_id_,
+                     status.observer_id, status.reason, *times);
 }
 
 void Requests::restart_shots() {
@@ -288,7 +304,8 @@ std::vector<ShotView> Requests::shot_views() const {
 std::vector<ObserverView> Requests::observer_views() const {
     std::vector<ObserverView> views;
     for (const auto& [id, observer] : observers_)
-        views.push_back({id, observer.status.state, observer.status.camera_id, observer.status.reason});
+        views.push_back({id, observer.answer.status.state, observer.answer.status.camera_id,
+                         observer.answer.status.reason});
     return views;
 }
 

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <list>
 #include <map>
 #include <memory>
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 #include "base/log_limit.hpp"
@@ -73,6 +75,7 @@ struct RequestContext {
     std::string refusal;      // why all requests are refused; empty when they are not
     std::string missing_map;  // why the match has no map, or is not shown yet; empty when it is
     std::string remark;       // reason in the status of accepted requests
+    std::int64_t now = 0;     // steady clock, ns
 };
 
 // One thread at a time.
@@ -81,18 +84,24 @@ class Requests {
     Requests(std::string match_id, Publisher& publisher, MatchCounters& counters)
         : match_id_(std::move(match_id)), publisher_(publisher), counters_(counters) {}
 
-    // Keeps the request until the next reconcile(). Refuses it at once when limits.observers are kept
-    // already: it waits for one of them to leave, with at most as many others.
-    void put(const ObserverRequest& request, const config::Config& config, std::uint64_t epoch);
+    static constexpr std::int64_t never = std::numeric_limits<std::int64_t>::max();
+
+    // Keeps the request until the next reconcile(). When limits.observers are kept already, it is refused and
+    // waits for one of them to leave, with at most as many others. Returns false when it is the observer's
+    // last one again: who has lost the answer is answered again; and when the observer, who cannot even wait,
+    // has been told so before.
+    bool put(const ObserverRequest& request, const config::Config& config, std::uint64_t epoch);
     void remove(const std::string& observer_id, const config::Config& config);
 
     // Looks profiles up again after a configuration change.
     void resolve_again(const config::Config& config);
 
     // Decides about every request, ends and begins shots accordingly, and publishes the statuses that
-    // changed. A running shot continues while any request wants it; new shots beyond limits.shots are
-    // refused.
+    // changed, and those that observers do not have: these once a second. A running shot continues while any
+    // request wants it; new shots beyond limits.shots are refused.
     void reconcile(const RequestContext& context);
+    // When the next reconcile() publishes a status that has not changed.
+    [[nodiscard]] std::int64_t next_answers() const { return next_answers_; }
 
     // All shots start again, with a cut.
     void restart_shots();
@@ -103,17 +112,21 @@ class Requests {
     [[nodiscard]] std::vector<ObserverView> observer_views() const;
 
   private:
+    struct Answer {
+        ObserverStatus status = {};
+        bool published = false;       // the observer has it
+        std::int64_t repeats_at = 0;  // otherwise
+    };
     struct Observer {
         ObserverRequest request;
         ShotKey key;
         camera::Profile profile;
         std::string error;  // why the request is invalid; empty when it is valid
-        ObserverStatus status;
-        bool published = false;  // `status` is what the observer has been sent
+        Answer answer;
     };
     struct Waiting {
         ObserverRequest request;
-        std::uint64_t epoch;  // of the newest refusal
+        Answer answer;
     };
     struct Decision {
         RequestState state = RequestState::accepted;
@@ -121,23 +134,28 @@ class Requests {
         std::string reason;
     };
 
-    void keep(const ObserverRequest& request, const config::Config& config);
-    void wait(const ObserverRequest& request, const config::Config& config, std::uint64_t epoch);
+    // They return what put() returns.
+    bool keep(const ObserverRequest& request, const config::Config& config);
+    bool wait(const ObserverRequest& request, const config::Config& config, std::uint64_t epoch);
+    bool turn_away(const ObserverRequest& request, const config::Config& config, std::uint64_t epoch);
     void refuse_waiting(const RequestContext& context);
     static void resolve(Observer& observer, const config::Config& config);
     [[nodiscard]] static Decision decide(const Observer& observer, const RequestContext& context);
     void assign(const Observer& observer, std::int64_t max_shots, Decision& decision);
     Shot* find_shot(const ShotKey& key);
     Shot& add_shot(const ShotKey& key);
-    void publish(Observer& observer, Decision decision, std::uint64_t epoch);
+    void publish(Answer& answer, ObserverStatus status, std::int64_t now);
+    void count_refusal(const ObserverStatus& status);
 
     const std::string match_id_;
     Publisher& publisher_;
     MatchCounters& counters_;
     LogLimit refusals_;
     std::map<std::string, Observer> observers_;
-    std::list<Waiting> waiting_;  // for a place, in the order of arrival
+    std::list<Waiting> waiting_;                   // for a place, in the order of arrival
+    std::unordered_set<std::string> turned_away_;  // observers who cannot even wait
     std::vector<Shot> shots_;
+    std::int64_t next_answers_ = never;
 };
 
 }  // namespace camdir::director

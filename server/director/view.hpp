@@ -34,7 +34,7 @@ enum class Counter : std::size_t {
     drop_waiting,      // pose frames of a match without a map
     drop_players,      // poses beyond limits.players, duplicate players
     drop_events,       // the match's queue of events was full
-    drop_messages,     // the match's queue of other messages was full
+    drop_messages,     // too many wanted to view the match
     drop_delay,        // of a match whose delay is refused
     refused_matches,
     refused_requests,

@@ -4,12 +4,16 @@
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <chrono>
 #include <nlohmann/json.hpp>
+
+#include "base/log_limit.hpp"
 
 namespace camdir::service {
 namespace {
 
 constexpr const char* time_pattern = "%Y-%m-%dT%H:%M:%S.%eZ";
+constexpr std::uint64_t max_lines_per_second = 200;
 
 // 2026-01-02T03:04:05.678Z info: message
 // Control characters are replaced: names from outside cannot start a new line of the log.
@@ -53,10 +57,32 @@ class JsonLines final : public spdlog::formatter {
     spdlog::pattern_formatter time_{time_pattern, spdlog::pattern_time_type::utc, ""};
 };
 
+// Other processes can provoke lines. Critical ones, with which the process ends, are never left out.
+class LimitedLines final : public spdlog::sinks::stderr_sink_mt {
+  public:
+    void log(const spdlog::details::log_msg& message) override {
+        const bool vital = message.level == spdlog::level::critical;
+        const auto left_out = budget_.take(std::chrono::steady_clock::now(), vital);
+        if (!left_out) return;
+        if (*left_out > 0) tell(*left_out, message.level);
+        stderr_sink::log(message);
+    }
+
+  private:
+    // With the level of a line that is wanted.
+    void tell(std::uint64_t left_out, spdlog::level::level_enum level) {
+        const std::string text = std::to_string(left_out) + " lines left out: more than " +
+                                 std::to_string(max_lines_per_second) + " in a second";
+        stderr_sink::log({spdlog::string_view_t(), level, text});
+    }
+
+    LogBudget budget_{max_lines_per_second};
+};
+
 }  // namespace
 
 void start_logging(const config::Log& config) {
-    auto logger = std::make_shared<spdlog::logger>("", std::make_shared<spdlog::sinks::stderr_sink_mt>());
+    auto logger = std::make_shared<spdlog::logger>("", std::make_shared<LimitedLines>());
     if (config.format == "json")
         logger->set_formatter(std::make_unique<JsonLines>());
     else

@@ -1,4 +1,4 @@
-// The server's log on standard error: plain text, or one JSON object per line.
+// The server's log on standard error: plain text, or one JSON object per line; at most 200 lines in a second.
 #pragma once
 
 #include "config/config.hpp"

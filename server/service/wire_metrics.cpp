@@ -52,7 +52,7 @@ std::vector<prometheus::MetricFamily> wire_metrics(const dds::WireCounters& coun
         counter("wire_shown_matches_total", "Changes of what matches show written to DDS.",
                 counters.shown_matches_written),
         counter("wire_camera_frames_total", "Camera frames written to DDS.", counters.camera_frames_written),
-        counter("wire_statuses_total", "Observer statuses written to DDS.", counters.statuses_written),
+        counter("wire_statuses_total", "Buckets of observer statuses written to DDS.", counters.statuses_written),
         counter("wire_write_failures_total", "Samples that DDS did not accept.", counters.write_failures),
         counter("wire_endpoint_failures_total", "Matches whose endpoints could not be created.",
                 counters.endpoint_failures),

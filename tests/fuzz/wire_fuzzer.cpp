@@ -39,9 +39,10 @@ class Encoder final : public director::Publisher {
         director::CameraFrame again;
         assert(!dds::decode(sample, again));
     }
-    void publish(const director::ObserverStatus& status) override {
+    bool publish(const director::ObserverStatus& status) override {
         const camera_director_ObserverStatus sample = dds::encode(status);
         assert(sample.state <= 3);
+        return true;
     }
     void withdraw(const std::string& /*match_id*/, const std::string& /*observer_id*/) override {}
     void forget(const std::string& /*match_id*/) override {}

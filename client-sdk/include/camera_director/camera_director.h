@@ -49,8 +49,9 @@
  * Threads. Every function may be called from any thread at any time. Calls on the same match or observer are
  * serialised; calls on different ones run concurrently. cdir_observer_wait() and cdir_context_wait() block
  * for long, and other calls on the same handle proceed meanwhile; opening and closing a context do where a
- * name server is slow. All else takes milliseconds at most. Do not call the library from a signal handler or,
- * after fork(), from the child process.
+ * name server is slow. Closing a match or an observer takes up to 0.3 s where a director does not acknowledge
+ * what was sent to it last. All else takes milliseconds at most. Do not call the library from a signal handler
+ * or, after fork(), from the child process.
  */
 #ifndef CAMERA_DIRECTOR_CAMERA_DIRECTOR_H
 #define CAMERA_DIRECTOR_CAMERA_DIRECTOR_H
@@ -512,8 +513,8 @@ CDIR_API cdir_status cdir_observer_request(cdir_observer observer,
 CDIR_API cdir_status cdir_observer_withdraw(cdir_observer observer) CDIR_NOEXCEPT;
 
 /* Waits until there is something for poll or next_frame to take, or a director that came or left for them to
- * take note of. timeout: nanoseconds, 0 = do not wait,
- * negative = without limit. Returns CDIR_OK, CDIR_TIMEOUT or CDIR_INTERRUPTED. */
+ * take note of. Meanwhile a request that nobody answers is sent again every 2 s. timeout: nanoseconds, 0 = do
+ * not wait, negative = without limit. Returns CDIR_OK, CDIR_TIMEOUT or CDIR_INTERRUPTED. */
 CDIR_API cdir_status cdir_observer_wait(cdir_observer observer, int64_t timeout) CDIR_NOEXCEPT;
 
 /* Ends the waits in progress; if there is none, the next one. */

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <limits>
 #include <memory>
@@ -168,6 +169,22 @@ TEST_F(FailureTest, ADirectorThatWasStoppedGoesOn) {
     server.process().send_signal(SIGCONT);
     EXPECT_TRUE(comes_to(observer, CDIR_SHOT_ACCEPTED)) << server.log();
     EXPECT_TRUE(sees_own_camera(observer)) << server.log();
+}
+
+TEST_F(FailureTest, AGameServerClosesItsMatchThoughTheDirectorIsStopped) {
+    constexpr std::chrono::milliseconds promised(300), of_a_busy_machine(300);
+    Server server(domain_.id());
+    const Context context = Context::open(connection(domain_.id())).value();
+    std::optional<Game> game;
+    game.emplace(context, "cup", "hall");
+    Observer observer = Observer::open(context, "cup", "anna").value();
+    observer.request({.target = 2}).value();
+    ASSERT_TRUE(sees_own_camera(observer)) << server.log();
+    server.process().send_signal(SIGSTOP);
+    const auto begun = std::chrono::steady_clock::now();
+    game.reset();
+    EXPECT_LT(std::chrono::steady_clock::now() - begun, promised + of_a_busy_machine);
+    server.process().send_signal(SIGCONT);
 }
 
 // The game server's description lives for 2 s without a sign of its writer, its participant for 10 s.

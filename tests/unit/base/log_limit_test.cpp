@@ -20,5 +20,16 @@ TEST(LogBudget, LeavesOutWhatIsMoreThanASecondsAndCountsIt) {
     EXPECT_EQ(budget.take(start + 9s), 1U);
 }
 
+TEST(LogBudget, HasAlwaysRoomForAVitalLineWhichTellsOfWhatWasLeftOut) {
+    LogBudget budget(1);
+    const LogBudget::Time start{100s};
+    EXPECT_EQ(budget.take(start), 0U);
+    EXPECT_EQ(budget.take(start), std::nullopt);
+    EXPECT_EQ(budget.take(start, true), 1U);
+    EXPECT_EQ(budget.take(start, true), 0U);
+    EXPECT_EQ(budget.take(start), std::nullopt) << "it takes the others' room";
+    EXPECT_EQ(budget.take(start + 1s), 1U);
+}
+
 }  // namespace
 }  // namespace camdir

@@ -237,6 +237,21 @@ std::optional<ValidationError> decode_whole(const camera_director_MoverInfo& sam
     return error ? error : bound_hulls(message);
 }
 
+TEST(DecodeMoverInfo, HullsGetTheirBoundsOneAfterTheOther) {
+    test::RawMoverInfo info = door_and_cart();
+    director::MoverInfo message;
+    ASSERT_FALSE(decode(info.sample(), message));
+    for (int hull = 0; hull < 2; ++hull) {
+        EXPECT_FALSE(has_bounds(message)) << hull << " of 2";
+        EXPECT_FALSE(bound_hulls(message, 1));
+    }
+    EXPECT_TRUE(has_bounds(message));
+
+    info.planes[0] = -1.0F;  // of the first
+    ASSERT_FALSE(decode(info.sample(), message));
+    EXPECT_EQ(bound_hulls(message, 1), ValidationError::bad_hull);
+}
+
 TEST(DecodeMoverInfo, SharesTheShapesOutToTheirMovers) {
     test::RawMoverInfo info = door_and_cart();
     info.add_mover(7);

@@ -153,9 +153,9 @@ TEST(EncodeStatusBucket, HoldsTheStatusesOfItsObserversAndNoneOfThoseErased) {
     ASSERT_EQ(sample.statuses._length, 2U);
     EXPECT_STREQ(sample.statuses._buffer[0].observer_id, neighbour.c_str());
     EXPECT_EQ(sample.statuses._buffer[1].camera_id, 7U);
-    statuses.erase(neighbour);
+    EXPECT_TRUE(statuses.erase(neighbour));
     EXPECT_EQ(encoder.encode(number, statuses.bucket(number)).statuses._length, 1U);
-    statuses.erase("anna");
+    EXPECT_TRUE(statuses.erase("anna"));
     EXPECT_EQ(encoder.encode(number, statuses.bucket(number)).statuses._length, 0U);
     EXPECT_EQ(statuses.used().size(), 1U);
 }
@@ -170,7 +170,8 @@ TEST(StatusBuckets, AreBounded) {
         ASSERT_TRUE(put(observers[i]));
     EXPECT_FALSE(put(observers.back()));
     EXPECT_TRUE(put(observers.front())) << "it is there already";
-    statuses.erase(observers.front());
+    EXPECT_TRUE(statuses.erase(observers.front()));
+    EXPECT_FALSE(statuses.erase(observers.front())) << "it is gone";
     EXPECT_TRUE(put(observers.back()));
 }
 

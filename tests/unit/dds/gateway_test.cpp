@@ -252,6 +252,28 @@ TEST_F(TakeOverTest, AGapTellsOfFramesThatNobodyWrote) {
     EXPECT_EQ(numbers.back(), 73U);
 }
 
+TEST_F(StandbyTest, TellsWhetherAStatusIsPublished) {
+    RawPeer& other = peer("cup");
+    const Leader leader(other, 3);
+    game("cup");
+    EXPECT_TRUE(gateway_->publish(status_of("anna", ""))) << "it is kept";
+    director::ObserverStatus lost = status_of("anna", "");
+    lost.match_id = "nobody's match";
+    EXPECT_FALSE(gateway_->publish(lost));
+
+    std::vector<std::string> neighbours;  // of the same bucket
+    for (int i = 0; neighbours.size() < StatusBuckets::max_statuses; ++i)
+        if (StatusBuckets::number_of(std::to_string(i)) == StatusBuckets::number_of("anna"))
+            neighbours.push_back(std::to_string(i));
+    const std::string last = neighbours.back();
+    neighbours.pop_back();
+    for (const std::string& neighbour : neighbours)
+        ASSERT_TRUE(gateway_->publish(status_of(neighbour, "")));
+    EXPECT_FALSE(gateway_->publish(status_of(last, ""))) << "its bucket is full";
+    gateway_->withdraw("cup", "anna");
+    EXPECT_TRUE(gateway_->publish(status_of(last, "")));
+}
+
 TEST_F(StandbyTest, OwnsWhatItWritesBeforeALeaderThatWasOnlyStopped) {
     RawPeer& other = peer("cup");
     auto leader = std::make_unique<Leader>(other, 3);

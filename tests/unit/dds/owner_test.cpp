@@ -41,8 +41,62 @@ TEST_F(OwnershipTest, PassesToWhoSendsWhenTheOwnerHasNotForLongerThanTheLimit) {
     EXPECT_EQ(sends(second_server, 1.0), Standing::stranger);
     EXPECT_EQ(sends(second_server, 1.1), Standing::successor);
     EXPECT_EQ(sends(second_server, 1.2), Standing::owner);
-    EXPECT_EQ(sends(first_server, 1.3), Standing::stranger);
     EXPECT_EQ(sends(SenderId{3}, 9.0), Standing::stranger) << "describes no match";
+}
+
+TEST_F(OwnershipTest, WhoWasOnlySilentGetsItsMatchBackAndKeepsItFromWhoHadTakenIt) {
+    EXPECT_EQ(sends(second_server, 0.6), Standing::successor);
+    EXPECT_EQ(sends(first_server, 0.7), Standing::successor);
+    EXPECT_EQ(sends(second_server, 0.8), Standing::stranger);
+    EXPECT_EQ(sends(first_server, 0.9), Standing::owner);
+    EXPECT_EQ(sends(second_server, 5.0), Standing::stranger) << "it does not change hands to and fro";
+
+    const SenderId next{3};
+    EXPECT_EQ(ownership_.describe(claim_of(next), at(5.0)), Standing::stranger);
+    EXPECT_EQ(sends(next, 5.0), Standing::successor) << "the first server, killed, is started again";
+    EXPECT_EQ(sends(second_server, 9.0), Standing::stranger);
+    EXPECT_EQ(ownership_.dispose(next[0], true, at(9.0)), Ownership::Change::succeeded);
+    EXPECT_TRUE(ownership_.owns(first_server));
+}
+
+TEST_F(OwnershipTest, WhoHasGivenTheMatchBackServesOnWhenItsOwnerHangs) {
+    EXPECT_EQ(sends(second_server, 0.6), Standing::successor);
+    EXPECT_EQ(sends(first_server, 0.7), Standing::successor);
+    EXPECT_EQ(sends(second_server, 5.7), Standing::stranger);
+    EXPECT_EQ(sends(second_server, 5.8), Standing::successor);
+    EXPECT_EQ(sends(second_server, 5.9), Standing::owner);
+    EXPECT_EQ(sends(first_server, 6.0), Standing::successor) << "it was only silent, again";
+    EXPECT_EQ(sends(second_server, 10.9), Standing::stranger);
+}
+
+TEST_F(OwnershipTest, WhoHasGivenTheMatchBackIsRememberedUntilItIsGone) {
+    EXPECT_EQ(sends(second_server, 0.6), Standing::successor);
+    EXPECT_EQ(sends(first_server, 0.7), Standing::successor);
+    EXPECT_EQ(ownership_.dispose(second_server[0], true, at(0.8)), Ownership::Change::none);
+    EXPECT_EQ(ownership_.describe(claim_of(second_server), at(0.8)), Standing::stranger);
+    EXPECT_EQ(sends(second_server, 1.4), Standing::stranger);
+    const std::array<WriterHandle, 1> first{first_server[0]};
+    EXPECT_EQ(ownership_.retain(first, at(1.4)), Ownership::Change::none);
+    EXPECT_EQ(ownership_.describe(claim_of(second_server), at(1.4)), Standing::stranger);
+    EXPECT_EQ(sends(second_server, 1.4), Standing::successor) << "it may be another one";
+}
+
+TEST_F(OwnershipTest, TheFirstOfThoseWhoWereSilentGetsTheMatchBack) {
+    const SenderId third{3};
+    EXPECT_EQ(ownership_.describe(claim_of(third), at(0)), Standing::stranger);
+    EXPECT_EQ(sends(second_server, 0.6), Standing::successor);
+    EXPECT_EQ(sends(third, 1.2), Standing::successor);
+    EXPECT_EQ(sends(second_server, 1.3), Standing::stranger);
+    EXPECT_EQ(sends(first_server, 1.4), Standing::successor);
+}
+
+TEST_F(OwnershipTest, NothingIsGivenBackToWhoIsGone) {
+    EXPECT_EQ(sends(second_server, 0.6), Standing::successor);
+    const std::array<WriterHandle, 1> second{second_server[0]};
+    EXPECT_EQ(ownership_.retain(second, at(1)), Ownership::Change::none);
+    EXPECT_EQ(ownership_.describe(claim_of(first_server), at(2)), Standing::stranger) << "it is another one";
+    EXPECT_EQ(sends(second_server, 2.0), Standing::owner);
+    EXPECT_EQ(sends(first_server, 2.1), Standing::stranger);
 }
 
 TEST(Ownership, AnOwnerThatIsGoneLeavesNothingToItsSuccessor) {
@@ -163,12 +217,13 @@ TEST_F(OwnerTest, AGameServerThatSendsInPlaceOfASilentOneBeginsAnewWhateverItsEp
     EXPECT_TRUE(accepts(second, 4, 2));
     EXPECT_TRUE(recorder_.has("over cup") && recorder_.has("info cup 4"));
 
-    // The first one waits in turn.
-    recorder_.silence = std::chrono::hours(1);
-    EXPECT_TRUE(ignores(first, RawPoseFrame("cup", 9, 501, 1)));
-    leaves(second);
+    // The first one was only silent.
+    EXPECT_TRUE(accepts(first, 9, 501));
     EXPECT_TRUE(has_info(9, 2));
-    EXPECT_TRUE(accepts(first, 9, 502));
+    EXPECT_TRUE(ignores(second, RawPoseFrame("cup", 4, 3, 1)));
+    leaves(first);
+    EXPECT_TRUE(has_info(4, 2));
+    EXPECT_TRUE(accepts(second, 4, 4));
 }
 
 TEST_F(OwnerTest, WhoWaitsIsTakenWhenTheGameServerEndsTheMatch) {
@@ -302,6 +357,19 @@ TEST_F(LimitsTest, AParticipantHasSoManyMatchesAndNoMore) {
     EXPECT_FALSE(recorder_.has("info c 1"));
     greedy.dispose(test::raw_match_info("a", 1));
     EXPECT_TRUE(eventually([&] { return recorder_.has("info c 1"); })) << "it has waited";
+}
+
+TEST_F(LimitsTest, AMatchThatWaitsKeepsItsPlaceWhenItIsDescribedAgain) {
+    RawPeer& greedy = peer("a", {"match/a", "match/b", "match/c", "match/d"});
+    const auto refused = [&] { return dropped(Topic::match_info, ValidationError::participant_limit); };
+    for (const char* match_id : {"a", "b", "c", "d"})
+        greedy.write(test::raw_match_info(match_id, 1));
+    ASSERT_TRUE(eventually([&] { return refused() == 2; }));
+    greedy.write(test::raw_match_info("c", 2));
+    ASSERT_TRUE(eventually([&] { return refused() == 3; }));
+    greedy.dispose(test::raw_match_info("a", 1));
+    EXPECT_TRUE(eventually([&] { return recorder_.has("info c 2"); }));
+    EXPECT_FALSE(recorder_.has("info d 1"));
 }
 
 TEST_F(LimitsTest, CountsTheMatchesThatMayNotWait) {

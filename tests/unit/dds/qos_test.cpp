@@ -28,6 +28,19 @@ TEST(DirectorsQos, WritersEndWithTheLeaseAndAnswersNotWithinASecond) {
     }
 }
 
+TEST(DirectorsQos, NoReaderRefusesASample) {
+    for (std::size_t topic = 0; topic < topic_count; ++topic) {
+        const Qos qos = reader_qos(static_cast<Topic>(topic));
+        dds_history_kind_t kind = DDS_HISTORY_KEEP_ALL;
+        EXPECT_TRUE(dds_qget_history(qos.get(), &kind, nullptr));
+        EXPECT_EQ(kind, DDS_HISTORY_KEEP_LAST) << topic_name(static_cast<Topic>(topic));
+        std::int32_t samples = 0, instances = 0, of_instance = 0;
+        if (!dds_qget_resource_limits(qos.get(), &samples, &instances, &of_instance)) continue;
+        for (const std::int32_t limit : {samples, instances, of_instance})
+            EXPECT_EQ(limit, DDS_LENGTH_UNLIMITED) << topic_name(static_cast<Topic>(topic));
+    }
+}
+
 TEST(DirectorsQos, ReadersAcceptAnyLease) {
     for (std::size_t topic = 0; topic < topic_count; ++topic)
         EXPECT_EQ(liveliness_of(reader_qos(static_cast<Topic>(topic))).second, DDS_INFINITY);

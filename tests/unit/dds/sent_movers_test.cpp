@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 namespace camdir::dds {
 namespace {
 
@@ -105,6 +107,41 @@ TEST_F(SentMoversTest, ACrowdOfStrangersTakesNoOwnersPlace) {
     EXPECT_TRUE(movers_.at(SenderId{99}, 1, 30)) << "the last ones are kept";
     sends(SenderId{2}, places_in(1, 8));
     EXPECT_FALSE(movers_.at(SenderId{2}, 1, 30)) << "the first are not";
+}
+
+TEST_F(SentMoversTest, ACrowdOfStrangersTakesNoPlaceOfWhoMayOwnTheMatch) {
+    const std::array<SenderId, 1> heirs{other};
+    sends(other, places_in(1, 7));
+    sends(other, movers_in(1));
+    for (unsigned char i = 3; i < 100; ++i)
+        EXPECT_TRUE(movers_.admit(SenderId{i}, owner, heirs));
+    EXPECT_TRUE(movers_.at(other, 1, 30));
+}
+
+TEST_F(SentMoversTest, WhereAllPlacesAreOfThoseWhoMayOwnTheMatchAStrangerHasNone) {
+    std::vector<SenderId> heirs;
+    for (unsigned char i = 2; i <= SentMovers::max_senders; ++i)
+        heirs.push_back({i});
+    EXPECT_TRUE(movers_.admit(owner, owner, heirs));
+    for (const SenderId& heir : heirs)
+        EXPECT_TRUE(movers_.admit(heir, owner, heirs));
+    EXPECT_FALSE(movers_.admit(SenderId{99}, owner, heirs));
+    EXPECT_TRUE(movers_.admit(owner, owner, heirs)) << "it has its place";
+}
+
+TEST_F(SentMoversTest, NothingIsKeptOfWhoIsGone) {
+    for (const SenderId& sender : {owner, other}) {
+        sends(sender, movers_in(1));
+        sends(sender, places_in(1, 7));
+    }
+    const std::array<SenderId, 1> matched{owner};
+    movers_.retain(matched);
+    EXPECT_EQ(time_at(30), 7);
+    EXPECT_FALSE(movers_.at(other, 1, 30));
+    movers_.put_bounded(other, movers_in(1));
+    EXPECT_FALSE(movers_.at(other, 1, 30)) << "its hulls had bounds too late";
+    movers_.retain({});
+    EXPECT_TRUE(movers_.empty());
 }
 
 TEST_F(SentMoversTest, TheOwnersDescriptionIsTheFirstToHaveBoundsAndAStrangersWaits) {

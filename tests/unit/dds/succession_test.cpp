@@ -332,6 +332,19 @@ TEST_F(Directors, OneAloneServesOnAfterAnAbsence) {
     EXPECT_TRUE(leads(only));
 }
 
+TEST_F(Directors, ALeaderOfAMuchLongerLeaseIsSilentForNoLongerThanTenOwnOnes) {
+    const auto only = add(100);
+    pass(milliseconds(2000));
+    ASSERT_TRUE(leads(only));
+    of(only).see({.director_id = 9, .term = 1000, .lease = max_lease, .leads = true, .has_cameras = true},
+                 now_);
+    EXPECT_FALSE(leads(only)) << "whatever the term: it may be another's that has gone on";
+    pass(Succession::max_other_lease * lease);
+    EXPECT_FALSE(leads(only));
+    pass(beat);
+    EXPECT_TRUE(leads(only));
+}
+
 TEST_F(Directors, OfTwoLeadersTheOneOfTheLaterTermServesOn) {
     const auto left = add(100);
     const auto right = add(200);

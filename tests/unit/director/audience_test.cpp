@@ -80,6 +80,18 @@ TEST(Audience, SeesWhatTakesEffectInItsOrder) {
                                              "m: early leaves", "m: poses 2", "m: event of 3", "m: end"));
 }
 
+TEST(Audience, SeesNothingOfARequestThatIsMadeAgain) {
+    Diary diary;
+    Stage stage(Stage::default_config(), {&diary});
+    stage.ask(Stage::request("a"));
+    stage.ask(Stage::request("a"));
+    stage.ask(Stage::request("a", 2));
+    stage.director.request_ended("m", "a");
+    stage.ask(Stage::request("a", 2));
+    EXPECT_THAT(diary.entries(), ElementsAre("m: a asks", "m: a asks", "m: a leaves", "m: a asks"));
+    EXPECT_EQ(stage.director.statistics()[Counter::requests], 3U);
+}
+
 TEST(Audience, SeesNothingOfWhatIsDropped) {
     Diary diary;
     Stage stage(Stage::default_config(), {&diary});

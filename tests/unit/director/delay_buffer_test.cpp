@@ -42,7 +42,7 @@ class DelayBufferTest : public testing::Test {
 
     MatchCounters counters_;
     Pace pace_;
-    Inbox inbox_{10, pace_, counters_};
+    Inbox inbox_{pace_, counters_};
     Inbox::Content content_;
     std::int64_t next_due_ = 0;
     DelayBuffer buffer_{1U << 20U};

@@ -5,16 +5,20 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 
 #include "camera/camera.hpp"
 #include "camera/view.hpp"
+#include "director/inbox.hpp"
 #include "stage.hpp"
+#include "support/eventually.hpp"
 
 namespace camdir::director {
 namespace {
 
+using test::eventually;
 using testing::HasSubstr;
 
 TEST(Director, AnAcceptedRequestHasACameraInEveryFrame) {
@@ -398,8 +402,38 @@ TEST(Director, ObserversThatWaitAreRefusedAgainInTheNextEpoch) {
     EXPECT_EQ(stage.publisher.status("b").state, RequestState::refused);
     EXPECT_EQ(stage.publisher.status("b").reason, "1 observers watch this match already");
     const std::size_t published = stage.publisher.statuses_published();
-    stage.ask(Stage::request("a"));
+    stage.ask(Stage::request("a", 2));
     EXPECT_EQ(stage.publisher.statuses_published(), published + 1) << "once in each epoch";
+}
+
+TEST(Director, HoweverManyAskTogetherAllAreAnswered) {
+    constexpr std::size_t observers = 3 * Inbox::max_observers_taken;
+    Stage stage;
+    stage.start();
+    for (std::size_t i = 0; i < observers; ++i)
+        stage.director.receive(Stage::request(std::to_string(i)));
+    stage.director.flush();
+    for (std::size_t i = 0; i < observers; ++i)
+        EXPECT_EQ(stage.publisher.status(std::to_string(i)).state, RequestState::accepted);
+}
+
+// Refuses the first status.
+class ReluctantPublisher final : public MemoryPublisher {
+  public:
+    using MemoryPublisher::publish;
+    bool publish(const ObserverStatus& status) override {
+        return ++tried > 1 && MemoryPublisher::publish(status);
+    }
+    std::atomic<int> tried{0};
+};
+
+TEST(Director, TriesAgainToAnswerWithoutAnyMessage) {
+    ReluctantPublisher publisher;
+    MapLibrary maps;
+    Director director(Stage::default_config(), maps, publisher);
+    director.receive(Stage::request("a"));
+    EXPECT_TRUE(eventually([&] { return publisher.has_status("a"); }));
+    EXPECT_EQ(publisher.tried, 2);
 }
 
 TEST(Director, HasNoRoomWhereObserversWaitInAllPlaces) {

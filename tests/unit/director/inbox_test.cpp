@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "director/roster.hpp"
+#include "stage.hpp"
 
 namespace camdir::director {
 namespace {
@@ -13,6 +14,12 @@ PoseFrame frame(std::uint64_t epoch, std::uint32_t number, std::uint32_t flags =
     frame.frame_number = number;
     frame.poses.push_back({1, Vec3f::Zero(), Quatf::Identity(), Vec3f::Zero(), flags});
     return frame;
+}
+
+MatchInfo info_on(const std::string& map_name, std::uint64_t epoch) {
+    MatchInfo info = Stage::info("m", epoch);
+    info.map_name = map_name;
+    return info;
 }
 
 class InboxTest : public testing::Test {
@@ -27,18 +34,20 @@ class InboxTest : public testing::Test {
 
     MatchCounters counters_;
     Pace pace_;
-    Inbox inbox_{10, pace_, counters_};
+    Inbox inbox_{pace_, counters_};
     Inbox::Content content_;
 };
 
-TEST_F(InboxTest, MessagesKeepTheirOrder) {
-    inbox_.put(RequestEnded{"a"});
+TEST_F(InboxTest, MessagesKeepTheirOrderBehindThoseOfObservers) {
+    inbox_.put(MatchInfo{});
     inbox_.put(MatchEvent{});
-    inbox_.put(RequestEnded{"b"});
+    inbox_.put(MatchRefused{});
+    inbox_.put(Stage::request("anna"));
     inbox_.take(content_);
-    ASSERT_EQ(content_.messages.size(), 3U);
-    EXPECT_EQ(std::get<RequestEnded>(content_.messages[0]).observer_id, "a");
-    EXPECT_EQ(std::get<RequestEnded>(content_.messages[2]).observer_id, "b");
+    ASSERT_EQ(content_.messages.size(), 4U);
+    EXPECT_EQ(std::get<ObserverRequest>(content_.messages[0]).observer_id, "anna");
+    EXPECT_TRUE(std::holds_alternative<MatchInfo>(content_.messages[1]));
+    EXPECT_TRUE(std::holds_alternative<MatchRefused>(content_.messages[3]));
     EXPECT_FALSE(content_.has_frame);
     inbox_.take(content_);
     EXPECT_TRUE(content_.messages.empty());
@@ -131,7 +140,7 @@ TEST_F(InboxTest, AtASlowerPaceSomeFramesAreLeftOutEvenly) {
     ASSERT_EQ(pace_.frames_per_camera(), 3U);
     std::vector<std::uint32_t> taken;
     for (std::uint32_t number = 1; number <= 9; ++number) {
-        inbox_.put(RequestEnded{"a"});
+        inbox_.put(Stage::request("a"));
         const bool due = put(frame(1, number, number == 4 ? pose_discontinuity : 0U), 10 * number);
         inbox_.take(content_);
         EXPECT_EQ(content_.has_frame, due);
@@ -150,28 +159,151 @@ TEST_F(InboxTest, AtASlowerPaceSomeFramesAreLeftOutEvenly) {
 TEST_F(InboxTest, BothQueuesAreBounded) {
     for (int i = 0; i < 300; ++i)
         inbox_.put(MatchEvent{});
-    for (int i = 0; i < 13; ++i)
-        inbox_.put(ObserverRequest{});
+    for (int i = 0; i < 67; ++i)
+        inbox_.put(ViewRequest{});
     inbox_.put(MatchEnded{});
     inbox_.take(content_);
-    ASSERT_EQ(content_.messages.size(), 256U + 10U + 1U);
+    ASSERT_EQ(content_.messages.size(), 256U + 64U + 1U);
     EXPECT_TRUE(std::holds_alternative<MatchEnded>(content_.messages.back())) << "however many came before";
     EXPECT_EQ(counted(Counter::drop_events), 44U);
-    EXPECT_EQ(counted(Counter::drop_messages), 3U);
-}
-
-TEST_F(InboxTest, TheEndOfARequestIsNeverDropped) {
-    for (int i = 0; i < 13; ++i)
-        inbox_.put(ObserverRequest{});
-    for (int i = 0; i < 1000; ++i)
-        inbox_.put(RequestEnded{std::to_string(i)});
-    inbox_.take(content_);
-    ASSERT_EQ(content_.messages.size(), 10U + 1000U);
-    EXPECT_EQ(std::get<RequestEnded>(content_.messages.back()).observer_id, "999");
     EXPECT_EQ(counted(Counter::drop_messages), 3U);
     inbox_.put(MatchEvent{});
     inbox_.take(content_);
     EXPECT_EQ(content_.messages.size(), 1U);
+}
+
+TEST_F(InboxTest, ATurnTakesTheRequestsOfSomeObserversAndThoseOfTheRestWait) {
+    constexpr std::size_t most = Inbox::max_observers_taken;
+    for (std::size_t i = 0; i < 2 * most + 1; ++i)
+        inbox_.put(Stage::request(std::to_string(i)));
+    inbox_.put(MatchEvent{});
+    put(frame(1, 1), 10);
+    inbox_.take(content_);
+    EXPECT_TRUE(content_.has_frame);
+    EXPECT_TRUE(content_.leaves_requests);
+    ASSERT_EQ(content_.messages.size(), most + 1);
+    EXPECT_EQ(content_.messages_before_frame, most + 1);
+    EXPECT_EQ(std::get<ObserverRequest>(content_.messages.front()).observer_id, "0");
+    inbox_.take(content_);
+    EXPECT_EQ(content_.messages.size(), most);
+    EXPECT_TRUE(content_.leaves_requests);
+    inbox_.take(content_);
+    EXPECT_FALSE(content_.leaves_requests);
+    ASSERT_EQ(content_.messages.size(), 1U);
+    EXPECT_EQ(std::get<ObserverRequest>(content_.messages[0]).observer_id, std::to_string(2 * most));
+    EXPECT_EQ(counted(Counter::drop_messages), 0U);
+}
+
+TEST_F(InboxTest, OnlyTheNewestDescriptionOfAnEpochWaits) {
+    for (std::uint32_t i = 0; i < 1000; ++i)
+        inbox_.put(Stage::info("m", 1, {i}));
+    put(frame(1, 1), 10);
+    inbox_.put(MatchEvent{1});
+    inbox_.put(Stage::info("m", 1, {7}));
+    inbox_.put(Stage::info("m", 0));
+    inbox_.take(content_);
+    ASSERT_EQ(content_.messages.size(), 2U);
+    EXPECT_EQ(std::get<MatchInfo>(content_.messages[0]).players.at(0).id, 7U);
+    EXPECT_EQ(content_.messages_before_frame, 1U);
+    EXPECT_EQ(counted(Counter::drop_old_epoch), 1U);
+}
+
+TEST_F(InboxTest, ADescriptionOfAnotherMapStaysBehindTheFrameOfTheOneBefore) {
+    inbox_.put(info_on("old", 1));
+    put(frame(1, 1), 10);
+    inbox_.put(info_on("new", 1));
+    inbox_.take(content_);
+    ASSERT_EQ(content_.messages.size(), 2U);
+    EXPECT_EQ(content_.messages_before_frame, 1U);
+    EXPECT_EQ(std::get<MatchInfo>(content_.messages[0]).map_name, "old");
+    EXPECT_EQ(std::get<MatchInfo>(content_.messages[1]).map_name, "new");
+}
+
+TEST_F(InboxTest, MapsThatChangeFastDoNotAllWait) {
+    for (int i = 0; i < 1000; ++i)
+        inbox_.put(info_on(std::to_string(i), 1));
+    inbox_.take(content_);
+    ASSERT_EQ(content_.messages.size(), 8U);
+    EXPECT_EQ(std::get<MatchInfo>(content_.messages.back()).map_name, "999");
+}
+
+TEST_F(InboxTest, ADescriptionAfterAnEndIsOfAnotherMatch) {
+    inbox_.put(Stage::info("m", 5));
+    inbox_.put(MatchEnded{});
+    inbox_.put(Stage::info("m", 1));
+    inbox_.take(content_);
+    ASSERT_EQ(content_.messages.size(), 3U);
+    EXPECT_EQ(std::get<MatchInfo>(content_.messages.back()).epoch, 1U);
+}
+
+TEST_F(InboxTest, OfMatchesThatBeginAndEndMeanwhileNothingWaits) {
+    inbox_.put(MatchEvent{});
+    for (std::uint32_t i = 1; i <= 1000; ++i) {
+        inbox_.put(MatchEnded{});
+        inbox_.put(Stage::info("m", 1));
+        put(frame(1, i), i);
+        inbox_.put(MatchEvent{});
+    }
+    inbox_.put(MatchEnded{});
+    inbox_.put(MapsChanged{});
+    inbox_.take(content_);
+    ASSERT_EQ(content_.messages.size(), 3U);
+    EXPECT_TRUE(std::holds_alternative<MatchEvent>(content_.messages[0]));
+    EXPECT_TRUE(std::holds_alternative<MatchEnded>(content_.messages[1]));
+    EXPECT_TRUE(std::holds_alternative<MapsChanged>(content_.messages[2]));
+    EXPECT_FALSE(content_.has_frame);
+    EXPECT_EQ(counted(Counter::drop_events), 1000U);
+    EXPECT_EQ(counted(Counter::drop_superseded), 1000U);
+}
+
+TEST_F(InboxTest, TheFrameBeforeAnEndIsKept) {
+    put(frame(1, 1), 10);
+    inbox_.put(MatchEnded{});
+    inbox_.put(Stage::info("m", 1));
+    inbox_.put(MatchEnded{});
+    inbox_.take(content_);
+    EXPECT_TRUE(content_.has_frame);
+    EXPECT_EQ(content_.messages_before_frame, 0U);
+    EXPECT_EQ(content_.messages.size(), 1U);
+}
+
+TEST_F(InboxTest, AGameServerThatIsLostAndBackAgainAndAgainIsSoOnce) {
+    for (std::uint32_t i = 0; i < 1000; ++i) {
+        inbox_.put(ServerLost{});
+        inbox_.put(Stage::info("m", 1, {i}));
+        put(frame(1, i), i);
+    }
+    inbox_.take(content_);
+    ASSERT_EQ(content_.messages.size(), 2U);
+    EXPECT_TRUE(std::holds_alternative<ServerLost>(content_.messages[0]));
+    EXPECT_EQ(std::get<MatchInfo>(content_.messages[1]).players.at(0).id, 999U);
+    EXPECT_EQ(content_.messages_before_frame, 2U);
+}
+
+TEST_F(InboxTest, OnlyTheNewestRefusalWaits) {
+    for (int i = 0; i < 1000; ++i)
+        inbox_.put(MatchRefused{std::to_string(i)});
+    inbox_.take(content_);
+    ASSERT_EQ(content_.messages.size(), 1U);
+    EXPECT_EQ(std::get<MatchRefused>(content_.messages[0]).reason, "999");
+}
+
+TEST_F(InboxTest, EpochsThatRiseFastDoNotAllWait) {
+    for (std::uint64_t epoch = 1; epoch <= 1000; ++epoch)
+        inbox_.put(Stage::info("m", epoch));
+    inbox_.take(content_);
+    ASSERT_EQ(content_.messages.size(), 8U);
+    EXPECT_EQ(std::get<MatchInfo>(content_.messages[6]).epoch, 7U);
+    EXPECT_EQ(std::get<MatchInfo>(content_.messages[7]).epoch, 1000U);
+}
+
+TEST_F(InboxTest, OneReminderIsEnough) {
+    for (int i = 0; i < 3; ++i) {
+        inbox_.put(DelayChanged{});
+        inbox_.put(MapsChanged{});
+    }
+    inbox_.take(content_);
+    EXPECT_EQ(content_.messages.size(), 2U);
 }
 
 }  // namespace

@@ -23,10 +23,11 @@ void MemoryPublisher::publish(const std::string& match_id, const CameraFrame& fr
     frames_[match_id].push_back(frame);
 }
 
-void MemoryPublisher::publish(const ObserverStatus& status) {
+bool MemoryPublisher::publish(const ObserverStatus& status) {
     const std::lock_guard lock(mutex_);
     statuses_[{status.match_id, status.observer_id}] = status;
     ++statuses_published_;
+    return true;
 }
 
 void MemoryPublisher::withdraw(const std::string& match_id, const std::string& observer_id) {

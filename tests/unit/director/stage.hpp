@@ -21,7 +21,7 @@ class MemoryPublisher : public Publisher {
     void publish(const MatchInfo& shown) override;
     void end(const std::string& match_id) override;
     void publish(const std::string& match_id, const CameraFrame& frame) override;
-    void publish(const ObserverStatus& status) override;
+    bool publish(const ObserverStatus& status) override;
     void withdraw(const std::string& match_id, const std::string& observer_id) override;
     void forget(const std::string& match_id) override;
 

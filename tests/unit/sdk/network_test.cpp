@@ -19,9 +19,10 @@ std::string configuration(const char* network_interface, const char* directors) 
 
 TEST(NetworkConfiguration, DefaultStaysOnThisHost) {
     const std::string xml = network_configuration(cdir_context_options_default());
-    for (const char* part : {"<NetworkInterface name=\"lo\"/>", "<AllowMulticast>false<",
-                             "<ParticipantIndex>none<", "<MaxAutoParticipantIndex>0<", "<SPDPInterval>1s<",
-                             "<Peers><Peer Address=\"127.0.0.1\"/></Peers>", "<MaxMessageSize>65500B<"}) {
+    for (const char* part :
+         {"<NetworkInterface name=\"lo\"/>", "<AllowMulticast>false<", "<ParticipantIndex>none<",
+          "<MaxAutoParticipantIndex>0<", "<SPDPInterval>1s<", "<Peers><Peer Address=\"127.0.0.1\"/></Peers>",
+          "<MaxMessageSize>65500B<", "<WriterLingerDuration>50ms<"}) {
         EXPECT_THAT(xml, HasSubstr(part));
     }
 }
