@@ -50,8 +50,8 @@
  * serialised; calls on different ones run concurrently. cdir_observer_wait() and cdir_context_wait() block
  * for long, and other calls on the same handle proceed meanwhile; opening and closing a context do where a
  * name server is slow. Closing a match or an observer takes up to 0.3 s where a director does not acknowledge
- * what was sent to it last. All else takes milliseconds at most. Do not call the library from a signal handler
- * or, after fork(), from the child process.
+ * what was sent to it last. All else takes milliseconds at most. Do not call the library from a signal
+ * handler or, after fork(), from the child process.
  */
 #ifndef CAMERA_DIRECTOR_CAMERA_DIRECTOR_H
 #define CAMERA_DIRECTOR_CAMERA_DIRECTOR_H
