@@ -205,8 +205,9 @@ class Plan {
         for (const std::size_t from : choice_) {
             Choice& best = cuts_[at(beat, from)];
             best = ending(worst, beat, from);
+            const double least = least_cost_of_dividing(from);
             for (const auto& [before, to] : promising_) {
-                if (before + spanning_.worth <= best.worth) break;
+                if (before - least <= best.worth) break;
                 if (to == from) continue;
                 double worth = before - cost_of_dividing(from, to);
                 if (jumped_[from] || jumps_[to]) worth -= rules_.grammar.inner_cut;
@@ -218,12 +219,11 @@ class Plan {
         }
     }
 
-    // The moments that a cut at a beat divides, and what they are worth together. Moment m has bit m % 64 of
+    // The moments that a cut at a beat divides. Moment m has bit m % 64 of
     // word m / 64: of the rushes that show it up to there, and of those that show it from there on, word
     // after word of all.
     struct Spanning {
         std::vector<const Credit*> credits;
-        double worth = 0.0;
         std::vector<Footage::Word> until, from;
         std::vector<Footage::Word> coming_kills;
     };
@@ -231,11 +231,9 @@ class Plan {
     void span_at(Beat beat) {
         Spanning& spanning = spanning_;
         spanning.credits.clear();
-        spanning.worth = 0.0;
         for (const Credit& credit : value_.credits()) {
             if (beat <= credit.begin || beat >= credit.end) continue;
             spanning.credits.push_back(&credit);
-            spanning.worth += credit.worth;
         }
         const std::size_t words = (spanning.credits.size() + Footage::word_bits - 1) / Footage::word_bits;
         spanning.until.assign(words * rushes_, 0);
@@ -256,14 +254,26 @@ class Plan {
     // Less the divided moments that both shots together show.
     [[nodiscard]] double cost_of_dividing(std::size_t from, std::size_t to) const {
         double cost = 0.0;
-        for (std::size_t word = 0; word < spanning_.coming_kills.size(); ++word) {
-            const std::size_t row = word * rushes_;
-            const Footage::Word seen = spanning_.until[row + from] & spanning_.from[row + to];
-            cost += never * std::popcount(spanning_.coming_kills[word] & ~seen);
-            for (Footage::Word left = seen; left != 0; left &= left - 1) {
-                const auto bit = static_cast<std::size_t>(std::countr_zero(left));
-                cost -= spanning_.credits[word * Footage::word_bits + bit]->worth;
-            }
+        for (std::size_t word = 0; word < spanning_.coming_kills.size(); ++word)
+            cost += cost_of_showing(
+                word, spanning_.until[word * rushes_ + from] & spanning_.from[word * rushes_ + to]);
+        return cost;
+    }
+
+    // Whatever follows.
+    [[nodiscard]] double least_cost_of_dividing(std::size_t from) const {
+        double cost = 0.0;
+        for (std::size_t word = 0; word < spanning_.coming_kills.size(); ++word)
+            cost += cost_of_showing(word, spanning_.until[word * rushes_ + from]);
+        return cost;
+    }
+
+    // Of a word's moments these, and not the others.
+    [[nodiscard]] double cost_of_showing(std::size_t word, Footage::Word seen) const {
+        double cost = never * std::popcount(spanning_.coming_kills[word] & ~seen);
+        for (; seen != 0; seen &= seen - 1) {
+            const auto bit = static_cast<std::size_t>(std::countr_zero(seen));
+            cost -= spanning_.credits[word * Footage::word_bits + bit]->worth;
         }
         return cost;
     }
