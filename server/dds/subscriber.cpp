@@ -20,6 +20,7 @@ constexpr std::size_t samples_per_take = 32;
 // sender the newest.
 constexpr int bounding_share = 10;  // 1 / this of the thread's time at most
 constexpr std::chrono::milliseconds bounding_turn{1};
+constexpr std::chrono::milliseconds longest_answer{50};
 
 }  // namespace
 
@@ -105,8 +106,8 @@ void Subscriber::run() noexcept {
     while (!stopping_) {
         const auto next_bounding = to_bound_.empty() ? Clock::time_point::max() : next_bounding_;
         const auto next_catching_up = to_catch_up_.empty() ? Clock::time_point::max() : next_catching_up_;
-        const auto& ready =
-            ready_.wait(std::min({next_assertion_.load(), next_decision_, next_bounding, next_catching_up}));
+        const auto& ready = ready_.wait(std::min(
+            {next_assertion_.load(), next_notice_, next_decision_, next_bounding, next_catching_up}));
         notice_absence();
         take_ready(ready);
         bound_movers();
@@ -124,6 +125,7 @@ void Subscriber::run() noexcept {
         }
         // Last, when all signs that had come by then are seen.
         if (Clock::now() >= next_decision_) decide();
+        if (Clock::now() >= next_notice_) notice_what_is_owed();
         if (!to_catch_up_.empty() && Clock::now() >= next_catching_up_) catch_up();
     }
     next_assertion_ = Clock::time_point::max();
@@ -167,8 +169,6 @@ void Subscriber::assert_liveliness() {
         for (const auto& [id, match] : matches_)
             match->endpoints->assert_liveliness();
     }
-    for (const auto& [id, match] : matches_)
-        notice_what_is_owed(*match);
     counters_.matches_led = static_cast<std::uint32_t>(std::ranges::count_if(
         matches_, [](const auto& entry) { return entry.second->endpoints->is_leading(); }));
 }
@@ -189,6 +189,13 @@ void Subscriber::decide() {
         next_decision_ = std::min(next_decision_, match->endpoints->decide());
         notice_what_is_owed(*match);
     }
+}
+
+// Also of matches of which nothing else is written, whose observers ask again what is not answered.
+void Subscriber::notice_what_is_owed() {
+    for (const auto& [id, match] : matches_)
+        notice_what_is_owed(*match);
+    next_notice_ = Clock::now() + std::min(assertion_interval(), longest_answer);
 }
 
 void Subscriber::notice_what_is_owed(Match& match) {

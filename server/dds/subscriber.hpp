@@ -118,6 +118,7 @@ class Subscriber {
     }
     void assert_liveliness();
     void decide();
+    void notice_what_is_owed();
     void notice_what_is_owed(Match& match);
     void catch_up();
 
@@ -217,11 +218,12 @@ class Subscriber {
     WaitingMatches elsewhere_;  // of other shards
     EndpointRemoval removal_;
     std::unordered_map<std::string, std::unique_ptr<Match>> matches_;
-    std::vector<std::string> new_matches_;                        // whose signs were not looked at yet
-    Clock::time_point poses_taken_{};                             // of all matches, between others that begin
-    std::deque<std::string> to_bound_;                            // matches with movers without bounds
-    Clock::time_point next_bounding_{};                           // of hulls: not before
-    std::deque<std::string> to_catch_up_;                         // matches that owe something
+    std::vector<std::string> new_matches_;  // whose signs were not looked at yet
+    Clock::time_point poses_taken_{};       // of all matches, between others that begin
+    std::deque<std::string> to_bound_;      // matches with movers without bounds
+    Clock::time_point next_bounding_{};     // of hulls: not before
+    std::deque<std::string> to_catch_up_;   // matches that owe something
+    Clock::time_point next_notice_{};
     Clock::time_point next_catching_up_{};                        // not before
     Clock::time_point listened_{};                                // to all who send
     Clock::time_point next_decision_ = Clock::time_point::max();  // when matches may change hands

@@ -64,6 +64,7 @@ void Inbox::put(Message message) {
     if (const auto* ended = std::get_if<RequestEnded>(&message)) return requests_.end(ended->observer_id);
     if (auto* info = std::get_if<MatchInfo>(&message); info != nullptr && merge(*info)) return;
     if (is<MatchEnded>(message) && merge_end()) return;
+    if (is<MatchEnded>(message)) forget_frame_that_is_not_due();
     const auto same = first_like(message);
     if (is_reminder(message) && same != waiting_.messages.end()) return;
     if (is_interruption(message) && same != waiting_.messages.end()) forget(same);
@@ -122,6 +123,14 @@ bool Inbox::merge_end() {
     events_ -= events;
     messages.erase(std::remove_if(end, messages.end(), is_of_server), messages.end());
     return true;
+}
+
+// Of a match that has ended: frames of the next one may be older than it.
+void Inbox::forget_frame_that_is_not_due() {
+    if (!waiting_.has_frame || is_due_) return;
+    counters_.add(Counter::drop_paced);
+    waiting_.has_frame = false;
+    left_out_ = 0;
 }
 
 bool Inbox::put(PoseFrame& frame, std::int64_t received_ns) {

@@ -89,6 +89,7 @@ class Inbox {
     [[nodiscard]] bool merge(MatchInfo& info);
     // Makes one of an end and of that which waits. Returns false when none does.
     [[nodiscard]] bool merge_end();
+    void forget_frame_that_is_not_due();
     void put_first_requests(Content& content);
     // Why the waiting frame is dropped for this one.
     [[nodiscard]] Counter reason_to_replace(const PoseFrame& frame, std::int64_t received_ns) const;

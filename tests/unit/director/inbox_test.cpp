@@ -156,6 +156,23 @@ TEST_F(InboxTest, AtASlowerPaceSomeFramesAreLeftOutEvenly) {
     EXPECT_EQ(counted(Counter::drop_superseded), 0U);
 }
 
+TEST_F(InboxTest, AtASlowerPaceTheLastFrameOfAMatchDoesNotOutlastIt) {
+    for (int interval = 0; interval < 2; ++interval)
+        pace_.observe({.taken = 200, .superseded = 200, .busy = 1.0});
+    ASSERT_EQ(pace_.frames_per_camera(), 3U);
+    EXPECT_FALSE(put(frame(10, 1), 10));
+    inbox_.put(MatchEnded{});
+    inbox_.put(Stage::info("m", 5));
+    inbox_.take(content_);
+    EXPECT_FALSE(content_.has_frame);
+    EXPECT_FALSE(put(frame(5, 1), 20));
+    EXPECT_FALSE(put(frame(5, 2), 30));
+    EXPECT_TRUE(put(frame(5, 3), 40));
+    inbox_.take(content_);
+    EXPECT_EQ(content_.frame.epoch, 5U);
+    EXPECT_EQ(counted(Counter::drop_old_epoch), 0U);
+}
+
 TEST_F(InboxTest, BothQueuesAreBounded) {
     for (int i = 0; i < 300; ++i)
         inbox_.put(MatchEvent{});
