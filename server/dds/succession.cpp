@@ -104,6 +104,7 @@ void Succession::miss(Clock::duration absence, Time now) {
     if (own_.leads) barred_ = std::max(barred_, now + std::max<Clock::duration>(own_.lease, settling));
     settled_ = std::max(settled_, barred_);
     own_.leads = false;
+    notice_cameras(now);  // its last sign says so: nobody waits for it
     heard_ = std::min(now, heard_ + absence);
     for (auto& [id, other] : others_)
         other.seen = std::min(now, other.seen + absence);

@@ -195,6 +195,27 @@ TEST_F(Directors, ALeaderThatWasAbsentStandsByBeforeItWritesAnything) {
     EXPECT_TRUE(leads(leader)) << "as the standby that it is now";
 }
 
+// Its workers go on, and find out that it was absent before the standby, which heard its last sign later,
+// takes it for dead.
+TEST_F(Directors, AStandbyTakesOverAtOnceFromALeaderWhoseReceptionHangs) {
+    const auto leader = add(200);
+    const auto standby = add(100);
+    members_[leader].has_cameras = members_[standby].has_cameras = true;
+    pass(milliseconds(3000));
+    ASSERT_TRUE(leads(leader));
+    members_[leader].runs = false;
+    now_ += milliseconds(20);
+    of(standby).see(of(leader).own(), now_);
+    pass(milliseconds(150));
+    now_ += milliseconds(31);
+    of(leader).produce(now_);
+    of(leader).notice_absence(now_);
+    ASSERT_FALSE(leads(leader));
+    ASSERT_FALSE(leads(standby));
+    of(standby).see(of(leader).own(), now_);
+    EXPECT_TRUE(leads(standby));
+}
+
 TEST_F(Directors, ALeaderThatWasAwayForLongWaitsUntilItHasMetTheOthersAgain) {
     const auto leader = add(200);
     const auto standby = add(100);
