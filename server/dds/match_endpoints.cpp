@@ -13,7 +13,7 @@ namespace {
 constexpr std::chrono::milliseconds slow_assertion_interval{250};
 constexpr std::size_t max_kept = 32;  // as many as a reader of cameras keeps
 // Each is sent to every observer: the next frame and other matches must not wait for many.
-constexpr std::size_t statuses_after_a_frame = 4;
+constexpr std::size_t statuses_beside_a_frame = 4;
 constexpr std::size_t kept_in_a_step = 4;
 // Of what is kept until the leader's lease ends, and of its last frame.
 constexpr std::chrono::seconds max_age_beyond_lease{1};
@@ -193,12 +193,18 @@ void MatchEndpoints::show_kept(std::size_t most) {
     if (!owes_cameras()) return;
     forget_shown();
     if (std::exchange(ended_unwritten_, false)) dispose_shown();
-    if (std::exchange(owes_shown_, false) && shown_)
-        count(dds_write(shown_writer_, &shown_encoder_.encode(*shown_)), counters_.shown_matches_written);
+    if (std::exchange(owes_shown_, false)) begin_to_show();
     for (; most > 0 && !kept_.empty(); --most) {
         count(write_now(kept_.front().frame), counters_.camera_frames_written);
         kept_.pop_front();
     }
+}
+
+// Where there are few observers they have their answers before their cameras.
+void MatchEndpoints::begin_to_show() {
+    if (shown_)
+        count(dds_write(shown_writer_, &shown_encoder_.encode(*shown_)), counters_.shown_matches_written);
+    write_owed_statuses(statuses_beside_a_frame);
 }
 
 void MatchEndpoints::write_owed_statuses(std::size_t most) {
@@ -312,7 +318,7 @@ Written MatchEndpoints::write(const director::CameraFrame& frame) {
         return std::nullopt;
     }
     const dds_return_t written = write_now(frame);
-    write_owed_statuses(statuses_after_a_frame);
+    write_owed_statuses(statuses_beside_a_frame);
     note_what_is_owed();
     return written;
 }

@@ -111,6 +111,7 @@ class MatchEndpoints {
     void set_strength();
     void take_over();
     [[nodiscard]] bool owes_cameras() const { return owes_shown_ || !kept_.empty(); }
+    void begin_to_show();
     void show_kept(std::size_t most);
     void write_owed_statuses(std::size_t most);
     void write_next_status();
