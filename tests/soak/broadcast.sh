@@ -108,8 +108,9 @@ done
 mapfile -t broadcasts < <(list)
 [ "${#broadcasts[@]}" = "$matches" ] || fail "not all of the $matches matches are broadcast: see $PWD/director.log"
 step "$viewers viewers for $seconds s"
+# shellcheck disable=SC2048,SC2086  # each is two words
 wrk --threads 2 --connections "$viewers" --duration "${seconds}s" --timeout 10s --script "$here/broadcast.lua" \
-    "$url" -- "${broadcasts[@]}" >wrk.txt || fail "wrk failed: $(cat wrk.txt)"
+    "$url" -- ${broadcasts[*]} >wrk.txt || fail "wrk failed: $(cat wrk.txt)"
 
 # Times that the director was asked, each with its path; the fragments alone.
 grep -E '/(full|delta|start)$' asked.log | sort | uniq -c | sort -rn >fragments.txt ||
