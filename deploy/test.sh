@@ -1,8 +1,7 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds, and runs every test that a change must pass: formatting, the release build with
 # integration tests (matches on OpenArena's own server and client among them), a short soak and unit tests, and unit
-# tests under the address and undefined-behaviour sanitizers; each unit test but those of benchmarks in
-# one of the two.
+# tests under the address and undefined-behaviour sanitizers; each unit test but those of benchmarks in one of the two.
 #     test.sh [--all]
 # --all: also networks that are cut, a scenario of chaos, all unit tests in the release build and, with another scenario,
 # under these sanitizers and the thread sanitizer, the benchmarks and their tests, clang-tidy, every fuzzer for a minute, the

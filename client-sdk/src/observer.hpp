@@ -26,8 +26,8 @@ class Reminder {
 
     void asked(std::int64_t now) { since_ = now; }
 
-    // `answered`: there is nothing to wait for now. To be called again and again: the time in which there was
-    // does not count.
+    // `answered`: there is nothing to wait for now. Looks again with every call: the time in which there was
+    // nothing does not count.
     [[nodiscard]] bool due(bool answered, std::int64_t now) {
         if (answered) since_ = now;
         return now - since_ >= interval;

@@ -22,7 +22,7 @@ enum class ValidationError : std::size_t {
     not_finite,    // a number is infinite or not a number
     not_unit,      // the length of a quaternion or normal is off 1 by more than 1e-3
     out_of_range,  // a negative rate, delay or scale; a ball without radius, or one or a half space too far
-                   // away; a term or rank beyond the greatest, or a term far beyond one's own
+                   // away; a term or rank beyond the greatest
     duplicate,     // a mover is named twice
     bad_hull,      // a hull of fewer than 4 half spaces, or empty, or unbounded
     bad_match_id,  // empty, or not usable as the name of a partition

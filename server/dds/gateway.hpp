@@ -56,8 +56,8 @@ class Gateway final : public director::Publisher {
     void close();
 
     // See director::Publisher. Samples that DDS refuses are counted and logged. A status is published where
-    // it is kept to be written: after the next camera frame or, when none comes, at the next beat of the
-    // reception; by a standby when it takes over.
+    // it is kept to be written: after the next camera frame or, when none comes, within 50 ms; by a standby
+    // when it takes over.
     void publish(const director::MatchInfo& shown) override;
     void end(const std::string& match_id) override;
     void publish(const std::string& match_id, const director::CameraFrame& frame) override;

@@ -296,7 +296,7 @@ void Subscriber::take_mover_infos(Match& match) {
         auto described = std::make_shared<director::MoverInfo>();
         if (!is_valid(match, Topic::mover_info, sample, *described)) return;
         const SenderId* sender = match.mover_info_senders.find(reader, info.publication_handle);
-        const bool counts = is_owners(match, Topic::mover_info, sender);
+        const bool counts = comes_from_owner(match, Topic::mover_info, sender);
         if (admit_movers(match, sender, info.publication_handle))
             match.movers.put(*sender, std::move(described), !counts);
     });
@@ -359,12 +359,12 @@ void Subscriber::take_mover_frames(Match& match) {
         auto frame = std::make_shared<director::MoverFrame>();
         if (!is_valid(match, Topic::mover_frame, sample, *frame)) return;
         const SenderId* sender = match.mover_frame_senders.find(reader, info.publication_handle);
-        if (is_owners(match, Topic::mover_frame, sender)) ++counters_.of(Topic::mover_frame).accepted;
+        if (comes_from_owner(match, Topic::mover_frame, sender)) ++counters_.of(Topic::mover_frame).accepted;
         if (admit_movers(match, sender, info.publication_handle)) match.movers.put(*sender, std::move(frame));
     });
 }
 
-bool Subscriber::is_owners(const Match& match, Topic topic, const SenderId* sender) {
+bool Subscriber::comes_from_owner(const Match& match, Topic topic, const SenderId* sender) {
     if (sender != nullptr && match.ownership.owns(*sender)) return true;
     drop(topic, ValidationError::not_owner, match.id());
     return false;
@@ -415,7 +415,7 @@ void Subscriber::take_events(Match& match) {
              if (!info.valid_data || !is_valid(match, Topic::match_event, sample, match_event_)) return;
              const SenderId* sender =
                  match.event_senders.find(match.endpoints->event_reader(), info.publication_handle);
-             if (!is_owners(match, Topic::match_event, sender)) return;
+             if (!comes_from_owner(match, Topic::match_event, sender)) return;
              if (accept(match, Topic::match_event)) ingress_->receive(match.id(), match_event_);
          });
 }

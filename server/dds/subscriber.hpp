@@ -146,7 +146,7 @@ class Subscriber {
     void bound_movers();
     bool bound_next(Match& match);
     // The sender owns the match; else its sample counts as dropped.
-    [[nodiscard]] bool is_owners(const Match& match, Topic topic, const SenderId* sender);
+    [[nodiscard]] bool comes_from_owner(const Match& match, Topic topic, const SenderId* sender);
     // What comes from the sender is to be kept.
     [[nodiscard]] bool admit_movers(Match& match, const SenderId* sender, WriterHandle writer);
     void notice_unmatched_movers(Match& match);

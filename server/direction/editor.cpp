@@ -219,9 +219,9 @@ class Plan {
         }
     }
 
-    // The moments that a cut at a beat divides. Moment m has bit m % 64 of
-    // word m / 64: of the rushes that show it up to there, and of those that show it from there on, word
-    // after word of all.
+    // The moments that a cut at a beat divides. Moment m has bit m % 64 of word m / 64, of each rush: set in
+    // `until` where the rush shows it up to the cut, in `from` where it shows it from there on. The first
+    // words of all rushes come first.
     struct Spanning {
         std::vector<const Credit*> credits;
         std::vector<Footage::Word> until, from;

@@ -4,30 +4,19 @@
 #include <gtest/gtest.h>
 
 #include "dds/match_endpoints.hpp"
-#include "dds/participant.hpp"
+#include "domain_test.hpp"
 #include "support/kept_memory.hpp"
-#include "support/test_domain.hpp"
 
 namespace camdir::dds {
 namespace {
 
-class DeletionTest : public testing::Test {
+class DeletionTest : public DomainTest {
   protected:
-    void SetUp() override {
-        config::Dds config;
-        config.domain = domain_.id();
-        auto participant = Participant::open(config);
-        ASSERT_TRUE(participant) << participant.error().message;
-        participant_.emplace(std::move(*participant));
-    }
-
     void open_and_delete_match(int number) {
         auto match = MatchEndpoints::open(*participant_, "match " + std::to_string(number), {}, 7, counters_);
         ASSERT_TRUE(match) << match.error().message;
     }
 
-    test::TestDomain domain_;
-    std::optional<Participant> participant_;
     WireCounters counters_;
 };
 

@@ -17,7 +17,6 @@
 #include "dds/endpoint_removal.hpp"
 #include "support/eventually.hpp"
 #include "support/raw_peer.hpp"
-#include "support/test_domain.hpp"
 
 namespace camdir::dds {
 namespace {
@@ -52,14 +51,10 @@ bool is_camera_writer(dds_entity_t entity) {
 }
 
 // Of a director that stands by until leads() is called.
-class MatchEndpointsTest : public testing::Test {
+class MatchEndpointsTest : public DomainTest {
   protected:
     void SetUp() override {
-        config::Dds config;
-        config.domain = domain_.id();
-        auto participant = Participant::open(config);
-        ASSERT_TRUE(participant) << participant.error().message;
-        participant_.emplace(std::move(*participant));
+        ASSERT_NO_FATAL_FAILURE(DomainTest::SetUp());
         auto match = MatchEndpoints::open(*participant_, "cup", {.lease = max_lease}, 7, counters_);
         ASSERT_TRUE(match) << match.error().message;
         match_ = std::move(*match);
@@ -91,8 +86,6 @@ class MatchEndpointsTest : public testing::Test {
         }
     }
 
-    test::TestDomain domain_;
-    std::optional<Participant> participant_;
     WireCounters counters_;
     std::unique_ptr<MatchEndpoints> match_;
 };

@@ -12,10 +12,9 @@
 
 #include "config/config.hpp"
 #include "dds/entity.hpp"
-#include "dds/participant.hpp"
 #include "dds/take_buffer.hpp"
+#include "domain_test.hpp"
 #include "support/eventually.hpp"
-#include "support/test_domain.hpp"
 
 namespace camdir::dds {
 namespace {
@@ -23,14 +22,10 @@ namespace {
 using Clock = ReadyList::Clock;
 
 // A writer of MatchInfo and a reader that reports to a list.
-class ReadyListTest : public testing::Test {
+class ReadyListTest : public DomainTest {
   protected:
     void SetUp() override {
-        config::Dds config;
-        config.domain = domain_.id();
-        auto participant = Participant::open(config);
-        ASSERT_TRUE(participant) << participant.error().message;
-        participant_.emplace(std::move(*participant));
+        ASSERT_NO_FATAL_FAILURE(DomainTest::SetUp());
         const Qos qos = wire::topic_qos(Topic::match_info, DDS_MSECS(100));
         reader_ = Entity(dds_create_reader(participant_->handle(), participant_->topic(Topic::match_info),
                                            qos.get(), nullptr));
@@ -68,10 +63,8 @@ class ReadyListTest : public testing::Test {
         return false;
     }
 
-    const test::TestDomain domain_;
     ReadyList list_;
     ReadyList::Source samples_, writers_;
-    std::optional<Participant> participant_;
     Entity reader_, writer_;
     TakeBuffer<camera_director_MatchInfo> buffer_{topic_type(Topic::match_info), 4};
 };
