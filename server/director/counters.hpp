@@ -47,10 +47,14 @@ class MatchCounters {
             sum.counters[i] += counts_[i].load(std::memory_order_relaxed);
         step.add_to(sum.step);
         latency.add_to(sum.latency);
+        waiting.add_to(sum.waiting);
+        computing.add_to(sum.computing);
+        writing.add_to(sum.writing);
     }
 
     DurationCounter step;
     DurationCounter latency;
+    DurationCounter waiting, computing, writing;  // its parts
 
   private:
     std::array<std::atomic<std::uint64_t>, counter_count> counts_{};

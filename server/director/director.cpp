@@ -360,7 +360,7 @@ void Director::receive(const ObserverRequest& request) {
                              ? impl_->find_or_add(request.match_id)
                              : nullptr;
     if (entry != nullptr) return impl_->post(*entry->match, request);
-    impl_->unmatched.add(Counter::refused_requests);
+    impl_->unmatched.add(Counter::refused_no_match);
     impl_->publisher.publish({request.match_id, request.observer_id, 0, RequestState::refused, 0,
                               "no game server runs this match, and observers wait for too many others"});
 }

@@ -44,22 +44,22 @@ std::int64_t aligned(std::int64_t time) {
     return time - (rest < 0 ? rest + cut_every_ns : rest);
 }
 
-std::optional<direction::EventKind> kind_of(std::uint32_t kind) {
+std::optional<direction::EventKind> kind_of(const MatchEvent& event) {
     using direction::EventKind;
-    switch (kind) {
-        case 1:
+    switch (static_cast<MatchEventKind>(event.kind)) {
+        case MatchEventKind::kill:
             return EventKind::kill;
-        case 2:
+        case MatchEventKind::flag_taken:
             return EventKind::flag_taken;
-        case 3:
+        case MatchEventKind::flag_captured:
             return EventKind::flag_captured;
-        case 4:
+        case MatchEventKind::objective:
             return EventKind::objective;
-        case 5:
+        case MatchEventKind::damage:
             return EventKind::damage;
-        case 6:
+        case MatchEventKind::award:
             return EventKind::award;
-        case 7:
+        case MatchEventKind::item:
             return EventKind::item;
         default:
             return {};
@@ -270,7 +270,7 @@ void Edit::append_finished() {
 }
 
 void Edit::add(const MatchEvent& event) {
-    const auto kind = kind_of(event.kind);
+    const auto kind = kind_of(event);
     const double time = seconds(event.frame_time);
     if (!kind || time < 0.0 || time > newest_ + longest_gap_s) return;
     material_.add(

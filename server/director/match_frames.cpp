@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <utility>
 
 #include "director/clock.hpp"
@@ -13,17 +12,11 @@
 namespace camdir::director {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr double max_ahead_s = 2.5;       // that the planner uses
 constexpr double arrival_jitter_s = 0.1;  // of poses
 constexpr double lead_s = 1e-9 * static_cast<double>(DelayBuffer::lead_ns);
 constexpr double first_step_s = 1.0 / 60.0;
 constexpr std::size_t shots_per_worker = 8;  // fewer are not worth waking another worker for
-
-std::int64_t ns(Clock::duration duration) {
-    return duration / std::chrono::nanoseconds(1);
-}
 
 // Counts how long it lives.
 class Timed {
@@ -31,11 +24,11 @@ class Timed {
     explicit Timed(DurationCounter& counter) : counter_(counter) {}
     Timed(const Timed&) = delete;
     Timed& operator=(const Timed&) = delete;
-    ~Timed() { counter_.add(ns(Clock::now() - begun_)); }
+    ~Timed() { counter_.add(now_ns() - begun_); }
 
   private:
     DurationCounter& counter_;
-    Clock::time_point begun_ = Clock::now();
+    std::int64_t begun_ = now_ns();
 };
 
 camera::Pose tracker_pose(const PlayerPose& pose, bool gap) {
@@ -55,6 +48,7 @@ CameraFrame no_cameras(const PoseFrame& frame) {
 }  // namespace
 
 void Match::process(PoseFrame& frame, std::int64_t received_ns, Turn& turn) {
+    const std::int64_t begun_ns = now_ns();
     if (!accept(frame)) return;
     mark_discontinuities(frame);
     const double dt = has_last_frame_ ? seconds_between(last_time_, frame.frame_time) : 0.0;
@@ -78,9 +72,14 @@ void Match::process(PoseFrame& frame, std::int64_t received_ns, Turn& turn) {
         newest_own_ = own_frame_count_++ % own_frames_.size();
         CameraFrame& cameras = own_frames_[newest_own_];
         move_cameras(frame, dt, cameras, turn);
+        const std::int64_t computed_ns = now_ns();
         publisher_.publish(match_id_, cameras);
+        const std::int64_t written_ns = now_ns();
+        counters_.waiting.add(begun_ns - received_ns);
+        counters_.computing.add(computed_ns - begun_ns);
+        counters_.writing.add(written_ns - computed_ns);
+        counters_.latency.add(written_ns - received_ns);
         show(frame, cameras);
-        counters_.latency.add(ns(Clock::now().time_since_epoch()) - received_ns);
         edit_.look(edit_setting());
     }
     after_silence_ = false;

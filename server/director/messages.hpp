@@ -3,10 +3,12 @@
 // idl/camera_director.idl, which says what they mean.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/geometry.hpp"
@@ -100,15 +102,40 @@ struct PoseArrival {
     PoseFrame frame;
 };
 
+// Of events that the director knows; others are carried along.
+enum class MatchEventKind : std::uint32_t {
+    kill = 1,
+    flag_taken,
+    flag_captured,
+    objective,
+    damage,
+    award,
+    item,
+    round,
+    spawn,
+    weapon,
+};
+// Their names, from the first kind on.
+inline constexpr std::array<std::string_view, 10> match_event_names = {
+    "kill",  "flag taken", "flag captured", "objective", "damage",
+    "award", "item",       "round",         "spawn",     "weapon"};
+
 struct MatchEvent {
     std::uint64_t epoch = 0;
     std::int64_t frame_time = 0;
-    std::uint32_t kind = 0;
+    std::uint32_t kind = 0;  // a MatchEventKind, or any other number
     std::uint32_t actor = no_player;
     std::uint32_t subject = no_player;
     float value = 0.0F;
     std::string detail = {};
 };
+
+// None: of a kind that the director does not know.
+[[nodiscard]] inline std::optional<std::string_view> name_of(const MatchEvent& event) {
+    const std::size_t index = std::size_t{event.kind} - 1;
+    return event.kind != 0 && index < match_event_names.size() ? std::optional(match_event_names[index])
+                                                               : std::nullopt;
+}
 
 struct ObserverRequest {
     std::string match_id;

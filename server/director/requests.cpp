@@ -136,7 +136,7 @@ bool Requests::turn_away(const ObserverRequest& request, const config::Config& c
                                  0,         too_many_observers(config) + ", and as many wait"};
     publisher_.publish(refusal);  // an observer whom it does not reach asks again
     const bool is_new = turned_away_.insert(request.observer_id).second;
-    if (is_new) count_refusal(refusal);
+    if (is_new) count_refusal(refusal, Counter::refused_observers);
     return is_new;
 }
 
@@ -181,7 +181,7 @@ void Requests::resolve(Observer& observer, const config::Config& config) {
 
 Requests::Decision Requests::decide(const Observer& observer, const RequestContext& context) {
     if (!observer.error.empty()) return {RequestState::refused, 0, observer.error};
-    if (!context.refusal.empty()) return {RequestState::refused, 0, context.refusal};
+    if (!context.refusal.empty()) return {RequestState::refused, 0, context.refusal, Counter::refused_match};
     if (!context.missing_map.empty()) return {RequestState::waiting_for_map, 0, context.missing_map};
     const std::string missing = missing_player(observer.key, context.roster);
     if (!missing.empty()) return {RequestState::waiting_for_player, 0, missing};
@@ -210,7 +210,7 @@ void Requests::reconcile(const RequestContext& context) {
         publish(observer.answer,
                 {match_id_, id, context.epoch, decision->state, decision->camera_id,
                  shortened(std::move(decision->reason))},
-                context.now);
+                decision->refusal, context.now);
         ++decision;
     }
     refuse_waiting(context);
@@ -222,7 +222,7 @@ void Requests::refuse_waiting(const RequestContext& context) {
         publish(waiting.answer,
                 {match_id_, waiting.request.observer_id, context.epoch, RequestState::refused, 0,
                  too_many_observers(context.config)},
-                context.now);
+                Counter::refused_observers, context.now);
 }
 
 void Requests::assign(const Observer& observer, std::int64_t max_shots, Decision& decision) {
@@ -230,7 +230,8 @@ void Requests::assign(const Observer& observer, std::int64_t max_shots, Decision
     if (shot == nullptr) {
         if (shots_.size() >= static_cast<std::size_t>(max_shots)) {
             decision = {RequestState::refused, 0,
-                        "this match has " + std::to_string(max_shots) + " cameras already"};
+                        "this match has " + std::to_string(max_shots) + " cameras already",
+                        Counter::refused_shots};
             return;
         }
         shot = &add_shot(observer.key);
@@ -264,10 +265,10 @@ Shot& Requests::add_shot(const ShotKey& key) {
     return *shots_.insert(place, std::move(shot));
 }
 
-void Requests::publish(Answer& answer, ObserverStatus status, std::int64_t now) {
+void Requests::publish(Answer& answer, ObserverStatus status, Counter refusal, std::int64_t now) {
     const bool changed = status != answer.status;
     if (changed || (!answer.published && now >= answer.repeats_at)) {
-        if (changed && status.state == RequestState::refused) count_refusal(status);
+        if (changed && status.state == RequestState::refused) count_refusal(status, refusal);
         answer.status = std::move(status);
         answer.published = publisher_.publish(answer.status);
         answer.repeats_at = now + repeat_interval_ns;
@@ -275,8 +276,8 @@ void Requests::publish(Answer& answer, ObserverStatus status, std::int64_t now) 
     if (!answer.published) next_answers_ = std::min(next_answers_, answer.repeats_at);
 }
 
-void Requests::count_refusal(const ObserverStatus& status) {
-    counters_.add(Counter::refused_requests);
+void Requests::count_refusal(const ObserverStatus& status, Counter refusal) {
+    counters_.add(refusal);
     if (const auto times = refusals_.due())
         spdlog::info("match {}: observer {} is refused: {} ({} since the last such line)", match_id_,
                      status.observer_id, status.reason, *times);

@@ -132,6 +132,7 @@ class Requests {
         RequestState state = RequestState::accepted;
         std::uint32_t camera_id = 0;
         std::string reason;
+        Counter refusal = Counter::refused_invalid;  // of what is refused
     };
 
     // They return what put() returns.
@@ -144,8 +145,9 @@ class Requests {
     void assign(const Observer& observer, std::int64_t max_shots, Decision& decision);
     Shot* find_shot(const ShotKey& key);
     Shot& add_shot(const ShotKey& key);
-    void publish(Answer& answer, ObserverStatus status, std::int64_t now);
-    void count_refusal(const ObserverStatus& status);
+    // `refusal`: what a refusal counts as.
+    void publish(Answer& answer, ObserverStatus status, Counter refusal, std::int64_t now);
+    void count_refusal(const ObserverStatus& status, Counter refusal);
 
     const std::string match_id_;
     Publisher& publisher_;

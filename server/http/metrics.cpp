@@ -2,6 +2,7 @@
 
 #include <limits>
 #include <set>
+#include <span>
 #include <utility>
 
 #include "base/utf8.hpp"
@@ -57,6 +58,14 @@ MetricFamily histogram(const std::string& name, const std::string& help,
     return result;
 }
 
+MetricFamily by_reason(const std::string& name, const std::string& help, const Statistics& statistics,
+                       std::span<const std::pair<Counter, const char*>> reasons) {
+    MetricFamily result = counter_family(name, help);
+    for (const auto& [reason, label] : reasons)
+        add_metric(result, static_cast<double>(statistics[reason]), {{"reason", label}});
+    return result;
+}
+
 MetricFamily drops(const Statistics& statistics) {
     static constexpr std::pair<Counter, const char*> reasons[] = {
         {Counter::drop_unknown_match, "unknown_match"},
@@ -71,9 +80,25 @@ MetricFamily drops(const Statistics& statistics) {
         {Counter::drop_events, "events"},
         {Counter::drop_messages, "control"},
         {Counter::drop_delay, "delay_refused"}};
-    MetricFamily result = counter_family("dropped_total", "Input that was dropped, by reason.");
-    for (const auto& [reason, label] : reasons)
-        add_metric(result, static_cast<double>(statistics[reason]), {{"reason", label}});
+    return by_reason("dropped_total", "Input that was dropped, by reason.", statistics, reasons);
+}
+
+MetricFamily refused_requests(const Statistics& statistics) {
+    static constexpr std::pair<Counter, const char*> reasons[] = {{Counter::refused_invalid, "invalid"},
+                                                                  {Counter::refused_match, "match"},
+                                                                  {Counter::refused_observers, "observers"},
+                                                                  {Counter::refused_shots, "shots"},
+                                                                  {Counter::refused_no_match, "no_match"}};
+    return by_reason("refused_requests_total", "Requests refused, by reason.", statistics, reasons);
+}
+
+MetricFamily stages(const Statistics& statistics) {
+    MetricFamily result = family(MetricType::Histogram, "stage_seconds",
+                                 "The parts of latency_seconds: waiting for the match's turn, computing the "
+                                 "cameras, writing them.");
+    add_histogram(result, statistics.waiting, {{"stage", "waiting"}});
+    add_histogram(result, statistics.computing, {{"stage", "computing"}});
+    add_histogram(result, statistics.writing, {{"stage", "writing"}});
     return result;
 }
 
@@ -108,7 +133,7 @@ std::vector<MetricFamily> director_metrics(const Statistics& s) {
         counter("searches_total", "Searches of a camera for its lost player.", s[Counter::searches]),
         counter("silences_total", "Matches that became silent.", s[Counter::silences]),
         counter("refused_matches_total", "Matches above the limit.", s[Counter::refused_matches]),
-        counter("refused_requests_total", "Requests refused.", s[Counter::refused_requests]),
+        refused_requests(s),
         counter("map_hash_mismatches_total", "Matches whose map file differs from the baked one.",
                 s[Counter::map_hash_mismatches]),
         counter("scale_mismatches_total", "Matches whose metres_per_unit differs from the baked map's.",
@@ -133,7 +158,8 @@ std::vector<MetricFamily> director_metrics(const Statistics& s) {
             "latency_seconds",
             "Time from receiving a pose frame, or from when it is due after the delay, to publishing its "
             "cameras.",
-            s.latency)};
+            s.latency),
+        stages(s)};
 }
 
 std::vector<MetricFamily> match_metrics(const std::vector<director::MatchStatistics>& matches) {

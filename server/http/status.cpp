@@ -3,7 +3,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <array>
 
 #include "config/json_text.hpp"
 #include "live/notes.hpp"
@@ -25,14 +24,12 @@ json page_of(std::uint32_t player, const std::vector<director::Player>& players)
 }
 
 json page_of(const director::MatchEvent& event, const std::vector<director::Player>& players) {
-    static constexpr std::array kinds = {"kill",  "flag taken", "flag captured", "objective", "damage",
-                                         "award", "item",       "round",         "spawn",     "weapon"};
     json page = {{"kind", event.kind},
                  {"actor", page_of(event.actor, players)},
                  {"subject", page_of(event.subject, players)},
                  {"value", event.value},
                  {"detail", event.detail}};
-    if (event.kind >= 1 && event.kind <= kinds.size()) page["kind"] = kinds[event.kind - 1];
+    if (const auto name = director::name_of(event)) page["kind"] = *name;
     return page;
 }
 

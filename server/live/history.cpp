@@ -10,10 +10,11 @@
 namespace camdir::live {
 namespace {
 
-// Kills, flags taken and captured, objectives, awards, rounds.
 bool is_told_later(std::uint32_t kind) {
-    static constexpr std::array<std::uint32_t, 6> told = {1, 2, 3, 4, 6, 8};
-    return std::ranges::find(told, kind) != told.end();
+    using Kind = director::MatchEventKind;
+    static constexpr std::array told = {Kind::kill,      Kind::flag_taken, Kind::flag_captured,
+                                        Kind::objective, Kind::award,      Kind::round};
+    return std::ranges::find(told, static_cast<Kind>(kind)) != told.end();
 }
 
 bool was_moved(const director::PoseFrame& poses, std::uint32_t player) {

@@ -76,8 +76,6 @@ SharedMessage history_note(const History& history, const SlotOf& slot_of) {
 }
 
 SharedMessage event_note(const director::MatchEvent& event, const SlotOf& slot_of) {
-    static constexpr std::array kinds = {"kill",  "flag taken", "flag captured", "objective", "damage",
-                                         "award", "item",       "round",         "spawn",     "weapon"};
     json content = {{"kind", "event"},
                     {"t", milliseconds(event.frame_time)},
                     {"event", event.kind},
@@ -85,7 +83,7 @@ SharedMessage event_note(const director::MatchEvent& event, const SlotOf& slot_o
                     {"subject", slot_json(event.subject, slot_of)},
                     {"value", event.value},
                     {"detail", event.detail}};
-    if (event.kind >= 1 && event.kind <= kinds.size()) content["event"] = kinds[event.kind - 1];
+    if (const auto name = director::name_of(event)) content["event"] = *name;
     return note(content);
 }
 

@@ -118,7 +118,7 @@ http::Sources Service::sources() {
         const auto most = static_cast<std::size_t>(config_.http.match_metrics);
         for (auto& more :
              {http::match_metrics(director_.match_statistics(most)), http::map_metrics(maps_.entries()),
-              wire_metrics(gateway_->counters(), gateway_->identity()),
+              wire_metrics(gateway_->counters(), config_.dds.strength, gateway_->identity()),
               recording_metrics(recorder_ ? recorder_->statistics() : recording::RecorderStatistics{}),
               http::live_metrics(relay_.statistics())})
             families.insert(families.end(), more.begin(), more.end());

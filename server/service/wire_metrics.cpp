@@ -33,7 +33,7 @@ double expiry(const std::optional<dds::Identity>& identity) {
 
 }  // namespace
 
-std::vector<prometheus::MetricFamily> wire_metrics(const dds::WireCounters& counters,
+std::vector<prometheus::MetricFamily> wire_metrics(const dds::WireCounters& counters, std::int64_t strength,
                                                    const std::optional<dds::Identity>& identity) {
     auto accepted = http::counter_family("wire_received_total", "Samples passed to the director, by topic.");
     auto dropped = http::counter_family("wire_dropped_total",
@@ -62,6 +62,8 @@ std::vector<prometheus::MetricFamily> wire_metrics(const dds::WireCounters& coun
                 counters.liveliness_withheld),
         gauge("matches_led", "Matches that this director leads; for the others it stands by.",
               counters.matches_led),
+        gauge("strength", "Of directors that begin a match together, the strongest leads it.",
+              static_cast<double>(strength)),
         gauge("matches_leaving", "Matches of other shards that this director serves until these do.",
               counters.matches_leaving),
         gauge("identity_expiry_timestamp_seconds",

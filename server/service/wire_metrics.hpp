@@ -1,8 +1,10 @@
-// The counters of the DDS wire and the expiry of the identity as Prometheus metrics.
+// The counters of the DDS wire, the director's strength (of the configuration) and the expiry of the identity
+// as Prometheus metrics.
 #pragma once
 
 #include <prometheus/metric_family.h>
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -12,6 +14,6 @@
 namespace camdir::service {
 
 [[nodiscard]] std::vector<prometheus::MetricFamily> wire_metrics(
-    const dds::WireCounters& counters, const std::optional<dds::Identity>& identity);
+    const dds::WireCounters& counters, std::int64_t strength, const std::optional<dds::Identity>& identity);
 
 }  // namespace camdir::service

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "camera/camera.hpp"
 #include "camera/view.hpp"
@@ -56,6 +57,23 @@ TEST(Director, AMatchWithoutShotsPublishesNothing) {
     stage.send(Stage::poses(1));
     EXPECT_TRUE(stage.publisher.frames().empty());
     EXPECT_EQ(stage.director.statistics()[Counter::pose_frames], 1U);
+}
+
+TEST(Director, CountsTheStagesOfItsLatency) {
+    Stage stage;
+    stage.start();
+    stage.ask(Stage::request("a", 1));
+    for (std::uint32_t frame = 1; frame <= 3; ++frame)
+        stage.send(Stage::poses(frame));
+    const Statistics statistics = stage.director.statistics();
+    const auto count = [](const Durations& durations) {
+        return std::accumulate(durations.buckets.begin(), durations.buckets.end(), std::uint64_t{0});
+    };
+    EXPECT_EQ(count(statistics.latency), 3U);
+    for (const Durations* stage_of : {&statistics.waiting, &statistics.computing, &statistics.writing})
+        EXPECT_EQ(count(*stage_of), 3U);
+    EXPECT_NEAR(statistics.waiting.sum_s + statistics.computing.sum_s + statistics.writing.sum_s,
+                statistics.latency.sum_s, 1e-9);
 }
 
 TEST(Director, EqualRequestsShareACamera) {
@@ -143,7 +161,7 @@ TEST(Director, BadProfilesAndOverridesAreRefusedWithAReason) {
     request.overrides = "{\"" + std::string(900, 'x') + "\": 1}";
     stage.ask(request);
     EXPECT_EQ(stage.publisher.status("b").reason.size(), 255U);
-    EXPECT_EQ(stage.director.statistics()[Counter::refused_requests], 3U);
+    EXPECT_EQ(stage.director.statistics()[Counter::refused_invalid], 3U);
 
     stage.ask(Stage::request("b"));
     EXPECT_EQ(stage.publisher.status("b").state, RequestState::accepted);

@@ -113,7 +113,7 @@ TEST_F(RequestsTest, OneWhoCannotEvenWaitIsNewOnce) {
     EXPECT_TRUE(put(Stage::request("carl"))) << "now carl waits";
     Statistics sum;
     counters_.add_to(sum);
-    EXPECT_EQ(sum[Counter::refused_requests], 2U);
+    EXPECT_EQ(sum[Counter::refused_observers], 2U);
 }
 
 TEST_F(RequestsTest, RefusalsAreCountedWhenTheyChange) {
@@ -125,7 +125,8 @@ TEST_F(RequestsTest, RefusalsAreCountedWhenTheyChange) {
     }
     Statistics sum;
     counters_.add_to(sum);
-    EXPECT_EQ(sum[Counter::refused_requests], 1U);
+    EXPECT_EQ(sum[Counter::refused_invalid], 1U);
+    EXPECT_EQ(sum[Counter::refused_observers], 0U);
 }
 
 }  // namespace

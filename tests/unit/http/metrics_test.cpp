@@ -5,6 +5,7 @@
 #include <prometheus/text_serializer.h>
 
 #include <limits>
+#include <map>
 #include <numeric>
 #include <set>
 
@@ -39,6 +40,27 @@ TEST(Metrics, LabelDropsWithTheirReason) {
     const auto families = director_metrics(statistics);
     for (const auto& metric : family(families, "dropped_total").metric)
         EXPECT_EQ(metric.counter.value, metric.label.at(0).value == "old_epoch" ? 5.0 : 0.0);
+}
+
+TEST(Metrics, LabelRefusedRequestsWithTheirReason) {
+    Statistics statistics;
+    statistics.counters[static_cast<std::size_t>(Counter::refused_shots)] = 5;
+    const auto families = director_metrics(statistics);
+    for (const auto& metric : family(families, "refused_requests_total").metric)
+        EXPECT_EQ(metric.counter.value, metric.label.at(0).value == "shots" ? 5.0 : 0.0);
+}
+
+TEST(Metrics, ShowTheStagesOfTheLatency) {
+    Statistics statistics;
+    statistics.waiting.buckets.front() = 1;
+    statistics.computing.buckets.front() = 2;
+    statistics.writing.buckets.front() = 3;
+    const auto families = director_metrics(statistics);
+    std::map<std::string, std::uint64_t> counts;
+    for (const auto& metric : family(families, "stage_seconds").metric)
+        counts[metric.label.at(0).value] = metric.histogram.sample_count;
+    EXPECT_EQ(counts,
+              (std::map<std::string, std::uint64_t>{{"waiting", 1}, {"computing", 2}, {"writing", 3}}));
 }
 
 TEST(Metrics, HistogramsAreCumulative) {
