@@ -11,12 +11,19 @@ export const kept = {
 
 const now = () => performance.now();
 
+// Null: the clocks of the game server and of this machine do not agree.
+function ageOf({sourceTime}) {
+    const age = Date.now() - sourceTime;
+    return age > -1000 && age < 600e3 ? Math.max(age, 0) : null;
+}
+
 export class LiveSource {
     // `on.match(note)`, `on.problem(text)`, `on.change()`.
     constructor(matchId, model, token, on) {
         Object.assign(this, {matchId, model, on});
         this.dropped = 0;
-        this.age = null;  // ms between the game server's clock and this one, when the last frame arrived
+        this.age = null;  // ms from the sampling of the last frame to its arrival, by the two machines' clocks
+        this.repeats = false;  // the next frame may be an old one
         this.ended = false;
         this.step = 1;
         model.begin(kept);
@@ -60,6 +67,7 @@ export class LiveSource {
         history: note => {
             this.model.timeline.clear();
             this.model.timeline.addHistory(note);
+            this.repeats = true;
         },
         cut: note => this.model.timeline.addNote(note),
         event: note => this.model.timeline.addNote(note),
@@ -88,7 +96,9 @@ export class LiveSource {
         if (!frame || !this.model.buffer.add(frame.t, data.byteLength, () => decodeFrame(data, step))) return;
         this.model.clock.arrived(frame.t, now());
         this.model.timeline.addFrame(frame);
-        this.age = Date.now() - frame.sourceTime;
+        this.age = ageOf(frame);
+        if (this.age !== null && !this.repeats) this.model.timeline.addLatency(frame.t, this.age);
+        this.repeats = false;
     }
 
     get range() {

@@ -2,6 +2,7 @@
 import {cameraFlag, shownEvents} from './protocol.js';
 
 const maxGapMs = 300;  // between parts that follow each other
+export const latencyStepMs = 250;
 
 // The index of the first entry that is later than t.
 function indexAfter(entries, t) {
@@ -21,9 +22,11 @@ export class Timeline {
     // `keptMs`: before the newest frame; of a shot at most maxStates, and maxMarks cuts and as many events.
     constructor({keptMs, maxStates, maxMarks}) {
         Object.assign(this, {keptMs, maxStates, maxMarks});
+        this.latencies = [];  // [{t, ms}], of each latencyStepMs the greatest
         this.clear();
     }
 
+    // What a history tells again.
     clear() {
         this.shots = new Map();  // by camera: [{t, target, flags}], flags null: the shot has ended, or is not known
         this.cuts = [];
@@ -48,6 +51,19 @@ export class Timeline {
             if (!frame.cameras.has(id) && last.flags !== null) this.addState(frame.t, id, last.target, null);
         }
         this.forget(frame.t - this.keptMs);
+    }
+
+    // How long before its arrival a frame was sampled. Times ascend.
+    addLatency(t, ms) {
+        const last = this.latencies[this.latencies.length - 1];
+        if (last && t < last.t + latencyStepMs) last.ms = Math.max(last.ms, ms);
+        else this.latencies.push({t, ms});
+    }
+
+    // Null where no frame has arrived.
+    latencyAt(t) {
+        const known = this.latencies[indexAfter(this.latencies, t) - 1];
+        return known && t < known.t + latencyStepMs ? known.ms : null;
     }
 
     // A cut, or an event, which is kept where the page shows such.
@@ -131,8 +147,8 @@ export class Timeline {
     }
 
     forget(before) {
-        while (this.cuts.length > 0 && this.cuts[0].t < before) this.cuts.shift();
-        while (this.events.length > 0 && this.events[0].t < before) this.events.shift();
+        for (const marks of [this.cuts, this.events, this.latencies])
+            while (marks.length > 0 && marks[0].t < before) marks.shift();
         for (const [id, states] of this.shots) {
             // The first one that is kept says how the shot was when the time kept began.
             while (states.length > 1 && states[1].t <= before) states.shift();

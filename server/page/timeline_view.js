@@ -1,11 +1,15 @@
 // Draws the timeline: the shown camera's shot above, the others below it, cuts and events as marks.
 import {cameraFlag} from './protocol.js';
+import {latencyStepMs} from './timeline.js';
 import {clockText} from './words.js';
 
 const colours = {visible: '#7cc4ff', hidden: '#ffc857', searching: '#ffc857', fixed: '#c4ccd6', held: '#55606e', absent: '#3a434f'};
 const spanMs = 5 * 60e3;
 const steps = [1, 2, 5, 10, 30, 60, 120, 300, 600, 1800, 3600].map(s => s * 1000);  // between times
 const minLabelPx = 56;
+const timesPx = 12;
+const latencyPx = 11;
+const leastFullLatencyMs = 50;  // that fills the height
 const thinFromMs = 10 * 60e3;  // of a timeline: cuts are thin lines
 
 const reasons = {
@@ -54,7 +58,8 @@ export class TimelineView {
         return from + Math.min(Math.max((clientX - left) / width, 0), 1) * (to - from);
     }
 
-    draw({timeline, camera, t, first, last, whole, colourOfSlot}) {
+    // `delayMs`: of the match, which is no latency.
+    draw({timeline, camera, t, first, last, whole, delayMs, colourOfSlot}) {
         const ratio = devicePixelRatio;
         const width = this.element.clientWidth;
         const height = this.element.clientHeight;
@@ -67,20 +72,23 @@ export class TimelineView {
         c.clearRect(0, 0, width, height);
         const [from, to] = this.range(first, last, whole);
         const x = time => (time - from) / (to - from) * width;
-        const middle = height * 0.42;
+        const latencies = timeline.latencies.filter(latency => latency.t >= from);
+        const bottom = height - timesPx - (latencies.length > 0 ? latencyPx + 1 : 0);  // of the shots
+        const middle = (bottom + timesPx) * 0.42;
         c.fillStyle = '#ffffff10';
         c.fillRect(0, middle - 6, width, 12);
         for (const span of timeline.spans(camera, from, to)) this.drawSpan(c, span, x, middle, colourOfSlot);
-        this.drawOthers(c, timeline, camera, from, to, x, middle + 13, height - 12, colourOfSlot);
+        this.drawOthers(c, timeline, camera, from, to, x, middle + 13, bottom, colourOfSlot);
         c.fillStyle = '#ffffff';
         const cutWidth = to - from > thinFromMs ? 1 : 2;
         for (const cut of timeline.cuts)
             if (cut.camera === camera && cut.t >= from) c.fillRect(Math.round(x(cut.t)) - 1, middle - 11, cutWidth, 22);
         for (const event of timeline.events) this.drawEvent(c, event, x, middle - 13, colourOfSlot);
+        if (latencies.length > 0) this.drawLatencies(c, latencies, delayMs, x, height - timesPx);
         this.drawTimes(c, from, to, whole ? from : null, x, height, width);
         const unseen = x(Math.max(first, from));
         c.fillStyle = '#0d1014aa';
-        c.fillRect(0, 0, unseen, height - 12);
+        c.fillRect(0, 0, unseen, height - timesPx);
         c.fillStyle = '#ffffff';
         c.fillRect(Math.min(Math.round(x(t)), width - 2) - 1, 2, 3, height - 14);
     }
@@ -129,6 +137,23 @@ export class TimelineView {
         c.lineTo(x(event.t) - 3.5, y - 6);
         c.lineTo(x(event.t) + 3.5, y - 6);
         c.fill();
+    }
+
+    // A bar for each, beside the greatest in words.
+    drawLatencies(c, latencies, delayMs, x, bottom) {
+        const late = ({ms}) => Math.max(ms - delayMs, 0);
+        const most = Math.max(...latencies.map(late));
+        const scale = latencyPx / Math.max(most, leastFullLatencyMs);
+        const width = Math.max(x(latencyStepMs) - x(0), 1);
+        c.fillStyle = '#9aa6b5';
+        for (const latency of latencies) {
+            const tall = Math.max(late(latency) * scale, 0.5);
+            c.fillRect(x(latency.t), bottom - tall, width, tall);
+        }
+        c.fillStyle = '#ffffff';
+        c.font = '9.5px system-ui, sans-serif';
+        c.textAlign = 'left';
+        c.fillText(`latency up to ${Math.round(most)} ms`, 4, bottom - 2);
     }
 
     // Since `origin`, or before the end where that is null.

@@ -285,14 +285,16 @@ function shownCamera() {
     return sample?.cameras.get(camera) ?? null;
 }
 
+// Of a stream, by its match.
+const delayMs = () => (watched?.stream?.delay_s ?? 0) * 1000;
+
 // What the words of the state need to know.
 function facts() {
     const {clock, buffer, note} = model;
     const entry = matches.find(other => other.id === watched?.id);
     const behindMs = isRecorded() ? source.isLive && source.range ? source.newest() - clock.t : null : buffer.last - clock.t;
-    const {age} = source ?? {};
     const lateMs = isRecorded() ? behindMs === null ? null : behindMs + source.sync.delayMs
-        : behindMs + (age !== null && age > -1000 && age < 600e3 ? Math.max(age, 0) : (entry?.stream?.delay_s ?? 0) * 1000);
+        : behindMs + (source?.age ?? delayMs());
     return {retryInMs: (source?.retryAt ?? 0) - now(), known: note !== null, isFull: isFull(entry, source?.refusals ?? 0),
         entry: entry?.stream?.state, behindMs, lateMs};
 }
@@ -452,7 +454,8 @@ function drawTimeline() {
     const element = find('timeline');
     if (document.activeElement !== element || untold) tellTime();
     if (source?.range && clock.t !== null)
-        timelineView.draw({timeline, camera, t: clock.t, first, last, whole: isRecorded(), colourOfSlot: slot => look(slot).colour});
+        timelineView.draw({timeline, camera, t: clock.t, first, last, whole: isRecorded(), delayMs: delayMs(),
+            colourOfSlot: slot => look(slot).colour});
 }
 
 let lastPanel = 0;
@@ -539,6 +542,8 @@ function describeTime(t) {
     const near = model.cutNear(camera, t, 0.005 * Math.max(last - first, 300e3));
     const parts = [isRecorded() ? clockText(t - first) : `−${seconds(last - t)}`];
     if (span) parts.push(`${lookOfShot(span).name}: ${modeText[modeOf(span)].toLowerCase()}`);
+    const latency = model.timeline.latencyAt(t);
+    if (latency !== null) parts.push(`${Math.round(Math.max(latency - delayMs(), 0))} ms late`);
     if (near) parts.push(`cut: ${reasonText(near, slot => look(slot).name)}`);
     return parts.join(' · ');
 }

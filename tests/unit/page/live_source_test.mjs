@@ -85,3 +85,30 @@ test('a server that does not open the stream has refused, until it opens it or d
     assert.equal(source.refusals, 0, 'it was open');
     source.close();
 });
+
+// A frame without players and cameras.
+function frameOf(t, sourceTimeMs) {
+    const view = new DataView(new ArrayBuffer(28));
+    view.setUint8(0, 1);
+    view.setBigInt64(12, BigInt(t) * 1_000_000n, true);
+    view.setBigInt64(20, BigInt(Math.round(sourceTimeMs)) * 1_000_000n, true);
+    return {data: view.buffer};
+}
+
+test('the timeline has the latency of frames as they arrive, where the clocks agree', () => {
+    const {model, source} = stream();
+    newest().open();
+    newest().note(matchOf([]));
+    newest().note({kind: 'history', states: [], notes: []});
+    newest().onmessage(frameOf(0, Date.now() - 60e3));
+    assert.equal(model.timeline.latencyAt(0), null, 'the one that follows a history may be old');
+    newest().onmessage(frameOf(1000, Date.now() - 40));
+    const latency = model.timeline.latencyAt(1000);
+    assert.ok(latency >= 40 && latency < 30e3, `${latency}`);
+    newest().onmessage(frameOf(2000, Date.now() + 500));
+    assert.equal(model.timeline.latencyAt(2000), 0, 'a clock may be a little ahead');
+    newest().onmessage(frameOf(3000, Date.now() + 3600e3));
+    assert.equal(model.timeline.latencyAt(3000), null);
+    assert.equal(source.age, null);
+    source.close();
+});

@@ -25,6 +25,19 @@ test('a shot has a span for each state', () => {
     assert.deepEqual(timeline.spans(6, 0, 200), []);
 });
 
+test('of each quarter of a second the greatest latency is kept, and after a history too', () => {
+    const timeline = new Timeline({...live, keptMs: 1000});
+    for (const [t, ms] of [[0, 20], [16, 45], [240, 30], [260, 10], [2000, 7]]) timeline.addLatency(t, ms);
+    timeline.clear();
+    assert.deepEqual(timeline.latencies, [{t: 0, ms: 45}, {t: 260, ms: 10}, {t: 2000, ms: 7}]);
+    assert.equal(timeline.latencyAt(100), 45);
+    assert.equal(timeline.latencyAt(505), 10);
+    assert.equal(timeline.latencyAt(1000), null, 'no frame arrived');
+    assert.equal(timeline.latencyAt(-1), null);
+    timeline.addFrame(frame(2016));
+    assert.deepEqual(timeline.latencies, [{t: 2000, ms: 7}]);
+});
+
 test('history comes first, frames go on from it', () => {
     const timeline = new Timeline(live);
     const cut = {kind: 'cut', t: 10, camera: 5, target: 0, reason: 'begin'};
