@@ -157,7 +157,7 @@ void add_read_options(CLI::App& command, scene::ReadOptions& options) {
         .add_option_function<double>(
             "--metres-per-unit", [&options](double value) { options.metres_per_unit = value; },
             "Length of a map unit; default: 0.0254 for a BSP, 1 for a mesh or a point cloud")
-        ->check(CLI::Range(config::min_metres_per_unit, config::max_metres_per_unit));
+        ->check(number_between(config::min_metres_per_unit, config::max_metres_per_unit));
     command
         .add_option_function<std::string>(
             "--up", [&options](const std::string& axis) { options.up = scene::up_axis_named(axis); },
@@ -218,14 +218,14 @@ void add_bake(CLI::App& root, Run& run) {
             "--d0", options->parameters.d0,
             "Sampling distance in units of 0.0254 m: openings narrower than about one and a half times this "
             "close. Default: 16; for a point cloud, whose surfaces it keeps away from, the points' spacing")
-        ->check(CLI::Range(bake::min_d0, bake::max_d0));
+        ->check(number_between(bake::min_d0, bake::max_d0));
     add_read_options(*command, options->read);
     command
         ->add_option(
             "--loss", options->parameters.loss,
             "Mesh reduction: free distance that the centre of a ball may lose, in percent of the mean over "
             "the map, at most 3/2 d0; 0: no reduction")
-        ->check(CLI::Range(0.0, bake::max_loss))
+        ->check(number_between(0.0, bake::max_loss))
         ->capture_default_str();
     command
         ->add_option("--triangles", options->parameters.triangles,

@@ -326,7 +326,7 @@ void add_direct(CLI::App& root, Run& run) {
                         "Configuration that has the rules and lengths of shots; default: those that ship");
     command->add_option("--delay", options->delay, "Seconds that the audience is behind the match; 0: live")
         ->capture_default_str()
-        ->check(CLI::Range(0.0, 120.0));
+        ->check(number_between(0.0, 120.0));
     command->add_option(
         "--cameras", options->cameras,
         "Write the camera of every frame with its player and reason, CSV; - = standard output");

@@ -234,12 +234,12 @@ void add_evaluate(CLI::App& root, Run& run) {
     command
         ->add_option("--output-hz", options->output_hz,
                      "Cameras per second, judged against interpolated poses; default: the trace's frames")
-        ->check(CLI::Range(1.0, 1000.0));
+        ->check(number_between(1.0, 1000.0));
     command
         ->add_option("--look-ahead", options->look_ahead,
                      "Seconds of each player's future that the camera knows, as with a delay; 0: causal")
         ->capture_default_str()
-        ->check(CLI::Range(0.0, 120.0));
+        ->check(number_between(0.0, 120.0));
     command->add_option("--solver", options->solver, "paper or planner; default: the profile's")
         ->check(CLI::IsMember({paper, planner}));
     command

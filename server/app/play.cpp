@@ -181,11 +181,11 @@ void add_play(CLI::App& root, Run& run) {
                                    "director broadcasts them");
     command->add_option("--from", options->from, "Seconds after the recording's begin at which it goes on")
         ->capture_default_str()
-        ->check(CLI::Range(0.0, 1e9))
+        ->check(number_between(0.0, 1e9))
         ->needs(live);
     command->add_option("--speed", options->speed, "How fast fragments follow each other")
         ->capture_default_str()
-        ->check(CLI::Range(0.01, 1000.0))
+        ->check(number_between(0.01, 1000.0))
         ->needs(live);
     command->callback([options, &run] { run = [options] { return exit_code_of(play(*options)); }; });
 }

@@ -200,7 +200,7 @@ void add_track_options(CLI::App& command, RenderOptions& options) {
                     "Draw the tracks between these seconds of the match: FROM,TO")
         ->delimiter(',')
         ->expected(2)
-        ->check(CLI::Range(0.0, 1e9))
+        ->check(number_between(0.0, 1e9))
         ->needs(trace);
     command.add_option("--players", options.tracks.players, "Draw the tracks of these players only: 0,3")
         ->delimiter(',')
@@ -240,11 +240,11 @@ void add_render(CLI::App& root, Run& run) {
         ->capture_default_str()
         ->check(CLI::Validator(checked(parse_size), ""));
     command->add_option("--cut", options->cut, "Hide everything above this height, map units")
-        ->check(CLI::Range(-1e8, 1e8));
+        ->check(number_between(-1e8, 1e8));
     command->add_flag("--roadmap", options->roadmap, "Draw the edges of the mesh that lie in free space");
     command->add_flag("--no-mesh", options->no_mesh, "Do not draw the triangles of the mesh");
     command->add_option("--opacity", options->opacity, "Opacity of the mesh's triangles")
-        ->check(CLI::Range(0.05F, 1.0F))
+        ->check(number_between(0.05, 1.0))
         ->capture_default_str();
     command->add_flag("--samples", options->samples,
                       "Draw points that uniform sampling puts on the obstacles, or those of the point cloud");

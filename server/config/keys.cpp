@@ -23,6 +23,7 @@ NLOHMANN_JSON_SERIALIZE_ENUM(Trigger, {{Trigger::sight, "sight"},
                                        {Trigger::award, "award"},
                                        {Trigger::item, "item"},
                                        {Trigger::streak, "streak"},
+                                       {Trigger::flag_run, "flag_run"},
                                        {Trigger::lead, "lead"}})
 
 }  // namespace camdir::direction
@@ -371,12 +372,12 @@ void add_moments(std::vector<Key>& table) {
          in_rule(&Rule::trigger),
          "What begins a moment: enemies in mutual sight, wounds of two players each within `after_s` of "
          "the last, an event, several kills of one player each within 3 s of the last, three kills in "
-         "one life, more kills than anybody else.",
+         "one life, a flag until it is captured or its carrier dies, more kills than anybody else.",
          "",
          0,
          16,
          {"sight", "exchange", "kill", "multi_kill", "flag_taken", "flag_captured", "objective", "award",
-          "item", "streak", "lead"},
+          "item", "streak", "flag_run", "lead"},
          false,
          true});
     const auto add = [&](const char* name, double Rule::*member, const char* help, const char* unit,

@@ -66,6 +66,8 @@ class Finder {
                 return find_multi_kills(rule);
             case Trigger::streak:
                 return find_streaks(rule);
+            case Trigger::flag_run:
+                return find_flag_runs(rule);
             case Trigger::lead:
                 return find_lead(rule);
             default:
@@ -97,16 +99,25 @@ class Finder {
     void find_streaks(Index rule) {
         Tally tally = tally_;
         for (const Event& event : events_)
-            if (const auto [streak, lead] = tally.count(event); streak)
+            if (const auto [streak, flag_run, lead] = tally.count(event); streak)
                 add(rule, streak->since, event.time, streak->player, nobody);
         for (const Tally::Run& streak : tally.streaks())
             add(rule, streak.since, end_s(), streak.player, nobody);
     }
 
+    void find_flag_runs(Index rule) {
+        Tally tally = tally_;
+        for (const Event& event : events_)
+            if (const auto [streak, flag_run, lead] = tally.count(event); flag_run)
+                add(rule, flag_run->since, event.time, flag_run->player, nobody);
+        for (const Tally::Run& run : tally.flag_runs())
+            add(rule, run.since, end_s(), run.player, nobody);
+    }
+
     void find_lead(Index rule) {
         Tally tally = tally_;
         for (const Event& event : events_)
-            if (const auto [streak, lead] = tally.count(event); lead)
+            if (const auto [streak, flag_run, lead] = tally.count(event); lead)
                 add(rule, lead->since, event.time, lead->player, nobody);
         if (const auto lead = tally.lead()) add(rule, lead->since, end_s(), lead->player, nobody);
     }
@@ -193,6 +204,12 @@ std::vector<Moment> find_moments(const Footage& footage, std::span<const Event> 
 
 Tally::Ended Tally::count(const Event& event) {
     Ended ended;
+    if (event.kind == EventKind::flag_taken && event.actor != nobody) {
+        auto& since = player(event.actor).carries_since;
+        since = since.value_or(event.time);
+    }
+    if (event.kind == EventKind::flag_captured && event.actor != nobody)
+        ended.flag_run = end_flag_run(event.actor);
     if (event.kind != EventKind::kill) return ended;
     if (between_players(event)) {
         Player& killer = player(event.actor);
@@ -205,7 +222,13 @@ Tally::Ended Tally::count(const Event& event) {
     Player& victim = player(event.subject);
     if (std::exchange(victim.kills_of_this_life, 0) >= streak_kills)
         ended.streak = Run{event.subject, victim.streak_since};
+    ended.flag_run = end_flag_run(event.subject);
     return ended;
+}
+
+std::optional<Tally::Run> Tally::end_flag_run(Index carrier) {
+    const auto since = std::exchange(player(carrier).carries_since, {});
+    return since ? std::optional(Run{carrier, *since}) : std::nullopt;
 }
 
 std::vector<Tally::Run> Tally::streaks() const {
@@ -213,6 +236,13 @@ std::vector<Tally::Run> Tally::streaks() const {
     for (Index i = 0; i < players_.size(); ++i)
         if (players_[i].kills_of_this_life >= streak_kills) streaks.push_back({i, players_[i].streak_since});
     return streaks;
+}
+
+std::vector<Tally::Run> Tally::flag_runs() const {
+    std::vector<Run> runs;
+    for (Index i = 0; i < players_.size(); ++i)
+        if (const auto& since = players_[i].carries_since) runs.push_back({i, *since});
+    return runs;
 }
 
 Tally::Player& Tally::player(Index index) {

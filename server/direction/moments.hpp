@@ -18,23 +18,26 @@ struct Moment {
     Index subject = nobody;
 };
 
-// Who is on a streak, and who leads, by the kills so far.
+// Who is on a streak, carries a flag, and leads, by what has happened so far.
 class Tally {
   public:
-    // Of a streak from the kill that makes it one, of a lead from the one that takes it.
+    // Of a streak from the kill that makes it one, of a lead from the one that takes it, of a flag from when
+    // it is taken.
     struct Run {
         Index player = nobody;
         double since = 0.0;
     };
     struct Ended {
         std::optional<Run> streak;
+        std::optional<Run> flag_run;
         std::optional<Run> lead;
     };
 
-    // Events ascend by time; only kills count. Returns what ends with it.
+    // Events ascend by time; kills and flags count. Returns what ends with it.
     Ended count(const Event& event);
 
-    [[nodiscard]] std::vector<Run> streaks() const;  // by player
+    [[nodiscard]] std::vector<Run> streaks() const;    // by player
+    [[nodiscard]] std::vector<Run> flag_runs() const;  // likewise
     [[nodiscard]] const std::optional<Run>& lead() const { return lead_; }
 
   private:
@@ -42,8 +45,10 @@ class Tally {
         std::size_t kills = 0;
         std::size_t kills_of_this_life = 0;
         double streak_since = 0.0;
+        std::optional<double> carries_since = {};
     };
     Player& player(Index index);
+    std::optional<Run> end_flag_run(Index carrier);
 
     std::vector<Player> players_;
     std::optional<Run> lead_;

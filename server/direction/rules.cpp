@@ -44,6 +44,7 @@ Rules default_rules() {
          .after_s = 1.0,
          .worth = 10.0,
          .whole = true},
+        {.name = "flag run", .trigger = Trigger::flag_run, .worth = 0.8},
         {.name = "objective",
          .trigger = Trigger::objective,
          .before_s = 2.0,

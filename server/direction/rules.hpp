@@ -38,8 +38,9 @@ enum class Trigger : std::uint8_t {
     objective,
     award,
     item,
-    streak,  // somebody killed three since they last died: until they die
-    lead,    // somebody killed more than anybody else: until another does
+    streak,    // somebody killed three since they last died: until they die
+    flag_run,  // somebody took a flag: until they capture it or die
+    lead,      // somebody killed more than anybody else: until another does
 };
 
 // A sentence: `name`: while (or when) `trigger`, from `before_s` before to `after_s` after, for whoever is in

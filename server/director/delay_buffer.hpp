@@ -69,8 +69,8 @@ class DelayBuffer {
     [[nodiscard]] std::optional<Upcoming> upcoming() const;
 
     // Calls add(frame) for the pose frames after position `next`, also those not due yet and those of the
-    // last second, in order, until one returns false, and hear(event) for the events among them. `next`
-    // becomes the position of that frame. Returns false when the buffer holds nothing.
+    // last second, in order, until one returns false, and hear() for each MatchEvent and MatchInfo among
+    // them. `next` becomes the position of that frame. Returns false when the buffer holds nothing.
     template <class Add, class Hear>
     bool look_ahead(std::uint64_t& next, Add&& add, Hear&& hear) const {
         const std::lock_guard lock(mutex_);
@@ -79,15 +79,18 @@ class DelayBuffer {
             const Item& item = entries_[next - first_].item;
             if (const auto* frame = std::get_if<PoseFrame>(&item)) {
                 if (!add(*frame)) break;
-            } else if (const auto* event = std::get_if<MatchEvent>(std::get_if<Message>(&item))) {
+            } else if (const auto& message = std::get<Message>(item);
+                       const auto* event = std::get_if<MatchEvent>(&message)) {
                 hear(*event);
+            } else if (const auto* info = std::get_if<MatchInfo>(&message)) {
+                hear(*info);
             }
         }
         return !entries_.empty();
     }
     template <class Add>
     bool look_ahead(std::uint64_t& next, Add&& add) const {
-        return look_ahead(next, std::forward<Add>(add), [](const MatchEvent&) {});
+        return look_ahead(next, std::forward<Add>(add), [](const auto&) {});
     }
 
     struct State {

@@ -98,6 +98,10 @@ void Edit::clear() {
 }
 
 void Edit::set_players(std::span<const Player> players) {
+    if (!foresees_) take_teams(players);
+}
+
+void Edit::take_teams(std::span<const Player> players) {
     teams_.clear();
     for (const Player& player : players)
         teams_[player.id] = player.team;
@@ -140,8 +144,8 @@ void Edit::show(const PoseFrame& frame, const DelayBuffer& delay, const Setting&
             const bool past = static_cast<std::int32_t>(later.frame_number - frame.frame_number) < 0;
             return past || take(later, setting);
         },
-        [&](const MatchEvent& event) {
-            if (event.epoch == frame.epoch) add(event);
+        [&](const auto& heard) {
+            if (heard.epoch == frame.epoch) add(heard);
         });
     if (newest_ < shown_) take(frame, setting);
 
@@ -275,6 +279,10 @@ void Edit::add(const MatchEvent& event) {
     if (!kind || time < 0.0 || time > newest_ + longest_gap_s) return;
     material_.add(
         {time, *kind, place_of(event.actor), place_of(event.subject), static_cast<double>(event.value)});
+}
+
+void Edit::add(const MatchInfo& info) {
+    take_teams(info.players);
 }
 
 bool Edit::choose(AutomaticShot& shot, std::span<const std::uint32_t> group, const Roster& roster,

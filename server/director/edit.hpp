@@ -48,6 +48,7 @@ class Edit {
     // Begins anew: another epoch or map, or no automatic shot any more.
     void clear();
 
+    // As they are shown; ignored where they were foreseen.
     void set_players(std::span<const Player> players);
     // The rules have changed: what was found by the old ones is of no use.
     void forget_moments() { moments_.clear(); }
@@ -98,6 +99,8 @@ class Edit {
     void append_finished();
     void finish(const Setting& setting);
     void add(const MatchEvent& event);
+    void add(const MatchInfo& info);
+    void take_teams(std::span<const Player> players);
     // What is on the air may go on: it is still there, and nothing comes near it.
     [[nodiscard]] bool may_stay(std::size_t rush, std::span<const std::uint32_t> group, const Roster& roster,
                                 const Setting& setting) const;

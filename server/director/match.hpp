@@ -173,7 +173,7 @@ class Match final : public Strand {
     Roster roster_;
     Continuity continuity_;
     Edit edit_;
-    LogLimit cuts_logged_;
+    LogBudget cuts_logged_{50};
     std::optional<MatchEvent> last_event_;  // of this epoch
     Requests requests_;
     bool reconcile_needed_ = false;

@@ -53,9 +53,10 @@ void Match::choose_automatic_target(Shot& shot, CameraFrame& cameras) {
     if (!automatic.is_on_air()) return;
     if (begins || edit_.repeats_reasons()) cameras.reasons.push_back({shot.camera_id, automatic.reason});
     if (!begins) return;
-    if (const auto times = cuts_logged_.due())
-        spdlog::debug("match {}: camera {} {}: {} ({} cuts since the last such line)", match_id_,
-                      shot.camera_id, text_of(automatic), text_of(automatic.reason), *times);
+    if (const auto left_out = cuts_logged_.take(std::chrono::steady_clock::now()))
+        spdlog::debug("match {}: camera {} {}: {}{}", match_id_, shot.camera_id, text_of(automatic),
+                      text_of(automatic.reason),
+                      *left_out == 0 ? "" : fmt::format(" ({} cuts before it left out)", *left_out));
 }
 
 }  // namespace camdir::director

@@ -157,6 +157,13 @@ TEST_F(DirectCommand, AJumpOfTheCameraIsOneCutHoweverRareTheFramesAre) {
     EXPECT_NEAR(figures.at("cuts_per_minute"), 60.0 / 3.8, 1e-9);
 }
 
+TEST_F(DirectCommand, RefusesADelayThatIsNoNumber) {
+    for (const char* delay : {"nan", "-nan", "inf", "-1"}) {
+        EXPECT_EQ(direct({"--delay", delay}), 2) << delay;
+        EXPECT_THAT(errors_, HasSubstr("--delay: ")) << delay;
+    }
+}
+
 TEST_F(DirectCommand, NeedsABakedMapAndAFileForEachOutput) {
     vfs_.clear();
     EXPECT_EQ(direct({}), 2);

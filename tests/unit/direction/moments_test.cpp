@@ -122,6 +122,36 @@ TEST(Moments, AStreakIsThreeKillsInOneLife) {
     EXPECT_EQ(found[0].end, 91);
 }
 
+TEST(Moments, AFlagRunLastsUntilTheCaptureOrTheCarriersDeath) {
+    const auto flag = [](double time, EventKind kind, Index player) { return Event{time, kind, player}; };
+    const std::vector<Event> events = {
+        flag(1.0, EventKind::flag_taken, 0),    flag(1.5, EventKind::flag_taken, 0),  // touched once more
+        flag(2.0, EventKind::flag_taken, 1),    kill(3.0, 0, 1),
+        flag(4.0, EventKind::flag_captured, 0), kill(4.5, 1, 0),
+        flag(5.0, EventKind::flag_taken, 1)};
+    const Rules rules = only({.name = "tested", .trigger = Trigger::flag_run});
+    const auto found = find_moments(Script(2, 60).footage(), events, rules, test::unit, 0);
+    ASSERT_EQ(found.size(), 3U);
+    EXPECT_EQ(found[0].actor, 0);
+    EXPECT_EQ(found[0].begin, 10);
+    EXPECT_EQ(found[0].end, 41);
+    EXPECT_EQ(found[1].actor, 1);
+    EXPECT_EQ(found[1].begin, 20);
+    EXPECT_EQ(found[1].end, 31);
+    EXPECT_EQ(found[2].actor, 1);
+    EXPECT_EQ(found[2].begin, 50);
+    EXPECT_EQ(found[2].end, 60) << "it goes on";
+
+    Tally tally;  // of what was forgotten
+    for (const Event& event : std::span(events).first(2))
+        tally.count(event);
+    const auto later =
+        find_moments(Script(2, 60).footage(), std::span(events).subspan(3), rules, test::unit, 0, tally);
+    ASSERT_EQ(later.size(), 2U);
+    EXPECT_EQ(later[0].actor, 0);
+    EXPECT_EQ(later[0].begin, 10);
+}
+
 TEST(Moments, TheLeadIsWhoseKillsAreMore) {
     const std::vector<Event> events = {kill(1.0, 0, 1), kill(2.0, 1, 0), kill(3.0, 1, 0)};
     const auto found = find_moments(Script(2, 50).footage(), events,

@@ -211,6 +211,35 @@ TEST_P(EditTest, WhatLiesBeyondTheDelayChangesNothing) {
 
 INSTANTIATE_TEST_SUITE_P(Delays, EditTest, testing::Values(0.0, 1.0, 5.0));
 
+TEST_F(EditTest, WhatIsForeseenHasTheTeamsOfItsTime) {
+    const auto team_of = [](std::uint8_t team) {
+        MatchInfo info = Stage::info();
+        info.players = {{1, "anna", "", team}, {2, "ben", "", 2}};
+        return info;
+    };
+    DelayBuffer buffer(std::size_t{1} << 20U);
+    buffer.announce(1, 5.0, 0);
+    for (std::uint32_t number = 0; number <= 100; ++number) {
+        const PoseFrame frame = Stage::poses(number, 1, {1, 2});
+        if (number == 60) {
+            Message swapped = team_of(2);
+            ASSERT_EQ(buffer.put(swapped, frame.frame_time), DelayBuffer::Admission::delayed);
+        }
+        ASSERT_EQ(buffer.put(frame, frame.frame_time), DelayBuffer::Admission::delayed);
+    }
+    Edit edit;
+    edit.set_players(team_of(1).players);
+    for (std::uint32_t number = 0; number < 40; ++number) {
+        if (number == 20) edit.set_players(team_of(1).players);  // shown late
+        edit.show(Stage::poses(number, 1, {1, 2}), buffer, setting(5.0));
+        edit.look(setting(5.0));
+    }
+    const direction::Footage& footage = edit.material().footage();
+    ASSERT_GT(footage.beats(), 40);
+    for (direction::Beat beat = 0; beat < footage.beats(); ++beat)
+        EXPECT_EQ(footage.player(beat, 0).team, beat < 30 ? 1 : 2) << beat;
+}
+
 // A game's clock that jumps makes no cut.
 TEST_F(EditTest, AJumpOfTheClockKeepsTheShot) {
     Edit edit;
