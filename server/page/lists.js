@@ -61,8 +61,7 @@ export class Rows {
     }
 }
 
-export function shotEntry(camera, look, profile, pressed, choose) {
-    const mode = modeOf(camera);
-    return {key: `camera ${camera.id}`, number: look.number, colour: look.colour, name: look.name, detail: profile, mode,
-        modeText: modeText[mode], pressed, choose};
+export function shotEntry(camera, look, isOfGroup, profile, pressed, choose) {
+    return {key: `camera ${camera.id}`, number: look.number, colour: look.colour, name: look.name, detail: profile,
+        mode: modeOf(camera), modeText: modeText(camera, isOfGroup), pressed, choose};
 }

@@ -36,7 +36,13 @@ export function modeOf({target, flags}) {
     return target === null ? 'fixed' : 'hidden';
 }
 
-export const modeText = {visible: 'In view', hidden: 'Out of sight', searching: 'Searching', fixed: 'Stands still', held: 'Held', absent: 'Absent'};
+const modeTexts = {visible: 'In view', hidden: 'Out of sight', searching: 'Searching', fixed: 'Stands still', held: 'Held', absent: 'Absent'};
+const groupTexts = {...modeTexts, visible: 'All in view', searching: 'Not all in view'};
+
+// In words; `isOfGroup`: the shot is of several players.
+export function modeText(shot, isOfGroup) {
+    return (isOfGroup ? groupTexts : modeTexts)[modeOf(shot)];
+}
 
 export class TimelineView {
     constructor(element) {

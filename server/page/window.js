@@ -33,7 +33,14 @@ const shotRows = new Rows(find('shots'), 'No camera is on: no spectator has aske
 const matchRows = new Rows(find('matches'), 'No match is running.');
 
 const look = slot => model.look(slot);
-const lookOfShot = shot => modeOf(shot) === 'fixed' ? {...look(null), name: 'fixed camera'} : look(shot.target);
+// Of the players of a group shot a frame has the first alone: all of them, of no other shot any.
+const groupOf = id => watched?.stream?.shots.find(({camera_id: camera}) => camera === id)?.group ?? [];
+function lookOfShot(shot) {
+    if (modeOf(shot) === 'fixed') return {...look(null), name: 'fixed camera'};
+    const group = groupOf(shot.id);
+    return group.length > 0 ? {...look(shot.target), name: group.map(nameOf).join(', ')} : look(shot.target);
+}
+const textOfShot = shot => modeText(shot, groupOf(shot.id).length > 0);
 const feed = new Feed(find('feed'), look);
 const timelineView = new TimelineView(find('timeline'));
 
@@ -347,7 +354,7 @@ function showCaption() {
     const cut = model.timeline.cutBefore(camera, model.clock.t);
     const fresh = cut && model.clock.t - cut.t < 2500 ? ` · cut: ${reasonText(cut, slot => look(slot).name)}` : '';
     state.dataset.mode = mode;
-    setText('caption-state', modeText[mode] + fresh);
+    setText('caption-state', textOfShot(shot) + fresh);
 }
 
 function showLists() {
@@ -355,7 +362,7 @@ function showLists() {
     const profiles = new Map(shots.map(shot =>
         [shot.camera_id, shot.automatic ? `${shot.profile}, the director chooses` : shot.profile]));
     shotRows.show(shownCameras().map(shot =>
-        shotEntry(shot, lookOfShot(shot), profiles.get(shot.id) ?? '', shot.id === camera, () => chooseCamera(shot.id))));
+        shotEntry(shot, lookOfShot(shot), groupOf(shot.id).length > 0, profiles.get(shot.id) ?? '', shot.id === camera, () => chooseCamera(shot.id))));
     matchRows.show(matches.map(({id, map, stream, goesOn}) => ({
         key: `match ${id}`, number: stream ? String(stream.players.length) : '▸', colour: '#c4ccd6', name: id,
         detail: `${map}, ${stream?.state ?? (goesOn ? 'broadcast' : 'recorded')}`, pressed: id === watched?.id,
@@ -538,10 +545,10 @@ attachScrubbing(find('timeline'), find('tip'), {
 // What the shot did at a time, and the nearest cut.
 function describeTime(t) {
     const [first, last] = source.range;
-    const span = model.timeline.spans(camera, t, t + 1)[0];
+    const span = model.timeline.spans(camera, t, t + 1).map(state => ({...state, id: camera}))[0];
     const near = model.cutNear(camera, t, 0.005 * Math.max(last - first, 300e3));
     const parts = [isRecorded() ? clockText(t - first) : `−${seconds(last - t)}`];
-    if (span) parts.push(`${lookOfShot(span).name}: ${modeText[modeOf(span)].toLowerCase()}`);
+    if (span) parts.push(`${lookOfShot(span).name}: ${textOfShot(span).toLowerCase()}`);
     const latency = model.timeline.latencyAt(t);
     if (latency !== null) parts.push(`${Math.round(Math.max(latency - delayMs(), 0))} ms late`);
     if (near) parts.push(`cut: ${reasonText(near, slot => look(slot).name)}`);

@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import {test} from 'node:test';
 import {cameraFlag} from '../../../server/page/protocol.js';
-import {modeOf, reasonText} from '../../../server/page/timeline_view.js';
+import {modeOf, modeText, reasonText} from '../../../server/page/timeline_view.js';
 
 const names = ['Ann', 'Bob'];
 const nameOf = slot => names[slot];
@@ -23,4 +23,12 @@ test('a shot of nobody is a fixed camera, unless its player is absent', () => {
     assert.equal(modeOf({target: null, flags: cameraFlag.absent}), 'absent');
     assert.equal(modeOf({target: 3, flags: 0}), 'hidden');
     assert.equal(modeOf({target: 3, flags: cameraFlag.visible}), 'visible');
+});
+
+test('what a shot of a group does is of all of them', () => {
+    const shot = flags => ({target: 0, flags});
+    assert.equal(modeText(shot(cameraFlag.visible), false), 'In view');
+    assert.equal(modeText(shot(cameraFlag.visible), true), 'All in view');
+    assert.equal(modeText(shot(cameraFlag.searching), true), 'Not all in view');
+    assert.equal(modeText(shot(cameraFlag.absent), true), 'Absent');
 });
