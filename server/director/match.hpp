@@ -92,6 +92,7 @@ class Match final : public Strand {
     struct Disagreement {
         const ShotCamera &own, &shown;  // at the same pose
     };
+    void hear_reason(std::uint32_t camera_id);
     // False: the leader shows what this director does not have, and the shot goes on.
     bool follow(const Disagreement& disagreement);
     [[nodiscard]] std::span<const CameraFrame> own_frames() const;

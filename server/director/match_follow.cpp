@@ -50,11 +50,21 @@ void Match::follow() {
     bool agrees = true;
     for (const ShotCamera& own : frame->cameras) {
         const ShotCamera* shown = camera_of(followed_, own.camera_id);
+        if (shown != nullptr && shown->target == own.target) hear_reason(own.camera_id);
         if (shown == nullptr || agree(own, *shown, freespace_->metadata().metres_per_unit, tolerance))
             continue;
         if (follow({own, *shown})) agrees = false;
     }
     if (!agrees) own_frame_count_ = 0;  // they are not what the shots go on from
+}
+
+// Told with a cut and then once a second: whoever came in between has none yet.
+void Match::hear_reason(std::uint32_t camera_id) {
+    const Reason* told = reason_of(followed_, camera_id);
+    std::vector<Shot>& shots = requests_.shots();
+    const auto shot = std::ranges::find(shots, camera_id, &Shot::camera_id);
+    if (told != nullptr && shot != shots.end() && shot->automatic.reason.why.empty())
+        shot->automatic.reason = *told;
 }
 
 // Where this director is ahead, the leader's camera is taken to have moved since as its own did.

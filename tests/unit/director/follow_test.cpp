@@ -139,6 +139,29 @@ TEST_F(FollowAutomatic, TheTargetIsTheLeaders) {
     EXPECT_EQ(camera(standby_).flags & camera::cut, 0U);
 }
 
+// A standby that came after the cut hears of it with the leader's next repetition.
+TEST_F(FollowAutomatic, TheReasonIsTheLeaders) {
+    const auto reason = [](const Stage& stage) {
+        Reason last;
+        for (const CameraFrame& frame : stage.publisher.frames())
+            for (const ShotReason& told : frame.reasons)
+                last = told.reason;
+        return last;
+    };
+    for (std::uint32_t number = joins; number < joins + 45; ++number) {
+        leader_.send(Stage::poses(number));
+        CameraFrame news = leader_.publisher.frames().back();
+        if (number < joins + 4) news.reasons.clear();
+        standby_.send(Stage::poses(number));
+        standby_.director.follow("m", news);
+        standby_.director.flush();
+    }
+    ASSERT_EQ(camera(leader_).target, 3U) << "no cut since";
+    ASSERT_EQ(camera(standby_).target, 3U);
+    EXPECT_NE(reason(leader_).why, "");
+    EXPECT_EQ(reason(standby_).why, reason(leader_).why);
+}
+
 TEST_F(FollowAutomatic, NewsThatComesAFrameLateCountsToo) {
     ASSERT_EQ(camera(leader_).target, 3U);
     for (std::uint32_t number = joins; number < joins + 8; ++number) {
