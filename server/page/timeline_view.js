@@ -90,11 +90,11 @@ export class TimelineView {
         for (const cut of timeline.cuts)
             if (cut.camera === camera && cut.t >= from) c.fillRect(Math.round(x(cut.t)) - 1, middle - 11, cutWidth, 22);
         for (const event of timeline.events) this.drawEvent(c, event, x, middle - 13, colourOfSlot);
-        if (latencies.length > 0) this.drawLatencies(c, latencies, delayMs, x, height - timesPx);
         this.drawTimes(c, from, to, whole ? from : null, x, height, width);
         const unseen = x(Math.max(first, from));
         c.fillStyle = '#0d1014aa';
         c.fillRect(0, 0, unseen, height - timesPx);
+        if (latencies.length > 0) this.drawLatencies(c, latencies, delayMs, x, height - timesPx);
         c.fillStyle = '#ffffff';
         c.fillRect(Math.min(Math.round(x(t)), width - 2) - 1, 2, 3, height - 14);
     }
