@@ -4,6 +4,7 @@ import {choose, isFull} from './choice.js';
 import {Feed} from './feed.js';
 import {Rows, shotEntry} from './lists.js';
 import {LiveSource} from './live_source.js';
+import {MapLoader} from './map_loader.js';
 import {findMatches} from './matches.js';
 import {Model} from './model.js';
 import {nameOf} from './palette.js';
@@ -17,7 +18,6 @@ import {Viewpoint, attach} from './viewpoint.js';
 import {clockText, seconds, stateText} from './words.js';
 
 const listPeriodMs = 3000;
-const longestMapRetryMs = 60e3;
 const fullForMs = 60e3;   // a stream that had no room is not tried again before
 const maxPictures = 3;
 const stepMs = 5000;
@@ -45,6 +45,7 @@ const feed = new Feed(find('feed'), look);
 const timelineView = new TimelineView(find('timeline'));
 
 let stage = null;
+let mapLoader = null;
 let quality = null;
 let source = null;        // LiveSource or Playback: what feeds the model
 let watched = null;       // the entry of `matches` that it shows
@@ -56,9 +57,6 @@ let wished = null;        // the one that the viewer has chosen, which may not b
 let view = 'camera';
 let pictures = !calm.matches;
 let sample = null;
-let mapShown = null;      // its name
-let mapRetry = {of: null, at: 0, waitMs: listPeriodMs};
-let obstaclesNote = '';
 let noticeTimer = 0;
 let framesDrawn = 0;
 let framesCounted = 0;  // in drawRate
@@ -107,7 +105,7 @@ function showMatch(note) {
     find('match-name').textContent = note.match_id;
     find('map-name').textContent = note.map;
     document.title = `${note.match_id} · Camera director`;
-    showMap(note.map);
+    mapLoader.load(note.map);
     dirty = true;
 }
 
@@ -124,35 +122,15 @@ function showMessage(text, asksForToken = false) {
     find('token-form').hidden = !asksForToken;
 }
 
-// Obstacles where the server has them, and the medial mesh.
-async function showMap(name) {
-    if (mapShown === name || mapRetry.of === name && now() < mapRetry.at) return;
-    mapShown = name;
-    const waitMs = mapRetry.of === name ? mapRetry.waitMs : listPeriodMs;
-    mapRetry = {of: name, at: now() + waitMs, waitMs: Math.min(2 * waitMs, longestMapRetryMs)};
-    stage.map.clear();
-    let obstacles;
-    let mesh;
-    try {
-        obstacles = await server.model(name, 'obstacles.glb');
-        if (mapShown !== name) return;
-        if (obstacles.file) stage.map.setObstacles(obstacles.file, stage.metre);
-        find('mesh').checked = !obstacles.file;
-        fitView();
-        mesh = await server.model(name, 'mesh.glb');
-    } catch {
-        if (mapShown === name) mapShown = null;  // asked for again
-        return;
-    }
-    if (mapShown !== name) return;
-    if (mesh.file) stage.map.setMesh(mesh.file);
-    if (!obstacles.file) fitView();
-    obstaclesNote = obstacles.file ? '' : mesh.file
-        ? `Only the free space of this map can be shown: ${obstacles.reason}.`
-        : `This map cannot be shown: ${mesh.reason}.`;
-    find('map-note').textContent = obstaclesNote;
-    find('map-note').hidden = obstaclesNote === '';
-    if (!mesh.file && !obstacles.file) mapShown = null;  // it may be loading still: asked for again
+function showObstacles(hasObstacles) {
+    find('mesh').checked = !hasObstacles;
+    fitView();
+}
+
+function showLoadedMap(hasObstacles) {
+    if (!hasObstacles) fitView();
+    find('map-note').textContent = mapLoader.note;
+    find('map-note').hidden = mapLoader.note === '';
     dirty = true;
 }
 
@@ -168,7 +146,7 @@ async function refreshList() {
         showMessage(matches.length > 0 || isInTouch() ? '' : server.broadcastOfAddress === null
             ? 'No match is running. This page shows one as soon as it begins.'
             : 'Nothing is broadcast. This page shows a match as soon as one is.');
-        if (model.note && mapShown === null) showMap(model.note.map);
+        if (model.note && mapLoader.shown === null) mapLoader.load(model.note.map);
     } catch (error) {
         source?.unreachable?.();
         if (error instanceof Refused && error.status === 401) {
@@ -597,12 +575,13 @@ window.cameraDirector = {
             name: nameOf(model.players.get(player.slot))})) : [],
         cameras: shownCameras().map(shot => ({...shot, target: model.players.get(shot.target)?.id ?? null})),
         cuts: model.timeline.cuts.length, events: model.timeline.events.length,
-        obstacles: Boolean(stage?.map.hasObstacles), mesh: Boolean(stage?.map.mesh), note: obstaclesNote, quality: quality?.level ?? null,
+        obstacles: Boolean(stage?.map.hasObstacles), mesh: Boolean(stage?.map.mesh), note: mapLoader?.note ?? '', quality: quality?.level ?? null,
     }),
 };
 
 try {
     stage = new Stage(find('canvas'));
+    mapLoader = new MapLoader(stage, server.model, now, {obstacles: showObstacles, loaded: showLoadedMap});
     quality = new Quality(stage.hasCard ? 0 : levelOfProcessor(screenPixels()), stage.hasCard);
     attach(find('canvas'), viewpoint, {
         active: () => view !== 'camera' || !shownCamera(),
