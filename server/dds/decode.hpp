@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cstddef>
-#include <limits>
 #include <optional>
 #include <string_view>
 
@@ -52,8 +51,7 @@ inline constexpr std::array<const char*, 14> validation_error_names = {
 [[nodiscard]] std::optional<ValidationError> decode(const camera_director_MoverInfo& sample,
                                                     director::MoverInfo& message);
 // Then, for the next `most` of those without: up to 1 ms a hull.
-[[nodiscard]] std::optional<ValidationError> bound_hulls(
-    director::MoverInfo& message, std::size_t most = std::numeric_limits<std::size_t>::max());
+[[nodiscard]] std::optional<ValidationError> bound_hulls(director::MoverInfo& message, std::size_t most);
 // All hulls have theirs.
 [[nodiscard]] bool has_bounds(const director::MoverInfo& message);
 [[nodiscard]] std::optional<ValidationError> decode(const camera_director_MoverFrame& sample,

@@ -124,7 +124,7 @@ class Receiver {
         Message message{};
         if (dds::decode(*sample, message)) return;
         if constexpr (std::is_same_v<Message, director::MoverInfo>)
-            if (dds::bound_hulls(message)) return;
+            if (dds::bound_hulls(message, director::max_half_spaces)) return;
         pass(std::string((*sample).match_id), message);
         director_.flush();
     }

@@ -234,7 +234,7 @@ test::RawMoverInfo door_and_cart() {
 std::optional<ValidationError> decode_whole(const camera_director_MoverInfo& sample,
                                             director::MoverInfo& message) {
     const auto error = decode(sample, message);
-    return error ? error : bound_hulls(message);
+    return error ? error : bound_hulls(message, director::max_half_spaces);
 }
 
 TEST(DecodeMoverInfo, HullsGetTheirBoundsOneAfterTheOther) {
