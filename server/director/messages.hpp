@@ -119,6 +119,7 @@ enum class MatchEventKind : std::uint32_t {
 inline constexpr std::array<std::string_view, 10> match_event_names = {
     "kill",  "flag taken", "flag captured", "objective", "damage",
     "award", "item",       "round",         "spawn",     "weapon"};
+static_assert(match_event_names.size() == static_cast<std::size_t>(MatchEventKind::weapon));
 
 struct MatchEvent {
     std::uint64_t epoch = 0;

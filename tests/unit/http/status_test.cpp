@@ -59,6 +59,19 @@ TEST(Status, ShowsMapsMatchesShotsAndObservers) {
     EXPECT_EQ(page["matches"][1]["state"], "no answer");
 }
 
+TEST(Status, NamesTheKindsOfEventsAndCarriesOthersAlong) {
+    const auto shown = [](std::uint32_t kind) {
+        director::MatchView match;
+        match.answered = true;
+        match.last_event = director::MatchEvent{.kind = kind};
+        return json::parse(status_page({{match}}, {}))["matches"][0]["last_event"]["kind"];
+    };
+    EXPECT_EQ(shown(2), "flag taken");
+    EXPECT_EQ(shown(10), "weapon");
+    for (const std::uint32_t unknown : {0U, 11U, 0xffffffffU})
+        EXPECT_EQ(shown(unknown), unknown);
+}
+
 TEST(Status, AcceptsNamesThatAreNotUtf8) {
     director::MatchView match;
     match.match_id = "\xff\xfe";
