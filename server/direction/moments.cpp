@@ -65,11 +65,11 @@ class Finder {
             case Trigger::multi_kill:
                 return find_multi_kills(rule);
             case Trigger::streak:
-                return find_streaks(rule);
+                return find_runs(rule, &Tally::Ended::streak, &Tally::streaks);
             case Trigger::flag_run:
-                return find_flag_runs(rule);
+                return find_runs(rule, &Tally::Ended::flag_run, &Tally::flag_runs);
             case Trigger::lead:
-                return find_lead(rule);
+                return find_runs(rule, &Tally::Ended::lead, &Tally::leads);
             default:
                 return find_events(rule);
         }
@@ -96,33 +96,20 @@ class Finder {
                 add(rule, kills[kills[i].first].time, kills[i].time, kills[i].killer, kills[i].victim);
     }
 
-    void find_streaks(Index rule) {
+    // Those that have ended, and those that go on.
+    void find_runs(Index rule, std::optional<Tally::Run> Tally::Ended::*kind,
+                   std::vector<Tally::Run> (Tally::*going_on)() const) {
+        const auto add_run = [&](const Tally::Run& run, double end) {
+            add(rule, run.since, end, run.player, nobody);
+        };
         Tally tally = tally_;
         for (const Event& event : events_)
-            if (const auto [streak, flag_run, lead] = tally.count(event); streak)
-                add(rule, streak->since, event.time, streak->player, nobody);
-        for (const Tally::Run& streak : tally.streaks())
-            add(rule, streak.since, end_s(), streak.player, nobody);
+            if (const Tally::Ended ended = tally.count(event); ended.*kind)
+                add_run(*(ended.*kind), event.time);
+        const double end_s = static_cast<double>(footage_.beats()) * beat_s;
+        for (const Tally::Run& run : (tally.*going_on)())
+            add_run(run, end_s);
     }
-
-    void find_flag_runs(Index rule) {
-        Tally tally = tally_;
-        for (const Event& event : events_)
-            if (const auto [streak, flag_run, lead] = tally.count(event); flag_run)
-                add(rule, flag_run->since, event.time, flag_run->player, nobody);
-        for (const Tally::Run& run : tally.flag_runs())
-            add(rule, run.since, end_s(), run.player, nobody);
-    }
-
-    void find_lead(Index rule) {
-        Tally tally = tally_;
-        for (const Event& event : events_)
-            if (const auto [streak, flag_run, lead] = tally.count(event); lead)
-                add(rule, lead->since, event.time, lead->player, nobody);
-        if (const auto lead = tally.lead()) add(rule, lead->since, end_s(), lead->player, nobody);
-    }
-
-    [[nodiscard]] double end_s() const { return static_cast<double>(footage_.beats()) * beat_s; }
 
     // Wounds of two players, each within the sentence's time of the one before.
     void find_exchanges(Index rule) {
@@ -236,6 +223,10 @@ std::vector<Tally::Run> Tally::streaks() const {
     for (Index i = 0; i < players_.size(); ++i)
         if (players_[i].kills_of_this_life >= streak_kills) streaks.push_back({i, players_[i].streak_since});
     return streaks;
+}
+
+std::vector<Tally::Run> Tally::leads() const {
+    return lead_ ? std::vector{*lead_} : std::vector<Run>{};
 }
 
 std::vector<Tally::Run> Tally::flag_runs() const {

@@ -38,7 +38,7 @@ class Tally {
 
     [[nodiscard]] std::vector<Run> streaks() const;    // by player
     [[nodiscard]] std::vector<Run> flag_runs() const;  // likewise
-    [[nodiscard]] const std::optional<Run>& lead() const { return lead_; }
+    [[nodiscard]] std::vector<Run> leads() const;      // one at most
 
   private:
     struct Player {
