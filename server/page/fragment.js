@@ -1,4 +1,5 @@
 // A fragment of a recording as the model takes it: frames, cuts with their reasons, events, the match.
+import {latencyOf} from './latency.js';
 import {cameraFlag, playerFlag} from './protocol.js';
 import {decodeRecords, decodeResource} from './recording.js';
 
@@ -131,6 +132,7 @@ export async function readFragment(bytes, n, state, origin, roster) {
     const fragment = {n, from, to: from, frames: [], cuts: [], events: [], matches: []};
     const records = decodeRecords(content, name).map(record => ({...record, at: from + record.after, frame: record.cameras}));
     const offsets = clockOffsets(records);
+    const beginMs = Number(beginTime / 1000n) / 1e3;
     const tellMatch = (t, match) => fragment.matches.push({t, note: roster.note(match)});
     roster.add((state.poses?.players ?? []).map(({id}) => id));
     if (state.match) tellMatch(from, state.match);
@@ -145,7 +147,8 @@ export async function readFragment(bytes, n, state, origin, roster) {
             const t = Math.max(timeOf(cameras, at, offsets, maxJitterMs, maxJitterMs), last + least);
             last = t;
             for (const cut of cutsOf(state.cameras, cameras, state.poses, slotOf)) fragment.cuts.push({...cut, t});
-            fragment.frames.push({...frameOf(state.poses, cameras, slotOf), t});
+            const frame = frameOf(state.poses, cameras, slotOf);
+            fragment.frames.push({...frame, t, latency: latencyOf(frame.sourceTime, beginMs + record.after)});
         }
         state = apply(state, record);
     }

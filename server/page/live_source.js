@@ -1,5 +1,6 @@
 // Feeds the model from a match's stream (idl/live.md).
 import {Connection} from './connection.js';
+import {latencyOf} from './latency.js';
 import {decodeFrame, version} from './protocol.js';
 
 // What the model keeps of it.
@@ -11,18 +12,12 @@ export const kept = {
 
 const now = () => performance.now();
 
-// Null: the clocks of the game server and of this machine do not agree.
-function ageOf({sourceTime}) {
-    const age = Date.now() - sourceTime;
-    return age > -1000 && age < 600e3 ? Math.max(age, 0) : null;
-}
-
 export class LiveSource {
     // `on.match(note)`, `on.problem(text)`, `on.change()`.
     constructor(matchId, model, token, on) {
         Object.assign(this, {matchId, model, on});
         this.dropped = 0;
-        this.age = null;  // ms from the sampling of the last frame to its arrival, by the two machines' clocks
+        this.age = null;  // ms from the sampling of the last frame to its arrival, null where it is not known
         this.repeats = false;  // the next frame may be an old one
         this.ended = false;
         this.step = 1;
@@ -96,7 +91,7 @@ export class LiveSource {
         if (!frame || !this.model.buffer.add(frame.t, data.byteLength, () => decodeFrame(data, step))) return;
         this.model.clock.arrived(frame.t, now());
         this.model.timeline.addFrame(frame);
-        this.age = ageOf(frame);
+        this.age = latencyOf(frame.sourceTime, Date.now());
         if (this.age !== null && !this.repeats) this.model.timeline.addLatency(frame.t, this.age);
         this.repeats = false;
     }

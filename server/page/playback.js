@@ -208,7 +208,10 @@ export class Playback {
         if (this.surveyed.has(fragment.n)) return;
         this.surveyed.add(fragment.n);
         const part = this.model.newTimeline();
-        fragment.frames.forEach(frame => part.addFrame(frame));
+        for (const frame of fragment.frames) {
+            part.addFrame(frame);
+            if (frame.latency !== null) part.addLatency(frame.t, frame.latency);
+        }
         for (const note of [...fragment.cuts, ...fragment.events]) part.addNote(note);
         this.model.timeline.insert(part, fragment.to);
     }

@@ -1,8 +1,8 @@
 // What happened in a match, as far as it is known: how each shot went, cuts with their reasons, events.
+import {stepMs} from './latency.js';
 import {cameraFlag, shownEvents} from './protocol.js';
 
 const maxGapMs = 300;  // between parts that follow each other
-export const latencyStepMs = 250;
 
 // The index of the first entry that is later than t.
 function indexAfter(entries, t) {
@@ -19,10 +19,10 @@ const byTime = (a, b) => a.t - b.t;
 const isSame = (a, b) => a.flags === b.flags && a.target === b.target;
 
 export class Timeline {
-    // `keptMs`: before the newest frame; of a shot at most maxStates, and maxMarks cuts and as many events.
+    // `keptMs`: before the newest frame; of a shot at most maxStates, and maxMarks cuts, as many events and latencies.
     constructor({keptMs, maxStates, maxMarks}) {
         Object.assign(this, {keptMs, maxStates, maxMarks});
-        this.latencies = [];  // [{t, ms}], of each latencyStepMs the greatest
+        this.latencies = [];  // [{t, ms}], of each stepMs the greatest
         this.clear();
     }
 
@@ -53,17 +53,17 @@ export class Timeline {
         this.forget(frame.t - this.keptMs);
     }
 
-    // How long before its arrival a frame was sampled. Times ascend.
+    // Of a frame at t (latency.js). Times ascend.
     addLatency(t, ms) {
         const last = this.latencies[this.latencies.length - 1];
-        if (last && t < last.t + latencyStepMs) last.ms = Math.max(last.ms, ms);
+        if (last && t < last.t + stepMs) last.ms = Math.max(last.ms, ms);
         else this.latencies.push({t, ms});
     }
 
-    // Null where no frame has arrived.
+    // Null where none is known.
     latencyAt(t) {
         const known = this.latencies[indexAfter(this.latencies, t) - 1];
-        return known && t < known.t + latencyStepMs ? known.ms : null;
+        return known && t < known.t + stepMs ? known.ms : null;
     }
 
     // A cut, or an event, which is kept where the page shows such.
@@ -89,6 +89,7 @@ export class Timeline {
         }
         this.insertMarks(this.cuts, part.cuts);
         this.insertMarks(this.events, part.events);
+        this.insertMarks(this.latencies, part.latencies);
     }
 
     insertStates(states, more) {

@@ -1,6 +1,6 @@
 // Draws the timeline: the shown camera's shot above, the others below it, cuts and events as marks.
+import {columnsOf, lateMs} from './latency.js';
 import {cameraFlag} from './protocol.js';
-import {latencyStepMs} from './timeline.js';
 import {clockText} from './words.js';
 
 const colours = {visible: '#7cc4ff', hidden: '#ffc857', searching: '#ffc857', fixed: '#c4ccd6', held: '#55606e', absent: '#3a434f'};
@@ -78,8 +78,9 @@ export class TimelineView {
         c.clearRect(0, 0, width, height);
         const [from, to] = this.range(first, last, whole);
         const x = time => (time - from) / (to - from) * width;
-        const latencies = timeline.latencies.filter(latency => latency.t >= from);
-        const bottom = height - timesPx - (latencies.length > 0 ? latencyPx + 1 : 0);  // of the shots
+        const latencies = columnsOf(timeline.latencies, from, to, width);
+        const greatest = latencies.reduce((most, each) => Math.max(most, each), -1);
+        const bottom = height - timesPx - (greatest >= 0 ? latencyPx + 1 : 0);  // of the shots
         const middle = (bottom + timesPx) * 0.42;
         c.fillStyle = '#ffffff10';
         c.fillRect(0, middle - 6, width, 12);
@@ -94,7 +95,7 @@ export class TimelineView {
         const unseen = x(Math.max(first, from));
         c.fillStyle = '#0d1014aa';
         c.fillRect(0, 0, unseen, height - timesPx);
-        if (latencies.length > 0) this.drawLatencies(c, latencies, delayMs, x, height - timesPx);
+        if (greatest >= 0) this.drawLatencies(c, latencies, greatest, delayMs, height - timesPx);
         c.fillStyle = '#ffffff';
         c.fillRect(Math.min(Math.round(x(t)), width - 2) - 1, 2, 3, height - 14);
     }
@@ -145,21 +146,21 @@ export class TimelineView {
         c.fill();
     }
 
-    // A bar for each, beside the greatest in words.
-    drawLatencies(c, latencies, delayMs, x, bottom) {
-        const late = ({ms}) => Math.max(ms - delayMs, 0);
-        const most = Math.max(...latencies.map(late));
-        const scale = latencyPx / Math.max(most, leastFullLatencyMs);
-        const width = Math.max(x(latencyStepMs) - x(0), 1);
+    // `latencies`: of each column, with the greatest in words.
+    drawLatencies(c, latencies, greatest, delayMs, bottom) {
+        const scale = latencyPx / Math.max(lateMs(greatest, delayMs), leastFullLatencyMs);
         c.fillStyle = '#9aa6b5';
-        for (const latency of latencies) {
-            const tall = Math.max(late(latency) * scale, 0.5);
-            c.fillRect(x(latency.t), bottom - tall, width, tall);
-        }
-        c.fillStyle = '#ffffff';
+        latencies.forEach((latency, column) => {
+            const tall = Math.max(lateMs(latency, delayMs) * scale, 0.5);
+            if (latency >= 0) c.fillRect(column, bottom - tall, 1, tall);
+        });
         c.font = '9.5px system-ui, sans-serif';
         c.textAlign = 'left';
-        c.fillText(`latency up to ${Math.round(most)} ms`, 4, bottom - 2);
+        const text = `latency up to ${Math.round(lateMs(greatest, delayMs))} ms`;
+        c.fillStyle = '#0d1014cc';
+        c.fillRect(2, bottom - latencyPx, c.measureText(text).width + 4, latencyPx);
+        c.fillStyle = '#ffffff';
+        c.fillText(text, 4, bottom - 2);
     }
 
     // Since `origin`, or before the end where that is null.

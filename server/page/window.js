@@ -3,6 +3,7 @@ import {Broadcast, Refused} from './broadcast.js';
 import {choose, isFull} from './choice.js';
 import {Feed} from './feed.js';
 import {Rows, shotEntry} from './lists.js';
+import {latencyText} from './latency.js';
 import {LiveSource} from './live_source.js';
 import {MapLoader} from './map_loader.js';
 import {findMatches} from './matches.js';
@@ -270,15 +271,15 @@ function shownCamera() {
     return sample?.cameras.get(camera) ?? null;
 }
 
-// Of a stream, by its match.
-const delayMs = () => (watched?.stream?.delay_s ?? 0) * 1000;
+// Of the match that is watched.
+const delayMs = () => isRecorded() ? source.sync?.delayMs ?? 0 : (watched?.stream?.delay_s ?? 0) * 1000;
 
 // What the words of the state need to know.
 function facts() {
     const {clock, buffer, note} = model;
     const entry = matches.find(other => other.id === watched?.id);
     const behindMs = isRecorded() ? source.isLive && source.range ? source.newest() - clock.t : null : buffer.last - clock.t;
-    const lateMs = isRecorded() ? behindMs === null ? null : behindMs + source.sync.delayMs
+    const lateMs = isRecorded() ? behindMs === null ? null : behindMs + delayMs()
         : behindMs + (source?.age ?? delayMs());
     return {retryInMs: (source?.retryAt ?? 0) - now(), known: note !== null, isFull: isFull(entry, source?.refusals ?? 0),
         entry: entry?.stream?.state, behindMs, lateMs};
@@ -430,7 +431,8 @@ function tellTime() {
     element.setAttribute('aria-valuemin', Math.round(first));
     element.setAttribute('aria-valuemax', Math.round(last));
     element.setAttribute('aria-valuenow', Math.round(clock.t));
-    element.setAttribute('aria-valuetext', isRecorded() ? shownTime() : `${seconds(last - clock.t)} before the newest frame`);
+    const time = isRecorded() ? shownTime() : `${seconds(last - clock.t)} before the newest frame`;
+    element.setAttribute('aria-valuetext', [time, ...latencyWords(clock.t)].join(', '));
 }
 
 function drawTimeline() {
@@ -520,6 +522,12 @@ attachScrubbing(find('timeline'), find('tip'), {
     goLive,
 });
 
+// Of the frame that was shown then, where it is known.
+function latencyWords(t) {
+    const latency = model.timeline.latencyAt(t);
+    return latency === null ? [] : [latencyText(latency, delayMs())];
+}
+
 // What the shot did at a time, and the nearest cut.
 function describeTime(t) {
     const [first, last] = source.range;
@@ -527,8 +535,7 @@ function describeTime(t) {
     const near = model.cutNear(camera, t, 0.005 * Math.max(last - first, 300e3));
     const parts = [isRecorded() ? clockText(t - first) : `−${seconds(last - t)}`];
     if (span) parts.push(`${lookOfShot(span).name}: ${textOfShot(span).toLowerCase()}`);
-    const latency = model.timeline.latencyAt(t);
-    if (latency !== null) parts.push(`${Math.round(Math.max(latency - delayMs(), 0))} ms late`);
+    parts.push(...latencyWords(t));
     if (near) parts.push(`cut: ${reasonText(near, slot => look(slot).name)}`);
     return parts.join(' · ');
 }

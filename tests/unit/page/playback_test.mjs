@@ -88,6 +88,19 @@ test('a recording is played from its begin to its end, and all of its timeline i
         assert.ok(stage.asked.length - new Set(stage.asked).size <= 1, `what is known is not fetched again: ${stage.asked}`);
     }));
 
+test('the timeline has the latency with which frames were recorded, where they have a source time', async () => {
+    await watch(writer.recording(4, undefined, 40), async stage => {
+        const {timeline} = stage.model;
+        await stage.until('the timeline', () => timeline.cuts.length === 4);
+        assert.deepEqual(timeline.latencies, [0, 1, 2, 3].map(n => ({t: n * 1000, ms: 40})));
+    });
+    await watch(writer.recording(2), async stage => {
+        const {timeline} = stage.model;
+        await stage.until('the timeline', () => timeline.cuts.length === 2);
+        assert.deepEqual(timeline.latencies, []);
+    });
+});
+
 test('a seek fetches little, wherever it goes', () =>
     watch(writer.recording(400, n => n * 1015), async stage => {
         await stage.until('begins', () => stage.shown === 0);

@@ -33,7 +33,7 @@ export const match = ({id = 'm', epoch = 1, map = 'hall', players = [[0, 'Ann'],
         ...list(players.map(([player, name]) => [...varint(player), ...text(name), ...text(''), 1]))];
 
 // One player at (x, 0, 0).
-export const poses = (number, frameTime, x, player = 0) => [...varint(1), ...varint(number), ...signed(frameTime), ...signed(0),
+export const poses = (number, frameTime, x, player = 0, sourceTime = 0) => [...varint(1), ...varint(number), ...signed(frameTime), ...signed(sourceTime),
     ...list([[...varint(player), ...varint(1), 0, ...bits([x, 0, 0, 0, 0, 0, 1, 0, 0, 0])]])];
 
 export const cameras = (number, frameTime, x, {flags = 2, target = 0} = {}) => [...varint(1), ...varint(number), ...varint(number),
@@ -60,10 +60,11 @@ export const begin = 1700000000000000000n;
 export const durationMs = 1000;
 
 // The resources by name of a match of `count` fragments of a second, each with one frame, in which player 0 is at its
-// number, and a kill. `at(n)`: when a fragment begins, in ms.
-export function recording(count, at = n => n * durationMs) {
+// number, and a kill. `at(n)`: when a fragment begins, in ms. `latencyMs`: of its frame; without it there is no source time.
+export function recording(count, at = n => n * durationMs, latencyMs = null) {
     const files = {start: resource(1, 0, 0, [...text('0'), ...signed(durationMs * 1e6), ...match()])};
-    const frame = (n, more) => [...record(2, 0, poses(n, at(n) * 1e6, n)), ...record(6, 0, cameras(n, at(n) * 1e6, n, more))];
+    const sourceTime = n => latencyMs === null ? 0 : begin + BigInt(at(n) - latencyMs) * 1000000n;
+    const frame = (n, more) => [...record(2, 0, poses(n, at(n) * 1e6, n, 0, sourceTime(n))), ...record(6, 0, cameras(n, at(n) * 1e6, n, more))];
     for (let n = 0; n < count; ++n) {
         const time = begin + BigInt(at(n)) * 1000000n;
         const full = n === 0 ? [] : [...record(1, 0, match()), ...frame(n - 1)];

@@ -87,6 +87,7 @@ function parts() {
         part.addNote({kind: 'cut', t: n * 3000, camera: 5, target: 1, reason: 'begin'});
         part.addNote({kind: 'event', t: n * 3000 + 5, event: 'kill'});
         part.addNote({kind: 'event', t: n * 3000 + 1, event: 'award'});
+        part.addLatency(n * 3000, n);
         return {part, end: n * 3000 + 2900};
     });
 }
@@ -106,6 +107,7 @@ test('parts make the same timeline in any order', () => {
         assert.deepEqual(timeline.spans(5, 0, 12000), inOrder.spans(5, 0, 12000), `${order}`);
         assert.deepEqual(timeline.cuts, inOrder.cuts);
         assert.deepEqual(timeline.events, inOrder.events);
+        assert.deepEqual(timeline.latencies, [0, 1, 2, 3].map(n => ({t: n * 3000, ms: n})));
     }
 });
 
