@@ -1,9 +1,11 @@
-// The cameras as seen from outside: where they are, what they see, and whom they follow.
+// The cameras as seen from outside: where they are, what they see, and whom they follow or search.
 import * as three from './three.js';
 import {cameraFlag} from './protocol.js';
+import {dashesOf, maxDashes, searchedPlayer} from './searches.js';
 
 const depth = 1.1;  // m, of a camera's frustum
 const fillOpacity = 0.35;
+const dashLength = 1;  // m
 const rim = [[1, 1], [-1, 1], [-1, -1], [1, -1]];
 
 const vertexShader = `
@@ -19,9 +21,10 @@ const fragmentShader = `
 
 // Corners of lines or triangles with their colours, written anew for each sample.
 class Strokes {
-    constructor(Type, side) {
+    // `options`: of the material.
+    constructor(Type, options = {}) {
         this.object = new Type(new three.BufferGeometry(),
-            new three.ShaderMaterial({vertexShader, fragmentShader, transparent: true, depthWrite: false, side}));
+            new three.ShaderMaterial({vertexShader, fragmentShader, transparent: true, depthWrite: false, ...options}));
         this.object.frustumCulled = false;
         this.reserve(256);
     }
@@ -56,9 +59,10 @@ class Strokes {
 export class Marks {
     constructor() {
         this.lines = new Strokes(three.LineSegments);
-        this.fill = new Strokes(three.Mesh, three.DoubleSide);
+        this.fill = new Strokes(three.Mesh, {side: three.DoubleSide});
+        this.searches = new Strokes(three.LineSegments, {depthTest: false});  // walls are between camera and player
         this.group = new three.Group();
-        this.group.add(this.lines.object, this.fill.object);
+        this.group.add(this.lines.object, this.fill.object, this.searches.object);
     }
 
     // `looks(slot)`: {colour}.
@@ -70,12 +74,22 @@ export class Marks {
     show({cameras, players}, chosen, metre) {
         this.lines.begin(18 * cameras.size);
         this.fill.begin(12);
-        for (const camera of cameras.values()) this.add(camera, players.get(camera.target), camera.id === chosen, metre);
+        const searches = [];
+        for (const camera of cameras.values()) {
+            this.addFrustum(camera, camera.id === chosen, metre);
+            const searched = searchedPlayer(camera, players);
+            const followed = players.get(camera.target);
+            if (searched) searches.push([camera, searched]);
+            else if (followed) this.addSight(camera, followed);
+        }
         this.lines.end();
         this.fill.end();
+        this.searches.begin(2 * maxDashes * searches.length);
+        for (const [camera, searched] of searches) this.addSearch(camera, searched, metre);
+        this.searches.end();
     }
 
-    add({target, flags, position, rotation, fov}, followed, chosen, metre) {
+    addFrustum({target, position, rotation, fov}, chosen, metre) {
         const colour = new three.Color(this.looks(target).colour);
         const at = new three.Vector3(...position);
         const turn = new three.Quaternion(...rotation);
@@ -87,9 +101,20 @@ export class Marks {
             for (const place of [at, corner, corner, next]) this.lines.add(place, colour, 1);
             if (chosen) for (const place of [at, corner, next]) this.fill.add(place, colour, fillOpacity);
         });
-        if (!followed) return;
+    }
+
+    addSight({target, flags, position}, followed) {
+        const colour = new three.Color(this.looks(target).colour);
         const opacity = flags & cameraFlag.visible ? 0.6 : 0.2;
-        this.lines.add(at, colour, opacity);
+        this.lines.add(new three.Vector3(...position), colour, opacity);
         this.lines.add(new three.Vector3(...followed.position), colour, opacity);
+    }
+
+    addSearch({target, position}, searched, metre) {
+        const colour = new three.Color(this.looks(target).colour);
+        const from = new three.Vector3(...position);
+        const to = new three.Vector3(...searched.position);
+        for (const ends of dashesOf(position, searched.position, dashLength * metre))
+            for (const part of ends) this.searches.add(new three.Vector3().lerpVectors(from, to, part), colour, 1);
     }
 }

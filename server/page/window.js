@@ -12,6 +12,7 @@ import {nameOf} from './palette.js';
 import {Playback, kept} from './playback.js';
 import {Quality, levelOfProcessor, levels, scaleOf} from './quality.js';
 import {attachScrubbing} from './scrubbing.js';
+import {SearchMark, searchedPlayer} from './searches.js';
 import * as server from './server.js';
 import {Stage} from './stage.js';
 import {TimelineView, modeOf, modeText, reasonText} from './timeline_view.js';
@@ -44,6 +45,7 @@ function lookOfShot(shot) {
 const textOfShot = shot => modeText(shot, groupOf(shot.id).length > 0);
 const feed = new Feed(find('feed'), look);
 const timelineView = new TimelineView(find('timeline'));
+const searchMark = new SearchMark(find('search-mark'));
 
 let stage = null;
 let mapLoader = null;
@@ -421,6 +423,15 @@ function drawStage() {
     ++framesDrawn;
 }
 
+// Over the picture through a camera: where the player is whom it searches.
+function showSearch() {
+    const shot = view === 'camera' ? shownCamera() : null;
+    const searched = shot && searchedPlayer(shot, sample.players);
+    if (!searched) return searchMark.hide();
+    const {clientWidth: width, clientHeight: height} = find('stage');
+    searchMark.show(shot, searched, lookOfShot(shot).colour, {width, height});
+}
+
 // To screen readers, which read it out when it changes: while the timeline has the focus only after a step.
 function tellTime() {
     const {clock} = model;
@@ -456,6 +467,7 @@ function frame(at) {
         sample = source?.state === 'loading' ? sample : model.sample() ?? sample;
         findCamera();
         drawStage();
+        showSearch();
         showCaption();
         feed.show(model.timeline.events, model.clock.t ?? 0);
     }
