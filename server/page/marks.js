@@ -1,11 +1,11 @@
-// The cameras as seen from outside: where they are, what they see, and whom they follow or search.
+// The cameras as seen from outside: where they are, what they see, and whom they follow or search for.
 import * as three from './three.js';
 import {cameraFlag} from './protocol.js';
 import {dashesOf, maxDashes, searchedPlayer} from './searches.js';
 
 const depth = 1.1;  // m, of a camera's frustum
 const fillOpacity = 0.35;
-const dashLength = 1;  // m
+const dashLength = 0.5;  // m
 const rim = [[1, 1], [-1, 1], [-1, -1], [1, -1]];
 
 const vertexShader = `

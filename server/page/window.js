@@ -423,7 +423,7 @@ function drawStage() {
     ++framesDrawn;
 }
 
-// Over the picture through a camera: where the player is whom it searches.
+// Over the picture through a camera: where the player is that it searches for.
 function showSearch() {
     const shot = view === 'camera' ? shownCamera() : null;
     const searched = shot && searchedPlayer(shot, sample.players);

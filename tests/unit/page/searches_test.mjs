@@ -14,7 +14,7 @@ const near = (found, wanted) => {
     else assert.ok(found.angle !== null && Math.cos(found.angle - wanted.angle) > 1 - 1e-9, `angle: ${found.angle} is not ${wanted.angle}`);
 };
 
-test('only a camera that searches has a player whom it searches', () => {
+test('only a camera that searches has a player whom it searches for', () => {
     const players = new Map([[1, player]]);
     assert.equal(searchedPlayer(shot, players), player);
     assert.equal(searchedPlayer({...shot, flags: cameraFlag.visible}, players), null);
