@@ -1,7 +1,7 @@
 // The cameras as seen from outside: where they are, what they see, and whom they follow or search for.
 import * as three from './three.js';
 import {cameraFlag} from './protocol.js';
-import {dashesOf, maxDashes, searchedPlayer} from './searches.js';
+import {dashesOf, maxDashes} from './searches.js';
 
 const depth = 1.1;  // m, of a camera's frustum
 const fillOpacity = 0.35;
@@ -70,22 +70,19 @@ export class Marks {
         this.looks = looks;
     }
 
-    // Of a sample, in which the viewer has chosen a camera; metre: in map units.
-    show({cameras, players}, chosen, metre) {
+    // Of a sample, in which the viewer has chosen a camera; `searches`: searchesOf it; metre: in map units.
+    show({cameras, players}, chosen, searches, metre) {
         this.lines.begin(18 * cameras.size);
         this.fill.begin(12);
-        const searches = [];
         for (const camera of cameras.values()) {
             this.addFrustum(camera, camera.id === chosen, metre);
-            const searched = searchedPlayer(camera, players);
             const followed = players.get(camera.target);
-            if (searched) searches.push([camera, searched]);
-            else if (followed) this.addSight(camera, followed);
+            if (followed && !searches.has(camera.id)) this.addSight(camera, followed);
         }
         this.lines.end();
         this.fill.end();
-        this.searches.begin(2 * maxDashes * searches.length);
-        for (const [camera, searched] of searches) this.addSearch(camera, searched, metre);
+        this.searches.begin(2 * maxDashes * searches.size);
+        for (const [id, searched] of searches) this.addSearch(cameras.get(id), searched, metre);
         this.searches.end();
     }
 

@@ -4,9 +4,13 @@ import {modeOf} from './timeline_view.js';
 export const maxDashes = 64;
 const marginPx = 26;  // of the mark from the edges of the picture
 
-// Null: the camera does not search, or it is not known where the player is.
-export function searchedPlayer(shot, players) {
-    return modeOf(shot) === 'searching' ? players.get(shot.target) ?? null : null;
+// The players of a sample whom cameras search for, by camera. `isOfGroup(camera)`: of a shot of several players the flag
+// says that not all of them are shown.
+export function searchesOf({cameras, players}, isOfGroup) {
+    const searches = new Map();
+    for (const [id, shot] of cameras)
+        if (modeOf(shot) === 'searching' && !isOfGroup(id) && players.has(shot.target)) searches.set(id, players.get(shot.target));
+    return searches;
 }
 
 // Dashes of about this length, as long as the gaps between them, the first from `from`, the last to `to`: of each two

@@ -55,9 +55,9 @@ export class Stage {
         this.sample = null;
     }
 
-    // From now on a sample of the match is drawn, in which the viewer has chosen a camera.
-    show(sample, chosen) {
-        Object.assign(this, {sample, chosen});
+    // From now on a sample of the match is drawn, in which the viewer has chosen a camera. `searches`: searchesOf it.
+    show(sample, chosen, searches) {
+        Object.assign(this, {sample, chosen, searches});
         this.figures.show(sample.players, this.metre);
     }
 
@@ -137,7 +137,7 @@ export class Stage {
     draw(camera, size, {inside, times = 1, names = true, namesHidden = false}) {
         this.map.show(inside, this.cut);
         this.marks.group.visible = !inside && this.sample !== null;
-        if (this.marks.group.visible) this.marks.show(this.sample, this.chosen, this.metre);
+        if (this.marks.group.visible) this.marks.show(this.sample, this.chosen, this.searches, this.metre);
         this.figures.aim(camera, size, {times, names, namesHidden});
         this.renderer.clear();
         // The free space is seen through, and drawn after those who stand in it.

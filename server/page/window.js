@@ -12,7 +12,7 @@ import {nameOf} from './palette.js';
 import {Playback, kept} from './playback.js';
 import {Quality, levelOfProcessor, levels, scaleOf} from './quality.js';
 import {attachScrubbing} from './scrubbing.js';
-import {SearchMark, searchedPlayer} from './searches.js';
+import {SearchMark, searchesOf} from './searches.js';
 import * as server from './server.js';
 import {Stage} from './stage.js';
 import {TimelineView, modeOf, modeText, reasonText} from './timeline_view.js';
@@ -60,6 +60,7 @@ let wished = null;        // the one that the viewer has chosen, which may not b
 let view = 'camera';
 let pictures = !calm.matches;
 let sample = null;
+let searches = new Map();  // of it
 let noticeTimer = 0;
 let framesDrawn = 0;
 let framesCounted = 0;  // in drawRate
@@ -406,7 +407,7 @@ function drawStage() {
     const shots = pictureShots();
     const places = layPictures(shots);
     const shot = shownCamera();
-    if (sample) stage.show(sample, camera);
+    if (sample) stage.show(sample, camera, searches);
     if (stage.map.mesh) stage.map.mesh.visible = find('mesh').checked;
     const [low, high] = stage.map.heights;
     stage.cut = low + (high - low) * Number(find('cut').value) + 1;
@@ -426,7 +427,7 @@ function drawStage() {
 // Over the picture through a camera: where the player is that it searches for.
 function showSearch() {
     const shot = view === 'camera' ? shownCamera() : null;
-    const searched = shot && searchedPlayer(shot, sample.players);
+    const searched = shot && searches.get(shot.id);
     if (!searched) return searchMark.hide();
     const {clientWidth: width, clientHeight: height} = find('stage');
     searchMark.show(shot, searched, lookOfShot(shot).colour, {width, height});
@@ -465,6 +466,7 @@ function frame(at) {
     if (draws) {
         dirty = false;
         sample = source?.state === 'loading' ? sample : model.sample() ?? sample;
+        if (sample) searches = searchesOf(sample, id => groupOf(id).length > 0);
         findCamera();
         drawStage();
         showSearch();

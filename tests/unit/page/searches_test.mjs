@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import {test} from 'node:test';
 import {cameraFlag} from '../../../server/page/protocol.js';
-import {SearchMark, dashesOf, markOf, maxDashes, searchedPlayer} from '../../../server/page/searches.js';
+import {SearchMark, dashesOf, markOf, maxDashes, searchesOf} from '../../../server/page/searches.js';
 
 const right = Math.SQRT1_2;
 const size = {width: 800, height: 600};
@@ -16,11 +16,14 @@ const near = (found, wanted) => {
 
 test('only a camera that searches has a player whom it searches for', () => {
     const players = new Map([[1, player]]);
-    assert.equal(searchedPlayer(shot, players), player);
-    assert.equal(searchedPlayer({...shot, flags: cameraFlag.visible}, players), null);
-    assert.equal(searchedPlayer({...shot, flags: cameraFlag.searching | cameraFlag.absent}, players), null);
-    assert.equal(searchedPlayer({...shot, target: 2}, players), null, 'it is not known where the player is');
-    assert.equal(searchedPlayer({...shot, target: null}, players), null);
+    const of = (more, isOfGroup = () => false) => searchesOf({cameras: new Map([[5, {...shot, ...more}]]), players}, isOfGroup);
+    assert.deepEqual([...of({})], [[5, player]]);
+    assert.equal(of({flags: cameraFlag.visible}).size, 0);
+    assert.equal(of({flags: cameraFlag.searching | cameraFlag.absent}).size, 0);
+    assert.equal(of({target: 2}).size, 0, 'it is not known where the player is');
+    assert.equal(of({target: null}).size, 0);
+    assert.equal(of({}, id => id === 5).size, 0, 'of a group not all are shown');
+    assert.equal(of({}, id => id === 6).size, 1);
 });
 
 test('dashes reach from one end to the other, and are bounded', () => {
