@@ -204,10 +204,12 @@ void Match::handle(const MapsChanged& /*changed*/) {
 
 void Match::handle(const DelayChanged& /*changed*/) {
     const DelayBuffer::State delay = delay_.state();
-    if (delay.refusal.empty())
+    if (delay.refusal.empty()) {
         spdlog::info("match {}: shown with a delay of {:.4g} s", match_id_, delay.delay_s);
-    else
+    } else {
+        counters_.add(Counter::refused_matches_delay);
         spdlog::warn("match {}: refused: {}", match_id_, delay.refusal);
+    }
     last_pose_ns_ = std::max(last_pose_ns_.load(), delay.resumes_at);  // until then there are none
     reconcile_needed_ = true;
 }
@@ -222,7 +224,7 @@ void Match::handle(const Reconfigured& changed) {
 
 void Match::attach_map() {
     reconcile_needed_ = true;
-    refusal_.clear();
+    const std::string refused_before = std::exchange(refusal_, {});
     const std::string named = "map '" + info_->map_name + "'";
     const auto entry = maps_.find(info_->map_name);
     if (!entry) return wait_for_map(named + " is not configured; known: " + joined(maps_.names()));
@@ -230,6 +232,7 @@ void Match::attach_map() {
         return wait_for_map(named + (entry->state == LoadState::failed ? " failed" : " is loading") +
                             (entry->reason.empty() ? "" : ": " + entry->reason));
     check_map_hash(*entry);
+    if (!refusal_.empty() && refusal_ != refused_before) counters_.add(Counter::refused_matches_map);
     check_scale(*entry);
     missing_map_.clear();
     if (freespace_ && entry->generation == map_generation_) return;

@@ -25,23 +25,25 @@ enum class Counter : std::size_t {
     silences,            // a match's poses stopped, or its game server was lost
     drop_unknown_match,  // pose frames and events of matches without a MatchInfo
     drop_old_epoch,
-    drop_early_epoch,   // of an epoch whose MatchInfo has not arrived yet
-    drop_old_frame,     // frame number not greater than the previous one
-    drop_superseded,    // a newer pose frame arrived before a worker was free
-    drop_burst,         // a newer pose frame came right behind, although it was not sent so: something on the
-                        // way has held them up
-    drop_paced,         // pose frames that were left out evenly: see Pace
-    drop_waiting,       // pose frames of a match without a map
-    drop_players,       // poses beyond limits.players, duplicate players
-    drop_events,        // the match's queue of events was full
-    drop_messages,      // too many wanted to view the match
-    drop_delay,         // of a match whose delay is refused
-    refused_matches,    // limits.matches
-    refused_invalid,    // requests: what they ask for does not exist, or is not allowed
-    refused_match,      // the match itself is refused
-    refused_observers,  // limits.observers; some of them wait
-    refused_shots,      // limits.shots
-    refused_no_match,   // no game server runs the match, and observers wait for limits.matches others
+    drop_early_epoch,  // of an epoch whose MatchInfo has not arrived yet
+    drop_old_frame,    // frame number not greater than the previous one
+    drop_superseded,   // a newer pose frame arrived before a worker was free
+    drop_burst,        // a newer pose frame came right behind, although it was not sent so: something on the
+                       // way has held them up
+    drop_paced,        // pose frames that were left out evenly: see Pace
+    drop_waiting,      // pose frames of a match without a map
+    drop_players,      // poses beyond limits.players, duplicate players
+    drop_events,       // the match's queue of events was full
+    drop_messages,     // too many wanted to view the match
+    drop_delay,        // of a match whose delay is refused
+    refused_matches,   // limits.matches
+    refused_matches_delay,  // theirs is too long or needs too much memory
+    refused_matches_map,    // theirs is not the one that was baked, and the map is strict
+    refused_invalid,        // requests: what they ask for does not exist, or is not allowed
+    refused_match,          // the match itself is refused
+    refused_observers,      // limits.observers; some of them wait
+    refused_shots,          // limits.shots
+    refused_no_match,       // no game server runs the match, and observers wait for limits.matches others
     map_hash_mismatches,
     scale_mismatches,  // of metres_per_unit
     mover_frames,      // frames in which movers were elsewhere than before, or others

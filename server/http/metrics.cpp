@@ -83,6 +83,13 @@ MetricFamily drops(const Statistics& statistics) {
     return by_reason("dropped_total", "Input that was dropped, by reason.", statistics, reasons);
 }
 
+MetricFamily refused_matches(const Statistics& statistics) {
+    static constexpr std::pair<Counter, const char*> reasons[] = {{Counter::refused_matches, "matches"},
+                                                                  {Counter::refused_matches_delay, "delay"},
+                                                                  {Counter::refused_matches_map, "map"}};
+    return by_reason("refused_matches_total", "Matches refused, by reason.", statistics, reasons);
+}
+
 MetricFamily refused_requests(const Statistics& statistics) {
     static constexpr std::pair<Counter, const char*> reasons[] = {{Counter::refused_invalid, "invalid"},
                                                                   {Counter::refused_match, "match"},
@@ -132,7 +139,7 @@ std::vector<MetricFamily> director_metrics(const Statistics& s) {
         counter("cuts_total", "Declared jumps of cameras.", s[Counter::cuts]),
         counter("searches_total", "Searches of a camera for its lost player.", s[Counter::searches]),
         counter("silences_total", "Matches that became silent.", s[Counter::silences]),
-        counter("refused_matches_total", "Matches above the limit.", s[Counter::refused_matches]),
+        refused_matches(s),
         refused_requests(s),
         counter("map_hash_mismatches_total", "Matches whose map file differs from the baked one.",
                 s[Counter::map_hash_mismatches]),

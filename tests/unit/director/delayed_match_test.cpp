@@ -118,6 +118,7 @@ TEST(DelayedMatch, ADelayThatIsTooLongIsRefused) {
     EXPECT_EQ(stage.publisher.status("a").reason,
               "a delay of 121 s is wanted; the longest possible is 120 s");
     EXPECT_EQ(stage.publisher.status("a").epoch, 7U);
+    EXPECT_EQ(stage.director.statistics()[Counter::refused_matches_delay], 1U);
     stage.send(Stage::poses(1, 7));
     EXPECT_EQ(stage.director.statistics()[Counter::drop_delay], 1U);
     stage.start(delayed_by(0.1F, 7));

@@ -229,6 +229,8 @@ TEST(MatchLife, AnotherMapFileIsReportedOrRefused) {
     stage.start(info);
     EXPECT_EQ(stage.publisher.status("a").state, RequestState::refused);
     EXPECT_THAT(stage.publisher.status("a").reason, HasSubstr("is not the one that was baked"));
+    stage.start(info);
+    EXPECT_EQ(stage.director.statistics()[Counter::refused_matches_map], 1U);
     info.map_hash = 7;
     stage.start(info);
     EXPECT_EQ(stage.publisher.status("a").state, RequestState::accepted);

@@ -42,6 +42,14 @@ TEST(Metrics, LabelDropsWithTheirReason) {
         EXPECT_EQ(metric.counter.value, metric.label.at(0).value == "old_epoch" ? 5.0 : 0.0);
 }
 
+TEST(Metrics, LabelRefusedMatchesWithTheirReason) {
+    Statistics statistics;
+    statistics.counters[static_cast<std::size_t>(Counter::refused_matches_delay)] = 5;
+    const auto families = director_metrics(statistics);
+    for (const auto& metric : family(families, "refused_matches_total").metric)
+        EXPECT_EQ(metric.counter.value, metric.label.at(0).value == "delay" ? 5.0 : 0.0);
+}
+
 TEST(Metrics, LabelRefusedRequestsWithTheirReason) {
     Statistics statistics;
     statistics.counters[static_cast<std::size_t>(Counter::refused_shots)] = 5;
