@@ -7,6 +7,7 @@
 
 #include "dds/decode.hpp"
 #include "dds/qos.hpp"
+#include "director/counters.hpp"
 
 namespace camdir::dds {
 
@@ -19,6 +20,9 @@ struct WireCounters {
         std::array<WireCounter, validation_error_names.size()> dropped{};  // by ValidationError
     };
     std::array<PerTopic, topic_count> received{};
+    // Of accepted pose frames, from their source_time where they have one: as true as the clocks of both
+    // hosts agree.
+    director::DurationCounter reception;
 
     WireCounter shown_matches_written{0};  // and disposed; not those written again
     WireCounter camera_frames_written{0};

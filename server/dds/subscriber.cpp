@@ -21,6 +21,14 @@ constexpr std::size_t samples_per_take = 32;
 constexpr int bounding_share = 10;  // 1 / this of the thread's time at most
 constexpr std::chrono::milliseconds bounding_turn{1};
 constexpr std::chrono::milliseconds longest_answer{50};
+constexpr std::int64_t longest_reception_ns = 10'000'000'000;  // beyond it the clocks differ
+
+// 0 where the sender's clock is ahead. Any source_time is possible.
+std::int64_t time_on_the_way(std::int64_t source_time) {
+    const std::int64_t now =
+        std::chrono::system_clock::now().time_since_epoch() / std::chrono::nanoseconds(1);
+    return now - std::clamp(source_time, now - longest_reception_ns, now);
+}
 
 }  // namespace
 
@@ -279,6 +287,8 @@ void Subscriber::take_poses(Match& match) {
                  return drop(Topic::pose_frame, ValidationError::not_owner, match.id());
              if (match.endpoints->hear()) next_decision_ = Clock::now();
              if (!accept(match, Topic::pose_frame)) return;
+             if (pose_frame_.source_time != 0)  // it is known
+                 counters_.reception.add(time_on_the_way(pose_frame_.source_time));
              if (arrived_ == arrivals_.size()) arrivals_.emplace_back();
              director::PoseArrival& arrival = arrivals_[arrived_++];
              arrival.match_id = match.id();

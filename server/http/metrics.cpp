@@ -51,13 +51,6 @@ void add_histogram(MetricFamily& family, const director::Durations& durations,
     out.sample_sum = durations.sum_s;
 }
 
-MetricFamily histogram(const std::string& name, const std::string& help,
-                       const director::Durations& durations) {
-    MetricFamily result = family(MetricType::Histogram, name, help);
-    add_histogram(result, durations);
-    return result;
-}
-
 MetricFamily by_reason(const std::string& name, const std::string& help, const Statistics& statistics,
                        std::span<const std::pair<Counter, const char*>> reasons) {
     MetricFamily result = counter_family(name, help);
@@ -117,6 +110,13 @@ MetricFamily counter_family(const std::string& name, const std::string& help) {
 
 MetricFamily gauge_family(const std::string& name, const std::string& help) {
     return family(MetricType::Gauge, name, help);
+}
+
+MetricFamily histogram(const std::string& name, const std::string& help,
+                       const director::Durations& durations) {
+    MetricFamily result = family(MetricType::Histogram, name, help);
+    add_histogram(result, durations);
+    return result;
 }
 
 void add_metric(MetricFamily& family, double value, std::vector<prometheus::ClientMetric::Label> labels) {

@@ -18,6 +18,9 @@ namespace camdir::http {
 [[nodiscard]] prometheus::MetricFamily counter_family(const std::string& name, const std::string& help);
 [[nodiscard]] prometheus::MetricFamily gauge_family(const std::string& name, const std::string& help);
 
+[[nodiscard]] prometheus::MetricFamily histogram(const std::string& name, const std::string& help,
+                                                 const director::Durations& durations);
+
 // Adds a metric with the labels to a family of counters or gauges.
 void add_metric(prometheus::MetricFamily& family, double value,
                 std::vector<prometheus::ClientMetric::Label> labels = {});

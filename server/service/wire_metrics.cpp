@@ -25,6 +25,12 @@ prometheus::MetricFamily gauge(const std::string& name, const std::string& help,
     return family;
 }
 
+director::Durations durations(const director::DurationCounter& counter) {
+    director::Durations sum;
+    counter.add_to(sum);
+    return sum;
+}
+
 // In seconds since 1970.
 double expiry(const std::optional<dds::Identity>& identity) {
     if (!identity) return std::numeric_limits<double>::infinity();
@@ -49,6 +55,11 @@ std::vector<prometheus::MetricFamily> wire_metrics(const dds::WireCounters& coun
     return {
         accepted,
         dropped,
+        http::histogram(
+            "reception_seconds",
+            "Time from sampling a pose frame to receiving it, by the clocks of both hosts: at least "
+            "0, at most 10 s.",
+            durations(counters.reception)),
         counter("wire_shown_matches_total", "Changes of what matches show written to DDS.",
                 counters.shown_matches_written),
         counter("wire_camera_frames_total", "Camera frames written to DDS.", counters.camera_frames_written),

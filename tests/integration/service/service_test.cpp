@@ -28,9 +28,12 @@ TEST(Service, IsReadyShowsItselfAndStopsOnSigterm) {
     ASSERT_TRUE(served.logged("\"ready\"")) << served.log();
     EXPECT_EQ(served.get("/-/healthy"), "ok\n");
     EXPECT_EQ(served.get("/-/ready"), "ready\n");
-    EXPECT_THAT(served.get("/metrics"), AllOf(HasSubstr("camera_director_map_loaded{map=\"square\"} 1\n"),
-                                              HasSubstr("camera_director_matches 0\n"),
-                                              HasSubstr("camera_director_wire_received_total{topic=")));
+    EXPECT_THAT(served.get("/metrics"),
+                AllOf(HasSubstr("camera_director_map_loaded{map=\"square\"} 1\n"),
+                      HasSubstr("camera_director_matches 0\n"), HasSubstr("camera_director_matches_led 0\n"),
+                      HasSubstr("camera_director_strength 100\n"),
+                      HasSubstr("camera_director_reception_seconds_count 0\n"),
+                      HasSubstr("camera_director_wire_received_total{topic=")));
     EXPECT_EQ(served.status()["maps"][0]["state"], "ready");
     EXPECT_EQ(served.status()["maps"][0]["triangles"], 2);
     served.signal(SIGTERM);

@@ -40,6 +40,10 @@ const tests = {
         assert.equal(await browser.evaluate('document.querySelectorAll("#matches button").length'), 1);
         const metrics = await fetch(`${url}/metrics`).then(answer => answer.text());
         assert.match(metrics, /^camera_director_live_viewers 1$/m);
+        assert.match(metrics, /^camera_director_matches_led 1$/m);
+        assert.match(metrics, /^camera_director_reception_seconds_count [1-9]/m);
+        for (const stage of ['waiting', 'computing', 'writing'])
+            assert.match(metrics, new RegExp(`^camera_director_stage_seconds_count\\{stage="${stage}"\\} [1-9]`, 'm'));
     },
     async 'the picture is not empty'(browser) {
         for (const view of ['orbit', 'plan', 'camera']) {

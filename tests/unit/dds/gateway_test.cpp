@@ -334,6 +334,31 @@ TEST_F(GatewayTest, RequestsFromBeforeTheMatchAreReceived) {
     }));
 }
 
+TEST_F(GatewayTest, CountsHowLongPosesWereOnTheirWay) {
+    using namespace std::chrono_literals;
+    RawPeer& raw = game("cup");
+    RawPoseFrame frame("cup", 1, 100, 4);
+    // Of all so far, when those that were sampled then have made it at least so long.
+    const auto sent = [&](std::int64_t source_time, double least_s) {
+        camera_director_PoseFrame sample = frame.sample();
+        sample.source_time = source_time;
+        director::Durations sum;
+        EXPECT_TRUE(eventually([&] {
+            raw.write(sample);
+            sum = {};
+            gateway_->counters().reception.add_to(sum);
+            return sum.sum_s >= least_s && sum.buckets != director::Durations{}.buckets;
+        }));
+        return sum;
+    };
+    const auto of_the_future = sent(std::numeric_limits<std::int64_t>::max(), 0.0);
+    EXPECT_EQ(of_the_future.sum_s, 0.0);
+    EXPECT_GT(of_the_future.buckets.front(), 0U);
+    const std::int64_t now = std::chrono::system_clock::now().time_since_epoch() / 1ns;
+    EXPECT_GT(sent(now - 300ms / 1ns, 0.3).buckets.back(), 0U) << "longer than the longest bound";
+    EXPECT_LT(sent(std::numeric_limits<std::int64_t>::min(), 10.0).sum_s, 1000.0) << "10 s each";
+}
+
 TEST_F(GatewayTest, MalformedSamplesAreCountedByReasonAndNotHandedOn) {
     RawPeer& raw = game("cup");
     const auto refused = [&](RawPoseFrame& frame, ValidationError error) {
