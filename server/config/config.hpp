@@ -96,14 +96,14 @@ struct Matches {
 
 struct Limits {
     std::int64_t matches = 64;
-    std::int64_t players = 256;    // a match
-    std::int64_t observers = 256;  // a match
-    std::int64_t participant_matches = 64;
-    double participant_match_rate = 8.0;       // that it may begin in a second, beyond as many at once
-    std::int64_t participant_observers = 256;  // a match
-    std::int64_t shots = 256;                  // a match
-    std::int64_t delay_mib = 64;               // a match
-    std::int64_t workers = 0;                  // threads; 0 = one per core
+    std::int64_t players = 256;              // a match
+    std::int64_t observers = 256;            // a match
+    std::int64_t participant_matches = 0;    // 0 = half of `matches`
+    double participant_match_rate = 8.0;     // that it may begin in a second, beyond as many at once
+    std::int64_t participant_observers = 0;  // a match; 0 = half of `observers`
+    std::int64_t shots = 256;                // a match
+    std::int64_t delay_mib = 64;             // a match
+    std::int64_t workers = 0;                // threads; 0 = one per core
 };
 
 struct Log {

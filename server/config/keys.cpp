@@ -485,14 +485,16 @@ void add_limits(std::vector<Key>& table) {
         {section, "players", slot(&Limits::players), "Players of a match that are tracked.", "", 1, 256});
     table.push_back({section, "observers", slot(&Limits::observers), "Observers of a match.", "", 1, 65536});
     table.push_back({section, "participant_matches", slot(&Limits::participant_matches),
-                     "Matches of one DDS participant. Lower it where several hosts run game servers.", "", 1,
-                     4096});
+                     "Matches of one DDS participant; 0: half of `matches`. Raise it where one process hosts "
+                     "more of them.",
+                     "", 0, 4096});
     table.push_back({section, "participant_match_rate", slot(&Limits::participant_match_rate),
                      "How fast a DDS participant may begin matches after its first `participant_matches`.",
                      "1/s", 0.01, 1000});
     table.push_back({section, "participant_observers", slot(&Limits::participant_observers),
-                     "Observers of a match that are one DDS participant's. Lower it where strangers can ask.",
-                     "", 1, 65536});
+                     "Observers of a match that are one DDS participant's; 0: half of `observers`. Lower it "
+                     "where strangers can ask.",
+                     "", 0, 65536});
     table.push_back({section, "shots", slot(&Limits::shots), "Cameras of a match.", "", 1, 256});
     table.push_back({section, "delay_mib", slot(&Limits::delay_mib),
                      "Memory for the delay of a match. A match that needs more is refused.", "MiB", 1,
@@ -606,8 +608,10 @@ const std::vector<Section>& sections() {
         {"/limits",
          "Whatever exceeds a limit is refused. Matches beyond `matches`, `participant_matches` and "
          "`participant_match_rate`, and observers beyond `observers`, wait for room in the order in which "
-         "they came, as many of them as "
-         "may be served, and of one participant's matches a quarter of that. Takes effect at a restart."},
+         "they came, as many of them as may be served, and of one participant's matches a quarter of that. "
+         "By default a participant has at most half of the places, so that no stranger alone takes all of "
+         "them; not less, because one process may host all matches of a small host, or hold most observers "
+         "of a match. Takes effect at a restart."},
         {"/log", "Written to standard error. `level` is reloaded by SIGHUP."}};
     return list;
 }

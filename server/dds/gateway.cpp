@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <chrono>
 #include <random>
 #include <thread>
@@ -14,6 +15,11 @@ std::uint64_t random_id() {
     return (static_cast<std::uint64_t>(random()) << 32U | random()) | 1U;
 }
 
+// Of `all` places those that one participant may take.
+std::size_t share(std::int64_t limit, std::int64_t all) {
+    return static_cast<std::size_t>(limit != 0 ? limit : std::max<std::int64_t>(all / 2, 1));
+}
+
 Subscriber::Options subscriber_options(const config::Dds& config, const config::Limits& limits,
                                        std::uint64_t director_id) {
     return {.leadership = {.rank = static_cast<std::uint32_t>(config.strength),
@@ -22,9 +28,9 @@ Subscriber::Options subscriber_options(const config::Dds& config, const config::
             .partitions = config.partitions,
             .shards = {config.shard, config.shards},
             .matches = static_cast<std::size_t>(limits.matches),
-            .participant_matches = static_cast<std::size_t>(limits.participant_matches),
+            .participant_matches = share(limits.participant_matches, limits.matches),
             .participant_match_rate = limits.participant_match_rate,
-            .participant_observers = static_cast<std::size_t>(limits.participant_observers)};
+            .participant_observers = share(limits.participant_observers, limits.observers)};
 }
 
 }  // namespace

@@ -35,15 +35,16 @@ DirectorProcess::DirectorProcess(Setting setting)
 void DirectorProcess::start(const std::string& map_file, const std::string& source) {
     std::ofstream(token_file_) << token << '\n';
     std::filesystem::permissions(token_file_, std::filesystem::perms(0600));
-    std::ofstream(file_) << R"({"dds": {"domain": )" << setting_.domain << R"(, "interface": ")"
-                         << setting_.interface << R"(", "insecure": )"
-                         << (setting_.insecure ? "true" : "false") << R"(, "participant_index": )"
-                         << setting_.index << R"(, "peers": [")" << setting_.peer << R"("], "strength": )"
-                         << (setting_.index == 0 ? 200 : 100) << R"(, "director_id": )"
-                         << id_of(setting_.index) << R"(}, "http": {"port": 0, "token_file": ")"
-                         << token_file_.string() << R"("}, "matches": {"forget_s": )" << setting_.forget_s
-                         << R"(}, "maps": [{"name": "map", "file": ")" << map_file << R"(", "source": ")"
-                         << source << R"("}]})";
+    // A flood's participant may take all places: that is harder than what it may by default.
+    std::ofstream(file_)
+        << R"({"limits": {"participant_matches": 64, "participant_observers": 256}, "dds": {"domain": )"
+        << setting_.domain << R"(, "interface": ")" << setting_.interface << R"(", "insecure": )"
+        << (setting_.insecure ? "true" : "false") << R"(, "participant_index": )" << setting_.index
+        << R"(, "peers": [")" << setting_.peer << R"("], "strength": )" << (setting_.index == 0 ? 200 : 100)
+        << R"(, "director_id": )" << id_of(setting_.index) << R"(}, "http": {"port": 0, "token_file": ")"
+        << token_file_.string() << R"("}, "matches": {"forget_s": )" << setting_.forget_s
+        << R"(}, "maps": [{"name": "map", "file": ")" << map_file << R"(", "source": ")" << source
+        << R"("}]})";
     std::vector<std::string> command = setting_.command;
     command.insert(command.end(), {"serve", "--config", file_.string()});
     process_ = std::make_unique<test::ChildProcess>(command);

@@ -67,6 +67,7 @@ write_config() {
 {
   "dds": {"domain": $domain, "security": "$1"},
   "http": {"enabled": false},
+  "limits": {"participant_matches": 64, "participant_observers": 256},
   "maps": [{"name": "$map_name", "file": "$map_name.vfs", "source": "$map"}],
   "log": {"level": "warning"}
 }

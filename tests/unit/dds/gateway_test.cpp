@@ -320,7 +320,7 @@ TEST_F(GatewayTest, LateObserversSeeStatusesButNoOldCameras) {
 }
 
 TEST_F(GatewayTest, RequestsFromBeforeTheMatchAreReceived) {
-    const auto count = static_cast<std::uint32_t>(limits_.participant_observers);
+    const auto count = static_cast<std::uint32_t>(limits_.observers / 2);  // of one participant
     RawPeer& observer = peer("cup");
     for (std::uint32_t i = 0; i < count; ++i) {
         observer.write(test::raw_request("cup", "early " + std::to_string(i), i));

@@ -380,6 +380,43 @@ TEST_F(LimitsTest, CountsTheMatchesThatMayNotWait) {
     EXPECT_EQ(dropped(Topic::match_info, ValidationError::participant_limit), 3U);
 }
 
+class SharesTest : public GatewayTest {
+  protected:
+    SharesTest() {
+        limits_.matches = 4;
+        limits_.observers = 6;
+    }
+};
+
+TEST_F(SharesTest, AParticipantLeavesHalfOfThePlacesToOthers) {
+    RawPeer& greedy = peer("a", {"match/a", "match/b", "match/c", "match/d"});
+    for (const char* match_id : {"a", "b", "c", "d"})
+        greedy.write(test::raw_match_info(match_id, 1));
+    EXPECT_TRUE(
+        eventually([&] { return dropped(Topic::match_info, ValidationError::participant_limit) == 2; }));
+    EXPECT_EQ(gateway_->counters().matches, 2U);
+
+    game("cup");
+    RawPeer& asking = peer("cup");
+    for (int i = 0; i < 6; ++i)
+        asking.write(test::raw_request("cup", "greedy " + std::to_string(i), 1));
+    EXPECT_TRUE(eventually(
+        [&] { return dropped(Topic::observer_request, ValidationError::participant_limit) == 3; }));
+    peer("cup").write(test::raw_request("cup", "anna", 1));
+    EXPECT_TRUE(eventually([&] { return recorder_.has("request anna 1"); }));
+}
+
+class OnePlaceTest : public GatewayTest {
+  protected:
+    OnePlaceTest() { limits_.matches = limits_.observers = 1; }
+};
+
+TEST_F(OnePlaceTest, IsAParticipants) {
+    game("cup");
+    peer("cup").write(test::raw_request("cup", "anna", 1));
+    EXPECT_TRUE(eventually([&] { return recorder_.has("request anna 1"); }));
+}
+
 class RateTest : public LimitsTest {
   protected:
     RateTest() { limits_.participant_match_rate = 0.2; }  // a test is fast
