@@ -288,7 +288,8 @@ camera::Camera Match::step_group_by_poses(Shot& shot, double dt) {
         poses[i] = {causal_time_, tracker_pose(*seen, false), true};
         windows[i] = {&poses[i], 1};
     }
-    return camera::step(space(), shot.profile, std::span(windows).first(count), causal_time_, shot.group);
+    return camera::step(space(), shot.profile, std::span(windows).first(count), causal_time_, shot.group,
+                        *shot.outlook);
 }
 
 camera::Camera Match::step_group_to(double time, const Shot& shot, camera::GroupState& state) {
@@ -298,7 +299,7 @@ camera::Camera Match::step_group_to(double time, const Shot& shot, camera::Group
     const std::size_t count = shot.key.group.size();
     for (std::size_t i = 0; i < count; ++i)
         windows[i] = timeline_.window(shot.key.group[i]);
-    return camera::step(space(), shot.profile, std::span(windows).first(count), time, state);
+    return camera::step(space(), shot.profile, std::span(windows).first(count), time, state, *shot.outlook);
 }
 
 camera::Camera Match::step_to(double time, const Shot& shot, camera::ShotState& state,

@@ -44,7 +44,8 @@ struct Shot {
     std::uint32_t camera_id = 0;
     camera::Profile profile;
     camera::ShotState state;
-    camera::GroupState group;  // in its place, of a group shot
+    camera::GroupState group;                  // in its place, of a group shot
+    std::unique_ptr<camera::Outlook> outlook;  // likewise
     AutomaticShot automatic;
     std::uint32_t target = no_player;       // the player followed now; of a group shot the first of its group
     std::uint32_t fixed = freespace::none;  // the fixed shot of the map that is shown now instead
@@ -63,6 +64,7 @@ struct Shot {
         state.plan.phase = camera_id;
         group = {};
         group.phase = camera_id;
+        if (is_of_group()) outlook = std::make_unique<camera::Outlook>();  // there may be another map
         is_prepared = false;
     }
 };

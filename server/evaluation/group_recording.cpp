@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 
 #include "camera/group/group_shot.hpp"
 #include "evaluation/replay.hpp"
@@ -22,6 +23,7 @@ Result<GroupRecording> record_group(const freespace::Freespace& freespace, const
 
     GroupRecording recording;
     camera::GroupState state;
+    const auto outlook = std::make_unique<camera::Outlook>();
     std::array<camera::Window, camera::max_members> windows;
     for (const TraceFrame& frame : trace.frames) {
         if (stop.stop_requested()) return fail("interrupted", ErrorCode::interrupted);
@@ -30,7 +32,7 @@ Result<GroupRecording> record_group(const freespace::Freespace& freespace, const
             windows[i] = known[i].at(time);
         const double before = cpu_nanoseconds();
         const camera::Camera camera =
-            camera::step(freespace, profile, std::span(windows).first(known.size()), time, state);
+            camera::step(freespace, profile, std::span(windows).first(known.size()), time, state, *outlook);
         recording.step_nanoseconds.push_back(cpu_nanoseconds() - before);
         recording.cameras.push_back(sampled(camera, (camera.flags & camera::cut) != 0));
     }

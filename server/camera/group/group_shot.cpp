@@ -20,11 +20,11 @@ constexpr float worth_a_move = 0.01F;  // s more that everyone is shown
 constexpr float patience = 0.6F;       // s that somebody is hidden before a cut to others than everyone
 constexpr float shortest_partial_shot = 2.5F;  // s: likewise
 
-constexpr float glide_rate = 3.0F;         // 1/s: of the critically damped motion
-constexpr float fastest_glide = 350.0F;    // units/s
-constexpr float zone_share = 0.55F;        // of the picture: the dead zone
-constexpr std::size_t instants_ahead = 2;  // of Members, that are kept in it
-constexpr float pan_time = 0.09F;          // s, at the least: time constant of the rotation
+constexpr float glide_rate = 3.0F;       // 1/s: of the critically damped motion
+constexpr float fastest_glide = 350.0F;  // units/s
+constexpr float zone_share = 0.55F;      // of the picture: the dead zone
+constexpr float kept_ahead = 0.4F;       // s, for which they are kept in it
+constexpr float pan_time = 0.09F;        // s, at the least: time constant of the rotation
 
 // Without the member who matters least; `set` is not empty.
 MemberSet without_the_last(MemberSet set) {
@@ -35,12 +35,13 @@ MemberSet without_the_last(MemberSet set) {
 class GroupStep {
   public:
     GroupStep(const freespace::Space& space, const Profile& profile, const Members& members, float dt,
-              GroupState& state)
+              GroupState& state, Outlook& outlook)
         : space_(space),
           profile_(profile, space.map().metadata().metres_per_unit),
           members_(members),
           dt_(dt),
-          state_(state) {}
+          state_(state),
+          outlook_(outlook) {}
 
     Camera with_members() {
         state_.since_cut += dt_;
@@ -98,7 +99,7 @@ class GroupStep {
         const bool complete = shown_ == members_.now().living;
         state_.until_choice = complete ? choice_interval : hurried_choice_interval;
         const Standpoint from = standpoint();
-        const ViewpointSearch search(space_, profile_, members_, all, from);
+        const ViewpointSearch search(space_, profile_, members_, all, from, outlook_);
         const float staying = search.worth_of_staying(state_.goal, from.cut_in);
         const auto near = search.glide();
         const bool glides = near && near->worth > staying + worth_a_move;
@@ -120,7 +121,8 @@ class GroupStep {
         if (state_.since_cut < shortest_partial_shot || state_.incomplete_for < patience) return false;
         for (MemberSet set = without_the_last(members_.now().living); set > shown_;
              set = without_the_last(set))
-            if (const auto found = ViewpointSearch(space_, profile_, members_, set, standpoint()).cut()) {
+            if (const auto found =
+                    ViewpointSearch(space_, profile_, members_, set, standpoint(), outlook_).cut()) {
                 cut_to(*found);
                 return true;
             }
@@ -134,7 +136,7 @@ class GroupStep {
     void begin() {
         state_.started = true;
         for (MemberSet set = members_.now().living; set != 0; set = without_the_last(set))
-            if (const auto found = ViewpointSearch(space_, profile_, members_, set, {}).cut())
+            if (const auto found = ViewpointSearch(space_, profile_, members_, set, {}, outlook_).cut())
                 return cut_to(*found);
         land_at_the_most_important();
     }
@@ -234,7 +236,7 @@ class GroupStep {
         const MemberSet wanted = wanted_in_picture();
         Look look = state_.look;
         const PictureShape zone = PictureShape::of(profile_.vertical_fov, zone_share);
-        for (std::size_t i = instants_ahead + 1; i-- > 0;)
+        for (std::size_t i = members_.until(kept_ahead); i-- > 0;)
             look = look_within(state_.position, look, Eyes(members_.at[i], wanted).span(), zone);
         const float rate = 1.0F / std::max(pan_time, profile_.look_smoothing);
         const auto accelerate = [&](float& speed, float way) {
@@ -265,6 +267,7 @@ class GroupStep {
     const Members& members_;
     float dt_;
     GroupState& state_;
+    Outlook& outlook_;
     MemberSet shown_ = 0;
     std::uint32_t flags_ = 0;
 };
@@ -272,11 +275,11 @@ class GroupStep {
 }  // namespace
 
 Camera step(const freespace::Space& space, const Profile& profile, std::span<const Window> members,
-            double time, GroupState& state) {
+            double time, GroupState& state, Outlook& outlook) {
     assert(members.size() <= max_members);
     const freespace::Space now = space.in_step(state.time, time);
     const Members known = members_at(now, members, time);
-    GroupStep one(now, profile, known, usable_frame(time - state.time), state);
+    GroupStep one(now, profile, known, usable_frame(time - state.time), state, outlook);
     state.time = time;
     return known.now().present != 0 ? one.with_members() : one.without_members();
 }

@@ -6,6 +6,7 @@
 
 #include "camera/camera.hpp"
 #include "camera/group/members.hpp"
+#include "camera/group/outlook.hpp"
 #include "camera/profile.hpp"
 #include "camera/view.hpp"
 #include "camera/window.hpp"
@@ -34,6 +35,7 @@ struct GroupState {
 // Moves the camera to `time`, later than the last step's. A window a member, at most max_members, those who
 // matter most first: the poses that are known, as for step() of the tracker; without any after `time` the
 // shot is causal. Of the profile it heeds vertical_fov, minimum_clearance, look_smoothing and turn_limit.
+// `outlook` is memory, of this freespace: with that of the last step a step is fast.
 //
 // The camera stands or glides at lookouts that see all living members, with all of them in the picture: while
 // it does, it moves and turns as little as keeps them there. Where it stops to do, it glides to another one
@@ -46,7 +48,7 @@ struct GroupState {
 // Flags: target_visible, all living members are in sight and in the picture; searching, not all of them;
 // held, nobody lives or is in sight; target_absent, no member has a pose.
 [[nodiscard]] Camera step(const freespace::Space& space, const Profile& profile,
-                          std::span<const Window> members, double time, GroupState& state);
+                          std::span<const Window> members, double time, GroupState& state, Outlook& outlook);
 
 // The same as go_on_from() of the tracker.
 [[nodiscard]] bool go_on_from(const freespace::Space& space, const View& before, const View& now, double dt,

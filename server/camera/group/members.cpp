@@ -1,11 +1,16 @@
 #include "camera/group/members.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace camdir::camera {
 namespace {
 
+constexpr double tick = 0.1;  // s: between recorded instants
+constexpr double least_recorded = 0.7;
+constexpr std::size_t foreseen_instants = 4;
+constexpr double foreseen_tick = 0.2;
 // Running fades: nobody is taken to run on for longer.
 constexpr float longest_run = 0.5F;  // s
 
@@ -25,27 +30,40 @@ double known_until(std::span<const Window> windows) {
     return until;
 }
 
+Members::Instant instant_at(const freespace::Space& space, std::span<const Window> windows, double time,
+                            double then) {
+    Members::Instant instant;
+    for (std::size_t member = 0; member < windows.size(); ++member) {
+        const Window window = windows[member];
+        const auto pose = pose_at(window, time, then);
+        if (!pose) continue;
+        instant.present |= only(member);
+        instant.eyes[member] = pose->eye;
+        if (!pose->alive) continue;
+        instant.living |= only(member);
+        const double beyond = then - window.back().time;
+        if (beyond > 0.0) instant.eyes[member] = foreseen(space.at(then), *pose, beyond);
+    }
+    return instant;
+}
+
 }  // namespace
 
 Members members_at(const freespace::Space& space, std::span<const Window> windows, double time) {
     Members members;
     const double until = known_until(windows);
-    for (std::size_t i = 0; i < Members::instants.size(); ++i) {
-        const double then = time + static_cast<double>(Members::instants[i]);
-        if (i >= Members::foreseen && then > until) break;
+    members.is_recorded = until >= time + least_recorded;
+    members.first = static_cast<std::int64_t>(std::floor(time / tick));
+    const auto time_of = [&](std::size_t i) {
+        if (i == 0) return time;
+        return members.is_recorded ? static_cast<double>(members.first + static_cast<std::int64_t>(i)) * tick
+                                   : time + static_cast<double>(i) * foreseen_tick;
+    };
+    const std::size_t most = members.is_recorded ? Members::most : foreseen_instants;
+    for (std::size_t i = 0; i < most && (!members.is_recorded || time_of(i) <= until); ++i) {
+        members.at[i] = instant_at(space, windows, time, time_of(i));
+        members.ahead[i] = static_cast<float>(time_of(i) - time);
         members.known = i + 1;
-        Members::Instant& instant = members.at[i];
-        for (std::size_t member = 0; member < windows.size(); ++member) {
-            const Window window = windows[member];
-            const auto pose = pose_at(window, time, then);
-            if (!pose) continue;
-            instant.present |= only(member);
-            instant.eyes[member] = pose->eye;
-            if (!pose->alive) continue;
-            instant.living |= only(member);
-            const double beyond = then - window.back().time;
-            if (beyond > 0.0) instant.eyes[member] = foreseen(space.at(then), *pose, beyond);
-        }
     }
     return members;
 }

@@ -1,6 +1,7 @@
 // Where the players of a group are, now and in the next seconds.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -21,20 +22,28 @@ using MemberSet = std::uint32_t;
 }
 
 struct Members {
-    // Seconds ahead of now; those after the first `foreseen` only where they are known.
-    static constexpr std::array<float, 13> instants = {0.0F, 0.2F, 0.4F, 0.6F, 0.8F, 1.0F, 1.2F,
-                                                       1.4F, 1.6F, 1.8F, 2.0F, 2.2F, 2.4F};
-    static constexpr std::size_t foreseen = 4;
+    static constexpr std::size_t most = 25;  // instants
 
     struct Instant {
         std::array<Vec3f, max_members> eyes;  // of those who are present
         MemberSet present = 0;                // dead or alive
         MemberSet living = 0;
     };
-    std::array<Instant, instants.size()> at;
-    std::size_t known = 0;  // instants
+    std::array<Instant, most> at;     // now and soon
+    std::array<float, most> ahead{};  // s, from now; ascending from 0
+    std::size_t known = 0;            // instants
+    // at[i] of i > 0 is whole tenth of a second `first` + i of the recorded future, by any clock that does
+    // not change; otherwise the players are taken to run on.
+    bool is_recorded = false;
+    std::int64_t first = 0;
 
     [[nodiscard]] const Instant& now() const { return at[0]; }
+    // Of the instants, those no later.
+    [[nodiscard]] std::size_t until(float seconds) const {
+        return static_cast<std::size_t>(
+            std::upper_bound(ahead.begin(), ahead.begin() + static_cast<std::ptrdiff_t>(known), seconds) -
+            ahead.begin());
+    }
     // Who lives at some known instant.
     [[nodiscard]] MemberSet soon_living() const {
         MemberSet living = 0;
@@ -58,8 +67,8 @@ class Eyes {
     std::size_t count_ = 0;
 };
 
-// What the windows, of at most max_members, say of `time` and after; without a future the players are
-// taken to run on, as far as is free.
+// What the windows, of at most max_members, say of `time` and of the 2.4 s after, as far as they go; where
+// they go less far than 0.7 s, of 0.6 s every 0.2 s: players are taken to run on, as far as is free.
 [[nodiscard]] Members members_at(const freespace::Space& space, std::span<const Window> windows, double time);
 
 }  // namespace camdir::camera

@@ -8,12 +8,14 @@ namespace camdir::camera {
 namespace {
 
 constexpr float safe_share = 0.86F;            // of the picture
-constexpr float widest_cosine = 0.17F;         // of the angle between two members that a picture can hold
-constexpr float tallest_sine = 0.75F;          // likewise, of the difference of their elevations
 constexpr std::size_t most_looked_at = 100;    // lookouts that are looked at now
 constexpr std::size_t most_timed_sights = 32;  // lookouts that are looked at from instant to instant
 constexpr float longest_glide = 500.0F;        // units
 constexpr float time_after_the_known = 0.6F;   // s
+constexpr float far_enough_of_some = 0.6F;     // s
+constexpr std::size_t numbers_of_a_set = 7;    // spreads sets over what an outlook remembers
+
+constexpr Shows within_a_moment = 7;  // 0.1 to 0.2 s
 
 // Costs, s.
 constexpr float cost_of_a_cut = 0.05F;
@@ -53,73 +55,62 @@ MemberSet seen_from(const freespace::Space& space, const Vec3f& position, const 
 
 // Who dies or leaves meanwhile need not be seen then.
 ViewpointSearch::ViewpointSearch(const freespace::Space& space, const MapProfile& profile,
-                                 const Members& members, MemberSet set, const Standpoint& from)
-    : space_(space), profile_(profile), members_(members), set_(set), from_(from) {
-    const freespace::Lookouts& lookouts = space.map().lookouts();
-    const std::size_t known = members.known;
-    freespace::Lookouts::Set any;
-    for (std::size_t i = 0; i < known; ++i) {
-        seeing_[i].set();
-        const Eyes eyes(members.at[i], set);
-        for (const Vec3f& eye : eyes.span())
-            seeing_[i] &= lookouts.seeing(space.map(), eye);
-        any |= seeing_[i];
-        weight_[i] = (i + 1 < known ? Members::instants[i + 1] - Members::instants[i] : time_after_the_known);
-    }
-    for (std::uint32_t i = 0; i < lookouts.positions().size(); ++i) {
-        if (!any.test(i)) continue;
-        const Shows shows = shows_from(i);
-        if (shows == 0) continue;
-        const Vec3f& position = lookouts.positions()[i];
-        candidates_[candidate_count_++] = {i, shows,
-                                           picture_cost(position) + way_cost(Approach::cut, position)};
-    }
-    for (std::size_t i = 0; i < known; ++i) {
-        for (std::size_t c = 0; c < candidate_count_; ++c)
-            after_a_cut_[i] = std::max(after_a_cut_[i],
-                                       time_of(candidates_[c].shows, i, known) - candidates_[c].cost_of_cut);
-    }
+                                 const Members& members, MemberSet set, const Standpoint& from,
+                                 Outlook& outlook)
+    : space_(space),
+      profile_(profile),
+      members_(members),
+      set_(set),
+      from_(from),
+      known_(set == members.soon_living() ? members.known : members.until(far_enough_of_some)) {
+    for (std::size_t i = 0; i < known_; ++i)
+        weight_[i] = (i + 1 < known_ ? members.ahead[i + 1] - members.ahead[i] : time_after_the_known);
+    ask(outlook);
+    if (candidate_count_ > 0)
+        plan_cuts(std::span(candidates_).first(candidate_count_), std::span(members.ahead).first(known_),
+                  weight_, shortest_group_shot, after_a_cut_);
 }
 
-// Probably.
-ViewpointSearch::Shows ViewpointSearch::shows_from(std::uint32_t lookout) const {
+// What is recorded of the next tenth of a second stands for now, so that every instant is asked about once.
+void ViewpointSearch::ask(Outlook& outlook) {
+    const bool now_as_soon = members_.is_recorded && known_ > 1;
+    freespace::Lookouts::Set any;
+    for (std::size_t i = now_as_soon ? 1 : 0; i < known_; ++i) {
+        const Eyes eyes(members_.at[i], set_);
+        const std::size_t number = members_.is_recorded ? static_cast<std::size_t>(members_.first) + i : i;
+        showing_[i] = outlook.showing(space_.map(), eyes.span(), set_ * numbers_of_a_set + number);
+        any |= showing_[i];
+    }
+    if (now_as_soon) showing_[0] = showing_[1];
+    const auto positions = space_.map().lookouts().positions();
+    for (std::uint32_t i = 0; i < positions.size(); ++i)
+        if (any.test(i))
+            candidates_[candidate_count_++] = {
+                i, shows_from(i), picture_cost(positions[i]) + way_cost(Approach::cut, positions[i])};
+}
+
+Shows ViewpointSearch::shows_from(std::uint32_t lookout) const {
     Shows shows = 0;
-    for (std::size_t i = 0; i < members_.known; ++i)
-        if (seeing_[i].test(lookout) && fits(space_.map().lookouts().positions()[lookout], i))
-            shows |= 1U << i;
+    for (std::size_t i = 0; i < known_; ++i)
+        if (showing_[i].test(lookout)) shows |= 1U << i;
     return shows;
 }
 
-ViewpointSearch::Shows ViewpointSearch::shows_from(const Vec3f& position) const {
+Shows ViewpointSearch::shows_from(const Vec3f& position) const {
     Shows shows = 0;
-    for (std::size_t i = 0; i < members_.known; ++i) {
+    for (std::size_t i = 0; i < known_; ++i)
         if (shows_at(position, i)) shows |= 1U << i;
-    }
     return shows;
 }
 
 bool ViewpointSearch::shows_at(const Vec3f& position, std::size_t instant) const {
     const MemberSet wanted = set_ & members_.at[instant].living;
-    return fits(position, instant) &&
+    return fits_one_picture(position, Eyes(members_.at[instant], set_).span()) &&
            (seen_from(at_instant(instant), position, members_.at[instant]) & wanted) == wanted;
 }
 
 freespace::Space ViewpointSearch::at_instant(std::size_t instant) const {
-    return space_.at(space_.time() + static_cast<double>(Members::instants[instant]));
-}
-
-// Whether the directions to the members are near enough to each other for one picture.
-bool ViewpointSearch::fits(const Vec3f& position, std::size_t instant) const {
-    const Eyes eyes(members_.at[instant], set_);
-    std::array<Vec3f, max_members> directions;
-    for (std::size_t i = 0; i < eyes.span().size(); ++i) {
-        directions[i] = (eyes.span()[i] - position).normalized();
-        for (std::size_t j = 0; j < i; ++j)
-            if (directions[i].dot(directions[j]) < widest_cosine ||
-                std::abs(directions[i].z() - directions[j].z()) > tallest_sine)
-                return false;
-    }
-    return true;
+    return space_.at(space_.time() + static_cast<double>(members_.ahead[instant]));
 }
 
 float ViewpointSearch::time_of(Shows shows, std::size_t first, std::size_t end) const {
@@ -130,9 +121,9 @@ float ViewpointSearch::time_of(Shows shows, std::size_t first, std::size_t end) 
 }
 
 float ViewpointSearch::time_with_a_cut(Shows shows, float cut_in) const {
-    float most = time_of(shows, 0, members_.known);
-    for (std::size_t i = 1; i < members_.known; ++i)
-        if (Members::instants[i] >= cut_in) most = std::max(most, time_of(shows, 0, i) + after_a_cut_[i]);
+    float most = time_of(shows, 0, known_);
+    for (std::size_t i = 1; i < known_; ++i)
+        if (members_.ahead[i] >= cut_in) most = std::max(most, time_of(shows, 0, i) + after_a_cut_[i]);
     return most;
 }
 
@@ -159,7 +150,7 @@ std::optional<Viewpoint> ViewpointSearch::find(Approach approach) const {
         if (best && hope.worth <= best->worth) break;
         const Vec3f& position = space_.map().lookouts().positions()[hope.lookout];
         const std::size_t first = first_shown(position, begins);
-        if (first == members_.known || (approach == Approach::glide && !can_glide(position))) continue;
+        if (first == known_ || (approach == Approach::glide && !can_glide(position))) continue;
         ++timed;
         const auto look = look_at_all(position, Eyes(members_.at[first], set_).span(), safe_area(profile_));
         const float worth = time_with_a_cut(shows_from(position), shortest_stay(approach)) - hope.cost;
@@ -169,8 +160,8 @@ std::optional<Viewpoint> ViewpointSearch::find(Approach approach) const {
 }
 
 // A cut may come a moment before the set is shown, when that is known.
-ViewpointSearch::Shows ViewpointSearch::beginnings(Approach approach) const {
-    return approach == Approach::cut && members_.known > Members::foreseen ? 3U : 1U;
+Shows ViewpointSearch::beginnings(Approach approach) const {
+    return approach == Approach::cut && members_.is_recorded ? within_a_moment : 1U;
 }
 
 float ViewpointSearch::shortest_stay(Approach approach) const {
@@ -196,11 +187,11 @@ std::size_t ViewpointSearch::collect(Approach approach, Shows begins, Hopes& hop
     return count;
 }
 
-// The first of these instants at which sights show the set from the position; members_.known: none.
+// The first of these instants at which sights show the set from the position; known_: none.
 std::size_t ViewpointSearch::first_shown(const Vec3f& position, Shows instants) const {
-    for (std::size_t i = 0; i < members_.known; ++i)
+    for (std::size_t i = 0; i < known_; ++i)
         if ((instants >> i & 1U) != 0 && shows_at(position, i)) return i;
-    return members_.known;
+    return known_;
 }
 
 bool ViewpointSearch::can_glide(const Vec3f& position) const {

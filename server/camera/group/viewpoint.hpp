@@ -4,8 +4,10 @@
 #include <array>
 #include <optional>
 
+#include "camera/group/cut_plan.hpp"
 #include "camera/group/framing.hpp"
 #include "camera/group/members.hpp"
+#include "camera/group/outlook.hpp"
 #include "camera/profile.hpp"
 #include "freespace/lookouts.hpp"
 #include "freespace/space.hpp"
@@ -41,17 +43,17 @@ inline constexpr float shortest_group_shot = 0.8F;
 [[nodiscard]] MemberSet seen_from(const freespace::Space& space, const Vec3f& position,
                                   const Members::Instant& members);
 
-// The search for viewpoints of some of the members, among the lookouts that probably see them.
+// The search for viewpoints of some of the members, among the lookouts.
 //
 // The worth of a decision is the time, s, for which all of the set are shown: from the place that it leads
-// to, and, from the instant on at which the camera may and should cut away from there, from the lookout that
-// goes on to show them for longest. What is not known yet counts as if it went on a little as it is. A cut,
-// and what makes a picture worse (members far or very near, steep views, a crossed line of action), costs a
-// part of a second each.
+// to, and, from the instant on at which the camera may and should cut away from there, by the best sequence
+// of cuts. What is not known yet counts as if it went on a little as it is. A cut, and what makes a picture
+// worse (members far or very near, steep views, a crossed line of action), costs a part of a second each. Of
+// less than all members only the next 0.6 s count: it is asked for where there is no better.
 class ViewpointSearch {
   public:
     ViewpointSearch(const freespace::Space& space, const MapProfile& profile, const Members& members,
-                    MemberSet set, const Standpoint& from);
+                    MemberSet set, const Standpoint& from, Outlook& outlook);
 
     // Of staying at `position`.
     [[nodiscard]] float worth_of_staying(const Vec3f& position, float cut_in) const;
@@ -64,8 +66,7 @@ class ViewpointSearch {
 
   private:
     template <class Value>
-    using ByInstant = std::array<Value, Members::instants.size()>;
-    using Shows = std::uint32_t;  // by instant a bit: the set is shown then
+    using ByInstant = std::array<Value, Members::most>;
     enum class Approach { cut, glide };
     // What a lookout promises.
     struct Hope {
@@ -75,10 +76,10 @@ class ViewpointSearch {
     };
     using Hopes = std::array<Hope, freespace::Lookouts::limit>;
 
+    void ask(Outlook& outlook);
     [[nodiscard]] Shows shows_from(std::uint32_t lookout) const;
     [[nodiscard]] Shows shows_from(const Vec3f& position) const;
     [[nodiscard]] bool shows_at(const Vec3f& position, std::size_t instant) const;
-    [[nodiscard]] bool fits(const Vec3f& position, std::size_t instant) const;
     [[nodiscard]] freespace::Space at_instant(std::size_t instant) const;
     [[nodiscard]] float time_of(Shows shows, std::size_t first, std::size_t end) const;
     [[nodiscard]] float time_with_a_cut(Shows shows, float cut_in) const;
@@ -96,15 +97,11 @@ class ViewpointSearch {
     const Members& members_;
     MemberSet set_;
     Standpoint from_;
-    ByInstant<freespace::Lookouts::Set> seeing_;  // the lookouts that probably see the set
-    ByInstant<float> weight_{};                   // s
-    ByInstant<float> after_a_cut_{};              // the most time from this instant on, less the cut's cost
-    struct Candidate {
-        std::uint32_t lookout;
-        Shows shows;
-        float cost_of_cut;
-    };
-    std::array<Candidate, freespace::Lookouts::limit> candidates_;  // that show the set at some instant
+    std::size_t known_;                            // instants that count
+    ByInstant<freespace::Lookouts::Set> showing_;  // the lookouts that show the set
+    ByInstant<float> weight_{};                    // s
+    ByInstant<float> after_a_cut_{};               // the most time from this instant on, less the cuts' costs
+    std::array<CutPlace, freespace::Lookouts::limit> candidates_;  // that show the set at some instant
     std::size_t candidate_count_ = 0;
 };
 

@@ -32,7 +32,7 @@ class CheckedGroup {
         std::vector<Window> windows;
         for (const TimedPose& pose : timed)
             windows.emplace_back(&pose, 1);
-        const Camera camera = camera::step(freespace_, {}, windows, time_, state_);
+        const Camera camera = camera::step(freespace_, {}, windows, time_, state_, outlook_);
         check(camera, poses);
         time_ += group_frame;
         return camera;
@@ -71,6 +71,7 @@ class CheckedGroup {
     const test::Plan& plan_;
     freespace::Freespace freespace_;
     GroupState state_;
+    Outlook outlook_;
     double time_ = 0.0;
     Vec3f position_ = Vec3f::Zero();
     int cuts_ = 0;
@@ -151,13 +152,15 @@ TEST(GroupShot, WaitsForAFirstPose) {
     const test::Plan plan = test::l_corridor();
     const freespace::Freespace freespace = plan.freespace();
     GroupState state;
+    Outlook outlook;
     const Window nobody[2] = {};
-    const Camera first = step(freespace, {}, nobody, 0.0, state);
+    const Camera first = step(freespace, {}, nobody, 0.0, state, outlook);
     EXPECT_EQ(first.flags, std::uint32_t{cut | target_absent | held});
-    EXPECT_EQ(step(freespace, {}, nobody, group_frame, state).flags, std::uint32_t{target_absent | held});
+    EXPECT_EQ(step(freespace, {}, nobody, group_frame, state, outlook).flags,
+              std::uint32_t{target_absent | held});
     const TimedPose pose{2 * group_frame, pose_at(plan.eye('s'), 0.0F), true};
     const Window one[2] = {{&pose, 1}, {}};
-    EXPECT_TRUE(flagged(step(freespace, {}, one, 2 * group_frame, state), cut));
+    EXPECT_TRUE(flagged(step(freespace, {}, one, 2 * group_frame, state, outlook), cut));
 }
 
 struct Run {
@@ -205,9 +208,10 @@ TEST(GroupShot, StaysOnItsSideOfTheLineWherePillarsHideThePlayers) {
     members.known = 1;
     members.at[0].eyes = {plan.eye(2, 3), plan.eye(2, 8)};
     members.at[0].living = only(0) | only(1);
+    Outlook outlook;
     for (const float side : {1.0F, -1.0F}) {
         const ViewpointSearch search(freespace, profile, members, members.at[0].living,
-                                     {plan.eye(2, 5), side, 0.0F});
+                                     {plan.eye(2, 5), side, 0.0F}, outlook);
         const auto found = search.cut();
         ASSERT_TRUE(found);
         EXPECT_GT(side * side_of(members.now(), found->position), 0.0F);
@@ -222,13 +226,14 @@ TEST(GroupShot, DoesNotAllocateOnAMapWhoseLookoutsAreKnown) {
     Runner a(plan, freespace.lookouts().positions()[0], 1);
     Runner b(plan, freespace.lookouts().positions()[5], 2);
     GroupState state;
+    Outlook outlook;
     const long before = test::allocations();
     for (int i = 0; i < 60; ++i) {
         const double time = group_frame * i;
         const TimedPose poses[] = {{time, a.next(static_cast<float>(group_frame)), true},
                                    {time, b.next(static_cast<float>(group_frame)), true}};
         const Window windows[] = {{poses, 1}, {poses + 1, 1}};
-        (void)step(freespace, {}, windows, time, state);
+        (void)step(freespace, {}, windows, time, state, outlook);
     }
     EXPECT_EQ(test::allocations() - before, 0);
 }

@@ -403,13 +403,14 @@ Findings run_group(const Scene& scene, const Vec3f& other, double look_ahead) {
         pose.pose = pose_at(other, 0.0F);
     ToldMovers movers(scene);
     GroupState state;
+    Outlook outlook;
     state.time = -frame_s;
     Judge judge(scene);
     const auto ahead = static_cast<std::size_t>(std::lround(look_ahead / frame_s));
     for (std::size_t i = 0; i + ahead < first.size(); ++i) {
         const freespace::Space space(freespace, &movers.until(first[i + ahead].time, first[i].time));
         const std::array windows = {Window(first).first(i + ahead + 1), Window(second).first(i + ahead + 1)};
-        const Camera camera = step(space, {}, windows, first[i].time, state);
+        const Camera camera = step(space, {}, windows, first[i].time, state, outlook);
         const std::array eyes = {first[i].pose.eye, other};
         judge.look_at(camera, first[i].time, eyes);
     }

@@ -1,0 +1,42 @@
+// From which lookouts all of a group are shown, at many instants. Remembers what was found out: of a future
+// that is known, every instant is asked about again and again until it has come.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+#include "base/geometry.hpp"
+#include "camera/group/members.hpp"
+#include "freespace/freespace.hpp"
+#include "freespace/lookouts.hpp"
+
+namespace camdir::camera {
+
+// Whether a picture from `position` can hold the eyes: the directions to them are near enough to each other.
+[[nodiscard]] bool fits_one_picture(const Vec3f& position, std::span<const Vec3f> eyes);
+
+// What it answers is the same whatever it remembers. One thread at a time. 40 kB.
+class Outlook {
+  public:
+    // The lookouts from which a picture can hold the eyes, at most max_members of them, and sights to all are
+    // free, among those that probably see them; without eyes all lookouts. Instants of which many are asked
+    // about in turn have consecutive numbers, of which the last 64 are remembered. Valid until the next call;
+    // always of the same freespace.
+    [[nodiscard]] const freespace::Lookouts::Set& showing(const freespace::Freespace& freespace,
+                                                          std::span<const Vec3f> eyes, std::size_t number);
+
+  private:
+    struct Answer {
+        std::array<Vec3f, max_members> eyes;
+        std::size_t count = max_members + 1;  // of the eyes: there is no answer yet
+        freespace::Lookouts::Set showing;
+
+        [[nodiscard]] bool is_of(std::span<const Vec3f> asked) const;
+    };
+    static constexpr std::size_t remembered = 64;
+
+    std::array<Answer, remembered> answers_;  // by number
+};
+
+}  // namespace camdir::camera
