@@ -25,6 +25,7 @@ constexpr float fastest_glide = 350.0F;  // units/s
 constexpr float zone_share = 0.55F;      // of the picture: the dead zone
 constexpr float kept_ahead = 0.4F;       // s, for which they are kept in it
 constexpr float pan_time = 0.09F;        // s, at the least: time constant of the rotation
+constexpr float pan_lag = 0.2F;          // s: of the rotation
 
 // Without the member who matters least; `set` is not empty.
 MemberSet without_the_last(MemberSet set) {
@@ -231,12 +232,14 @@ class GroupStep {
         return state_.framed & now.living;
     }
 
-    // Towards the look that keeps them in the dead zone, now and soon; critically damped.
+    // Towards the look that keeps them in the dead zone soon, above all when it will be reached; critically
+    // damped.
     void turn() {
         const MemberSet wanted = wanted_in_picture();
         Look look = state_.look;
+        const std::size_t last = members_.until(pan_lag) - 1;
         const PictureShape zone = PictureShape::of(profile_.vertical_fov, zone_share);
-        for (std::size_t i = members_.until(kept_ahead); i-- > 0;)
+        for (std::size_t i = members_.until(kept_ahead); i-- > last;)
             look = look_within(state_.position, look, Eyes(members_.at[i], wanted).span(), zone);
         const float rate = 1.0F / std::max(pan_time, profile_.look_smoothing);
         const auto accelerate = [&](float& speed, float way) {

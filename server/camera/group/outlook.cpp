@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "freespace/visibility.hpp"
 
@@ -13,24 +14,24 @@ constexpr float tallest_sine = 0.75F;   // likewise, of the difference of their 
 
 using Set = freespace::Lookouts::Set;
 
-Set probably_showing(const freespace::Freespace& freespace, std::span<const Vec3f> eyes) {
+Set look(const freespace::Freespace& freespace, std::span<const Vec3f> eyes) {
     const freespace::Lookouts& lookouts = freespace.lookouts();
+    Set probable;
+    probable.set();
+    std::array<std::optional<freespace::SightOrigin>, max_members> origins;
+    for (std::size_t i = 0; i < eyes.size(); ++i) {
+        probable &= lookouts.seeing(freespace, eyes[i]);
+        origins[i].emplace(freespace, eyes[i], 0.0F);
+    }
     Set showing;
-    showing.set();
-    for (const Vec3f& eye : eyes)
-        showing &= lookouts.seeing(freespace, eye);
-    if (eyes.size() < 2) return showing;
-    for (std::uint32_t i = 0; i < lookouts.positions().size(); ++i)
-        if (showing.test(i) && !fits_one_picture(lookouts.positions()[i], eyes)) showing.reset(i);
+    for (std::uint32_t i = 0; i < lookouts.positions().size(); ++i) {
+        const Vec3f& position = lookouts.positions()[i];
+        if (probable.test(i) && fits_one_picture(position, eyes) &&
+            std::ranges::all_of(std::span(origins).first(eyes.size()),
+                                [&](const auto& origin) { return origin->to(position).clear; }))
+            showing.set(i);
+    }
     return showing;
-}
-
-void keep_those_that_see(const freespace::Freespace& freespace, const Vec3f& eye, Set& lookouts) {
-    if (lookouts.none()) return;
-    const freespace::SightOrigin origin(freespace, eye, 0.0F);
-    const auto positions = freespace.lookouts().positions();
-    for (std::uint32_t i = 0; i < positions.size(); ++i)
-        if (lookouts.test(i) && !origin.to(positions[i]).clear) lookouts.reset(i);
 }
 
 }  // namespace
@@ -57,9 +58,7 @@ const Set& Outlook::showing(const freespace::Freespace& freespace, std::span<con
     if (answer.is_of(eyes)) return answer.showing;
     answer.count = eyes.size();
     std::ranges::copy(eyes, answer.eyes.begin());
-    answer.showing = probably_showing(freespace, eyes);
-    for (const Vec3f& eye : eyes)
-        keep_those_that_see(freespace, eye, answer.showing);
+    answer.showing = look(freespace, eyes);
     return answer.showing;
 }
 
