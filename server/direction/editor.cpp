@@ -1,6 +1,7 @@
 #include "direction/editor.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cassert>
 #include <limits>
@@ -30,6 +31,28 @@ Beat first_cut_from(Beat beat) {
 
 Beat last_cut_before(Beat beat) {
     return (beat - 1) / cut_every * cut_every;
+}
+
+// Of a[i] - b[i]. In lanes: one comparison would wait for the other.
+double greatest_difference(const double* a, const double* b, std::size_t count) {
+    constexpr std::size_t lanes = 4;
+    std::array<double, lanes> greatest;
+    greatest.fill(worst);
+    std::size_t i = 0;
+    for (; i + lanes <= count; i += lanes)
+        for (std::size_t lane = 0; lane < lanes; ++lane)
+            greatest[lane] = std::max(greatest[lane], a[i + lane] - b[i + lane]);
+    for (; i < count; ++i)
+        greatest[0] = std::max(greatest[0], a[i] - b[i]);
+    return std::ranges::max(greatest);
+}
+
+// The first that is `difference`, which there is.
+std::size_t place_of_difference(const double* a, const double* b, double difference) {
+    std::size_t i = 0;
+    while (a[i] - b[i] != difference)
+        ++i;
+    return i;
 }
 
 // A moment that a rush shows from its begin to its end.
@@ -76,6 +99,10 @@ class Plan {
           horizon_(std::max(footage.beats(), now) + beat_of(rules.grammar.foresight_s)),
           rushes_(footage.rushes()),
           slots_(static_cast<std::size_t>(horizon_ - now + 1) / cut_every + 1),
+          shortest_(beat_of(rules.grammar.minimum_shot_s)),
+          preferred_(beat_of(rules.grammar.preferred_shot_s)),
+          longest_(beat_of(rules.grammar.maximum_shot_s)),
+          lengths_((horizon_ - now + longest_) / cut_every + 1),
           value_(footage, moments, rules, unit, on_air.last_shown, now, horizon_),
           shots_(slots_ * rushes_),
           cuts_(shots_.size()),
@@ -85,9 +112,9 @@ class Plan {
           jumps_(rushes_) {
         choose_from(choice);
         collect_whole_moments();
-        const Beat longest = horizon_ - now + beat_of(rules.grammar.maximum_shot_s);
-        for (Beat length = 0; length <= longest; ++length)
-            length_costs_.push_back(length_cost(rules.grammar, length));
+        length_costs_.resize(static_cast<std::size_t>(lengths_ * cut_every));
+        for (Beat length = 0; length < lengths_ * cut_every; ++length)
+            length_costs_[place_of_length(length)] = length_cost(rules.grammar, length);
     }
 
     std::vector<Shot> make() {
@@ -158,34 +185,45 @@ class Plan {
 
     // When a shot ends that began at `begin` and is on the air at `from`.
     [[nodiscard]] Choice best_end(Beat begin, Beat from, std::size_t rush) const {
-        const Grammar& grammar = rules_.grammar;
-        const Beat first = first_cut_from(std::max(from, begin + beat_of(grammar.minimum_shot_s)));
-        const Beat last = std::max(first, begin + beat_of(grammar.maximum_shot_s));
+        const Beat first = first_cut_from(std::max(from, begin + shortest_));
+        const Beat last = std::max(first, begin + longest_);
         const double past = value_.until(from, rush);
         CreditSum credit(whole_[rush], begin, from);
         double most = worst;
         Beat best = horizon_;
         const double* after = after_end_.data() + at(first, rush);
-        for (Beat end = first; end <= last && end < horizon_;) {
+        if (first < horizon_) {
+            most = *after++ - cost_of_length(first - begin) + (credit.at(first) - past);
+            best = first;
+        }
+        for (Beat end = first + cut_every; end <= last && end < horizon_;) {
             const double earned = credit.at(end) - past;
             const Beat stretch = std::min({last + 1, horizon_, credit.next_end()});
-            for (; end < stretch; end += cut_every) {
-                const double worth = *after++ - cost_of_length(end - begin) + earned;
-                if (worth <= most) continue;
-                most = worth;
-                best = end;
+            const auto count = static_cast<std::size_t>((stretch - end + cut_every - 1) / cut_every);
+            const double* costs = length_costs_.data() + place_of_length(end - begin);
+            const double greatest = greatest_difference(after, costs, count);
+            if (greatest + earned > most) {
+                most = greatest + earned;
+                best = end + cut_every * static_cast<Beat>(place_of_difference(after, costs, greatest));
             }
+            after += count;
+            end += cut_every * static_cast<Beat>(count);
         }
         // To the end of the plan: a shot that is not over yet cannot be too short.
-        const Beat open_length = std::max(beat_of(grammar.preferred_shot_s), horizon_ - begin);
+        const Beat open_length = std::max(preferred_, horizon_ - begin);
         double stay = value_.until(horizon_, rush) - past - cost_of_length(open_length) + credit.at(horizon_);
-        if (horizon_ - begin > beat_of(grammar.maximum_shot_s)) stay -= never;
+        if (horizon_ - begin > longest_) stay -= never;
         return stay >= most ? ending(stay, horizon_, rush) : ending(most, best, rush);
     }
 
+    // Lengths that are as long as others but for cuts lie side by side.
+    [[nodiscard]] std::size_t place_of_length(Beat length) const {
+        return static_cast<std::size_t>(length % cut_every * lengths_ + length / cut_every);
+    }
+
     [[nodiscard]] double cost_of_length(Beat length) const {
-        const auto index = static_cast<std::size_t>(length);
-        return index < length_costs_.size() ? length_costs_[index] : length_cost(rules_.grammar, length);
+        return length < lengths_ * cut_every ? length_costs_[place_of_length(length)]
+                                             : length_cost(rules_.grammar, length);
     }
 
     // Of the shot on each rush that ends at `beat`, which rush is next. The most promising are asked first:
@@ -270,7 +308,8 @@ class Plan {
 
     // Of a word's moments these, and not the others.
     [[nodiscard]] double cost_of_showing(std::size_t word, Footage::Word seen) const {
-        double cost = never * std::popcount(spanning_.coming_kills[word] & ~seen);
+        const Footage::Word missed = spanning_.coming_kills[word] & ~seen;
+        double cost = missed == 0 ? 0.0 : never * std::popcount(missed);
         for (; seen != 0; seen &= seen - 1) {
             const auto bit = static_cast<std::size_t>(std::countr_zero(seen));
             cost -= spanning_.credits[word * Footage::word_bits + bit]->worth;
@@ -366,6 +405,8 @@ class Plan {
     Beat horizon_;
     std::size_t rushes_;
     std::size_t slots_;
+    Beat shortest_, preferred_, longest_;  // shots
+    Beat lengths_;                         // in the table, of each number of beats after a cut
     Value value_;
     std::vector<Choice> shots_;                    // of a shot that begins at a beat: when it ends
     std::vector<Choice> cuts_;                     // of a shot that ends at a beat: what comes next
@@ -379,7 +420,7 @@ class Plan {
     Spanning spanning_;                 // of a beat
     std::vector<char> jumped_, jumps_;  // of each rush at a beat: a camera's jump is too near to a cut
     std::vector<Promise> promising_;    // at a beat, the best next one first
-    std::vector<double> length_costs_;  // by length
+    std::vector<double> length_costs_;  // by place_of_length()
 };
 
 }  // namespace

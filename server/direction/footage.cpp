@@ -77,12 +77,11 @@ void Footage::append(std::span<const PlayerState> players, std::span<const Take>
 }
 
 void Footage::look_up_showing(Row& row) const {
-    const std::size_t words = (followed_.size() + word_bits - 1) / word_bits;
-    row.showing.assign((players_ + 1) * words, 0);
+    row.showing.assign((players_ + 1) * words(), 0);
     for (std::size_t rush = 0; rush < row.takes.size(); ++rush)
         for (std::size_t player = 0; player < players_; ++player)
             if (row.takes[rush].shown[player])
-                row.showing[player * words + rush / word_bits] |= Word{1} << rush % word_bits;
+                row.showing[player * words() + rush / word_bits] |= Word{1} << rush % word_bits;
 }
 
 void Footage::add_player() {

@@ -97,9 +97,10 @@ class Footage {
     // The rushes that show a player: rush r by bit r % 64 of word r / 64. Of nobody none, in as many words.
     using Word = std::uint64_t;
     static constexpr std::size_t word_bits = 64;
+    [[nodiscard]] std::size_t words() const { return (rushes() + word_bits - 1) / word_bits; }
     [[nodiscard]] std::span<const Word> showing(Beat beat, Index player) const {
-        const std::size_t words = row(beat).showing.size() / (players_ + 1);
-        return std::span(row(beat).showing).subspan(std::min<std::size_t>(player, players_) * words, words);
+        return std::span(row(beat).showing)
+            .subspan(std::min<std::size_t>(player, players_) * words(), words());
     }
 
   private:

@@ -6,7 +6,7 @@
 namespace camdir::direction {
 namespace {
 
-constexpr double idle_after_s = 2.0;
+constexpr Beat idle_after = 20;
 constexpr Beat shortest_piece = 15;
 
 float side_of(const Vec3f& from, const Vec3f& to, const Vec3f& point) {
@@ -34,13 +34,17 @@ bool jumps_between(const Footage& footage, std::size_t rush, Beat begin, Beat en
 // At the subject of either rush, whom both have.
 bool looks_the_same_way(const Footage& footage, const Grammar& grammar, Beat beat, std::size_t from,
                         std::size_t to, PlayerSet Take::*has) {
-    const Take& before = footage.take(beat, from);
-    const Take& after = footage.take(beat, to);
+    const auto takes = footage.takes_at(beat);
+    const auto players = footage.players_at(beat);
+    const Take& before = takes[from];
+    const Take& after = takes[to];
     const auto near = static_cast<float>(grammar.jump_cosine);
     for (const Index player : {before.subject, after.subject}) {
         if (player == nobody || !(before.*has)[player] || !(after.*has)[player]) continue;
-        const Vec3f& eye = footage.player(beat, player).eye;
-        if ((eye - before.position).normalized().dot((eye - after.position).normalized()) > near) return true;
+        const Vec3f& eye = players[player].eye;
+        const Vec3f one = eye - before.position;
+        const Vec3f other = eye - after.position;
+        if (one.dot(other) > near * std::sqrt(one.squaredNorm() * other.squaredNorm())) return true;
     }
     return false;
 }
@@ -70,13 +74,15 @@ bool crosses_line(const Footage& footage, Beat beat, std::size_t from, std::size
 }
 
 bool may_cross_line(const Footage& footage, Beat beat, std::size_t from, std::size_t to) {
-    const Take& before = footage.take(beat, from);
-    const Take& after = footage.take(beat, to);
+    const auto takes = footage.takes_at(beat);
+    const Take& before = takes[from];
+    const Take& after = takes[to];
     const Index a = before.subject;
     const Index b = after.subject;
     if (a == nobody || b == nobody || a == b) return false;
-    const PlayerState& one = footage.player(beat, a);
-    const PlayerState& other = footage.player(beat, b);
+    const auto players = footage.players_at(beat);
+    const PlayerState& one = players[a];
+    const PlayerState& other = players[b];
     if (!one.alive || !other.alive || !enemies(one, other)) return false;
     return side_of(one.eye, other.eye, before.position) * side_of(one.eye, other.eye, after.position) < 0.0F;
 }
@@ -91,8 +97,8 @@ bool jumps_soon_after(const Footage& footage, Beat beat, std::size_t rush) {
 
 bool stands_idle(const Footage& footage, Beat beat, std::size_t player, double slow) {
     if (!footage.player(beat, player).alive) return false;
-    const Beat first = std::max(footage.first(), beat - beat_of(idle_after_s) + 1);
-    if (beat - first + 1 < beat_of(idle_after_s)) return false;
+    const Beat first = std::max(footage.first(), beat - idle_after + 1);
+    if (beat - first + 1 < idle_after) return false;
     for (Beat b = first; b <= beat; ++b)
         if (footage.player(b, player).speed > static_cast<float>(slow)) return false;
     return !sees_an_enemy(footage, beat, player);

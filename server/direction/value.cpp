@@ -35,6 +35,7 @@ Value::Value(const Footage& footage, std::span<const Moment> moments, const Rule
       horizon_(horizon),
       known_(std::min(footage.beats(), horizon)),
       first_(std::max(footage.first(), std::min(now, known_ - recent))),
+      mourning_(beat_of(rules.grammar.beat_after_death_s)),
       rushes_(footage.rushes()),
       sums_(static_cast<std::size_t>(horizon - first_ + 1) * rushes_, 0.0) {
     rate_beats();
@@ -67,8 +68,8 @@ double Value::base_rate(Beat beat, std::size_t rush) const {
     const double away = static_cast<double>(now_ - last_shown_[rush]) / beats_a_minute;
     double worth = grammar.fresh * std::min(2.0, away);
     if (!take.shown[take.subject]) worth -= grammar.hidden;
-    const Beat mourning = beat - beat_of(grammar.beat_after_death_s);
-    if (!state.alive && (mourning < footage_.first() || !footage_.player(mourning, take.subject).alive))
+    const Beat before = beat - mourning_;
+    if (!state.alive && (before < footage_.first() || !footage_.player(before, take.subject).alive))
         worth -= grammar.dead;
     if (stands_idle(footage_, beat, take.subject, idle_speed * unit_)) worth -= grammar.idle;
     return worth * beat_s;
@@ -79,12 +80,14 @@ double Value::base_rate(Beat beat, std::size_t rush) const {
 void Value::add_span(const Moment& moment, const Rule& rule) {
     const double one = rule.worth * beat_s;
     const double both = rule.worth_both * beat_s - one;
+    const std::size_t words = footage_.words();
     for (Beat beat = std::max(moment.begin, first_); beat < std::min(moment.end, known_); ++beat) {
         for (const Index player : {moment.actor, moment.subject})
             if (player != nobody) worth_of_showing(beat, player) += one;
+        if (both == 0.0) continue;
         const auto actor = footage_.showing(beat, moment.actor);
         const auto subject = footage_.showing(beat, moment.subject);
-        for (std::size_t word = 0; word < actor.size(); ++word)
+        for (std::size_t word = 0; word < words; ++word)
             add_to_rushes(beat, word, actor[word] & subject[word], both);
     }
 }
@@ -113,21 +116,42 @@ void Value::add_credit(std::size_t index, const Moment& moment, const Rule& rule
                   moment.peak, rule.worth,   rule.trigger == Trigger::kill,
                   {},          {},           {}};
     if (credit.end <= credit.begin) return;
-    for (std::size_t rush = 0; rush < rushes_; ++rush) {
-        Beat until = credit.begin;
-        while (until < credit.end && shows(footage_.take(until, rush), moment))
-            ++until;
-        Beat from = credit.end;
-        while (from > credit.begin && shows(footage_.take(from - 1, rush), moment))
-            --from;
-        bool both = rule.worth_both > 0.0 && until == credit.end;
-        for (Beat beat = credit.begin; both && beat < credit.end; ++beat)
-            both = shows_both(footage_.take(beat, rush), moment);
-        credit.until.push_back(until);
-        credit.from.push_back(from);
-        credit.worth_both.push_back(both ? static_cast<float>(rule.worth_both) : 0.0F);
-    }
+    credit.until.assign(rushes_, credit.end);
+    credit.from.assign(rushes_, credit.begin);
+    credit.worth_both.assign(rushes_, 0.0F);
+    for (std::size_t word = 0; word < footage_.words(); ++word)
+        look_through(moment, word, rule.worth_both, credit);
     credits_.push_back(std::move(credit));
+}
+
+// What the rushes of one word show of the moment.
+void Value::look_through(const Moment& moment, std::size_t word, double worth_both, Credit& credit) const {
+    using Word = Footage::Word;
+    const std::size_t first = word * Footage::word_bits;
+    const std::size_t count = std::min(rushes_ - first, Footage::word_bits);
+    const Word all = ~Word{0} >> (Footage::word_bits - count);
+    const auto for_each = [&](Word rushes, const auto& change) {
+        for (; rushes != 0; rushes &= rushes - 1)
+            change(first + static_cast<std::size_t>(std::countr_zero(rushes)));
+    };
+    const auto showing = [&](Beat beat, Index player) { return footage_.showing(beat, player)[word]; };
+    Word still = all;
+    Word both = worth_both > 0.0 ? all : 0;
+    for (Beat beat = credit.begin; beat < credit.end && still != 0; ++beat) {
+        const Word actor = showing(beat, moment.actor);
+        const Word subject = showing(beat, moment.subject);
+        for_each(still & ~(actor | subject), [&](std::size_t rush) { credit.until[rush] = beat; });
+        still &= actor | subject;
+        both &= actor & subject;
+    }
+    for_each(both & still,
+             [&](std::size_t rush) { credit.worth_both[rush] = static_cast<float>(worth_both); });
+    still = all;
+    for (Beat beat = credit.end; beat > credit.begin && still != 0; --beat) {
+        const Word shown = showing(beat - 1, moment.actor) | showing(beat - 1, moment.subject);
+        for_each(still & ~shown, [&](std::size_t rush) { credit.from[rush] = beat; });
+        still &= shown;
+    }
 }
 
 void Value::fade() {

@@ -45,6 +45,7 @@ class Value {
     void add_players();
     void add_to_rushes(Beat beat, std::size_t word, Footage::Word rushes, double worth);
     void add_credit(std::size_t index, const Moment& moment, const Rule& rule);
+    void look_through(const Moment& moment, std::size_t word, double worth_both, Credit& credit) const;
     void fade();
     void charge_inner_cuts();
     void sum_up();
@@ -63,6 +64,7 @@ class Value {
     Beat horizon_;
     Beat known_;  // the first beat that is not known
     Beat first_;  // that is rated
+    Beat mourning_;
     std::size_t rushes_;
     std::vector<double> sums_;
     std::vector<double> worth_of_showing_;  // of each known beat and player, by moments that last
