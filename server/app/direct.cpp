@@ -5,6 +5,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
 
 #include "app/commands.hpp"
 #include "app/direct_match.hpp"
@@ -115,12 +116,13 @@ using Judged = report::JudgedProgramme;
 
 // The direction's own figures first, then the running director's, the others' and the bound's.
 Result<std::vector<Judged>> judge(const Rushes& rushes, std::span<const direction::Event> events,
+                                  std::span<const direction::Moment> moments,
                                   std::span<const direction::Shot> shots,
                                   std::span<const direction::Shot> running, const direction::Rules& rules,
                                   double unit, double delay, const std::stop_token& stop) {
     constexpr std::uint64_t seeds = 64;
     const auto figures = [&](std::span<const direction::Shot> programme) {
-        return direction::judge(rushes.judged, events, programme, rules.grammar, unit);
+        return direction::judge(rushes.judged, events, moments, programme, rules.grammar, unit);
     };
     std::vector<direction::Figures> switches;
     for (std::uint64_t seed = 0; seed < seeds && !stop.stop_requested(); ++seed)
@@ -142,15 +144,16 @@ nlohmann::ordered_json object_of(const direction::Figures& figures) {
     return object;
 }
 
-std::string to_json(const std::vector<Judged>& judged) {
+std::string to_json(const std::vector<Judged>& judged, std::size_t kills_in_reach) {
     nlohmann::ordered_json json = object_of(judged.front().figures);
     json["kills_bound"] = judged.back().figures.kills_seen;
+    json["kills_in_reach"] = kills_in_reach;
     for (std::size_t i = 1; i < judged.size(); ++i)
         json[judged[i].name] = object_of(judged[i].figures);
     return json.dump(2) + "\n";
 }
 
-void print_table(const std::vector<Judged>& judged) {
+void print_table(const std::vector<Judged>& judged, std::size_t kills_in_reach) {
     std::fprintf(stderr, "%-18s", "");
     for (const Judged& one : judged)
         std::fprintf(stderr, "%12s", one.name.c_str());
@@ -159,7 +162,7 @@ void print_table(const std::vector<Judged>& judged) {
         for (const Judged& one : judged)
             std::fprintf(stderr, "%12.2f", one.figures.*member);
     }
-    std::fprintf(stderr, "\n");
+    std::fprintf(stderr, "\n%zu kills are in reach of the cameras, whatever the grammar\n", kills_in_reach);
 }
 
 std::string reason_text(const direction::Reason& reason, const direction::Rules& rules,
@@ -238,8 +241,8 @@ std::vector<report::Fact> facts_of(const DirectOptions& options, const Inputs& i
 
 Result<void> write_report(const DirectOptions& options, const Inputs& inputs, const Rushes& rushes,
                           const std::vector<direction::Shot>& shots, const std::vector<Judged>& judged,
-                          const std::vector<direction::Event>& events, double unit, ProgressLine& line,
-                          const std::stop_token& stop) {
+                          const std::vector<direction::Event>& events, std::vector<direction::Moment> moments,
+                          ProgressLine& line, const std::stop_token& stop) {
     const direction::Rules& rules = inputs.rules;
     report::ProgrammeSubject subject{{inputs.map.scene, inputs.trace, inputs.map.point_radius},
                                      rushes.cameras,
@@ -251,7 +254,7 @@ Result<void> write_report(const DirectOptions& options, const Inputs& inputs, co
                                      {},
                                      rushes.judged,
                                      events,
-                                     direction::find_moments(rushes.judged, events, rules, unit, 0),
+                                     std::move(moments),
                                      rules};
     for (const direction::Shot& shot : shots)
         subject.reasons.push_back(shot_text(inputs, rushes, shot));
@@ -289,10 +292,12 @@ Result<void> direct(const DirectOptions& options) {
                                            director::Edit::foresight_s(options.delay), stop);
     if (!running) return tl::unexpected(running.error());
     line.show("judging", 0, 0);
-    const auto judged = judge(*rushes, events, *shots, *running, rules, unit, options.delay, stop);
+    auto moments = direction::find_moments(rushes->judged, events, rules, unit, 0);
+    const std::size_t in_reach = direction::kills_in_reach(rushes->judged, events);
+    const auto judged = judge(*rushes, events, moments, *shots, *running, rules, unit, options.delay, stop);
     if (!judged) return tl::unexpected(judged.error());
     line.clear();
-    print_table(*judged);
+    print_table(*judged, in_reach);
     std::fprintf(stderr, "%.3f ms a decision\n",
                  took.count() * direction::cut_every / static_cast<double>(rushes->edited.beats()));
     if (!options.cameras.empty()) {
@@ -300,11 +305,11 @@ Result<void> direct(const DirectOptions& options) {
         if (!written) return written;
     }
     if (!options.json.empty()) {
-        auto written = write_file(options.json, to_json(*judged));
+        auto written = write_file(options.json, to_json(*judged, in_reach));
         if (!written) return written;
     }
     if (options.report.empty()) return {};
-    return write_report(options, *inputs, *rushes, *shots, *judged, events, unit, line, stop);
+    return write_report(options, *inputs, *rushes, *shots, *judged, events, std::move(moments), line, stop);
 }
 
 }  // namespace

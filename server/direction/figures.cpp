@@ -4,6 +4,7 @@
 #include <array>
 
 #include "direction/grammar.hpp"
+#include "direction/value.hpp"
 
 namespace camdir::direction {
 namespace {
@@ -67,6 +68,21 @@ class Judge {
         figures.shot_s_p10 = percentile(lengths, 0.1);
         figures.shot_s_p50 = percentile(lengths, 0.5);
         figures.shot_s_p90 = percentile(lengths, 0.9);
+    }
+
+    void judge_delays(std::span<const Moment> moments, Figures& figures) const {
+        Beat sum = 0;
+        Beat shown = 0;
+        for (const Moment& moment : moments) {
+            Beat beat = moment.begin;
+            while (beat < moment.end && !shows(footage_.take(beat, rush_at(beat)), moment))
+                ++beat;
+            if (beat == moment.end) continue;
+            sum += beat - moment.begin;
+            ++shown;
+        }
+        if (shown > 0)
+            figures.moment_delay_s = static_cast<double>(sum) * beat_s / static_cast<double>(shown);
     }
 
     void judge_idleness(Figures& figures) const {
@@ -162,7 +178,7 @@ class Judge {
     std::vector<std::size_t> on_air_;  // the rush of each beat
 };
 
-constexpr std::array<FigureName, 14> names{{
+constexpr std::array<FigureName, 15> names{{
     {"kills", &Figures::kills},
     {"kills_seen", &Figures::kills_seen},
     {"kills_seen_both", &Figures::kills_seen_both},
@@ -177,18 +193,35 @@ constexpr std::array<FigureName, 14> names{{
     {"line_crossings", &Figures::line_crossings},
     {"idle_share", &Figures::idle_share},
     {"missed_by_cut", &Figures::missed_by_cut},
+    {"moment_delay_s", &Figures::moment_delay_s},
 }};
 
 }  // namespace
 
-Figures judge(const Footage& footage, std::span<const Event> events, std::span<const Shot> shots,
-              const Grammar& grammar, double unit) {
+Figures judge(const Footage& footage, std::span<const Event> events, std::span<const Moment> moments,
+              std::span<const Shot> shots, const Grammar& grammar, double unit) {
     Figures figures;
     const Judge judge(footage, shots, grammar, unit);
     judge.judge_kills(events, figures);
     judge.judge_cuts(figures);
+    judge.judge_delays(moments, figures);
     judge.judge_idleness(figures);
     return figures;
+}
+
+std::size_t kills_in_reach(const Footage& footage, std::span<const Event> events) {
+    const auto kills = kills_of(events);
+    const auto is_in_reach = [&](const Kill& kill) {
+        if (!kill_counts(footage, kill.time)) return false;
+        const auto [begin, end] = beats_of_kill(kill.time);
+        for (Beat beat = begin; beat < end; ++beat)
+            if (std::ranges::none_of(footage.takes_at(beat), [&](const Take& take) {
+                    return take.shown[kill.killer] || take.shown[kill.victim];
+                }))
+                return false;
+        return true;
+    };
+    return static_cast<std::size_t>(std::ranges::count_if(kills, is_in_reach));
 }
 
 std::vector<bool> kills_shown(const Footage& footage, std::span<const Shot> shots,

@@ -30,11 +30,20 @@ struct Figures {
     // enemies within 1,200 units see each other.
     double idle_share = 0.0;
     double missed_by_cut = 0.0;  // kills not seen, with a cut in the second before
+    // Of the moments that are shown before they end, whoever of the two is shown: the mean time from the
+    // begin to that, s; 0 when there are none.
+    double moment_delay_s = 0.0;
 };
 
-// `footage`: as the judge sees it. The shots cover all of it. `unit`: 0.0254 m in map units.
+// `footage`: as the judge sees it; `moments`: of all of it. The shots cover all of it. `unit`: 0.0254 m in
+// map units.
 [[nodiscard]] Figures judge(const Footage& footage, std::span<const Event> events,
-                            std::span<const Shot> shots, const Grammar& grammar, double unit);
+                            std::span<const Moment> moments, std::span<const Shot> shots,
+                            const Grammar& grammar, double unit);
+
+// Of the kills that count those that some rushes would show, each beat any of them: the bound of all
+// programmes, whatever their grammar.
+[[nodiscard]] std::size_t kills_in_reach(const Footage& footage, std::span<const Event> events);
 
 // Of each kill: the programme shows it, as Figures::kills_seen counts it; false where the match lacks a part
 // of its time.

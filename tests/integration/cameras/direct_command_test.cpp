@@ -40,9 +40,9 @@ TEST_F(DirectCommand, WritesEveryFigureBesideOtherDirectors) {
     ASSERT_EQ(direct({"--delay", "2", "--json", file}), 0) << errors_;
     const json figures = json::parse(written(file));
     const char* names[] = {
-        "kills",           "kills_seen",     "kills_seen_both", "multi_kills",  "multi_kills_seen",
-        "cuts_per_minute", "shot_s_p10",     "shot_s_p50",      "shot_s_p90",   "shots_under_1_5",
-        "jump_cuts",       "line_crossings", "idle_share",      "missed_by_cut"};
+        "kills",           "kills_seen",     "kills_seen_both", "multi_kills",   "multi_kills_seen",
+        "cuts_per_minute", "shot_s_p10",     "shot_s_p50",      "shot_s_p90",    "shots_under_1_5",
+        "jump_cuts",       "line_crossings", "idle_share",      "missed_by_cut", "moment_delay_s"};
     for (const char* name : names) {
         EXPECT_TRUE(figures.at(name).is_number()) << name;
         for (const char* other : {"running", "random", "hltv", "quakeworld", "bound"})
@@ -51,6 +51,7 @@ TEST_F(DirectCommand, WritesEveryFigureBesideOtherDirectors) {
     EXPECT_EQ(figures.at("kills"), 1);
     EXPECT_EQ(figures.at("kills_seen"), 1);
     EXPECT_EQ(figures.at("kills_bound"), 1);
+    EXPECT_EQ(figures.at("kills_in_reach"), 1);
 }
 
 TEST_F(DirectCommand, WritesTheCameraOfEveryFrameAndRepeatsItself) {

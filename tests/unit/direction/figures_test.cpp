@@ -10,8 +10,9 @@ namespace {
 using test::kill;
 using test::Script;
 
-Figures judged(const Script& script, const std::vector<Event>& events, const std::vector<Shot>& shots) {
-    return judge(script.footage(), events, shots, Grammar{}, test::unit);
+Figures judged(const Script& script, const std::vector<Event>& events, const std::vector<Shot>& shots,
+               const std::vector<Moment>& moments = {}) {
+    return judge(script.footage(), events, moments, shots, Grammar{}, test::unit);
 }
 
 TEST(Figures, AKillIsSeenByWhoeverIsShownInEveryBeat) {
@@ -41,6 +42,26 @@ TEST(Figures, OneBeatWithoutThemLosesTheKill) {
     EXPECT_EQ(judged(script, events, shots).kills_seen_both, 0.0);
     script.take(35, 0).shown.reset();
     EXPECT_EQ(judged(script, events, shots).kills_seen, 0.0);
+}
+
+TEST(Figures, MomentsAreShownSoonerOrLater) {
+    const Script script(4, 100);
+    const std::vector<Shot> shots = {{0, 0, 60, {}}, {1, 60, 100, {}}};
+    const std::vector<Moment> moments = {{0, 10, 20, 15, 2, 0},   // at once
+                                         {0, 50, 70, 55, 1, 2},   // after the cut
+                                         {0, 10, 20, 15, 3, 2}};  // never
+    EXPECT_DOUBLE_EQ(judged(script, {}, shots, moments).moment_delay_s, 0.5);
+    EXPECT_EQ(judged(script, {}, shots, {moments.back()}).moment_delay_s, 0.0);
+}
+
+TEST(Figures, AKillIsInReachOfWhateverRushesShowIt) {
+    Script script(3, 60);
+    const std::vector<Event> events = {kill(3.0, 0, 1), kill(5.9, 0, 1)};  // the match lacks the second's end
+    EXPECT_EQ(kills_in_reach(script.footage(), events), 1U);
+    script.take(30, 0).shown.reset();  // then player 1's rush
+    EXPECT_EQ(kills_in_reach(script.footage(), events), 1U);
+    script.take(30, 1).shown.reset();
+    EXPECT_EQ(kills_in_reach(script.footage(), events), 0U);
 }
 
 TEST(Figures, AMultiKillIsSeenFromItsFirst) {

@@ -114,7 +114,7 @@ TEST(Programme, ForKillsSeesAtLeastWhatTheEditorSees) {
         const Footage footage = random_script(players, beats, random).footage();
         const auto events = random_kills(players, 15.0, 6, random);
         const auto seen = [&](const std::vector<Shot>& shots) {
-            const Figures figures = judge(footage, events, shots, rules.grammar, test::unit);
+            const Figures figures = judge(footage, events, {}, shots, rules.grammar, test::unit);
             return figures.missed_by_cut + figures.jump_cuts + figures.line_crossings > 0.0
                        ? 0.0
                        : figures.kills_seen;
@@ -131,7 +131,7 @@ TEST(Programme, ForKillsWantsThoseThatCountWhateverTheRulesSay) {
                                        test::kill(2.9, 0, 2)};
     Rules rules = default_rules();
     const auto seen = [&] {
-        return judge(footage, events, direct_for_kills(footage, events, rules, test::unit), rules.grammar,
+        return judge(footage, events, {}, direct_for_kills(footage, events, rules, test::unit), rules.grammar,
                      test::unit)
             .kills_seen;
     };
