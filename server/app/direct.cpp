@@ -1,7 +1,9 @@
 // camera-director direct: makes the programme of a recorded match and judges it beside other directors.
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <iostream>
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -135,6 +137,19 @@ Result<std::vector<Judged>> judge(const Rushes& rushes, std::span<const directio
         {"hltv", figures(direction::hltv(rushes.judged, events, unit, delay))},
         {"quakeworld", figures(direction::quakeworld(rushes.judged, events))},
         {"bound", figures(direction::direct_for_kills(rushes.judged, events, rules, unit))}};
+}
+
+// Of the rules that count, those to be shown from their begin on: a lead, a streak or a carried flag goes on.
+std::vector<direction::Moment> moments_to_begin_with(std::span<const direction::Moment> moments,
+                                                     const direction::Rules& rules) {
+    using direction::Trigger;
+    std::vector<direction::Moment> some;
+    std::ranges::copy_if(moments, std::back_inserter(some), [&](const direction::Moment& moment) {
+        const direction::Rule& rule = rules.moments[moment.rule];
+        return (rule.worth > 0.0 || rule.worth_both > 0.0) && rule.trigger != Trigger::lead &&
+               rule.trigger != Trigger::streak && rule.trigger != Trigger::flag_run;
+    });
+    return some;
 }
 
 nlohmann::ordered_json object_of(const direction::Figures& figures) {
@@ -294,7 +309,8 @@ Result<void> direct(const DirectOptions& options) {
     line.show("judging", 0, 0);
     auto moments = direction::find_moments(rushes->judged, events, rules, unit, 0);
     const std::size_t in_reach = direction::kills_in_reach(rushes->judged, events);
-    const auto judged = judge(*rushes, events, moments, *shots, *running, rules, unit, options.delay, stop);
+    const auto judged = judge(*rushes, events, moments_to_begin_with(moments, rules), *shots, *running, rules,
+                              unit, options.delay, stop);
     if (!judged) return tl::unexpected(judged.error());
     line.clear();
     print_table(*judged, in_reach);

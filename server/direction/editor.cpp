@@ -216,7 +216,7 @@ class Plan {
         return stay >= most ? ending(stay, horizon_, rush) : ending(most, best, rush);
     }
 
-    // Lengths that are as long as others but for cuts lie side by side.
+    // Lengths with the same remainder by cut_every lie side by side, as those of a shot's ends do.
     [[nodiscard]] std::size_t place_of_length(Beat length) const {
         return static_cast<std::size_t>(length % cut_every * lengths_ + length / cut_every);
     }
@@ -406,7 +406,7 @@ class Plan {
     std::size_t rushes_;
     std::size_t slots_;
     Beat shortest_, preferred_, longest_;  // shots
-    Beat lengths_;                         // in the table, of each number of beats after a cut
+    Beat lengths_;                         // in the table, of each remainder
     Value value_;
     std::vector<Choice> shots_;                    // of a shot that begins at a beat: when it ends
     std::vector<Choice> cuts_;                     // of a shot that ends at a beat: what comes next

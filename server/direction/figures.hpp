@@ -30,13 +30,13 @@ struct Figures {
     // enemies within 1,200 units see each other.
     double idle_share = 0.0;
     double missed_by_cut = 0.0;  // kills not seen, with a cut in the second before
-    // Of the moments that are shown before they end, whoever of the two is shown: the mean time from the
-    // begin to that, s; 0 when there are none.
+    // Of the given moments that are shown before they end, whoever of the two is shown: the mean time from
+    // the begin to that, s; 0 when there are none. Those that are never shown do not count.
     double moment_delay_s = 0.0;
 };
 
-// `footage`: as the judge sees it; `moments`: of all of it. The shots cover all of it. `unit`: 0.0254 m in
-// map units.
+// `footage`: as the judge sees it; `moments`: for moment_delay_s. The shots cover all of it. `unit`: 0.0254 m
+// in map units.
 [[nodiscard]] Figures judge(const Footage& footage, std::span<const Event> events,
                             std::span<const Moment> moments, std::span<const Shot> shots,
                             const Grammar& grammar, double unit);

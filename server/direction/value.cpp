@@ -20,11 +20,6 @@ bool shows(const Take& take, const Moment& moment) {
            (moment.subject != nobody && take.shown[moment.subject]);
 }
 
-bool shows_both(const Take& take, const Moment& moment) {
-    return moment.actor != nobody && moment.subject != nobody && take.shown[moment.actor] &&
-           take.shown[moment.subject];
-}
-
 Value::Value(const Footage& footage, std::span<const Moment> moments, const Rules& rules, double unit,
              std::span<const Beat> last_shown, Beat now, Beat horizon)
     : footage_(footage),
@@ -35,7 +30,7 @@ Value::Value(const Footage& footage, std::span<const Moment> moments, const Rule
       horizon_(horizon),
       known_(std::min(footage.beats(), horizon)),
       first_(std::max(footage.first(), std::min(now, known_ - recent))),
-      mourning_(beat_of(rules.grammar.beat_after_death_s)),
+      after_death_(beat_of(rules.grammar.beat_after_death_s)),
       rushes_(footage.rushes()),
       sums_(static_cast<std::size_t>(horizon - first_ + 1) * rushes_, 0.0) {
     rate_beats();
@@ -68,7 +63,7 @@ double Value::base_rate(Beat beat, std::size_t rush) const {
     const double away = static_cast<double>(now_ - last_shown_[rush]) / beats_a_minute;
     double worth = grammar.fresh * std::min(2.0, away);
     if (!take.shown[take.subject]) worth -= grammar.hidden;
-    const Beat before = beat - mourning_;
+    const Beat before = beat - after_death_;
     if (!state.alive && (before < footage_.first() || !footage_.player(before, take.subject).alive))
         worth -= grammar.dead;
     if (stands_idle(footage_, beat, take.subject, idle_speed * unit_)) worth -= grammar.idle;

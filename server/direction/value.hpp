@@ -62,9 +62,9 @@ class Value {
     std::span<const Beat> last_shown_;
     Beat now_;
     Beat horizon_;
-    Beat known_;  // the first beat that is not known
-    Beat first_;  // that is rated
-    Beat mourning_;
+    Beat known_;        // the first beat that is not known
+    Beat first_;        // that is rated
+    Beat after_death_;  // beats for which a death may be looked at
     std::size_t rushes_;
     std::vector<double> sums_;
     std::vector<double> worth_of_showing_;  // of each known beat and player, by moments that last
@@ -73,6 +73,5 @@ class Value {
 
 // The rush shows whom the moment is about.
 [[nodiscard]] bool shows(const Take& take, const Moment& moment);
-[[nodiscard]] bool shows_both(const Take& take, const Moment& moment);
 
 }  // namespace camdir::direction

@@ -230,7 +230,8 @@ ShotCamera Match::move_camera(Shot& shot, double dt, camera::Scratch& scratch) {
                                                        : step_by_pose(shot, seen, dt, scratch);
 
     if ((camera.flags & camera::cut) != 0) counters_.add(Counter::cuts);
-    if ((camera.flags & camera::searching) != 0 && (shot.flags & camera::searching) == 0)
+    if (!shot.is_of_group() && (camera.flags & camera::searching) != 0 &&
+        (shot.flags & camera::searching) == 0)
         counters_.add(Counter::searches);
     shot.flags = camera.flags;
     return {shot.camera_id,      shot.target,      camera.position, camera.orientation,

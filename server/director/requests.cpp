@@ -57,6 +57,9 @@ std::vector<std::uint32_t> without_repetitions(std::span<const std::uint32_t> gr
 
 // What is wrong with the group of a group shot; empty when nothing is.
 std::string group_error(const ShotKey& key) {
+    for (const std::uint32_t player : key.group)
+        if (player == no_player || player == whole_group)
+            return "no player has the id " + std::to_string(player);
     if (key.target != whole_group || (key.group.size() >= 2 && key.group.size() <= camera::max_members))
         return {};
     return "a group shot shows 2 to " + std::to_string(camera::max_members) + " players, not " +
@@ -262,6 +265,7 @@ Shot& Requests::add_shot(const ShotKey& key) {
     Shot shot;
     shot.key = key;
     shot.camera_id = id;
+    shot.restart();
     return *shots_.insert(place, std::move(shot));
 }
 

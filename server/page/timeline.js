@@ -19,7 +19,7 @@ const byTime = (a, b) => a.t - b.t;
 const isSame = (a, b) => a.flags === b.flags && a.target === b.target;
 
 export class Timeline {
-    // `keptMs`: before the newest frame; of a shot at most maxStates, and maxMarks cuts, as many events and latencies.
+    // `keptMs`: before the newest frame; of a shot at most maxStates, and maxMarks cuts and as many events.
     constructor({keptMs, maxStates, maxMarks}) {
         Object.assign(this, {keptMs, maxStates, maxMarks});
         this.latencies = [];  // [{t, ms}], of each stepMs the greatest

@@ -237,10 +237,13 @@ class GroupStep {
     void turn() {
         const MemberSet wanted = wanted_in_picture();
         Look look = state_.look;
-        const std::size_t last = members_.until(pan_lag) - 1;
+        const std::size_t nearest = members_.until(pan_lag) - 1;
         const PictureShape zone = PictureShape::of(profile_.vertical_fov, zone_share);
-        for (std::size_t i = members_.until(kept_ahead); i-- > last;)
+        for (std::size_t i = members_.until(kept_ahead); i-- > nearest;)
             look = look_within(state_.position, look, Eyes(members_.at[i], wanted).span(), zone);
+        if (members_.is_recorded)  // who jumps soon is still here
+            look =
+                look_within(state_.position, look, Eyes(members_.now(), wanted).span(), safe_area(profile_));
         const float rate = 1.0F / std::max(pan_time, profile_.look_smoothing);
         const auto accelerate = [&](float& speed, float way) {
             // Implicit: stable for every frame.

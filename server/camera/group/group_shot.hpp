@@ -43,7 +43,8 @@ struct GroupState {
 // Of two it stays on one side of the line between them, as long as anything else shows them.
 //
 // Guarantees: as step() of the tracker, but that a step may ask for the freespace's lookouts for the first
-// time, which makes them and allocates, and what one of them sees, which takes milliseconds once for a map.
+// time, which makes them and allocates, and what some of them see, which takes milliseconds each, once for a
+// map. The first step of a shot that knows its future looks at all of it: milliseconds too.
 //
 // Flags: target_visible, all living members are in sight and in the picture; searching, not all of them;
 // held, nobody lives or is in sight; target_absent, no member has a pose.

@@ -21,8 +21,8 @@ class Outlook {
   public:
     // The lookouts from which a picture can hold the eyes, at most max_members of them, and sights to all are
     // free, among those that probably see them; without eyes all lookouts. Instants of which many are asked
-    // about in turn have consecutive numbers, of which the last 64 are remembered. Valid until the next call;
-    // always of the same freespace.
+    // about in turn have consecutive numbers, of which the last 128 are remembered. Valid until the next
+    // call; always of the same freespace.
     [[nodiscard]] const freespace::Lookouts::Set& showing(const freespace::Freespace& freespace,
                                                           std::span<const Vec3f> eyes, std::size_t number);
 
@@ -34,7 +34,7 @@ class Outlook {
 
         [[nodiscard]] bool is_of(std::span<const Vec3f> asked) const;
     };
-    static constexpr std::size_t remembered = 64;
+    static constexpr std::size_t remembered = 128;
 
     std::array<Answer, remembered> answers_;  // by number
 };

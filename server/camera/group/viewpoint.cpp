@@ -1,15 +1,14 @@
 #include "camera/group/viewpoint.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 namespace camdir::camera {
 namespace {
 
 constexpr float safe_share = 0.86F;            // of the picture
-constexpr std::size_t most_looked_at = 100;    // lookouts that are looked at now
-constexpr std::size_t most_timed_sights = 32;  // lookouts that are looked at from instant to instant
+constexpr std::size_t most_looked_at = 100;    // lookouts that are confirmed for now
+constexpr std::size_t most_timed_sights = 32;  // lookouts that are confirmed for all instants
 constexpr float longest_glide = 500.0F;        // units
 constexpr float time_after_the_known = 0.6F;   // s
 constexpr float far_enough_of_some = 0.6F;     // s

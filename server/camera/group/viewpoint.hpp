@@ -17,7 +17,7 @@ namespace camdir::camera {
 struct Viewpoint {
     Vec3f position = Vec3f::Zero();
     Look look;            // with those shown in the middle
-    MemberSet shown = 0;  // now
+    MemberSet shown = 0;  // now or, of a cut in a known future, within 0.2 s
     float worth = 0.0F;   // see ViewpointSearch
 };
 

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <memory>
+#include <vector>
 
 #include "camera/group/framing.hpp"
 #include "camera/group/viewpoint.hpp"
@@ -236,6 +239,97 @@ TEST(GroupShot, DoesNotAllocateOnAMapWhoseLookoutsAreKnown) {
         (void)step(freespace, {}, windows, time, state, outlook);
     }
     EXPECT_EQ(test::allocations() - before, 0);
+}
+
+// Two players who run about, as recorded, and how far ahead they are known.
+class Recorded {
+  public:
+    Recorded(const test::Plan& plan, const freespace::Freespace& freespace, int frames) {
+        Runner a(plan, freespace.lookouts().positions()[0], 1);
+        Runner b(plan, freespace.lookouts().positions()[5], 2);
+        for (int i = 0; i < frames; ++i) {
+            first.push_back({group_frame * i, a.next(static_cast<float>(group_frame)), true});
+            second.push_back({group_frame * i, b.next(static_cast<float>(group_frame)), true});
+        }
+    }
+
+    [[nodiscard]] std::array<Window, 2> until(std::size_t frame) const {
+        const std::size_t count = std::min(frame + 1, first.size());
+        return {Window(first).first(count), Window(second).first(count)};
+    }
+
+    std::vector<TimedPose> first, second;
+};
+
+TEST(GroupShot, IsTheSameWhateverItsOutlookRemembers) {
+    const test::Plan plan = test::figure_eight();
+    const freespace::Freespace freespace = plan.freespace();
+    const Recorded recorded(plan, freespace, 400);
+    GroupState kept_state;
+    GroupState fresh_state;
+    Outlook kept;
+    for (std::size_t i = 0; i + 180 < 400; ++i) {
+        const auto windows = recorded.until(i + 180);
+        const double time = group_frame * static_cast<double>(i);
+        const auto fresh = std::make_unique<Outlook>();
+        const Camera camera = step(freespace, {}, windows, time, kept_state, kept);
+        const Camera twin = step(freespace, {}, windows, time, fresh_state, *fresh);
+        ASSERT_EQ(camera.position, twin.position) << "frame " << i;
+        ASSERT_EQ(camera.orientation.coeffs(), twin.orientation.coeffs()) << "frame " << i;
+    }
+}
+
+TEST(GroupShot, KeepsWhoIsAboutToJumpInThePicture) {
+    const test::Plan plan = hall();
+    const freespace::Freespace freespace = plan.freespace();
+    std::vector<TimedPose> first;
+    std::vector<TimedPose> second;
+    constexpr int jump = 60;
+    for (int i = 0; i < 200; ++i) {
+        first.push_back({group_frame * i, pose_at(plan.eye(2, 4), 0.0F), true});
+        second.push_back({group_frame * i, pose_at(i < jump ? plan.eye(2, 5) : plan.eye(4, 1), 0.0F), true});
+        second.back().pose.discontinuity = i == jump;
+    }
+    GroupState state;
+    Outlook outlook;
+    for (std::size_t i = 0; i < jump; ++i) {
+        const std::array<Window, 2> windows = {Window(first), Window(second)};
+        const Camera camera =
+            step(freespace, {}, windows, group_frame * static_cast<double>(i), state, outlook);
+        EXPECT_TRUE(flagged(camera, target_visible)) << "frame " << i;
+    }
+}
+
+TEST(Members, OfARecordedFutureAreThoseOfWholeTenths) {
+    const test::Plan plan = hall();
+    const freespace::Freespace freespace = plan.freespace();
+    std::vector<TimedPose> poses;
+    for (int i = 0; i <= 100; ++i) {
+        Pose pose = pose_at(plan.eye(2, 3), 0.0F);
+        pose.eye.x() += 10.0F * static_cast<float>(i) * 0.05F;  // 10 units a second
+        poses.push_back({0.05 * i, pose, true});
+    }
+    const float begin = poses[0].pose.eye.x();
+    for (const double time : {1.0, 1.02, 1.0999, 2.05}) {
+        const std::array<Window, 1> windows = {Window(poses)};
+        const Members members = members_at(freespace, windows, time);
+        EXPECT_TRUE(members.is_recorded);
+        ASSERT_EQ(members.known, Members::most);
+        EXPECT_EQ(members.ahead[0], 0.0F);
+        for (std::size_t i = 1; i < members.known; ++i) {
+            const double then = 0.1 * static_cast<double>(members.first + static_cast<std::int64_t>(i));
+            EXPECT_GE(members.ahead[i], members.ahead[i - 1]);
+            EXPECT_NEAR(members.ahead[i], then - time, 1e-5);
+            EXPECT_NEAR(members.at[i].eyes[0].x(), begin + 10.0 * then, 1e-2);
+        }
+    }
+    // 0.5 s are known: after that the player is taken to run on.
+    const std::array<Window, 1> windows = {Window(poses).first(31)};
+    const Members members = members_at(freespace, windows, 1.0);
+    EXPECT_FALSE(members.is_recorded);
+    ASSERT_EQ(members.known, 4U);
+    EXPECT_FLOAT_EQ(members.ahead[3], 0.6F);
+    EXPECT_EQ(members.until(0.4F), 3U);
 }
 
 TEST(Framing, LooksAtAllFromTheMiddle) {

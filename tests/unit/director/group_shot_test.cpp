@@ -62,6 +62,17 @@ TEST(GroupShotRequest, TakesTwoToFourPlayers) {
     EXPECT_EQ(stage.publisher.status("o").state, RequestState::accepted);
 }
 
+TEST(GroupShotRequest, NamesNoIdThatIsNoPlayers) {
+    Stage stage;
+    stage.start();
+    for (const std::uint32_t id : {no_player, whole_group}) {
+        stage.ask(group_request("o", {id, 3}));
+        EXPECT_EQ(stage.publisher.status("o").state, RequestState::refused);
+        EXPECT_EQ(stage.publisher.status("o").reason, "no player has the id " + std::to_string(id));
+        stage.send(Stage::poses(id == no_player ? 1 : 2));
+    }
+}
+
 TEST(GroupShotRequest, WaitsUntilOneOfItsPlayersPlays) {
     Stage stage;
     stage.start(Stage::info("m", 1, {1}));

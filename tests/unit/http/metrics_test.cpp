@@ -2,7 +2,9 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
 #include <prometheus/text_serializer.h>
+#include <algorithm>
 
 #include <limits>
 #include <map>
@@ -46,8 +48,11 @@ TEST(Metrics, LabelRefusedMatchesWithTheirReason) {
     Statistics statistics;
     statistics.counters[static_cast<std::size_t>(Counter::refused_matches_delay)] = 5;
     const auto families = director_metrics(statistics);
-    for (const auto& metric : family(families, "refused_matches_total").metric)
+    const auto& metrics = family(families, "refused_matches_total").metric;
+    for (const auto& metric : metrics)
         EXPECT_EQ(metric.counter.value, metric.label.at(0).value == "delay" ? 5.0 : 0.0);
+    EXPECT_EQ(std::ranges::count_if(metrics, [](const auto& metric) { return metric.counter.value > 0.0; }),
+              1);
 }
 
 TEST(Metrics, LabelRefusedRequestsWithTheirReason) {

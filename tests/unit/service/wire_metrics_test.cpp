@@ -38,11 +38,14 @@ TEST(WireMetrics, LabelDroppedSamplesWithTopicAndDefect) {
     counters.of(dds::Topic::match_info)
         .dropped[static_cast<std::size_t>(dds::ValidationError::participant_limit)] = 7;
     const auto families = wire_metrics(counters, 0, std::nullopt);
+    std::size_t found = 0;
     for (const auto& metric : family(families, "wire_dropped_total").metric) {
         const bool is_it =
             metric.label.at(0).value == "MatchInfo" && metric.label.at(1).value == "participant_limit";
         EXPECT_EQ(metric.counter.value, is_it ? 7.0 : 0.0);
+        found += is_it ? 1 : 0;
     }
+    EXPECT_EQ(found, 1U);
 }
 
 }  // namespace
