@@ -2,14 +2,15 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
 #include <prometheus/text_serializer.h>
-#include <algorithm>
 
+#include <algorithm>
 #include <limits>
 #include <map>
 #include <numeric>
 #include <set>
+
+#include "support/metric_families.hpp"
 
 namespace camdir::http {
 namespace {
@@ -17,12 +18,7 @@ namespace {
 using director::Counter;
 using director::Statistics;
 using prometheus::MetricFamily;
-
-const MetricFamily& family(const std::vector<MetricFamily>& families, const std::string& name) {
-    for (const MetricFamily& one : families)
-        if (one.name == "camera_director_" + name) return one;
-    throw std::runtime_error("no family " + name);
-}
+using test::family;
 
 TEST(Metrics, ShowEveryCounterOnce) {
     Statistics statistics;

@@ -2,18 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <stdexcept>
+#include "support/metric_families.hpp"
 
 namespace camdir::service {
 namespace {
 
-using prometheus::MetricFamily;
-
-const MetricFamily& family(const std::vector<MetricFamily>& families, const std::string& name) {
-    for (const MetricFamily& one : families)
-        if (one.name == "camera_director_" + name) return one;
-    throw std::runtime_error("no family " + name);
-}
+using test::family;
 
 TEST(WireMetrics, ShowStrengthMatchesLedAndReception) {
     dds::WireCounters counters;
