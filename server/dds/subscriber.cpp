@@ -43,7 +43,7 @@ Subscriber::Subscriber(const Participant& participant, Options options, MatchTab
       waiting_(options_.matches, std::max<std::size_t>(options_.matches / 4, 1)),
       elsewhere_(none_elsewhere()),
       removal_(options_.matches),
-      match_info_samples_(topic_type(Topic::match_info), samples_per_take),
+      match_info_sample_(topic_type(Topic::match_info), 1),
       pose_samples_(topic_type(Topic::pose_frame), samples_per_take),
       mover_info_samples_(topic_type(Topic::mover_info), samples_per_take),
       mover_frame_samples_(topic_type(Topic::mover_frame), samples_per_take),
@@ -240,12 +240,16 @@ void Subscriber::take(TakeBuffer<Sample>& buffer, dds_entity_t reader, ReadyList
     if (buffer.take(reader, visit)) ready_.report(source);
 }
 
+// One by one, because a match takes milliseconds to begin: for a turn, and the rest are ready again.
 void Subscriber::take_match_infos() {
-    take(match_info_samples_, match_info_reader_, match_infos_, [this](const auto& sample, const auto& info) {
+    const auto visit = [this](const auto& sample, const auto& info) {
         // The state is the instance's after the last sample.
         if (info.valid_data) match_info_found(sample, info);
         if (info.instance_state != DDS_ALIVE_INSTANCE_STATE) match_info_lost(sample, info);
-    });
+    };
+    const auto end = Clock::now() + longest_turn();
+    while (match_info_sample_.take(match_info_reader_, visit))
+        if (Clock::now() >= end) return ready_.report(match_infos_);
 }
 
 template <class Sample, class Message>

@@ -112,7 +112,7 @@ class Subscriber {
     [[nodiscard]] std::chrono::milliseconds assertion_interval() const {
         return options_.leadership.lease / Succession::beats;
     }
-    // Of what changes hands: so long that neither assertions nor poses are late, and as long a pause.
+    // Of what begins or changes hands: so long that neither assertions nor poses are late.
     [[nodiscard]] std::chrono::milliseconds longest_turn() const {
         return std::min(assertion_interval() / 2, std::chrono::milliseconds(25));
     }
@@ -228,7 +228,7 @@ class Subscriber {
     Clock::time_point listened_{};                                // to all who send
     Clock::time_point next_decision_ = Clock::time_point::max();  // when matches may change hands
     std::string next_to_decide_;                                  // the match, or any
-    TakeBuffer<camera_director_MatchInfo> match_info_samples_;
+    TakeBuffer<camera_director_MatchInfo> match_info_sample_;
     TakeBuffer<camera_director_PoseFrame> pose_samples_;
     TakeBuffer<camera_director_MoverInfo> mover_info_samples_;
     TakeBuffer<camera_director_MoverFrame> mover_frame_samples_;

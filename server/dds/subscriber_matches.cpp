@@ -7,11 +7,6 @@
 #include "dds/subscriber.hpp"
 
 namespace camdir::dds {
-namespace {
-
-constexpr int admissions_a_beat = 8;  // 1 ms each
-
-}  // namespace
 
 void Subscriber::match_info_found(const camera_director_MatchInfo& sample, const dds_sample_info_t& info) {
     Ownership::Claim claim;
@@ -87,7 +82,8 @@ void Subscriber::admit_waiting() {
         return may_own_another(claim.sender) && rate_.allows(claim.sender, Clock::now()) &&
                has_room_for(claim.info.match_id);
     };
-    for (int i = 0; i < admissions_a_beat && ingress_->has_room(); ++i) {
+    const auto end = Clock::now() + longest_turn();
+    while (Clock::now() < end && ingress_->has_room()) {
         std::optional<Ownership::Claim> claim = waiting_.take(is_wanted);
         if (!claim || !described(std::move(*claim))) return;
     }

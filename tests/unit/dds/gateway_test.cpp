@@ -462,6 +462,26 @@ TEST_F(GatewayTest, ReceptionThatHangsIsNotResponsiveUntilItGoesOn) {
     EXPECT_TRUE(gateway_->responsive(std::chrono::nanoseconds(0)));
 }
 
+// A whole batch of matches would take longer than a lease: a standby would take over all others.
+TEST_F(GatewayTest, AssertsItsLivelinessBetweenMatchesThatBeginTogether) {
+    RawPeer& raw = peer("a", {"match/a", "match/b", "match/c", "match/d", "match/e"});
+    raw.write(test::raw_match_info("a", 1));
+    ASSERT_TRUE(eventually([&] { return recorder_.has("info a 1"); }));
+    recorder_.begins_in = std::chrono::milliseconds(config_.lease_ms);
+    const int before = recorder_.questions;
+    for (const char* id : {"b", "c", "d", "e"})
+        raw.write(test::raw_match_info(id, 1));
+    const auto begun = [&] {
+        return std::ranges::count_if(recorder_.lines(),
+                                     [](const std::string& line) { return line.starts_with("info"); }) -
+               1;
+    };
+    for (int match = 1; match <= 4; ++match) {
+        ASSERT_TRUE(eventually([&] { return begun() >= match; }));
+        EXPECT_GE(recorder_.questions, before + match - 1);
+    }
+}
+
 TEST_F(GatewayTest, ClosingReleasesTheMatchesAndNothingIsReceivedAfterStopping) {
     RawPeer& raw = led_game("cup");
     gateway_->publish("cup", one_camera(0));

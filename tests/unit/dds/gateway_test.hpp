@@ -37,6 +37,7 @@ class Recorder final : public director::Ingress {
         note("info " + info.match_id + " " + std::to_string(info.epoch));
         while (hangs)
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        std::this_thread::sleep_for(begins_in.load());
         if (director::Publisher* publisher = shows_at_once) publisher->publish(info);
         return accepts;
     }
@@ -63,7 +64,10 @@ class Recorder final : public director::Ingress {
     std::chrono::nanoseconds silence_limit(const director::MatchInfo& /*info*/) const override {
         return silence.load();
     }
-    bool responsive(std::chrono::milliseconds /*limit*/) const override { return answers; }
+    bool responsive(std::chrono::milliseconds /*limit*/) const override {
+        ++questions;
+        return answers;
+    }
 
     [[nodiscard]] bool has(const std::string& line) const { return count(line) > 0; }
     [[nodiscard]] std::ptrdiff_t count(const std::string& line) const {
@@ -78,6 +82,8 @@ class Recorder final : public director::Ingress {
     std::atomic<bool> accepts{true};
     std::atomic<bool> answers{true};
     std::atomic<bool> hangs{false};  // as long as this is true, with a MatchInfo
+    std::atomic<std::chrono::milliseconds> begins_in{std::chrono::milliseconds(0)};
+    mutable std::atomic<int> questions{0};  // whether it is responsive
     std::atomic<std::chrono::nanoseconds> silence{std::chrono::hours(1)};
     std::atomic<director::Publisher*> shows_at_once{nullptr};
 
