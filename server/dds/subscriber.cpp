@@ -149,6 +149,7 @@ void Subscriber::notice_absence() {
 }
 
 void Subscriber::take_ready(const std::vector<ReadyList::Source*>& ready) {
+    poses_taken_ = Clock::now();
     bool match_infos = false;
     bool matched = false;
     for (ReadyList::Source* source : ready) {
@@ -159,6 +160,7 @@ void Subscriber::take_ready(const std::vector<ReadyList::Source*>& ready) {
         } else {
             const Source& of_match = static_cast<const Source&>(*source);
             (this->*of_match.take)(of_match.match);
+            take_waiting_poses();
         }
     }
     hand_on_poses();
@@ -412,8 +414,8 @@ void Subscriber::hand_on_poses() {
     if (arrived_ > 0) ingress_->receive(std::span(arrivals_).first(std::exchange(arrived_, 0)));
 }
 
-// While many matches begin, which may take long: frames that wait come out of it together, and all but the
-// newest are lost.
+// While many matches begin or much else is ready, which may take long: frames that wait come out of it
+// together, and all but the newest are lost.
 void Subscriber::take_waiting_poses() {
     constexpr std::chrono::milliseconds interval(4);
     if (Clock::now() - poses_taken_ < interval) return;

@@ -219,7 +219,7 @@ class Subscriber {
     EndpointRemoval removal_;
     std::unordered_map<std::string, std::unique_ptr<Match>> matches_;
     std::vector<std::string> new_matches_;  // whose signs were not looked at yet
-    Clock::time_point poses_taken_{};       // of all matches, between others that begin
+    Clock::time_point poses_taken_{};       // of all matches
     std::deque<std::string> to_bound_;      // matches with movers without bounds
     Clock::time_point next_bounding_{};     // of hulls: not before
     std::deque<std::string> to_catch_up_;   // matches that owe something
