@@ -63,7 +63,10 @@ Observer::Observer(std::shared_ptr<const Context> context, const std::string& ma
 }
 
 Observer::Request Observer::checked_request(const cdir_shot_request& request) {
-    require(request.reserved == 0, "request.reserved is not 0");
+    require(std::ranges::all_of(request.reserved, [](std::uint8_t byte) { return byte == 0; }),
+            "request.reserved is not 0");
+    require(request.team == 0 || request.target == CDIR_CHOOSE_TARGET,
+            "request.team is not 0: it is for CDIR_CHOOSE_TARGET alone");
     require(request.group_count <= CDIR_MAX_PLAYERS, "group_count is greater than CDIR_MAX_PLAYERS");
     require(request.group_count == 0 || request.group != nullptr, "group is null");
     require(request.target != CDIR_SHOW_GROUP ||
@@ -71,6 +74,7 @@ Observer::Request Observer::checked_request(const cdir_shot_request& request) {
             "group_count is not 2 to CDIR_MAX_GROUP_SHOT, as CDIR_SHOW_GROUP takes");
     Request checked;
     checked.target = request.target;
+    checked.team = request.team;
     checked.group.assign(request.group, request.group + request.group_count);
     checked.profile =
         text_or_empty("profile", request.profile, sizeof camera_director_ObserverRequest::profile - 1);
@@ -92,6 +96,7 @@ void Observer::request(const cdir_shot_request& request) {
 dds_return_t Observer::write_request() {
     camera_director_ObserverRequest sample = key_of(match_id_, observer_id_);
     sample.target = request_.target;
+    sample.team = request_.team;
     sample.group._buffer = request_.group.data();
     sample.group._length = sample.group._maximum = static_cast<std::uint32_t>(request_.group.size());
     copy_string(sample.profile, request_.profile.c_str());

@@ -72,6 +72,7 @@ class Observer {
         std::uint32_t target = CDIR_NO_PLAYER;
         Vector<std::uint32_t> group;
         std::string profile, overrides;
+        std::uint8_t team = 0;
     };
 
     [[nodiscard]] static Request checked_request(const cdir_shot_request& request);

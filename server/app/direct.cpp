@@ -83,19 +83,15 @@ struct Rushes {
     direction::Footage judged;
 };
 
-Result<Rushes> shoot(const DirectOptions& options, const Inputs& inputs, double unit, ProgressLine& line,
-                     const std::stop_token& stop) {
+Result<Rushes> shoot(const DirectOptions& options, const Inputs& inputs, const ClearLine& exact, double unit,
+                     ProgressLine& line, const std::stop_token& stop) {
     const auto show = [&](std::uint64_t done, std::uint64_t total) { line.show("tracking", done, total); };
     auto recording = evaluation::record(*inputs.map.freespace, camera::Profile{}, inputs.trace, {},
                                         inputs.trace, options.delay, show, stop);
     if (!recording) return tl::unexpected(recording.error());
     line.show("looking", 0, 0);
-    const oracle::Oracle oracle(inputs.map.scene, inputs.map.point_radius);
     const ClearLine proved = [&](const Vec3d& from, const Vec3d& to) {
         return freespace::sight(*inputs.map.freespace, from.cast<float>(), to.cast<float>()).clear;
-    };
-    const ClearLine exact = [&](const Vec3d& from, const Vec3d& to) {
-        return oracle.segment_clear(from, to);
     };
     const auto stored = inputs.map.freespace->fixed_shots();
     std::vector<freespace::FixedShot> fixed;
@@ -116,15 +112,25 @@ Result<Rushes> shoot(const DirectOptions& options, const Inputs& inputs, double 
 
 using Judged = report::JudgedProgramme;
 
+// What a running director shows, by cameras that begin with its cuts.
+struct Running {
+    std::span<const direction::Shot> shots;
+    const direction::Footage& judged;
+};
+
 // The direction's own figures first, then the running director's, the others' and the bound's.
 Result<std::vector<Judged>> judge(const Rushes& rushes, std::span<const direction::Event> events,
                                   std::span<const direction::Moment> moments,
-                                  std::span<const direction::Shot> shots,
-                                  std::span<const direction::Shot> running, const direction::Rules& rules,
-                                  double unit, double delay, const std::stop_token& stop) {
+                                  std::span<const direction::Shot> shots, const Running& running,
+                                  const direction::Rules& rules, double unit, double delay,
+                                  const std::stop_token& stop) {
     constexpr std::uint64_t seeds = 64;
+    const auto figures_of = [&](const direction::Footage& footage,
+                                std::span<const direction::Shot> programme) {
+        return direction::judge(footage, events, moments, programme, rules.grammar, unit);
+    };
     const auto figures = [&](std::span<const direction::Shot> programme) {
-        return direction::judge(rushes.judged, events, moments, programme, rules.grammar, unit);
+        return figures_of(rushes.judged, programme);
     };
     std::vector<direction::Figures> switches;
     for (std::uint64_t seed = 0; seed < seeds && !stop.stop_requested(); ++seed)
@@ -132,7 +138,7 @@ Result<std::vector<Judged>> judge(const Rushes& rushes, std::span<const directio
     if (stop.stop_requested()) return fail("interrupted", ErrorCode::interrupted);
     return std::vector<Judged>{
         {"direction", figures(shots)},
-        {"running", figures(running)},
+        {"running", figures_of(running.judged, running.shots)},
         {"random", direction::mean_of(switches)},
         {"hltv", figures(direction::hltv(rushes.judged, events, unit, delay))},
         {"quakeworld", figures(direction::quakeworld(rushes.judged, events))},
@@ -294,7 +300,11 @@ Result<void> direct(const DirectOptions& options) {
     if (!inputs) return tl::unexpected(inputs.error());
     reading.reset();
     const double unit = metres_of_nominal_unit / inputs->map.scene.metres_per_unit;
-    const auto rushes = shoot(options, *inputs, unit, line, stop);
+    const oracle::Oracle oracle(inputs->map.scene, inputs->map.point_radius);
+    const ClearLine exact = [&](const Vec3d& from, const Vec3d& to) {
+        return oracle.segment_clear(from, to);
+    };
+    const auto rushes = shoot(options, *inputs, exact, unit, line, stop);
     if (!rushes) return tl::unexpected(rushes.error());
     line.show("editing", 0, 0);
     const direction::Rules& rules = inputs->rules;
@@ -307,10 +317,14 @@ Result<void> direct(const DirectOptions& options) {
                                            director::Edit::foresight_s(options.delay), stop);
     if (!running) return tl::unexpected(running.error());
     line.show("judging", 0, 0);
+    const auto cameras = cameras_of_programme(inputs->trace, *inputs->map.freespace, rushes->judged,
+                                              rushes->fixed, *running, options.delay, rushes->cameras);
+    const auto shown = footage_of(inputs->trace, cameras, rushes->fixed, unit, exact, stop);
+    if (!shown) return tl::unexpected(shown.error());
     auto moments = direction::find_moments(rushes->judged, events, rules, unit, 0);
     const std::size_t in_reach = direction::kills_in_reach(rushes->judged, events);
-    const auto judged = judge(*rushes, events, moments_to_begin_with(moments, rules), *shots, *running, rules,
-                              unit, options.delay, stop);
+    const auto judged = judge(*rushes, events, moments_to_begin_with(moments, rules), *shots,
+                              {*running, *shown}, rules, unit, options.delay, stop);
     if (!judged) return tl::unexpected(judged.error());
     line.clear();
     print_table(*judged, in_reach);

@@ -10,6 +10,7 @@
 #include "base/parallel.hpp"
 #include "director/scout.hpp"
 #include "evaluation/picture.hpp"
+#include "evaluation/recording.hpp"
 
 namespace camdir::app {
 namespace {
@@ -161,6 +162,71 @@ class BeatReader {
     const ClearLine& clear_;
 };
 
+// The cameras of a running programme, shot after shot.
+class ProgrammeShooter {
+  public:
+    ProgrammeShooter(const Trace& trace, const freespace::Freespace& freespace,
+                     const direction::Footage& footage, std::span<const freespace::FixedShot> fixed,
+                     double look_ahead, CameraPath cameras)
+        : trace_(trace),
+          freespace_(freespace),
+          footage_(footage),
+          fixed_(fixed),
+          look_ahead_(look_ahead),
+          cameras_(std::move(cameras)) {}
+
+    void shoot(const direction::Shot& shot, const direction::Shot* before) {
+        if (footage_.is_fixed(shot.rush)) return;
+        evaluation::FollowShot follow;
+        follow.player = trace_.players[shot.rush];
+        follow.first = first_frame(shot.begin);
+        follow.end = first_frame(shot.end + 1);
+        const auto line = before != nullptr ? line_to_keep(*before, shot) : std::nullopt;
+        const auto cameras = evaluation::record(freespace_, camera::Profile{}, trace_, look_ahead_, follow,
+                                                line ? &*line : nullptr);
+        for (std::size_t i = 0; i < cameras.size(); ++i)
+            if (cameras[i])
+                cameras_[evaluation::pose_of(trace_, trace_.frames[follow.first + i], follow.player)] =
+                    *cameras[i];
+    }
+
+    [[nodiscard]] CameraPath cameras() && { return std::move(cameras_); }
+
+  private:
+    // Of the beat, or after it.
+    [[nodiscard]] std::uint32_t first_frame(Beat beat) const {
+        const auto is_before = [&](const TraceFrame& frame) {
+            return direction::beat_of(seconds_from_start(trace_, frame.time)) < beat;
+        };
+        return static_cast<std::uint32_t>(std::ranges::partition_point(trace_.frames, is_before) -
+                                          trace_.frames.begin());
+    }
+
+    // As the running director keeps it.
+    [[nodiscard]] std::optional<camera::LineOfAction> line_to_keep(const direction::Shot& before,
+                                                                   const direction::Shot& shot) const {
+        const Index subject = footage_.take(shot.begin, before.rush).subject;
+        if (subject == direction::nobody || subject == shot.rush) return {};
+        const PlayerState& one = footage_.player(shot.begin, subject);
+        const PlayerState& other = footage_.player(shot.begin, shot.rush);
+        if (!one.alive || !other.alive || !direction::enemies(one, other)) return {};
+        return camera::LineOfAction{one.eye, position(before.rush, first_frame(shot.begin))};
+    }
+
+    [[nodiscard]] Vec3f position(std::size_t rush, std::uint32_t frame) const {
+        if (footage_.is_fixed(rush)) return fixed_[rush - trace_.players.size()].position;
+        const std::uint32_t pose = evaluation::pose_of(trace_, trace_.frames[frame], trace_.players[rush]);
+        return pose == evaluation::absent ? Vec3f::Zero() : Vec3f(cameras_[pose].position.cast<float>());
+    }
+
+    const Trace& trace_;
+    const freespace::Freespace& freespace_;
+    const direction::Footage& footage_;
+    std::span<const freespace::FixedShot> fixed_;
+    double look_ahead_;
+    CameraPath cameras_;
+};
+
 std::optional<EventKind> kind_of(std::string_view name) {
     static const std::map<std::string_view, EventKind> kinds = {
         {"kill", EventKind::kill},
@@ -225,6 +291,17 @@ Result<direction::Footage> scouted_footage_of(const Trace& trace, const freespac
         takes = std::move(scout.takes);
         std::ranges::rotate(takes, takes.begin() + static_cast<std::ptrdiff_t>(scout.fixed));
     });
+}
+
+evaluation::CameraPath cameras_of_programme(const Trace& trace, const freespace::Freespace& freespace,
+                                            const direction::Footage& footage,
+                                            std::span<const freespace::FixedShot> fixed,
+                                            std::span<const direction::Shot> shots, double look_ahead,
+                                            CameraPath cameras) {
+    ProgrammeShooter shooter(trace, freespace, footage, fixed, look_ahead, std::move(cameras));
+    for (std::size_t i = 0; i < shots.size(); ++i)
+        shooter.shoot(shots[i], i > 0 ? &shots[i - 1] : nullptr);
+    return std::move(shooter).cameras();
 }
 
 std::vector<direction::Event> events_of(const Trace& trace,

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "direction/editor.hpp"
 #include "direction/footage.hpp"
 #include "direction/rules.hpp"
 #include "evaluation/camera_path.hpp"
@@ -38,6 +39,15 @@ using ClearLine = std::function<bool(const Vec3d&, const Vec3d&)>;
                                                             const freespace::Freespace& freespace,
                                                             std::size_t fixed_shots, double unit,
                                                             const std::stop_token& stop);
+
+// The cameras of all players' poses, those of a running director's shots as they begin with a cut, until
+// after the beat in which the next shot begins. `cameras`: of cameras that run all the time.
+[[nodiscard]] evaluation::CameraPath cameras_of_programme(const evaluation::Trace& trace,
+                                                          const freespace::Freespace& freespace,
+                                                          const direction::Footage& footage,
+                                                          std::span<const freespace::FixedShot> fixed,
+                                                          std::span<const direction::Shot> shots,
+                                                          double look_ahead, evaluation::CameraPath cameras);
 
 // The events that the direction knows, times from the trace's first frame; events before it are left out.
 [[nodiscard]] std::vector<direction::Event> events_of(const evaluation::Trace& trace,

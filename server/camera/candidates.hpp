@@ -5,6 +5,7 @@
 #include <array>
 
 #include "camera/beams.hpp"
+#include "camera/crowd.hpp"
 #include "camera/plan.hpp"
 #include "camera/profile.hpp"
 #include "camera/programme.hpp"
@@ -36,8 +37,8 @@ struct Vantages {
 // Chooses a vantage for each knot of the plan, unless those of the last plan were chosen for the same knots
 // of a prediction a moment ago and the player turns as foreseen. Straight behind is preferred to a direction
 // of the grid beside it.
-void choose_vantages(const MapProfile& profile, const History& history, Beams& beams, const Plan& plan,
-                     CandidateScratch& scratch, Vantages& vantages);
+void choose_vantages(const MapProfile& profile, const History& history, Beams& beams, Bystanders& bystanders,
+                     const Plan& plan, CandidateScratch& scratch, Vantages& vantages);
 
 // Sets goals and lengths of all samples: between the vantages; straight behind where there are none.
 void set_goals(const MapProfile& profile, const Vantages& vantages, Beams& beams, Plan& plan);

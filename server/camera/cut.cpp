@@ -7,7 +7,6 @@
 #include "camera/evade.hpp"
 #include "camera/reach.hpp"
 #include "camera/regain.hpp"
-#include "camera/spot.hpp"
 #include "freespace/roadmap.hpp"
 
 namespace camdir::camera {
@@ -60,8 +59,9 @@ std::optional<Candidate> free_vertex(const freespace::Space& space, const MapPro
 
 }  // namespace
 
-Candidate landing(const freespace::Space& space, const MapProfile& profile, const PlayerTrack& track) {
-    const Spot spot = spot_to_cut_to(space, profile, track);
+Candidate landing(const freespace::Space& space, const MapProfile& profile, const PlayerTrack& track,
+                  const LineOfAction* line) {
+    const Spot spot = spot_to_cut_to(space, profile, track, line);
     for (const float share : shares) {
         const Vec3f place = track.anchor + share * spot.offset;
         const auto candidate = look_up(space, profile, track, place);

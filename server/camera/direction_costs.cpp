@@ -20,6 +20,11 @@ constexpr float side_view_cost = 0.7F;
 constexpr float side_view_limit = 2.0F;
 constexpr double side_view_interval = 1.0 / 30.0;  // s, between the samples that are weighed
 
+// A body as balls below the eye, units.
+constexpr float body_radius = 18.0F;
+constexpr std::array body_parts = {2.0F, 32.0F};
+constexpr float beside_body = 12.0F * degree;
+
 constexpr std::size_t quad_count = DirectionGrid::size / lane_count;
 static_assert(quad_count * lane_count == DirectionGrid::size);
 
@@ -131,6 +136,28 @@ void weigh_directions(const MapProfile& profile, const Plan& plan, std::size_t f
             side_view.add(quad, sum);
         }
         store(sum, &costs[i * lane_count]);
+    }
+}
+
+void add_bodies(const MapProfile& profile, std::span<const Vec3f> offsets, float cost,
+                DirectionCosts& costs) {
+    const float radius = body_radius * profile.unit;
+    for (const Vec3f& offset : offsets) {
+        for (const float below : body_parts) {
+            const Vec3f part = offset - below * profile.unit * Vec3f::UnitZ();
+            const float distance = part.norm();
+            // One who is in the player has no direction; behind the camera nobody is in its way.
+            if (distance <= radius || distance >= profile.distance + radius) continue;
+            const float wide = std::asin(radius / distance);
+            const Vec3f direction = part / distance;
+            for (std::size_t i = 0; i < quad_count; ++i) {
+                float* const quad = &costs[i * lane_count];
+                const Float4 before = load(quad);
+                const Float4 beside = arc_cosine(quads()[i].dot(direction)) - wide;
+                const Float4 share = 1.0F - larger(beside, Float4{}) / beside_body;
+                store(before + cost * larger(share, Float4{}), quad);
+            }
+        }
     }
 }
 

@@ -17,6 +17,8 @@ constexpr double full_turn = 2.0 * std::numbers::pi;
 constexpr double same_step = 1e-3;
 constexpr double same_step_while_planned = 0.1;
 
+constexpr float bystander_range = 700.0F;  // units: who runs towards the player is there within a second
+
 // A plan on a prediction is followed for a second sample if the player is where they were foreseen, and looks
 // there, within so much.
 constexpr std::size_t samples_on_prediction = 2;
@@ -36,7 +38,7 @@ bool as_foreseen(const MapProfile& profile, const PlayerTrack& track, const Plan
 }
 
 void make_plan(const freespace::Space& space, const MapProfile& profile, const PlayerTrack& track,
-               Window window, double time, PlanState& state, PlanScratch& scratch) {
+               Window window, const Crowd& crowd, double time, PlanState& state, PlanScratch& scratch) {
     Plan& plan = scratch.plan;
     foresee(space, profile, window, time, state.step, horizon,
             static_cast<float>(state.history[1].heading_yaw), state.balls, plan.future);
@@ -47,7 +49,8 @@ void make_plan(const freespace::Space& space, const MapProfile& profile, const P
     smooth_heading(profile, state.history, plan);
     Beams beams(space, profile, plan.future, state.free_beams, state.free_lengths, state.balls);
     beams.set_clearance(track.anchor, track.clearance);
-    choose_vantages(profile, state.history, beams, plan, scratch.candidates, state.vantages);
+    Bystanders bystanders(crowd, plan.future[0].eye, time, bystander_range * profile.unit);
+    choose_vantages(profile, state.history, beams, bystanders, plan, scratch.candidates, state.vantages);
     set_goals(profile, state.vantages, beams, plan);
     refine_path(profile, state.history, beams, plan);
     aim(profile, state.history, plan);
@@ -128,8 +131,8 @@ void deviate(PlanState& state, const Vec3f& position, const Vec3f& velocity, con
 }
 
 const PlannedSample& next_sample(const freespace::Space& space, const MapProfile& profile,
-                                 const PlayerTrack& track, Window window, double time, double dt,
-                                 PlanState& state, PlanScratch& scratch) {
+                                 const PlayerTrack& track, Window window, const Crowd& crowd, double time,
+                                 double dt, PlanState& state, PlanScratch& scratch) {
     const double tolerance = state.next < state.count ? same_step_while_planned : same_step;
     if (std::abs(dt - state.step) > tolerance * dt) {
         resample(state.history, dt / state.step);
@@ -142,7 +145,7 @@ const PlannedSample& next_sample(const freespace::Space& space, const MapProfile
     if (is_left) {
         discard(state);
         unwind(state.history);
-        make_plan(space, profile, track, window, time, state, scratch);
+        make_plan(space, profile, track, window, crowd, time, state, scratch);
     }
     state.history[0] = state.history[1];
     state.history[1] = state.samples[state.next++];

@@ -8,6 +8,7 @@
 #include "camera/aim.hpp"
 #include "camera/beams.hpp"
 #include "camera/candidates.hpp"
+#include "camera/crowd.hpp"
 #include "camera/heading.hpp"
 #include "camera/path.hpp"
 #include "camera/player.hpp"
@@ -60,7 +61,8 @@ void deviate(PlanState& state, const Vec3f& position, const Vec3f& velocity, con
 // The next sample of the plan, `dt` after the last one, at `time`, at which the window has a usable pose of a
 // living player, `track`. The planned positions are wishes: see guard.hpp. Does not allocate.
 [[nodiscard]] const PlannedSample& next_sample(const freespace::Space& space, const MapProfile& profile,
-                                               const PlayerTrack& track, Window window, double time,
-                                               double dt, PlanState& state, PlanScratch& scratch);
+                                               const PlayerTrack& track, Window window, const Crowd& crowd,
+                                               double time, double dt, PlanState& state,
+                                               PlanScratch& scratch);
 
 }  // namespace camdir::camera

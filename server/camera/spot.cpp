@@ -20,11 +20,35 @@ constexpr std::array elevations = {0.0F * radians_of_a_degree<float>, 20.0F * ra
 constexpr float leave_cost = 0.2F;     // of leaving the camera's direction, against angle's own
 constexpr float fan_interval = 0.06F;  // s
 constexpr float cut_distance_weight = 2.0F;
+constexpr float cost_across_line = 4.0F;  // of a quarter turn
+// Nearer to the line the side is nobody's: they may have moved until the picture is seen.
+constexpr float beside_line = 5.0F * radians_of_a_degree<float>;
 
 // How far the camera trails behind a turning player: what its filters delay.
 float lag(const MapProfile& profile) {
     return profile.heading_smoothing + 2.0F * profile.motion_smoothing;
 }
+
+// Directions from the anchor that lead to the camera's side of the line of action, seen from above.
+class Side {
+  public:
+    Side(const LineOfAction& line, const Vec3f& anchor)
+        : line_(anchor - line.other), sign_(left_of_line(line.camera - line.other) < 0.0F ? -1.0F : 1.0F) {}
+
+    [[nodiscard]] bool has(const Vec3f& direction) const {
+        const float beside = std::sin(beside_line) * level_length(line_) * level_length(direction);
+        return sign_ * left_of_line(direction) >= beside;
+    }
+
+  private:
+    [[nodiscard]] static float level_length(const Vec3f& way) { return std::hypot(way.x(), way.y()); }
+    [[nodiscard]] float left_of_line(const Vec3f& way) const {
+        return line_.x() * way.y() - line_.y() * way.x();
+    }
+
+    Vec3f line_;
+    float sign_;
+};
 
 struct FanDirection {
     Vec3f direction;  // from the anchor
@@ -33,8 +57,11 @@ struct FanDirection {
 
 class Fan {
   public:
-    Fan(const MapProfile& profile, const PlayerTrack& track, const Vec3f* towards_camera)
+    // Both may be null.
+    Fan(const MapProfile& profile, const PlayerTrack& track, const Vec3f* towards_camera,
+        const LineOfAction* line)
         : profile_(profile), towards_camera_(towards_camera) {
+        if (line != nullptr) side_.emplace(*line, track.anchor);
         const Vec3f heading =
             towards_camera == nullptr ? track.heading : predicted_heading(track, lag(profile));
         const Look behind = look_along(-heading, 0.0F);
@@ -72,10 +99,12 @@ class Fan {
             const float turn = angle_between(direction, *towards_camera_) / profile_.angle_tolerance;
             cost += leave_cost * profile_.weight_inertia_angle * squared(turn);
         }
+        if (side_ && !side_->has(direction)) cost += cost_across_line;
         return cost;
     }
     const MapProfile& profile_;
     const Vec3f* towards_camera_;
+    std::optional<Side> side_;
     Vec3f behind_;
     std::array<FanDirection, elevations.size() * 2 * yaw_steps + 1> candidates_;
     std::size_t count_ = 0;
@@ -158,7 +187,7 @@ Spot spot_to_move_to(const freespace::Space& space, const MapProfile& profile, c
                      const Vec3f& camera, float dt, SpotMemory& memory) {
     const Vec3f offset = camera - track.anchor;
     const Vec3f towards_camera = offset.normalized();
-    Fan fan(profile, track, offset.norm() > profile.unit ? &towards_camera : nullptr);
+    Fan fan(profile, track, offset.norm() > profile.unit ? &towards_camera : nullptr, nullptr);
     SpotSearch search(space, profile, track);
     search.foresee(predicted_anchor(space, profile, track), space.time() + profile.prediction);
     memory.age += dt;
@@ -176,8 +205,9 @@ Spot spot_to_move_to(const freespace::Space& space, const MapProfile& profile, c
     return search.best();
 }
 
-Spot spot_to_cut_to(const freespace::Space& space, const MapProfile& profile, const PlayerTrack& track) {
-    Fan fan(profile, track, nullptr);
+Spot spot_to_cut_to(const freespace::Space& space, const MapProfile& profile, const PlayerTrack& track,
+                    const LineOfAction* line) {
+    Fan fan(profile, track, nullptr, line);
     SpotSearch search(space, profile, track);
     search.for_a_cut();
     fan.fill(std::numbers::pi_v<float>);

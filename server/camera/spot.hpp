@@ -14,6 +14,13 @@ struct Spot {
     float cost = 0.0F;
 };
 
+// Of a cut between the cameras of two players who fight: the camera that begins is to stay on the side of the
+// line through both, seen from above, where the one before was.
+struct LineOfAction {
+    Vec3f other = Vec3f::Zero();   // the eye of whom the camera before was of
+    Vec3f camera = Vec3f::Zero();  // that camera
+};
+
 // What a shot remembers of its last choice.
 struct SpotMemory {
     Vec3f direction = Vec3f::UnitX();  // from the anchor
@@ -28,8 +35,9 @@ struct SpotMemory {
                                    const PlayerTrack& track, const Vec3f& camera, float dt,
                                    SpotMemory& memory);
 
-// The least costly spot of all directions that a free beam joins to the anchor, wherever the camera is.
+// The least costly spot of all directions that a free beam joins to the anchor, wherever the camera is;
+// across the line of action it costs as much as a quarter turn. `line` may be null.
 [[nodiscard]] Spot spot_to_cut_to(const freespace::Space& space, const MapProfile& profile,
-                                  const PlayerTrack& track);
+                                  const PlayerTrack& track, const LineOfAction* line);
 
 }  // namespace camdir::camera

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "camera/cut.hpp"
 #include "camera/evade.hpp"
@@ -27,7 +28,7 @@ constexpr float quarter_turn = std::numbers::pi_v<float> / 2.0F;
 class Step {
   public:
     Step(const freespace::Space& space, const Profile& profile, double dt, ShotState& state, Scratch& scratch,
-         Window window, double time)
+         Window window, const Crowd& crowd, double time)
         : space_(space.in_step(state.time, time)),
           profile_(profile, space.map().metadata().metres_per_unit),
           dt_(usable_frame(dt)),
@@ -36,6 +37,7 @@ class Step {
           player_(state.player),
           scratch_(scratch),
           window_(window),
+          crowd_(crowd),
           time_(time) {}
 
     Camera with_pose(const Pose& pose) {
@@ -60,7 +62,7 @@ class Step {
     // The planner's step.
     Camera follow_plan() {
         const PlannedSample& planned =
-            next_sample(space_, profile_, player_, window_, time_, dt_, state_.plan, scratch_.plan);
+            next_sample(space_, profile_, player_, window_, crowd_, time_, dt_, state_.plan, scratch_.plan);
         const Vec3f wanted = planned.position.cast<float>();
         const Look look{wrapped(static_cast<float>(planned.look_yaw)),
                         static_cast<float>(planned.look_pitch)};
@@ -133,7 +135,8 @@ class Step {
     }
 
     Camera cut_to_player() {
-        const Candidate spot = landing(space_, profile_, player_);
+        const auto line = std::exchange(state_.line, std::nullopt);
+        const Candidate spot = landing(space_, profile_, player_, line ? &*line : nullptr);
         state_.started = true;
         settle(spot);
         state_.velocity = player_.velocity;
@@ -262,24 +265,25 @@ class Step {
     PlayerTrack& player_;
     Scratch& scratch_;
     const Window window_;
+    const Crowd& crowd_;
     const double time_;
 };
 
 }  // namespace
 
 Camera step(const freespace::Space& space, const Profile& profile, Window window, double time,
-            ShotState& state, Scratch& scratch) {
+            ShotState& state, Scratch& scratch, const Crowd& crowd) {
     const auto pose = pose_at(window, state.time, time);
-    Step one(space, profile, time - state.time, state, scratch, window, time);
+    Step one(space, profile, time - state.time, state, scratch, window, crowd, time);
     state.time = time;
     return pose ? one.with_pose(*pose) : one.without_pose();
 }
 
 Camera step(const freespace::Space& space, const Profile& profile, const Pose* pose, double dt,
-            ShotState& state, Scratch& scratch) {
+            ShotState& state, Scratch& scratch, const Crowd& crowd) {
     const double time = state.time + usable_frame(dt);
     state.recent.add(time, pose);
-    Step one(space, profile, dt, state, scratch, state.recent.window(), time);
+    Step one(space, profile, dt, state, scratch, state.recent.window(), crowd, time);
     state.time = time;
     return pose != nullptr && usable(*pose) ? one.with_pose(*pose) : one.without_pose();
 }

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "camera/camera.hpp"
+#include "camera/crowd.hpp"
 #include "camera/planner.hpp"
 #include "camera/player.hpp"
 #include "camera/profile.hpp"
@@ -18,8 +20,9 @@ namespace camdir::camera {
 
 // Everything that a shot remembers between two poses. A value: copy it to branch, replace it to restart.
 struct ShotState {
-    bool started = false;  // false: the next step with a pose begins with a cut
-    bool waiting = false;  // for a first pose, at a spawn point
+    bool started = false;              // false: the next step with a pose begins with a cut
+    bool waiting = false;              // for a first pose, at a spawn point
+    std::optional<LineOfAction> line;  // that the cut heeds with which it begins
     PlayerTrack player;
     Vec3f position = Vec3f::Zero();
     Vec3f velocity = Vec3f::Zero();
@@ -57,14 +60,16 @@ class Scratch {
 //   dead player                glides to a stop, keeps looking; held once it stands
 //   eye in no slab             follows the last free point on the way to the eye
 //   not seen                   searches along the roadmap, after profile.search_time_limit a cut
+//
+// `crowd`: the match's players. Its windows know as much as `window`.
 [[nodiscard]] Camera step(const freespace::Space& space, const Profile& profile, Window window, double time,
-                          ShotState& state, Scratch& scratch);
+                          ShotState& state, Scratch& scratch, const Crowd& crowd = {});
 
 // The same by one pose, `dt` seconds after the last step, for a causal shot: the state keeps what history it
 // needs. `pose` is null when the player has none in this frame. A `dt` that is not finite counts as one frame
 // too.
 [[nodiscard]] Camera step(const freespace::Space& space, const Profile& profile, const Pose* pose, double dt,
-                          ShotState& state, Scratch& scratch);
+                          ShotState& state, Scratch& scratch, const Crowd& crowd = {});
 
 // The shot goes on from `now`, of the time of the last step, and not from where that step came to; `before`
 // was `dt` seconds earlier, without a cut between. Returns false, and changes nothing, when no slab covers

@@ -297,6 +297,7 @@ std::optional<ValidationError> decode(const camera_director_ObserverRequest& sam
     message.group.assign(group.begin(), group.end());
     message.profile = sample.profile;
     message.overrides = sample.overrides;
+    message.team = sample.team;
     return std::nullopt;
 }
 

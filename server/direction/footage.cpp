@@ -34,8 +34,12 @@ Beat beat_of(double seconds) {
     return static_cast<Beat>(std::floor(seconds / beat_s + rounding));
 }
 
+bool enemies(std::uint8_t team, std::uint8_t other) {
+    return team != other || team == 0;
+}
+
 bool enemies(const PlayerState& a, const PlayerState& b) {
-    return a.team != b.team || a.team == 0;
+    return enemies(a.team, b.team);
 }
 
 Index subject_in(const Take& take, std::span<const PlayerState> players) {

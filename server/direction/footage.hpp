@@ -36,6 +36,7 @@ struct PlayerState {
     PlayerSet sees;  // whose eye there is a free line of sight to
 };
 
+[[nodiscard]] bool enemies(std::uint8_t team, std::uint8_t other);
 [[nodiscard]] bool enemies(const PlayerState& a, const PlayerState& b);
 
 // Two living enemies, one of whom sees the other.

@@ -206,8 +206,7 @@ direction::PlayerState Edit::state_of(const PlayerPose& pose, Index place) const
     state.eye = pose.eye;
     state.facing = pose.orientation * Vec3f::UnitX();
     state.speed = pose.velocity.isZero() ? speed_over_beat(pose.eye, place) : pose.velocity.norm();
-    const auto team = teams_.find(pose.player_id);
-    state.team = team == teams_.end() ? std::uint8_t{0} : team->second;
+    state.team = team_of(pose.player_id);
     state.present = true;
     state.alive = (pose.flags & pose_alive) != 0;
     return state;
@@ -285,12 +284,12 @@ void Edit::add(const MatchInfo& info) {
     take_teams(info.players);
 }
 
-bool Edit::choose(AutomaticShot& shot, std::span<const std::uint32_t> group, const Roster& roster,
+bool Edit::choose(AutomaticShot& shot, const Among& among, const Roster& roster,
                   const Setting& setting) const {
     const std::size_t on_air = rush_of(shot);
-    const bool stays = may_stay(on_air, group, roster, setting);
+    const bool stays = may_stay(on_air, among, roster, setting);
     if (stays && !due_) return false;
-    std::vector<std::size_t> choice = choice_of(on_air, group, roster, setting);
+    std::vector<std::size_t> choice = choice_of(on_air, among, roster, setting);
     if (choice.empty()) return false;
     if (shot.edit != generation_) {
         shot.cutter = {};
@@ -311,32 +310,33 @@ bool Edit::choose(AutomaticShot& shot, std::span<const std::uint32_t> group, con
     return true;
 }
 
-bool Edit::may_stay(std::size_t rush, std::span<const std::uint32_t> group, const Roster& roster,
+bool Edit::may_stay(std::size_t rush, const Among& among, const Roster& roster,
                     const Setting& setting) const {
     if (rush >= material_.footage().rushes()) return false;
-    if (rush >= fixed_) return is_to_be_had(rush, group, roster);
-    return has_fixed(group) && !is_threatened(setting.space, rush);
+    if (rush >= fixed_) return is_to_be_had(rush, among, roster);
+    return has_fixed(among) && !is_threatened(setting.space, rush);
 }
 
-std::vector<std::size_t> Edit::choice_of(std::size_t on_air, std::span<const std::uint32_t> group,
-                                         const Roster& roster, const Setting& setting) const {
+std::vector<std::size_t> Edit::choice_of(std::size_t on_air, const Among& among, const Roster& roster,
+                                         const Setting& setting) const {
     std::vector<std::size_t> choice;
     for (std::size_t rush = fixed_; rush < fixed_ + players_.size(); ++rush)
-        if (is_to_be_had(rush, group, roster)) choice.push_back(rush);
-    if (choice.empty() || !has_fixed(group)) return choice;
+        if (is_to_be_had(rush, among, roster)) choice.push_back(rush);
+    if (choice.empty() || !has_fixed(among)) return choice;
     for (std::size_t rush = 0; rush < fixed_; ++rush)
         if (rush == on_air ? !is_threatened(setting.space, rush) : may_begin(rush, roster, setting))
             choice.push_back(rush);
     return choice;
 }
 
-bool Edit::is_to_be_had(std::size_t rush, std::span<const std::uint32_t> group, const Roster& roster) const {
+bool Edit::is_to_be_had(std::size_t rush, const Among& among, const Roster& roster) const {
     const std::uint32_t player = players_[rush - fixed_];
-    return in_group(player, group) && roster.pose(player) != nullptr;
+    return in_group(player, among.group) && roster.is_of(player, among.team) &&
+           roster.pose(player) != nullptr;
 }
 
-bool Edit::has_fixed(std::span<const std::uint32_t> group) const {
-    return group.empty() && material_.footage().beats() != material_.footage().first();
+bool Edit::has_fixed(const Among& among) const {
+    return among.all() && material_.footage().beats() != material_.footage().first();
 }
 
 // The material knows no movers: none comes near the camera for as long as a shot lasts at least, as far as
@@ -347,11 +347,25 @@ bool Edit::may_begin(std::size_t fixed, const Roster& roster, const Setting& set
     const double ahead = std::min(setting.rules.grammar.minimum_shot_s, setting.delay_s);
     for (double later = 0.0; later <= ahead; later += threat_every_s)
         if (is_threatened(now.at(now.time() + later), fixed)) return false;
+    const PlayerPose* pose = roster.pose(subject_of(static_cast<std::uint32_t>(fixed)));
+    return pose == nullptr || now.mover_sweep(now.map().fixed_shots()[fixed].position, pose->eye, 0.0F).clear;
+}
+
+std::uint32_t Edit::subject_of(std::uint32_t fixed) const {
     const direction::Footage& footage = material_.footage();
+    if (footage.beats() == footage.first() || fixed >= fixed_) return no_player;
     const direction::Beat seen = std::clamp(decided_, footage.first(), footage.beats() - 1);
     const Index subject = footage.take(seen, fixed).subject;
-    const PlayerPose* pose = subject == nobody ? nullptr : roster.pose(players_[subject]);
-    return pose == nullptr || now.mover_sweep(now.map().fixed_shots()[fixed].position, pose->eye, 0.0F).clear;
+    return subject == nobody ? no_player : players_[subject];
+}
+
+bool Edit::are_enemies(std::uint32_t player, std::uint32_t other) const {
+    return player != other && direction::enemies(team_of(player), team_of(other));
+}
+
+std::uint8_t Edit::team_of(std::uint32_t player) const {
+    const auto known = teams_.find(player);
+    return known == teams_.end() ? std::uint8_t{0} : known->second;
 }
 
 bool Edit::is_threatened(const freespace::Space& space, std::size_t fixed) {

@@ -117,6 +117,9 @@ class Match final : public Strand {
     // Makes the steps of the next frame, whose poses wait, so that its cameras leave when it is due.
     void prepare(Turn& turn);
     void prepare_step(Shot& shot, double time, camera::Scratch& scratch);
+    // As far as the players are known: at this frame, or by the timeline until that changes.
+    void gather_crowd(const PoseFrame& frame);
+    void gather_crowd();
     void move_cameras(const PoseFrame& frame, double dt, CameraFrame& cameras, Turn& turn);
     // Calls move(i, scratch) for every i below `count`, also on workers that are idle.
     void share_shots(Turn& turn, std::size_t count,
@@ -128,6 +131,8 @@ class Match final : public Strand {
     [[nodiscard]] Edit::Setting edit_setting() const;
     void choose_targets(const PoseFrame& frame, CameraFrame& cameras);
     void choose_automatic_target(Shot& shot, CameraFrame& cameras);
+    [[nodiscard]] std::optional<camera::LineOfAction> line_to_keep(const Shot& shot,
+                                                                   std::uint32_t next) const;
     // Shots move at the same time: it changes nothing of the match but the shot, the scratch and the
     // counters.
     [[nodiscard]] ShotCamera move_camera(Shot& shot, double dt, camera::Scratch& scratch);
@@ -192,6 +197,8 @@ class Match final : public Strand {
     std::vector<std::string> reported_unknown_;  // of its movers
     std::uint64_t foreseen_ = 0;  // position in the delay buffer of what follows in the timeline
     bool by_timeline_ = false;    // the cameras move over the timeline
+    std::vector<camera::Crowd::Player> crowd_;
+    std::vector<camera::TimedPose> crowd_poses_;  // one of each, without a timeline
     std::uint32_t next_camera_frame_ = 0;
     std::vector<Shot*> unprepared_;           // during prepare()
     CameraFrame followed_, followed_before_;  // the last two of the director that leads

@@ -41,15 +41,30 @@ void Match::choose_targets(const PoseFrame& frame, CameraFrame& cameras) {
                                      : shot.is_of_group() ? shot.key.group.front()
                                                           : shot.key.target;
         const std::uint32_t fixed = shot.is_automatic() ? shot.automatic.fixed : freespace::none;
-        if (target != shot.target || fixed != shot.fixed) shot.restart();
+        if (target != shot.target || fixed != shot.fixed) {
+            const auto line = line_to_keep(shot, target);
+            shot.restart();
+            shot.state.line = line;
+        }
         shot.target = target;
         shot.fixed = fixed;
     }
 }
 
+// Of two living enemies, whether or not the freespace lets them see each other: it takes some for hidden who
+// are not.
+std::optional<camera::LineOfAction> Match::line_to_keep(const Shot& shot, std::uint32_t next) const {
+    const std::uint32_t before = shot.fixed == freespace::none ? shot.target : edit_.subject_of(shot.fixed);
+    const PlayerPose* one = roster_.pose(before);
+    const PlayerPose* other = roster_.pose(next);
+    if (one == nullptr || other == nullptr || !edit_.are_enemies(before, next)) return {};
+    if ((one->flags & other->flags & pose_alive) == 0) return {};
+    return camera::LineOfAction{one->eye, shot.position};
+}
+
 void Match::choose_automatic_target(Shot& shot, CameraFrame& cameras) {
     AutomaticShot& automatic = shot.automatic;
-    const bool begins = edit_.choose(automatic, shot.key.group, roster_, edit_setting());
+    const bool begins = edit_.choose(automatic, {shot.key.group, shot.key.team}, roster_, edit_setting());
     if (!automatic.is_on_air()) return;
     if (begins || edit_.repeats_reasons()) cameras.reasons.push_back({shot.camera_id, automatic.reason});
     if (!begins) return;

@@ -163,6 +163,21 @@ void Match::place_obstacles(const PoseFrame& frame) {
     if (changed) report_unknown_movers();
 }
 
+void Match::gather_crowd(const PoseFrame& frame) {
+    if (by_timeline_) return gather_crowd();
+    crowd_.clear();
+    crowd_poses_.clear();
+    for (const PlayerPose& pose : tracked(frame, config_->limits))
+        crowd_poses_.push_back({causal_time_, tracker_pose(pose, false), (pose.flags & pose_spectator) == 0});
+    for (std::size_t i = 0; i < crowd_poses_.size(); ++i)
+        crowd_.push_back({frame.poses[i].player_id, {&crowd_poses_[i], 1}});
+}
+
+void Match::gather_crowd() {
+    crowd_.clear();
+    timeline_.add_to(crowd_);
+}
+
 void Match::move_cameras(const PoseFrame& frame, double dt, CameraFrame& cameras, Turn& turn) {
     cameras.epoch = frame.epoch;
     cameras.frame_number = next_camera_frame_++;
@@ -171,6 +186,7 @@ void Match::move_cameras(const PoseFrame& frame, double dt, CameraFrame& cameras
     cameras.source_time = frame.source_time;
 
     choose_targets(frame, cameras);
+    gather_crowd(frame);
     std::vector<Shot>& shots = requests_.shots();
     cameras.cameras.resize(shots.size());
     share_shots(turn, shots.size(), [&](std::size_t i, camera::Scratch& scratch) {
@@ -199,6 +215,7 @@ void Match::prepare(Turn& turn) {
     const double time = timeline_.seconds(next->frame_time);
     if (!timeline_.covers(next->frame_time) || time <= timeline_.shown()) return;
     if (obstacles_.follow(timeline_)) report_unknown_movers();
+    gather_crowd();
     unprepared_.clear();
     for (Shot& shot : requests_.shots())
         if (shot.target != no_player && !(shot.is_prepared && shot.prepared->time == time))
@@ -234,6 +251,7 @@ ShotCamera Match::move_camera(Shot& shot, double dt, camera::Scratch& scratch) {
         (shot.flags & camera::searching) == 0)
         counters_.add(Counter::searches);
     shot.flags = camera.flags;
+    shot.position = camera.position;
     return {shot.camera_id,      shot.target,      camera.position, camera.orientation,
             camera.vertical_fov, camera.clearance, camera.flags};
 }
@@ -255,6 +273,7 @@ ShotCamera Match::show_fixed(Shot& shot) {
         counters_.add(Counter::cuts);
     }
     shot.flags = camera.flags;
+    shot.position = camera.position;
     return camera;
 }
 
@@ -262,7 +281,8 @@ camera::Camera Match::step_by_pose(Shot& shot, const PlayerPose* seen, double dt
     const Timed timed(counters_.step);
     if (!shot.state.started) shot.state.time = causal_time_ - camera::usable_frame(dt);
     const camera::Pose pose = seen != nullptr ? tracker_pose(*seen, after_silence_) : camera::Pose{};
-    return camera::step(space(), shot.profile, seen != nullptr ? &pose : nullptr, dt, shot.state, scratch);
+    return camera::step(space(), shot.profile, seen != nullptr ? &pose : nullptr, dt, shot.state, scratch,
+                        {crowd_, shot.target});
 }
 
 camera::Camera Match::step_by_timeline(Shot& shot, const PlayerPose* seen, camera::Scratch& scratch) {
@@ -307,7 +327,8 @@ camera::Camera Match::step_to(double time, const Shot& shot, camera::ShotState& 
                               camera::Scratch& scratch) {
     const Timed timed(counters_.step);
     if (!state.started) state.time = time - first_step_s;
-    return camera::step(space(), shot.profile, timeline_.window(shot.target), time, state, scratch);
+    return camera::step(space(), shot.profile, timeline_.window(shot.target), time, state, scratch,
+                        {crowd_, shot.target});
 }
 
 }  // namespace camdir::director

@@ -145,6 +145,7 @@ struct ObserverRequest {
     std::vector<std::uint32_t> group;
     std::string profile;
     std::string overrides;
+    std::uint8_t team = 0;  // of whom an automatic shot shows; 0: any
 
     bool operator==(const ObserverRequest&) const = default;
 };

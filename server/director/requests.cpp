@@ -74,11 +74,16 @@ std::string missing_player(const ShotKey& key, const Roster& roster) {
         return "player " + std::to_string(key.target) +
                (presence == Presence::spectator ? " is a spectator" : " is not in the match");
     }
-    if (key.group.empty()) return roster.anyone_playing() ? "" : "nobody plays";
+    if (key.group.empty()) {
+        if (roster.anyone_playing(key.team)) return {};
+        return key.team == 0 ? "nobody plays" : "nobody of team " + std::to_string(key.team) + " plays";
+    }
     const bool plays = std::any_of(key.group.begin(), key.group.end(), [&](std::uint32_t player) {
-        return roster.presence(player) == Presence::playing;
+        return roster.presence(player) == Presence::playing && roster.is_of(player, key.team);
     });
-    return plays ? "" : "nobody of the group plays";
+    if (plays) return {};
+    return key.team == 0 ? "nobody of the group plays"
+                         : "nobody of the group plays in team " + std::to_string(key.team);
 }
 
 // The same in every director that is asked for this shot, so that a standby's cameras have the ids that
@@ -94,6 +99,7 @@ std::uint32_t camera_id_of(const ShotKey& key) {
     for (const std::uint32_t player : key.group)
         append(player);
     bytes += key.profile + '\0' + key.overrides;
+    if (key.team != 0) append(key.team);
     const auto id = static_cast<std::uint32_t>(XXH3_64bits(bytes.data(), bytes.size()));
     return id == 0 ? 1 : id;
 }
@@ -167,7 +173,7 @@ void Requests::resolve(Observer& observer, const config::Config& config) {
     observer.key = {
         request.target,
         request.target == whole_group ? without_repetitions(request.group) : sorted(request.group), name,
-        canonical(request.overrides)};
+        canonical(request.overrides), request.target == no_player ? request.team : std::uint8_t{0}};
     observer.error = group_error(observer.key);
     if (!observer.error.empty()) return;
     const auto base = config.profiles.find(name);
@@ -302,7 +308,8 @@ std::vector<ShotView> Requests::shot_views() const {
     for (const Shot& shot : shots_)
         views.push_back({shot.camera_id, shot.target, shot.is_automatic(), shot.key.profile, shot.observers,
                          shot.flags, shot.automatic.reason, shot.automatic.since,
-                         shot.is_of_group() ? shot.key.group : std::vector<std::uint32_t>(), shot.fixed});
+                         shot.is_of_group() ? shot.key.group : std::vector<std::uint32_t>(), shot.fixed,
+                         shot.key.team});
     return views;
 }
 

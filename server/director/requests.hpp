@@ -27,6 +27,7 @@ struct ShotKey {
     std::vector<std::uint32_t> group;  // distinct; ascending, of a group shot as requested
     std::string profile;
     std::string overrides;  // canonical JSON: keys sorted, no white space
+    std::uint8_t team = 0;  // of an automatic shot: whom it shows; 0: any
 
     bool operator==(const ShotKey&) const = default;
 };
@@ -50,7 +51,8 @@ struct Shot {
     std::uint32_t target = no_player;       // the player followed now; of a group shot the first of its group
     std::uint32_t fixed = freespace::none;  // the fixed shot of the map that is shown now instead
     std::uint64_t observers = 0;
-    std::uint32_t flags = 0;  // of the last camera
+    std::uint32_t flags = 0;         // of the last camera
+    Vec3f position = Vec3f::Zero();  // likewise
     // Follows from `state`, `group`, `target` and `profile` as they are; its memory is kept.
     bool is_prepared = false;
     std::unique_ptr<PreparedStep> prepared;

@@ -30,14 +30,20 @@ Roster::Entry* Roster::find_or_add(std::uint32_t player) {
     if (place != entries_.end() && place->player == player) return &*place;
     if (entries_.size() >= max_known) return nullptr;
     changed_ = true;
-    return &*entries_.insert(place, Entry{player, false, false, 0, nullptr});
+    return &*entries_.insert(place, Entry{player, false, 0, false, 0, nullptr});
 }
 
 void Roster::set_listed(std::span<const Player> players) {
-    for (Entry& entry : entries_)
+    for (Entry& entry : entries_) {
         entry.listed = false;
-    for (const Player& player : players)
-        if (Entry* entry = find_or_add(player.id)) entry->listed = true;
+        entry.team = 0;
+    }
+    for (const Player& player : players) {
+        Entry* entry = find_or_add(player.id);
+        if (entry == nullptr) continue;
+        entry->listed = true;
+        entry->team = player.team;
+    }
     changed_ = true;
     // A player who is no longer listed and has no pose has left the match.
     std::erase_if(entries_, [&](const Entry& entry) { return !entry.listed && entry.pose == nullptr; });
@@ -81,8 +87,15 @@ Presence Roster::presence(std::uint32_t player) const {
     return entry->spectator ? Presence::spectator : Presence::playing;
 }
 
-bool Roster::anyone_playing() const {
-    return std::any_of(entries_.begin(), entries_.end(), [](const Entry& entry) { return !entry.spectator; });
+bool Roster::anyone_playing(std::uint8_t team) const {
+    return std::any_of(entries_.begin(), entries_.end(), [&](const Entry& entry) {
+        return !entry.spectator && (team == 0 || entry.team == team);
+    });
+}
+
+bool Roster::is_of(std::uint32_t player, std::uint8_t team) const {
+    const Entry* entry = find(player);
+    return entry != nullptr && (team == 0 || entry->team == team);
 }
 
 const PlayerPose* Roster::pose(std::uint32_t player) const {

@@ -32,7 +32,10 @@ class Roster {
     [[nodiscard]] bool take_changed();
 
     [[nodiscard]] Presence presence(std::uint32_t player) const;
-    [[nodiscard]] bool anyone_playing() const;
+    // 0: of any team.
+    [[nodiscard]] bool anyone_playing(std::uint8_t team = 0) const;
+    // By the MatchInfo; everybody is of 0.
+    [[nodiscard]] bool is_of(std::uint32_t player, std::uint8_t team) const;
     // The player's pose in the last frame; null when there is none or the player is a spectator.
     [[nodiscard]] const PlayerPose* pose(std::uint32_t player) const;
 
@@ -40,6 +43,7 @@ class Roster {
     struct Entry {
         std::uint32_t player;
         bool listed;
+        std::uint8_t team;  // 0 of who is not listed
         bool spectator;
         std::int64_t last_seen;  // value of frames_ then; 0 = never
         const PlayerPose* pose;

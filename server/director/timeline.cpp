@@ -68,6 +68,11 @@ void Timeline::show(std::int64_t frame_time) {
     }
 }
 
+void Timeline::add_to(std::vector<camera::Crowd::Player>& crowd) const {
+    for (const auto& [player, track] : players_)
+        crowd.push_back({player, track});
+}
+
 camera::Window Timeline::window(std::uint32_t player) const {
     const auto found = players_.find(player);
     return found == players_.end() ? camera::Window() : camera::Window(found->second);

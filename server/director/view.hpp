@@ -95,6 +95,7 @@ struct ShotView {
     std::int64_t since = 0;                 // frame_time, likewise
     std::vector<std::uint32_t> group = {};  // of a group shot: its players
     std::uint32_t fixed = freespace::none;  // the fixed shot of the map that is shown instead of a player
+    std::uint8_t team = 0;                  // of an automatic shot: whom it shows; 0: any
 };
 
 struct ObserverView {

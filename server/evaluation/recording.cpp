@@ -16,15 +16,19 @@ namespace camdir::evaluation {
 namespace {
 
 constexpr std::uint64_t max_updates = 200'000'000;
+constexpr double first_step = 1.0 / 60.0;  // s
 
 // Records one player at a time; several recorders may share a recording.
 class Recorder {
   public:
+    // `tracks`: of the players of `poses`.
     Recorder(const freespace::Freespace& freespace, const camera::Profile& profile, const Trace& poses,
-             std::span<const MoverRow> movers, const Trace& trace, double look_ahead, Recording& recording)
+             std::span<const std::vector<camera::TimedPose>> tracks, std::span<const MoverRow> movers,
+             const Trace& trace, double look_ahead, Recording& recording)
         : freespace_(freespace),
           profile_(profile),
           poses_(poses),
+          tracks_(tracks),
           movers_(movers),
           trace_(trace),
           look_ahead_(look_ahead),
@@ -38,6 +42,7 @@ class Recorder {
         const std::int64_t start = std::min(poses_.frames.front().time, trace_.frames.front().time);
         const auto poses = timed_poses(poses_, player, start);
         KnownPoses known(poses, look_ahead_);
+        KnownCrowd known_crowd(poses_, tracks_, look_ahead_);
         KnownMovers known_movers(freespace_, movers_, poses_, start, look_ahead_);
         camera::ShotState state;
         bool cut_unseen = false;  // a cut while the player had no pose: goes into the next row
@@ -46,8 +51,10 @@ class Recorder {
             const double time = seconds(trace_.frames[frame].time - start);
             const camera::Window window = known.at(time);
             const freespace::Space space(freespace_, movers_.empty() ? nullptr : &known_movers.at(time));
+            const camera::Crowd crowd = known_crowd.at(time, player);
             const double before = cpu_nanoseconds();
-            const camera::Camera camera = camera::step(space, profile_, window, time, state, *scratch_);
+            const camera::Camera camera =
+                camera::step(space, profile_, window, time, state, *scratch_, crowd);
             nanoseconds[frame] = cpu_nanoseconds() - before;
             cut_unseen = cut_unseen || (camera.flags & camera::cut) != 0;
             if (track[frame] == absent) continue;
@@ -60,6 +67,7 @@ class Recorder {
     const freespace::Freespace& freespace_;
     const camera::Profile& profile_;
     const Trace& poses_;
+    std::span<const std::vector<camera::TimedPose>> tracks_;
     std::span<const MoverRow> movers_;
     const Trace& trace_;
     double look_ahead_;
@@ -96,12 +104,40 @@ Result<Recording> record(const freespace::Freespace& freespace, const camera::Pr
         if (count % stride == 0) progress(count, total);
         return !stop.stop_requested();
     };
+    const auto tracks =
+        timed_poses_of_all(poses, std::min(poses.frames.front().time, trace.frames.front().time));
     parallel_for(std::size_t{0}, trace.players.size(), [&](std::size_t i) {
-        Recorder recorder(freespace, profile, poses, movers, trace, look_ahead, recording);
+        Recorder recorder(freespace, profile, poses, tracks, movers, trace, look_ahead, recording);
         recorder.follow(trace.players[i], recording.step_nanoseconds.data() + i * frames, keep_on);
     });
     if (stop.stop_requested()) return fail("interrupted", ErrorCode::interrupted);
     return recording;
+}
+
+std::vector<std::optional<CameraSample>> record(const freespace::Freespace& freespace,
+                                                const camera::Profile& profile, const Trace& trace,
+                                                double look_ahead, const FollowShot& shot,
+                                                const camera::LineOfAction* line) {
+    assert(shot.first <= shot.end && shot.end <= trace.frames.size());
+    const std::int64_t start = trace.frames.front().time;
+    const auto poses = timed_poses(trace, shot.player, start);
+    const auto track = track_of(trace, shot.player);
+    const auto tracks = timed_poses_of_all(trace, start);
+    const auto scratch = std::make_unique<camera::Scratch>(freespace);
+    KnownPoses known(poses, look_ahead);
+    KnownCrowd crowd(trace, tracks, look_ahead);
+    camera::ShotState state;
+    if (line != nullptr) state.line = *line;
+    std::vector<std::optional<CameraSample>> cameras(shot.end - shot.first);
+    for (std::uint32_t frame = shot.first; frame < shot.end; ++frame) {
+        const double time = seconds(trace.frames[frame].time - start);
+        if (frame == shot.first) state.time = time - first_step;
+        const camera::Camera camera = camera::step(freespace, profile, known.at(time), time, state, *scratch,
+                                                   crowd.at(time, shot.player));
+        const bool cut = frame != shot.first && (camera.flags & camera::cut) != 0;
+        if (track[frame] != absent) cameras[frame - shot.first] = sampled(camera, cut);
+    }
+    return cameras;
 }
 
 std::string format_terms(const Trace& trace, const Recording& recording) {

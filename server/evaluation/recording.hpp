@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <stop_token>
 #include <string>
@@ -10,6 +11,7 @@
 
 #include "camera/camera.hpp"
 #include "camera/profile.hpp"
+#include "camera/spot.hpp"
 #include "evaluation/camera_path.hpp"
 #include "evaluation/mover_tracks.hpp"
 #include "freespace/freespace.hpp"
@@ -34,6 +36,22 @@ using ProgressSink = std::function<void(std::uint64_t, std::uint64_t)>;
                                        const Trace& poses, std::span<const MoverRow> movers,
                                        const Trace& trace, double look_ahead, const ProgressSink& progress,
                                        const std::stop_token& stop);
+
+// A shot of a player that begins with a cut.
+struct FollowShot {
+    std::uint32_t player = 0;
+    std::uint32_t first = 0;  // frames of the trace: [first, end)
+    std::uint32_t end = 0;
+};
+
+// The camera of each of the shot's frames, none where the player has no pose, as a shot begins that is cut to
+// at its first frame; that cut is not in them. `line`: of action, which it heeds; may be null. Otherwise as
+// above, without movers.
+[[nodiscard]] std::vector<std::optional<CameraSample>> record(const freespace::Freespace& freespace,
+                                                              const camera::Profile& profile,
+                                                              const Trace& trace, double look_ahead,
+                                                              const FollowShot& shot,
+                                                              const camera::LineOfAction* line);
 
 // CSV with the header t_ms,player,visibility,distance,angle,inertia_distance,inertia_angle,safety,total and a
 // row for each pose of the trace: the objective's terms as they entered the sum.

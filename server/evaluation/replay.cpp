@@ -45,6 +45,28 @@ camera::Window KnownPoses::at(double time) {
     return all_.subspan(first_, end_ - first_);
 }
 
+KnownCrowd::KnownCrowd(const Trace& trace, std::span<const std::vector<camera::TimedPose>> tracks,
+                       double look_ahead) {
+    assert(tracks.size() == trace.players.size());
+    for (std::size_t i = 0; i < tracks.size(); ++i) {
+        known_.emplace_back(tracks[i], look_ahead);
+        players_.push_back({trace.players[i], {}});
+    }
+}
+
+camera::Crowd KnownCrowd::at(double time, std::uint32_t own) {
+    for (std::size_t i = 0; i < known_.size(); ++i)
+        players_[i].window = known_[i].at(time);
+    return {players_, own};
+}
+
+std::vector<std::vector<camera::TimedPose>> timed_poses_of_all(const Trace& trace, std::int64_t start) {
+    std::vector<std::vector<camera::TimedPose>> tracks;
+    for (const std::uint32_t player : trace.players)
+        tracks.push_back(timed_poses(trace, player, start));
+    return tracks;
+}
+
 KnownMovers::KnownMovers(const freespace::Freespace& freespace, std::span<const MoverRow> rows,
                          const Trace& poses, std::int64_t start, double look_ahead)
     : rows_(rows), frames_(poses.frames), start_(start), look_ahead_(std::min(look_ahead, movers_ahead)) {

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "camera/crowd.hpp"
 #include "camera/window.hpp"
 #include "evaluation/camera_path.hpp"
 #include "evaluation/mover_tracks.hpp"
@@ -38,6 +39,23 @@ class KnownPoses {
     std::size_t first_ = 0;
     std::size_t end_ = 0;
 };
+
+// The same of all players of a trace. One thread at a time.
+class KnownCrowd {
+  public:
+    // `tracks`: of each player of `trace`, by timed_poses(); both must live as long.
+    KnownCrowd(const Trace& trace, std::span<const std::vector<camera::TimedPose>> tracks, double look_ahead);
+
+    // For the shot of `own`. Valid until the next call.
+    [[nodiscard]] camera::Crowd at(double time, std::uint32_t own);
+
+  private:
+    std::vector<KnownPoses> known_;
+    std::vector<camera::Crowd::Player> players_;
+};
+
+[[nodiscard]] std::vector<std::vector<camera::TimedPose>> timed_poses_of_all(const Trace& trace,
+                                                                             std::int64_t start);
 
 // The match's movers as far as they are known at a time which ascends from call to call. One thread at a
 // time.

@@ -50,6 +50,7 @@ json page_of(const director::ShotView& shot, const std::vector<director::Player>
     for (const std::uint32_t player : shot.group)
         page["group"].push_back(page_of(player, players));
     page["reason"] = shot.automatic && !shot.reason.why.empty() ? page_of(shot.reason, players) : json();
+    page["team"] = shot.team == 0 ? json() : json(shot.team);
     page["fixed_shot"] = shot.fixed == freespace::none ? json() : json(shot.fixed);
     page["since"] = shot.automatic ? json(shot.since) : json();
     return page;

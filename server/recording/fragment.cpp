@@ -155,6 +155,7 @@ void put_request(ByteSink& sink, const director::ObserverRequest& request) {
         sink.varint(id);
     sink.text(request.profile);
     sink.text(request.overrides);
+    sink.fixed(request.team, 1);
 }
 
 void put_vector(ByteSink& sink, const Vec3f& vector) {
@@ -373,6 +374,8 @@ class RecordDecoder {
             id = source.number();
         request.profile = source.text();
         request.overrides = source.text();
+        if (source.ok() && source.left() > 0)  // since minor version 3
+            request.team = static_cast<std::uint8_t>(source.fixed(1));
         return request;
     }
 

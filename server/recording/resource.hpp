@@ -7,7 +7,7 @@
 namespace camdir::recording {
 
 inline constexpr std::uint8_t major_version = 1;
-inline constexpr std::uint8_t minor_version = 2;
+inline constexpr std::uint8_t minor_version = 3;
 inline constexpr std::size_t max_content = 64U << 20U;  // bytes, inflated
 
 enum class ResourceKind : std::uint8_t { start = 1, full = 2, delta = 3 };

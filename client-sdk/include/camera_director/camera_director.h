@@ -498,7 +498,10 @@ typedef struct cdir_shot_request {
      * narrow them. */
     CDIR_POINTER(const char*, overrides);
     uint32_t group_count; /* <= CDIR_MAX_PLAYERS */
-    uint32_t reserved;
+    /* With CDIR_CHOOSE_TARGET: the director chooses among players of this team alone; 0 = of any. Directors
+     * that know no teams choose among all. */
+    uint8_t team;
+    uint8_t reserved[3]; /* 0 */
 } cdir_shot_request;
 
 /* The director chooses the target among all players, with its default profile. */

@@ -436,6 +436,7 @@ struct ShotRequest {
     std::vector<std::uint32_t> group = {};
     std::string profile = {};
     std::string overrides = {};
+    std::uint8_t team = cdir_shot_request_default().team;
 };
 
 struct ObserverOptions {
@@ -474,6 +475,7 @@ class Observer {
         raw.group_count = static_cast<std::uint32_t>(request.group.size());
         raw.profile = request.profile.c_str();
         raw.overrides = request.overrides.c_str();
+        raw.team = request.team;
         return detail::outcome(cdir_observer_request(owner_.get(), &raw));
     }
 

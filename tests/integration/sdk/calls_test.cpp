@@ -245,8 +245,13 @@ TEST_F(Calls, WrongArgumentsAreRefusedAndNamed) {
     event_.reserved = 1;
     EXPECT_EQ(cdir_match_publish_event(match_, &event_), CDIR_INVALID_ARGUMENT);
     EXPECT_THAT(cdir_last_error(), HasSubstr("reserved"));
-    request_.reserved = 1;
+    request_.reserved[2] = 1;
     EXPECT_EQ(cdir_observer_request(observer_, &request_), CDIR_INVALID_ARGUMENT);
+    request_.reserved[2] = 0;
+    request_.target = 1;
+    request_.team = 1;
+    EXPECT_EQ(cdir_observer_request(observer_, &request_), CDIR_INVALID_ARGUMENT);
+    EXPECT_THAT(cdir_last_error(), HasSubstr("CDIR_CHOOSE_TARGET"));
     cdir_player player = cdir_player_default();
     player.reserved[6] = 1;
     EXPECT_EQ(cdir_match_update(match_, &info_, &player, 1), CDIR_INVALID_ARGUMENT);

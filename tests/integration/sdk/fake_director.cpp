@@ -188,8 +188,8 @@ std::optional<ReceivedMoverFrame> FakeDirector::take_mover_frame() {
 
 std::optional<ReceivedRequest> FakeDirector::take_request() {
     const auto use = [](const camera_director_ObserverRequest& sample) {
-        return ReceivedRequest{sample.observer_id, sample.target, copied(sample.group), sample.profile,
-                               sample.overrides};
+        return ReceivedRequest{sample.observer_id, sample.target,    copied(sample.group),
+                               sample.profile,     sample.overrides, sample.team};
     };
     return take<camera_director_ObserverRequest>(request_reader_, camera_director_ObserverRequest_desc, use);
 }

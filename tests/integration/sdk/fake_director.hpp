@@ -65,6 +65,7 @@ struct ReceivedRequest {
     std::vector<std::uint32_t> group;
     std::string profile;
     std::string overrides;
+    std::uint8_t team;
 };
 
 class FakeDirector {

@@ -80,10 +80,13 @@ TEST_F(Spectator, RequestArrivesWithAllItsFields) {
     EXPECT_EQ(request->profile, "shoulder");
     EXPECT_EQ(request->overrides, R"({"distance": 90})");
 
-    observer_.request({}).value();
+    EXPECT_EQ(request->team, 0U);
+
+    observer_.request({.team = 2}).value();
     ASSERT_TRUE(eventually([&] { return (request = director_.take_request()).has_value(); }));
     EXPECT_EQ(request->target, CDIR_CHOOSE_TARGET);
     EXPECT_THAT(request->group, testing::IsEmpty());
+    EXPECT_EQ(request->team, 2U);
 
     EXPECT_FALSE(director_.request_has_ended());
     observer_.withdraw().value();

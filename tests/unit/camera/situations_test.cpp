@@ -49,6 +49,25 @@ TEST(Situations, WithAWallBehindTheCutLandsOnTheBestFreeSpot) {
         << "beside the player rather than right behind the head";
 }
 
+// The spot right behind who looks at an enemy is on the line itself.
+TEST(Situations, ACutStaysOnItsSideOfTheLineOfAction) {
+    const test::Plan plan = test::box_room();
+    const freespace::Freespace freespace = plan.freespace();
+    const Pose pose = pose_at(plan.eye(3, 5), 0.0F);
+    for (const float side : {-1.0F, 1.0F}) {
+        ShotState state;
+        state.line =
+            LineOfAction{pose.eye + Vec3f(90.0F, 0.0F, 0.0F), pose.eye + Vec3f(40.0F, side * 30.0F, 0.0F)};
+        Scratch scratch(freespace);
+        const Camera camera = step(freespace, {}, &pose, 1.0 / 60.0, state, scratch);
+        EXPECT_TRUE(has(camera, cut));
+        const Vec3f offset = camera.position - pose.eye;
+        EXPECT_GT(side * offset.y(), 0.05F * std::abs(offset.x()));
+        EXPECT_LT(offset.x(), -60.0F) << "still behind the player";
+        EXPECT_FALSE(state.line) << "the next cut is another's";
+    }
+}
+
 TEST(Situations, RespawnAndTeleportCutAtOnce) {
     const test::Plan plan = test::two_rooms();
     CheckedShot shot(plan);

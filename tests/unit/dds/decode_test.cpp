@@ -208,6 +208,7 @@ TEST(DecodeObserverRequest, KeepsTheGroupAndTheStrings) {
     sample.group = {257, 256, group.data(), false};
     std::snprintf(sample.profile, sizeof sample.profile, "close");
     std::snprintf(sample.overrides, sizeof sample.overrides, R"({"distance": 60})");
+    sample.team = 3;
     director::ObserverRequest message;
     message.group = {1, 2, 3};
     ASSERT_EQ(decode(sample, message), std::nullopt);
@@ -217,6 +218,7 @@ TEST(DecodeObserverRequest, KeepsTheGroupAndTheStrings) {
     EXPECT_EQ(message.group.size(), 256U);
     EXPECT_EQ(message.profile, "close");
     EXPECT_EQ(message.overrides, R"({"distance": 60})");
+    EXPECT_EQ(message.team, 3U);
     sample.group._length = 257;
     EXPECT_EQ(decode(sample, message), ValidationError::too_many);
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <map>
 #include <thread>
 
 #include "camera/tracker.hpp"
@@ -211,24 +212,29 @@ std::vector<Vec3f> planned(std::uint32_t player, const std::vector<CameraFrame>&
     constexpr double ahead = 2.5;  // s, that are used of a long delay
     const freespace::Freespace square = Stage::square();
     camera::Scratch scratch(square);
-    std::vector<camera::TimedPose> poses;
-    for (std::uint32_t number = 0; number < recorded; ++number) {
-        const PlayerPose pose = Stage::poses(number).poses.at(player - 1);
-        poses.push_back(
-            {recorded_at(number), {pose.eye, pose.orientation, pose.velocity, true, false}, true});
-    }
+    std::map<std::uint32_t, std::vector<camera::TimedPose>> tracks;
+    for (std::uint32_t number = 0; number < recorded; ++number)
+        for (const PlayerPose& pose : Stage::poses(number).poses)
+            tracks[pose.player_id].push_back(
+                {recorded_at(number), {pose.eye, pose.orientation, pose.velocity, true, false}, true});
     camera::ShotState state;
     state.time = recorded_at(shown.at(0).pose_number) - 1.0 / 60.0;
     state.plan.phase = camera_of(shown.at(0), player).camera_id;
     std::vector<Vec3f> cameras;
     for (const CameraFrame& frame : shown) {
         const double now = recorded_at(frame.pose_number);
-        std::size_t known = 0;
-        while (known < poses.size() && poses[known].time - now <= ahead)
-            ++known;
-        cameras.push_back(
-            camera::step(square, camera::Profile(), std::span(poses).first(known), now, state, scratch)
-                .position);
+        const auto known = [&](std::span<const camera::TimedPose> track) {
+            std::size_t count = 0;
+            while (count < track.size() && track[count].time - now <= ahead)
+                ++count;
+            return track.first(count);
+        };
+        std::vector<camera::Crowd::Player> crowd;
+        for (const auto& [id, track] : tracks)
+            crowd.push_back({id, known(track)});
+        cameras.push_back(camera::step(square, camera::Profile(), known(tracks[player]), now, state, scratch,
+                                       {crowd, player})
+                              .position);
     }
     return cameras;
 }

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <set>
 
 #include "camera/camera.hpp"
 #include "camera/view.hpp"
@@ -260,6 +261,36 @@ TEST(Director, AnAutomaticShotCutsAndSaysWhy) {
     EXPECT_GE(told, 1U);
 }
 
+// Two enemies of whom each looks past the other: from behind either the picture is from another side.
+TEST(Director, AnAutomaticCutBetweenEnemiesStaysOnItsSideOfTheLineOfAction) {
+    Stage stage;
+    stage.start();
+    ObserverRequest wanted = Stage::request("a", no_player);
+    wanted.group = {1, 2};
+    stage.ask(wanted);
+    const Vec3f eyes[] = {{20.0F, 50.0F, 0.0F}, {80.0F, 50.0F, 0.0F}};
+    std::vector<ShotCamera> cameras;
+    for (std::uint32_t number = 1; number < 400; ++number) {
+        PoseFrame frame = Stage::poses(number, 1, {1, 2});
+        for (std::size_t i = 0; i < 2; ++i) {
+            frame.poses[i].eye = eyes[i];
+            const float yaw = 0.7F + 3.14159F * static_cast<float>(i);
+            frame.poses[i].orientation = Quatf(Eigen::AngleAxisf(yaw, Vec3f::UnitZ()));
+        }
+        stage.send(frame);
+        cameras.push_back(stage.publisher.frames().back().cameras.at(0));
+    }
+    int cuts = 0;
+    for (std::size_t i = 1; i < cameras.size(); ++i) {
+        if (cameras[i].target == cameras[i - 1].target) continue;
+        ++cuts;
+        const auto side = [&](const ShotCamera& camera) { return camera.position.y() - eyes[0].y(); };
+        EXPECT_GT(std::abs(side(cameras[i - 1])), 5.0F);
+        EXPECT_GT(side(cameras[i - 1]) * side(cameras[i]), 0.0F) << i;
+    }
+    EXPECT_GE(cuts, 1) << "no shot is longer than 14 s";
+}
+
 TEST(Director, AFixedCameraStandsStillAndHasNoTarget) {
     Stage stage;
     stage.start();
@@ -344,6 +375,36 @@ TEST(Director, AnAutomaticTargetIsOfTheGroup) {
         stage.send(Stage::poses(number));
         EXPECT_NE(stage.publisher.frames().back().cameras.at(0).target, 1U);
     }
+}
+
+TEST(Director, AnAutomaticTargetIsOfTheTeamWhoeverIsInIt) {
+    Stage stage;
+    MatchInfo info = Stage::info();
+    info.players[1].team = 1;
+    stage.start(info);
+    ObserverRequest wanted = Stage::request("a", no_player);
+    wanted.team = 2;
+    stage.ask(wanted);
+    stage.send(Stage::poses(1));
+    EXPECT_EQ(stage.publisher.status("a").state, RequestState::waiting_for_player);
+    EXPECT_EQ(stage.publisher.status("a").reason, "nobody of team 2 plays");
+    wanted.team = 1;
+    stage.ask(wanted);
+    const auto shows = [&](std::uint32_t begin, std::uint32_t end) {
+        std::set<std::uint32_t> targets;
+        for (std::uint32_t number = begin; number < end; ++number) {
+            if (number % 10 == 0)
+                stage.director.receive("m", MatchEvent{1, Stage::poses(number).frame_time, 1, 1, 3, 0.0F});
+            stage.send(Stage::poses(number));
+            targets.insert(stage.publisher.frames().back().cameras.at(0).target);
+        }
+        return targets;
+    };
+    EXPECT_THAT(shows(2, 400), testing::ElementsAre(2));
+    EXPECT_EQ(stage.director.view(std::chrono::seconds(30)).matches.at(0).shots.at(0).team, 1);
+    std::swap(info.players[1].team, info.players[2].team);
+    stage.director.receive(info);
+    EXPECT_THAT(shows(400, 800), testing::ElementsAre(3));
 }
 
 // The undefined-behaviour sanitizer watches.

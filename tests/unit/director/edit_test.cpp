@@ -270,11 +270,12 @@ TEST_F(EditTest, ManyStrangersAreNoReasonToForgetTheShot) {
     AutomaticShot shot;
     Roster roster;
     const DelayBuffer live(1U << 20U);
+    const std::vector<std::uint32_t> among{1};
     for (std::uint32_t number = 1; number < 400; ++number) {
         const PoseFrame frame = Stage::poses(number, 1, {1, 1000 + number});
         roster.update(frame.poses, 1);
         edit.show(frame, live, setting(0.0));
-        edit.choose(shot, std::vector<std::uint32_t>{1}, roster, setting(0.0));
+        edit.choose(shot, {among}, roster, setting(0.0));
         edit.look(setting(0.0));
         EXPECT_EQ(shot.player, 1U);
         EXPECT_LE(edit.material().footage().players(), direction::max_players);

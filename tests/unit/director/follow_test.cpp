@@ -10,7 +10,8 @@ namespace {
 class FollowTest : public testing::Test {
   protected:
     static constexpr std::uint32_t begins = 40;  // the standby, with a cut
-    static constexpr float near = 2.0F;          // it does not know yet how the player has moved
+    // It knows neither how the player has moved yet, nor on which side the leader plans to pass the others.
+    static constexpr float near = 5.0F;
 
     FollowTest() {
         for (std::uint32_t i = 0; i < begins; ++i)
@@ -174,7 +175,7 @@ TEST_F(FollowAutomatic, NewsThatComesAFrameLateCountsToo) {
     }
     EXPECT_NE(camera(alone_).target, 3U);
     EXPECT_EQ(camera(standby_).target, 3U);
-    EXPECT_LT(distance(leader_, standby_), 10.0F);
+    EXPECT_LT(distance(leader_, standby_), 20.0F);
 }
 
 // Of a leader with another bake, or where fixed cameras are switched on alone.

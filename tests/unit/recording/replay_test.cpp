@@ -86,6 +86,7 @@ std::optional<ObserverRequest> asked_at(std::uint32_t number) {
     if (number % 12 != 3) return std::nullopt;
     ObserverRequest request = Stage::request("b", number % 24 == 3 ? no_player : 2);
     request.group = {1, 3};
+    request.team = 1;
     request.overrides = R"({"distance": )" + std::to_string(40 + number) + "}";
     return request;
 }
