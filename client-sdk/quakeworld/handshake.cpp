@@ -67,9 +67,9 @@ std::string text_of(const StreamRequest& request) {
 
 Result<std::optional<Answer>> read_answer(std::span<const std::byte> sent) {
     const std::string_view text(reinterpret_cast<const char*>(sent.data()), sent.size());
-    const std::size_t greeted = std::min(text.size(), greeting.size());
-    if (text.substr(0, greeted) != greeting.substr(0, greeted))
-        return fail("byte 0: '" + printable(text.substr(0, greeted)) + "', expected '" +
+    if (text.size() < greeting.size()) return std::nullopt;
+    if (!text.starts_with(greeting))
+        return fail("byte 0: '" + printable(text.substr(0, greeting.size())) + "', expected '" +
                     std::string(greeting) + "' of a QTV server");
     constexpr std::string_view end = "\n\n";
     const std::size_t lines = text.substr(0, longest_answer).find(end);

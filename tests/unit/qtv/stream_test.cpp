@@ -150,6 +150,14 @@ TEST(QtvStream, OfPeopleIsTheSameWhereverItIsParted) {
         EXPECT_EQ(read_in_pieces(stream, {size}), whole) << size;
 }
 
+TEST(QtvStream, WhoIsNoServerIsRefusedAlikeWhereverTheStreamIsParted) {
+    const Bytes stream = stream_of(two_levels(), "QTX 1\n\n");
+    const auto whole = read(stream);
+    EXPECT_THAT(whole, ElementsAre("error byte 0: 'QTX 1?', expected 'QTVSV ' of a QTV server"));
+    for (const std::size_t size : {1, 2, 3, 4})
+        EXPECT_EQ(read_in_pieces(stream, {size}), whole) << size;
+}
+
 // Damaged or not.
 RC_GTEST_PROP(QtvStreamProperty, PiecesMakeNoDifference, ()) {
     Bytes stream = stream_of(two_levels());
