@@ -318,7 +318,7 @@ Result<void> direct(const DirectOptions& options) {
     if (!running) return tl::unexpected(running.error());
     line.show("judging", 0, 0);
     const auto cameras = cameras_of_programme(inputs->trace, *inputs->map.freespace, rushes->judged,
-                                              rushes->fixed, *running, options.delay, rushes->cameras);
+                                              rushes->fixed, *running, options.delay, rushes->cameras, stop);
     const auto shown = footage_of(inputs->trace, cameras, rushes->fixed, unit, exact, stop);
     if (!shown) return tl::unexpected(shown.error());
     auto moments = direction::find_moments(rushes->judged, events, rules, unit, 0);

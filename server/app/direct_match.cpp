@@ -11,6 +11,7 @@
 #include "director/scout.hpp"
 #include "evaluation/picture.hpp"
 #include "evaluation/recording.hpp"
+#include "evaluation/replay.hpp"
 
 namespace camdir::app {
 namespace {
@@ -173,6 +174,7 @@ class ProgrammeShooter {
           footage_(footage),
           fixed_(fixed),
           look_ahead_(look_ahead),
+          tracks_(evaluation::timed_poses_of_all(trace, trace.frames.front().time)),
           cameras_(std::move(cameras)) {}
 
     void shoot(const direction::Shot& shot, const direction::Shot* before) {
@@ -182,8 +184,8 @@ class ProgrammeShooter {
         follow.first = first_frame(shot.begin);
         follow.end = first_frame(shot.end + 1);
         const auto line = before != nullptr ? line_to_keep(*before, shot) : std::nullopt;
-        const auto cameras = evaluation::record(freespace_, camera::Profile{}, trace_, look_ahead_, follow,
-                                                line ? &*line : nullptr);
+        const auto cameras = evaluation::record(freespace_, camera::Profile{}, trace_, tracks_, look_ahead_,
+                                                follow, line ? &*line : nullptr);
         for (std::size_t i = 0; i < cameras.size(); ++i)
             if (cameras[i])
                 cameras_[evaluation::pose_of(trace_, trace_.frames[follow.first + i], follow.player)] =
@@ -202,7 +204,8 @@ class ProgrammeShooter {
                                           trace_.frames.begin());
     }
 
-    // As the running director keeps it.
+    // As the running director keeps it, but that it knows the camera before of the last frame, not of this
+    // one.
     [[nodiscard]] std::optional<camera::LineOfAction> line_to_keep(const direction::Shot& before,
                                                                    const direction::Shot& shot) const {
         const Index subject = footage_.take(shot.begin, before.rush).subject;
@@ -210,13 +213,16 @@ class ProgrammeShooter {
         const PlayerState& one = footage_.player(shot.begin, subject);
         const PlayerState& other = footage_.player(shot.begin, shot.rush);
         if (!one.alive || !other.alive || !direction::enemies(one, other)) return {};
-        return camera::LineOfAction{one.eye, position(before.rush, first_frame(shot.begin))};
+        const auto camera = position(before.rush, first_frame(shot.begin));
+        if (!camera) return {};
+        return camera::LineOfAction{one.eye, *camera};
     }
 
-    [[nodiscard]] Vec3f position(std::size_t rush, std::uint32_t frame) const {
+    [[nodiscard]] std::optional<Vec3f> position(std::size_t rush, std::uint32_t frame) const {
         if (footage_.is_fixed(rush)) return fixed_[rush - trace_.players.size()].position;
         const std::uint32_t pose = evaluation::pose_of(trace_, trace_.frames[frame], trace_.players[rush]);
-        return pose == evaluation::absent ? Vec3f::Zero() : Vec3f(cameras_[pose].position.cast<float>());
+        if (pose == evaluation::absent) return {};
+        return cameras_[pose].position.cast<float>();
     }
 
     const Trace& trace_;
@@ -224,6 +230,7 @@ class ProgrammeShooter {
     const direction::Footage& footage_;
     std::span<const freespace::FixedShot> fixed_;
     double look_ahead_;
+    std::vector<std::vector<camera::TimedPose>> tracks_;
     CameraPath cameras_;
 };
 
@@ -297,9 +304,9 @@ evaluation::CameraPath cameras_of_programme(const Trace& trace, const freespace:
                                             const direction::Footage& footage,
                                             std::span<const freespace::FixedShot> fixed,
                                             std::span<const direction::Shot> shots, double look_ahead,
-                                            CameraPath cameras) {
+                                            CameraPath cameras, const std::stop_token& stop) {
     ProgrammeShooter shooter(trace, freespace, footage, fixed, look_ahead, std::move(cameras));
-    for (std::size_t i = 0; i < shots.size(); ++i)
+    for (std::size_t i = 0; i < shots.size() && !stop.stop_requested(); ++i)
         shooter.shoot(shots[i], i > 0 ? &shots[i - 1] : nullptr);
     return std::move(shooter).cameras();
 }

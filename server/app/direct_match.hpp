@@ -41,13 +41,12 @@ using ClearLine = std::function<bool(const Vec3d&, const Vec3d&)>;
                                                             const std::stop_token& stop);
 
 // The cameras of all players' poses, those of a running director's shots as they begin with a cut, until
-// after the beat in which the next shot begins. `cameras`: of cameras that run all the time.
-[[nodiscard]] evaluation::CameraPath cameras_of_programme(const evaluation::Trace& trace,
-                                                          const freespace::Freespace& freespace,
-                                                          const direction::Footage& footage,
-                                                          std::span<const freespace::FixedShot> fixed,
-                                                          std::span<const direction::Shot> shots,
-                                                          double look_ahead, evaluation::CameraPath cameras);
+// after the beat in which the next shot begins. `cameras`: of cameras that run all the time. Ends early, with
+// some of them, soon after `stop` is requested.
+[[nodiscard]] evaluation::CameraPath cameras_of_programme(
+    const evaluation::Trace& trace, const freespace::Freespace& freespace, const direction::Footage& footage,
+    std::span<const freespace::FixedShot> fixed, std::span<const direction::Shot> shots, double look_ahead,
+    evaluation::CameraPath cameras, const std::stop_token& stop);
 
 // The events that the direction knows, times from the trace's first frame; events before it are left out.
 [[nodiscard]] std::vector<direction::Event> events_of(const evaluation::Trace& trace,

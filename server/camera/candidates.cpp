@@ -16,17 +16,18 @@ constexpr float stretch_cost_ahead = 0.5F;
 constexpr float snap_angle =
     13.0F * radians_of_a_degree<float>;  // of straight behind from the direction beside it
 constexpr float snap_length = 8.0F;      // units that it may be shorter
-constexpr float body_cost = 3.0F;
-constexpr double bodies_ahead = 1.0;  // s: later the plan is another
+constexpr float body_cost = 5.0F;
+constexpr double bodies_ahead = 1.0;       // s: later the plan is another
+constexpr float bystander_range = 700.0F;  // units: who runs towards the player is there by then
 // Vantages are kept for so long, s, while the spot behind the player is no further off than that.
 constexpr double kept_for = 0.05;
 constexpr float near_foreseen = 4.0F * radians_of_a_degree<float>;
 
 class Choosing {
   public:
-    Choosing(const MapProfile& profile, const History& history, Beams& beams, Bystanders& bystanders,
+    Choosing(const MapProfile& profile, const History& history, Beams& beams, const Crowd& crowd,
              const Plan& plan, CandidateScratch& scratch)
-        : profile_(profile), beams_(beams), bystanders_(bystanders), plan_(plan), scratch_(scratch) {
+        : profile_(profile), beams_(beams), crowd_(crowd), plan_(plan), scratch_(scratch) {
         camera_ = (history[1].position - history[1].eye).cast<float>();
         turn_cost_ = (plan.ahead ? turn_cost_ahead : turn_cost) * profile.weight_inertia_angle;
     }
@@ -36,7 +37,7 @@ class Choosing {
         auto& direction_costs = scratch_.direction_costs;
         for (std::size_t knot = 0; knot < knots; ++knot)
             weigh_directions(profile_, plan_, knot * plan_.knot_spacing, direction_costs[knot]);
-        if (!bystanders_.empty()) look_past_bodies(knots);
+        look_past_bodies(knots);
         if (camera_.norm() > profile_.unit) add_turn(camera_.normalized(), turn_cost_, direction_costs[0]);
         const auto length = [this](std::size_t knot, std::size_t bin) {
             return beams_.free_length(knot * plan_.knot_spacing, bin);
@@ -52,12 +53,15 @@ class Choosing {
 
   private:
     void look_past_bodies(std::size_t knots) {
+        Bystanders bystanders(crowd_, plan_.future[0].eye, plan_.future.start,
+                              bystander_range * profile_.unit);
+        if (bystanders.empty()) return;
         for (std::size_t knot = 0; knot < knots; ++knot) {
             const std::size_t i = knot * plan_.knot_spacing;
             const double later = static_cast<double>(i) * plan_.future.step;
             if (later > bodies_ahead) break;
             std::array<Vec3f, Bystanders::capacity> offsets;
-            const auto eyes = bystanders_.eyes_at(plan_.future.start + later);
+            const auto eyes = bystanders.eyes_at(plan_.future.start + later);
             for (std::size_t other = 0; other < eyes.size(); ++other)
                 offsets[other] = eyes[other] - plan_.future[i].eye;
             add_bodies(profile_, std::span(offsets).first(eyes.size()),
@@ -91,7 +95,7 @@ class Choosing {
     const std::array<Vec3f, DirectionGrid::size>& directions_ = DirectionGrid::directions();
     const MapProfile& profile_;
     Beams& beams_;
-    Bystanders& bystanders_;
+    const Crowd& crowd_;
     const Plan& plan_;
     CandidateScratch& scratch_;
     Vec3f camera_;  // from the eye
@@ -147,10 +151,10 @@ const std::array<Vec3f, DirectionGrid::size>& DirectionGrid::directions() {
     return all;
 }
 
-void choose_vantages(const MapProfile& profile, const History& history, Beams& beams, Bystanders& bystanders,
+void choose_vantages(const MapProfile& profile, const History& history, Beams& beams, const Crowd& crowd,
                      const Plan& plan, CandidateScratch& scratch, Vantages& vantages) {
     if (!still_hold(profile, plan, vantages))
-        Choosing(profile, history, beams, bystanders, plan, scratch).run(vantages);
+        Choosing(profile, history, beams, crowd, plan, scratch).run(vantages);
 }
 
 void set_goals(const MapProfile& profile, const Vantages& vantages, Beams& beams, Plan& plan) {

@@ -37,7 +37,7 @@ struct Vantages {
 // Chooses a vantage for each knot of the plan, unless those of the last plan were chosen for the same knots
 // of a prediction a moment ago and the player turns as foreseen. Straight behind is preferred to a direction
 // of the grid beside it.
-void choose_vantages(const MapProfile& profile, const History& history, Beams& beams, Bystanders& bystanders,
+void choose_vantages(const MapProfile& profile, const History& history, Beams& beams, const Crowd& crowd,
                      const Plan& plan, CandidateScratch& scratch, Vantages& vantages);
 
 // Sets goals and lengths of all samples: between the vantages; straight behind where there are none.

@@ -1,4 +1,4 @@
-// The players round a shot's own: soft bodies, which the planner looks past and keeps out of the faces of.
+// The players round a shot's own. Their bodies are soft: the planner looks past them.
 #pragma once
 
 #include <array>

@@ -109,6 +109,43 @@ class SideView {
     std::size_t count_ = 0;
 };
 
+// As balls, seen from the player's eye.
+class Body {
+  public:
+    Body(const Vec3f& offset, const MapProfile& profile) {
+        const float radius = body_radius * profile.unit;
+        for (const float below : body_parts) {
+            const Vec3f centre = offset - below * profile.unit * Vec3f::UnitZ();
+            const float distance = centre.norm();
+            // One who is in the player has no direction; behind the camera nobody is in its way.
+            if (distance <= radius || distance >= profile.distance + radius) continue;
+            const float wide = std::asin(radius / distance);
+            balls_[count_++] = {centre / distance, wide, std::cos(wide + beside_body)};
+        }
+    }
+
+    // 1: it is on the line of sight, 0: well beside it.
+    [[nodiscard]] Float4 share_of(const Quad& quad) const {
+        Float4 share{};
+        for (std::size_t i = 0; i < count_; ++i) {
+            const Float4 cosine = quad.dot(balls_[i].direction);
+            if (bits(cosine > balls_[i].cosine_beside) == 0) continue;
+            const Float4 beside = larger(arc_cosine(cosine) - balls_[i].wide, Float4{});
+            share = larger(share, 1.0F - beside / beside_body);
+        }
+        return share;
+    }
+
+  private:
+    struct Ball {
+        Vec3f direction;
+        float wide;           // rad
+        float cosine_beside;  // beyond it costs nothing
+    };
+    std::array<Ball, body_parts.size()> balls_;
+    std::size_t count_ = 0;
+};
+
 }  // namespace
 
 void weigh_directions(const MapProfile& profile, const Plan& plan, std::size_t first, DirectionCosts& costs) {
@@ -141,22 +178,13 @@ void weigh_directions(const MapProfile& profile, const Plan& plan, std::size_t f
 
 void add_bodies(const MapProfile& profile, std::span<const Vec3f> offsets, float cost,
                 DirectionCosts& costs) {
-    const float radius = body_radius * profile.unit;
     for (const Vec3f& offset : offsets) {
-        for (const float below : body_parts) {
-            const Vec3f part = offset - below * profile.unit * Vec3f::UnitZ();
-            const float distance = part.norm();
-            // One who is in the player has no direction; behind the camera nobody is in its way.
-            if (distance <= radius || distance >= profile.distance + radius) continue;
-            const float wide = std::asin(radius / distance);
-            const Vec3f direction = part / distance;
-            for (std::size_t i = 0; i < quad_count; ++i) {
-                float* const quad = &costs[i * lane_count];
-                const Float4 before = load(quad);
-                const Float4 beside = arc_cosine(quads()[i].dot(direction)) - wide;
-                const Float4 share = 1.0F - larger(beside, Float4{}) / beside_body;
-                store(before + cost * larger(share, Float4{}), quad);
-            }
+        const Body body(offset, profile);
+        for (std::size_t i = 0; i < quad_count; ++i) {
+            const Float4 share = body.share_of(quads()[i]);
+            if (bits(share > Float4{}) == 0) continue;
+            float* const quad = &costs[i * lane_count];
+            store(load(quad) + cost * share, quad);
         }
     }
 }

@@ -17,8 +17,6 @@ constexpr double full_turn = 2.0 * std::numbers::pi;
 constexpr double same_step = 1e-3;
 constexpr double same_step_while_planned = 0.1;
 
-constexpr float bystander_range = 700.0F;  // units: who runs towards the player is there within a second
-
 // A plan on a prediction is followed for a second sample if the player is where they were foreseen, and looks
 // there, within so much.
 constexpr std::size_t samples_on_prediction = 2;
@@ -49,8 +47,7 @@ void make_plan(const freespace::Space& space, const MapProfile& profile, const P
     smooth_heading(profile, state.history, plan);
     Beams beams(space, profile, plan.future, state.free_beams, state.free_lengths, state.balls);
     beams.set_clearance(track.anchor, track.clearance);
-    Bystanders bystanders(crowd, plan.future[0].eye, time, bystander_range * profile.unit);
-    choose_vantages(profile, state.history, beams, bystanders, plan, scratch.candidates, state.vantages);
+    choose_vantages(profile, state.history, beams, crowd, plan, scratch.candidates, state.vantages);
     set_goals(profile, state.vantages, beams, plan);
     refine_path(profile, state.history, beams, plan);
     aim(profile, state.history, plan);

@@ -27,10 +27,11 @@ constexpr std::array keys = {
                "deviation from the desired direction of view that costs 1", &Profile::angle_tolerance},
     ProfileKey{"speed_tolerance", units_per_second, 1.0F, 10000.0F,
                "change of the camera's velocity within one step that costs 1", &Profile::speed_tolerance},
-    ProfileKey{"weight_visibility", number, 0.0F, 10.0F,
-               "weight of seeing the player: power of the factor c_vis, weight of keeping up with the player "
-               "and of the roadmap in a search",
-               &Profile::weight_visibility},
+    ProfileKey{
+        "weight_visibility", number, 0.0F, 10.0F,
+        "weight of seeing the player: power of the factor c_vis, weight of looking past other players, of "
+        "keeping up with the player and of the roadmap in a search",
+        &Profile::weight_visibility},
     ProfileKey{"weight_distance", number, 0.0F, 10.0F, "weight of the desired distance",
                &Profile::weight_distance},
     ProfileKey{"weight_angle", number, 0.0F, 10.0F, "weight of the desired direction of view",

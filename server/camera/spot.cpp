@@ -20,8 +20,8 @@ constexpr std::array elevations = {0.0F * radians_of_a_degree<float>, 20.0F * ra
 constexpr float leave_cost = 0.2F;     // of leaving the camera's direction, against angle's own
 constexpr float fan_interval = 0.06F;  // s
 constexpr float cut_distance_weight = 2.0F;
-constexpr float cost_across_line = 4.0F;  // of a quarter turn
-// Nearer to the line the side is nobody's: they may have moved until the picture is seen.
+constexpr float right_angle = std::numbers::pi_v<float> / 2.0F;
+// Nearer to the line the picture could be from either side: the players move.
 constexpr float beside_line = 5.0F * radians_of_a_degree<float>;
 
 // How far the camera trails behind a turning player: what its filters delay.
@@ -99,7 +99,8 @@ class Fan {
             const float turn = angle_between(direction, *towards_camera_) / profile_.angle_tolerance;
             cost += leave_cost * profile_.weight_inertia_angle * squared(turn);
         }
-        if (side_ && !side_->has(direction)) cost += cost_across_line;
+        if (side_ && !side_->has(direction))
+            cost += profile_.weight_angle * squared(right_angle / profile_.angle_tolerance);
         return cost;
     }
     const MapProfile& profile_;

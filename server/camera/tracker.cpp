@@ -192,6 +192,7 @@ class Step {
     // Before the first pose: at the map's first spawn point, looking as its players do.
     void wait_at_spawn_point() {
         state_.waiting = true;
+        state_.line.reset();
         if (space_.map().spawn_points().empty()) return;
         const freespace::SpawnPoint& spawn = space_.map().spawn_points().front();
         Pose pose;

@@ -250,8 +250,10 @@ void Subscriber::take_match_infos() {
         if (info.instance_state != DDS_ALIVE_INSTANCE_STATE) match_info_lost(sample, info);
     };
     const auto end = Clock::now() + longest_turn();
-    while (match_info_sample_.take(match_info_reader_, visit))
+    while (match_info_sample_.take(match_info_reader_, visit)) {
         if (Clock::now() >= end) return ready_.report(match_infos_);
+        take_waiting_poses();
+    }
 }
 
 template <class Sample, class Message>

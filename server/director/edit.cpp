@@ -206,7 +206,8 @@ direction::PlayerState Edit::state_of(const PlayerPose& pose, Index place) const
     state.eye = pose.eye;
     state.facing = pose.orientation * Vec3f::UnitX();
     state.speed = pose.velocity.isZero() ? speed_over_beat(pose.eye, place) : pose.velocity.norm();
-    state.team = team_of(pose.player_id);
+    const auto team = teams_.find(pose.player_id);
+    state.team = team == teams_.end() ? std::uint8_t{0} : team->second;
     state.present = true;
     state.alive = (pose.flags & pose_alive) != 0;
     return state;
@@ -290,7 +291,11 @@ bool Edit::choose(AutomaticShot& shot, const Among& among, const Roster& roster,
     const bool stays = may_stay(on_air, among, roster, setting);
     if (stays && !due_) return false;
     std::vector<std::size_t> choice = choice_of(on_air, among, roster, setting);
-    if (choice.empty()) return false;
+    if (choice.empty()) {
+        if (!stays && shot.player != no_player && !roster.is_of(shot.player, among.team))
+            shot.follow(no_player, freespace::none, frame_time_, nullptr);  // they are the opponents' now
+        return false;
+    }
     if (shot.edit != generation_) {
         shot.cutter = {};
         shot.edit = generation_;
@@ -347,7 +352,8 @@ bool Edit::may_begin(std::size_t fixed, const Roster& roster, const Setting& set
     const double ahead = std::min(setting.rules.grammar.minimum_shot_s, setting.delay_s);
     for (double later = 0.0; later <= ahead; later += threat_every_s)
         if (is_threatened(now.at(now.time() + later), fixed)) return false;
-    const PlayerPose* pose = roster.pose(subject_of(static_cast<std::uint32_t>(fixed)));
+    const std::uint32_t subject = subject_of(static_cast<std::uint32_t>(fixed));
+    const PlayerPose* pose = subject == no_player ? nullptr : roster.pose(subject);
     return pose == nullptr || now.mover_sweep(now.map().fixed_shots()[fixed].position, pose->eye, 0.0F).clear;
 }
 
@@ -357,15 +363,6 @@ std::uint32_t Edit::subject_of(std::uint32_t fixed) const {
     const direction::Beat seen = std::clamp(decided_, footage.first(), footage.beats() - 1);
     const Index subject = footage.take(seen, fixed).subject;
     return subject == nobody ? no_player : players_[subject];
-}
-
-bool Edit::are_enemies(std::uint32_t player, std::uint32_t other) const {
-    return player != other && direction::enemies(team_of(player), team_of(other));
-}
-
-std::uint8_t Edit::team_of(std::uint32_t player) const {
-    const auto known = teams_.find(player);
-    return known == teams_.end() ? std::uint8_t{0} : known->second;
 }
 
 bool Edit::is_threatened(const freespace::Space& space, std::size_t fixed) {

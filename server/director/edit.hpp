@@ -74,16 +74,14 @@ class Edit {
     };
     // Who is followed, or which fixed shot is shown, from the frame on that is shown. Candidates are the
     // players of `among` who have a pose; where those are all, also the fixed shots that no mover comes near
-    // or hides the player of, as soon as it is known what they show. Returns whether a shot
-    // begins.
+    // or hides the player of, as soon as it is known what they show. Returns
+    // whether a shot begins.
     bool choose(AutomaticShot& shot, const Among& among, const Roster& roster, const Setting& setting) const;
     // Reasons are to be told again, for those who have come since they were: once a second.
     [[nodiscard]] bool repeats_reasons() const { return due_ && decided_ % reasons_every == 0; }
 
     // Whom the fixed shot is of as it is decided about; no_player for nobody, or before that is known.
     [[nodiscard]] std::uint32_t subject_of(std::uint32_t fixed) const;
-    // By their teams; nobody is their own enemy.
-    [[nodiscard]] bool are_enemies(std::uint32_t player, std::uint32_t other) const;
 
     // Looks along sight lines for later frames; once a frame.
     void look(const Setting& setting);
@@ -120,7 +118,6 @@ class Edit {
     [[nodiscard]] bool is_to_be_had(std::size_t rush, const Among& among, const Roster& roster) const;
     [[nodiscard]] bool has_fixed(const Among& among) const;
     [[nodiscard]] bool may_begin(std::size_t fixed, const Roster& roster, const Setting& setting) const;
-    [[nodiscard]] std::uint8_t team_of(std::uint32_t player) const;
     [[nodiscard]] static bool is_threatened(const freespace::Space& space, std::size_t fixed);
     // Where nobody else is to be had, those who are dead stay.
     void keep_living(std::vector<std::size_t>& choice, const Roster& roster) const;

@@ -117,9 +117,9 @@ class Match final : public Strand {
     // Makes the steps of the next frame, whose poses wait, so that its cameras leave when it is due.
     void prepare(Turn& turn);
     void prepare_step(Shot& shot, double time, camera::Scratch& scratch);
-    // As far as the players are known: at this frame, or by the timeline until that changes.
+    // Of this frame, or by the timeline at a time and until the timeline changes.
     void gather_crowd(const PoseFrame& frame);
-    void gather_crowd();
+    void gather_crowd(double time);
     void move_cameras(const PoseFrame& frame, double dt, CameraFrame& cameras, Turn& turn);
     // Calls move(i, scratch) for every i below `count`, also on workers that are idle.
     void share_shots(Turn& turn, std::size_t count,
@@ -130,7 +130,8 @@ class Match final : public Strand {
     ShotCamera show_fixed(Shot& shot);
     [[nodiscard]] Edit::Setting edit_setting() const;
     void choose_targets(const PoseFrame& frame, CameraFrame& cameras);
-    void choose_automatic_target(Shot& shot, CameraFrame& cameras);
+    // Returns whether a shot begins.
+    bool choose_automatic_target(Shot& shot, CameraFrame& cameras);
     [[nodiscard]] std::optional<camera::LineOfAction> line_to_keep(const Shot& shot,
                                                                    std::uint32_t next) const;
     // Shots move at the same time: it changes nothing of the match but the shot, the scratch and the

@@ -36,13 +36,14 @@ void Match::choose_targets(const PoseFrame& frame, CameraFrame& cameras) {
     else
         edit_.clear();
     for (Shot& shot : shots) {
-        if (shot.is_automatic()) choose_automatic_target(shot, cameras);
+        const bool cuts = shot.is_automatic() && choose_automatic_target(shot, cameras);
         const std::uint32_t target = shot.is_automatic()  ? shot.automatic.player
                                      : shot.is_of_group() ? shot.key.group.front()
                                                           : shot.key.target;
         const std::uint32_t fixed = shot.is_automatic() ? shot.automatic.fixed : freespace::none;
         if (target != shot.target || fixed != shot.fixed) {
-            const auto line = line_to_keep(shot, target);
+            // Where another director has cut, its camera is on the air.
+            const auto line = cuts ? line_to_keep(shot, target) : std::nullopt;
             shot.restart();
             shot.state.line = line;
         }
@@ -55,23 +56,25 @@ void Match::choose_targets(const PoseFrame& frame, CameraFrame& cameras) {
 // are not.
 std::optional<camera::LineOfAction> Match::line_to_keep(const Shot& shot, std::uint32_t next) const {
     const std::uint32_t before = shot.fixed == freespace::none ? shot.target : edit_.subject_of(shot.fixed);
+    if (before == no_player || next == no_player || before == next) return {};
     const PlayerPose* one = roster_.pose(before);
     const PlayerPose* other = roster_.pose(next);
-    if (one == nullptr || other == nullptr || !edit_.are_enemies(before, next)) return {};
-    if ((one->flags & other->flags & pose_alive) == 0) return {};
+    if (one == nullptr || other == nullptr || (one->flags & other->flags & pose_alive) == 0) return {};
+    if (!direction::enemies(roster_.team(before), roster_.team(next))) return {};
     return camera::LineOfAction{one->eye, shot.position};
 }
 
-void Match::choose_automatic_target(Shot& shot, CameraFrame& cameras) {
+bool Match::choose_automatic_target(Shot& shot, CameraFrame& cameras) {
     AutomaticShot& automatic = shot.automatic;
     const bool begins = edit_.choose(automatic, {shot.key.group, shot.key.team}, roster_, edit_setting());
-    if (!automatic.is_on_air()) return;
+    if (!automatic.is_on_air()) return false;
     if (begins || edit_.repeats_reasons()) cameras.reasons.push_back({shot.camera_id, automatic.reason});
-    if (!begins) return;
+    if (!begins) return false;
     if (const auto left_out = cuts_logged_.take(std::chrono::steady_clock::now()))
         spdlog::debug("match {}: camera {} {}: {}{}", match_id_, shot.camera_id, text_of(automatic),
                       text_of(automatic.reason),
                       *left_out == 0 ? "" : fmt::format(" ({} cuts before it left out)", *left_out));
+    return true;
 }
 
 }  // namespace camdir::director

@@ -16,6 +16,7 @@ constexpr double max_ahead_s = 2.5;       // that the planner uses
 constexpr double arrival_jitter_s = 0.1;  // of poses
 constexpr double lead_s = 1e-9 * static_cast<double>(DelayBuffer::lead_ns);
 constexpr double first_step_s = 1.0 / 60.0;
+constexpr double rounding_s = 1e-6;          // trackers may count the same time by another sum
 constexpr std::size_t shots_per_worker = 8;  // fewer are not worth waking another worker for
 
 // Counts how long it lives.
@@ -164,18 +165,19 @@ void Match::place_obstacles(const PoseFrame& frame) {
 }
 
 void Match::gather_crowd(const PoseFrame& frame) {
-    if (by_timeline_) return gather_crowd();
+    if (by_timeline_) return gather_crowd(timeline_.shown());
     crowd_.clear();
     crowd_poses_.clear();
     for (const PlayerPose& pose : tracked(frame, config_->limits))
-        crowd_poses_.push_back({causal_time_, tracker_pose(pose, false), (pose.flags & pose_spectator) == 0});
+        crowd_poses_.push_back(
+            {causal_time_ - rounding_s, tracker_pose(pose, false), (pose.flags & pose_spectator) == 0});
     for (std::size_t i = 0; i < crowd_poses_.size(); ++i)
         crowd_.push_back({frame.poses[i].player_id, {&crowd_poses_[i], 1}});
 }
 
-void Match::gather_crowd() {
+void Match::gather_crowd(double time) {
     crowd_.clear();
-    timeline_.add_to(crowd_);
+    timeline_.add_to(crowd_, time);
 }
 
 void Match::move_cameras(const PoseFrame& frame, double dt, CameraFrame& cameras, Turn& turn) {
@@ -215,7 +217,7 @@ void Match::prepare(Turn& turn) {
     const double time = timeline_.seconds(next->frame_time);
     if (!timeline_.covers(next->frame_time) || time <= timeline_.shown()) return;
     if (obstacles_.follow(timeline_)) report_unknown_movers();
-    gather_crowd();
+    gather_crowd(time);
     unprepared_.clear();
     for (Shot& shot : requests_.shots())
         if (shot.target != no_player && !(shot.is_prepared && shot.prepared->time == time))

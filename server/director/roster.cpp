@@ -93,9 +93,9 @@ bool Roster::anyone_playing(std::uint8_t team) const {
     });
 }
 
-bool Roster::is_of(std::uint32_t player, std::uint8_t team) const {
+std::uint8_t Roster::team(std::uint32_t player) const {
     const Entry* entry = find(player);
-    return entry != nullptr && (team == 0 || entry->team == team);
+    return entry == nullptr ? std::uint8_t{0} : entry->team;
 }
 
 const PlayerPose* Roster::pose(std::uint32_t player) const {

@@ -34,8 +34,12 @@ class Roster {
     [[nodiscard]] Presence presence(std::uint32_t player) const;
     // 0: of any team.
     [[nodiscard]] bool anyone_playing(std::uint8_t team = 0) const;
-    // By the MatchInfo; everybody is of 0.
-    [[nodiscard]] bool is_of(std::uint32_t player, std::uint8_t team) const;
+    // Of the MatchInfo; 0 where it does not say.
+    [[nodiscard]] std::uint8_t team(std::uint32_t player) const;
+    // Everybody is of 0.
+    [[nodiscard]] bool is_of(std::uint32_t player, std::uint8_t team) const {
+        return team == 0 || this->team(player) == team;
+    }
     // The player's pose in the last frame; null when there is none or the player is a spectator.
     [[nodiscard]] const PlayerPose* pose(std::uint32_t player) const;
 

@@ -68,9 +68,13 @@ void Timeline::show(std::int64_t frame_time) {
     }
 }
 
-void Timeline::add_to(std::vector<camera::Crowd::Player>& crowd) const {
-    for (const auto& [player, track] : players_)
-        crowd.push_back({player, track});
+void Timeline::add_to(std::vector<camera::Crowd::Player>& crowd, double time) const {
+    for (const auto& [player, track] : players_) {
+        const std::ptrdiff_t last = camera::index_at(track, time);
+        if (last < 0) continue;
+        const camera::TimedPose& pose = track[static_cast<std::size_t>(last)];
+        if (pose.present && pose.pose.alive) crowd.push_back({player, track});
+    }
 }
 
 camera::Window Timeline::window(std::uint32_t player) const {

@@ -39,8 +39,8 @@ class Timeline {
     [[nodiscard]] double seconds(std::int64_t frame_time) const;
     // Valid until the next add(), show() or clear().
     [[nodiscard]] camera::Window window(std::uint32_t player) const;
-    // Of all players, likewise.
-    void add_to(std::vector<camera::Crowd::Player>& crowd) const;
+    // Of all players who live then, likewise.
+    void add_to(std::vector<camera::Crowd::Player>& crowd, double time) const;
     // Ascending, likewise; empty before the first.
     [[nodiscard]] std::span<const TimedMovers> movers() const { return movers_; }
 

@@ -16,7 +16,6 @@ namespace camdir::evaluation {
 namespace {
 
 constexpr std::uint64_t max_updates = 200'000'000;
-constexpr double first_step = 1.0 / 60.0;  // s
 
 // Records one player at a time; several recorders may share a recording.
 class Recorder {
@@ -116,22 +115,22 @@ Result<Recording> record(const freespace::Freespace& freespace, const camera::Pr
 
 std::vector<std::optional<CameraSample>> record(const freespace::Freespace& freespace,
                                                 const camera::Profile& profile, const Trace& trace,
+                                                std::span<const std::vector<camera::TimedPose>> tracks,
                                                 double look_ahead, const FollowShot& shot,
                                                 const camera::LineOfAction* line) {
     assert(shot.first <= shot.end && shot.end <= trace.frames.size());
     const std::int64_t start = trace.frames.front().time;
-    const auto poses = timed_poses(trace, shot.player, start);
+    const auto player = std::ranges::lower_bound(trace.players, shot.player) - trace.players.begin();
     const auto track = track_of(trace, shot.player);
-    const auto tracks = timed_poses_of_all(trace, start);
     const auto scratch = std::make_unique<camera::Scratch>(freespace);
-    KnownPoses known(poses, look_ahead);
+    KnownPoses known(tracks[static_cast<std::size_t>(player)], look_ahead);
     KnownCrowd crowd(trace, tracks, look_ahead);
     camera::ShotState state;
     if (line != nullptr) state.line = *line;
     std::vector<std::optional<CameraSample>> cameras(shot.end - shot.first);
     for (std::uint32_t frame = shot.first; frame < shot.end; ++frame) {
         const double time = seconds(trace.frames[frame].time - start);
-        if (frame == shot.first) state.time = time - first_step;
+        if (frame == shot.first) state.time = time - camera::usable_frame(0.0);
         const camera::Camera camera = camera::step(freespace, profile, known.at(time), time, state, *scratch,
                                                    crowd.at(time, shot.player));
         const bool cut = frame != shot.first && (camera.flags & camera::cut) != 0;

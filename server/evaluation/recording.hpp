@@ -12,6 +12,7 @@
 #include "camera/camera.hpp"
 #include "camera/profile.hpp"
 #include "camera/spot.hpp"
+#include "camera/window.hpp"
 #include "evaluation/camera_path.hpp"
 #include "evaluation/mover_tracks.hpp"
 #include "freespace/freespace.hpp"
@@ -45,13 +46,12 @@ struct FollowShot {
 };
 
 // The camera of each of the shot's frames, none where the player has no pose, as a shot begins that is cut to
-// at its first frame; that cut is not in them. `line`: of action, which it heeds; may be null. Otherwise as
-// above, without movers.
-[[nodiscard]] std::vector<std::optional<CameraSample>> record(const freespace::Freespace& freespace,
-                                                              const camera::Profile& profile,
-                                                              const Trace& trace, double look_ahead,
-                                                              const FollowShot& shot,
-                                                              const camera::LineOfAction* line);
+// at its first frame; that cut is not in them. `tracks`: timed_poses() of all players from the first frame
+// on. `line`: of action, which it heeds; may be null. Otherwise as above, without movers.
+[[nodiscard]] std::vector<std::optional<CameraSample>> record(
+    const freespace::Freespace& freespace, const camera::Profile& profile, const Trace& trace,
+    std::span<const std::vector<camera::TimedPose>> tracks, double look_ahead, const FollowShot& shot,
+    const camera::LineOfAction* line);
 
 // CSV with the header t_ms,player,visibility,distance,angle,inertia_distance,inertia_angle,safety,total and a
 // row for each pose of the trace: the objective's terms as they entered the sum.

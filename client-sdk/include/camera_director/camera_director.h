@@ -498,8 +498,8 @@ typedef struct cdir_shot_request {
      * narrow them. */
     CDIR_POINTER(const char*, overrides);
     uint32_t group_count; /* <= CDIR_MAX_PLAYERS */
-    /* With CDIR_CHOOSE_TARGET: the director chooses among players of this team alone; 0 = of any. Directors
-     * that know no teams choose among all. */
+    /* With CDIR_CHOOSE_TARGET: the director chooses among players of this team alone, of those of the group
+     * where there is one too; 0 = of any. Directors that know no teams choose without. */
     uint8_t team;
     uint8_t reserved[3]; /* 0 */
 } cdir_shot_request;

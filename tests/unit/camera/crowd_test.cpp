@@ -26,9 +26,9 @@ Track standing(const Vec3f& eye, double seconds) {
 
 TEST(Bystanders, AreTheNearestOfTheLivingOthers) {
     std::mt19937 random(4);
-    std::uniform_real_distribution<float> place(-300.0F, 300.0F);
+    std::uniform_real_distribution<float> place(-200.0F, 200.0F);
     for (int round = 0; round < 200; ++round) {
-        std::vector<Track> tracks(round % 20);
+        std::vector<Track> tracks(round % 40);
         std::vector<Crowd::Player> players;
         std::vector<float> expected;
         for (std::uint32_t id = 0; id < tracks.size(); ++id) {

@@ -405,6 +405,46 @@ TEST(Director, AnAutomaticTargetIsOfTheTeamWhoeverIsInIt) {
     std::swap(info.players[1].team, info.players[2].team);
     stage.director.receive(info);
     EXPECT_THAT(shows(400, 800), testing::ElementsAre(3));
+    // Nobody of the team is to be seen, but they are in the match.
+    stage.send(Stage::poses(800, 1, {1, 3}));
+    std::swap(info.players[1].team, info.players[2].team);
+    stage.director.receive(info);
+    stage.send(Stage::poses(801, 1, {1, 3}));
+    EXPECT_EQ(stage.publisher.frames().back().cameras.at(0).target, no_player);
+    stage.send(Stage::poses(802));
+    EXPECT_EQ(stage.publisher.frames().back().cameras.at(0).target, 2U);
+}
+
+TEST(Director, EveryTeamHasItsAutomaticShot) {
+    Stage stage;
+    MatchInfo info = Stage::info();
+    for (std::uint8_t i = 0; i < 3; ++i)
+        info.players[i].team = i == 2 ? 2 : 1;
+    stage.start(info);
+    stage.send(Stage::poses(1));
+    std::set<std::uint32_t> cameras;
+    const auto ask = [&](const std::string& name, std::uint8_t team,
+                         const std::vector<std::uint32_t>& group) {
+        ObserverRequest wanted = Stage::request(name, no_player);
+        wanted.team = team;
+        wanted.group = group;
+        stage.ask(wanted);
+        cameras.insert(stage.publisher.status(name).camera_id);
+    };
+    ask("any", 0, {});
+    ask("one", 1, {});
+    ask("two", 2, {});
+    ask("both", 1, {2, 3});
+    EXPECT_EQ(cameras.size(), 4U);
+    stage.send(Stage::poses(2));
+    const auto target_of = [&](const std::string& name) {
+        const CameraFrame frame = stage.publisher.frames().back();
+        const std::uint32_t id = stage.publisher.status(name).camera_id;
+        return std::ranges::find(frame.cameras, id, &ShotCamera::camera_id)->target;
+    };
+    EXPECT_LE(target_of("one"), 2U);
+    EXPECT_EQ(target_of("two"), 3U);
+    EXPECT_EQ(target_of("both"), 2U) << "of the group, and of the team";
 }
 
 // The undefined-behaviour sanitizer watches.

@@ -55,7 +55,8 @@ Message random_message(std::mt19937& random) {
         case 2:
             return director::MatchEvent{1, 2, 3, 0, director::no_player, number(), "rocket"};
         case 3:
-            return director::ObserverRequest{"m", std::to_string(random() % 3), 1, {1, 2}, "default", "{}"};
+            return director::ObserverRequest{"m",  std::to_string(random() % 3),       1, {1, 2}, "default",
+                                             "{}", static_cast<std::uint8_t>(random())};
         case 4:
             return Withdrawal{std::to_string(random() % 3)};
         case 5: {
@@ -285,6 +286,22 @@ Bytes record_of(std::uint64_t kind, const ByteSink& body) {
     sink.varint(body.bytes.size());
     sink.append(body.bytes);
     return sink.bytes;
+}
+
+TEST(Recording, RequestsOfOlderVersionsAreForAnyTeam) {
+    ByteSink body;
+    body.difference(0);
+    for (const char* text : {"m", "o"})
+        body.text(text);
+    body.varint(director::no_player);
+    body.varint(0);  // group
+    for (const char* text : {"close", "{}"})
+        body.text(text);
+    const auto records = decode_records({ResourceKind::delta, 0, 0, record_of(4, body)}, "r");
+    ASSERT_TRUE(records) << records.error().message;
+    const auto& request = std::get<director::ObserverRequest>(records->at(0).message);
+    EXPECT_EQ(request.overrides, "{}");
+    EXPECT_EQ(request.team, 0);
 }
 
 TEST(Recording, UnknownRecordsAndAppendedFieldsAreSkipped) {

@@ -32,6 +32,7 @@ _Static_assert(sizeof(cdir_observer_options) == 16, "");
 _Static_assert(sizeof(cdir_shot_request) == 40 && offsetof(cdir_shot_request, group) == 8, "");
 _Static_assert(offsetof(cdir_shot_request, overrides) == 24, "");
 _Static_assert(offsetof(cdir_shot_request, group_count) == 32, "");
+_Static_assert(offsetof(cdir_shot_request, team) == 36 && offsetof(cdir_shot_request, reserved) == 37, "");
 _Static_assert(sizeof(cdir_camera) == 96 && offsetof(cdir_camera, position) == 16, "");
 _Static_assert(offsetof(cdir_camera, reason_actor) == 56 && offsetof(cdir_camera, reason) == 64, "");
 _Static_assert(sizeof(cdir_camera_frame) == 56 && offsetof(cdir_camera_frame, frame_number) == 48, "");
