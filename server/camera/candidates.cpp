@@ -17,8 +17,8 @@ constexpr float snap_angle =
     13.0F * radians_of_a_degree<float>;  // of straight behind from the direction beside it
 constexpr float snap_length = 8.0F;      // units that it may be shorter
 constexpr float body_cost = 5.0F;
-constexpr double bodies_ahead = 1.0;       // s: later the plan is another
-constexpr float bystander_range = 700.0F;  // units: who runs towards the player is there by then
+constexpr double bodies_ahead = 1.0;     // s: later the plan is another
+constexpr float closing_speed = 600.0F;  // units/s, of two who run towards each other
 // Vantages are kept for so long, s, while the spot behind the player is no further off than that.
 constexpr double kept_for = 0.05;
 constexpr float near_foreseen = 4.0F * radians_of_a_degree<float>;
@@ -53,18 +53,20 @@ class Choosing {
 
   private:
     void look_past_bodies(std::size_t knots) {
-        Bystanders bystanders(crowd_, plan_.future[0].eye, plan_.future.start,
-                              bystander_range * profile_.unit);
+        const double knot_time = static_cast<double>(plan_.knot_spacing) * plan_.future.step;
+        const double ahead = std::min(bodies_ahead, static_cast<double>(knots - 1) * knot_time);
+        const float range = profile_.distance + closing_speed * profile_.unit * static_cast<float>(ahead);
+        Bystanders bystanders(crowd_, plan_.future[0].eye, plan_.future.start, range);
         if (bystanders.empty()) return;
         for (std::size_t knot = 0; knot < knots; ++knot) {
-            const std::size_t i = knot * plan_.knot_spacing;
-            const double later = static_cast<double>(i) * plan_.future.step;
-            if (later > bodies_ahead) break;
+            const double later = static_cast<double>(knot) * knot_time;
+            if (later > ahead) break;
+            const Vec3f& eye = plan_.future[knot * plan_.knot_spacing].eye;
             std::array<Vec3f, Bystanders::capacity> offsets;
-            const auto eyes = bystanders.eyes_at(plan_.future.start + later);
-            for (std::size_t other = 0; other < eyes.size(); ++other)
-                offsets[other] = eyes[other] - plan_.future[i].eye;
-            add_bodies(profile_, std::span(offsets).first(eyes.size()),
+            const auto others = bystanders.eyes_at(plan_.future.start + later);
+            for (std::size_t i = 0; i < others.size(); ++i)
+                offsets[i] = others[i] - eye;
+            add_bodies(profile_, std::span(offsets).first(others.size()),
                        body_cost * profile_.weight_visibility, scratch_.direction_costs[knot]);
         }
     }

@@ -124,6 +124,7 @@ class Body {
         }
     }
 
+    [[nodiscard]] bool is_in_reach() const { return count_ != 0; }
     // 1: it is on the line of sight, 0: well beside it.
     [[nodiscard]] Float4 share_of(const Quad& quad) const {
         Float4 share{};
@@ -180,6 +181,7 @@ void add_bodies(const MapProfile& profile, std::span<const Vec3f> offsets, float
                 DirectionCosts& costs) {
     for (const Vec3f& offset : offsets) {
         const Body body(offset, profile);
+        if (!body.is_in_reach()) continue;
         for (std::size_t i = 0; i < quad_count; ++i) {
             const Float4 share = body.share_of(quads()[i]);
             if (bits(share > Float4{}) == 0) continue;
