@@ -1,4 +1,5 @@
-// The players round a shot's own. Their bodies are soft: the planner looks past them.
+// The players round a shot's own. Their bodies are soft: the planner avoids directions in which they would be
+// in the way, where there is another.
 #pragma once
 
 #include <array>
@@ -18,7 +19,7 @@ struct Crowd {
     std::uint32_t own = 0;            // whose shot it is: not in their own way
 };
 
-// Those of a crowd who are near at the beginning of a plan. They run on as they do last.
+// Those of a crowd who are near at the beginning of a plan. Beyond their last pose they run on for 0.5 s.
 class Bystanders {
   public:
     static constexpr std::size_t capacity = 8;

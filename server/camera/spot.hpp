@@ -14,8 +14,8 @@ struct Spot {
     float cost = 0.0F;
 };
 
-// Of a cut between the cameras of two players who fight: the camera that begins is to stay on the side of the
-// line through both, seen from above, where the one before was.
+// Of a cut between the cameras of two enemies: the camera that begins prefers the side of the line through
+// both, seen from above, where the one before was.
 struct LineOfAction {
     Vec3f other = Vec3f::Zero();   // the eye of whom the camera before was of
     Vec3f camera = Vec3f::Zero();  // that camera
@@ -36,7 +36,8 @@ struct SpotMemory {
                                    SpotMemory& memory);
 
 // The least costly spot of all directions that a free beam joins to the anchor, wherever the camera is;
-// across the line of action it costs as much as a quarter turn. `line` may be null.
+// across the line of action, and 5 degrees beside it, each costs as much more as a quarter turn. `line` may
+// be null.
 [[nodiscard]] Spot spot_to_cut_to(const freespace::Space& space, const MapProfile& profile,
                                   const PlayerTrack& track, const LineOfAction* line);
 

@@ -416,8 +416,8 @@ void Subscriber::hand_on_poses() {
     if (arrived_ > 0) ingress_->receive(std::span(arrivals_).first(std::exchange(arrived_, 0)));
 }
 
-// While many matches begin or much else is ready, which may take long: frames that wait come out of it
-// together, and all but the newest are lost.
+// Between what may take long, many matches that begin or much else that is ready: else the frames that wait
+// meanwhile would come out together, and all but the newest be lost.
 void Subscriber::take_waiting_poses() {
     constexpr std::chrono::milliseconds interval(4);
     if (Clock::now() - poses_taken_ < interval) return;

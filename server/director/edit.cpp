@@ -293,7 +293,7 @@ bool Edit::choose(AutomaticShot& shot, const Among& among, const Roster& roster,
     std::vector<std::size_t> choice = choice_of(on_air, among, roster, setting);
     if (choice.empty()) {
         if (!stays && shot.player != no_player && !roster.is_of(shot.player, among.team))
-            shot.follow(no_player, freespace::none, frame_time_, nullptr);  // they are the opponents' now
+            shot.follow(no_player, freespace::none, frame_time_, nullptr);  // nobody of the team is to be had
         return false;
     }
     if (shot.edit != generation_) {

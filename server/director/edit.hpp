@@ -73,9 +73,8 @@ class Edit {
         [[nodiscard]] bool all() const { return group.empty() && team == 0; }
     };
     // Who is followed, or which fixed shot is shown, from the frame on that is shown. Candidates are the
-    // players of `among` who have a pose; where those are all, also the fixed shots that no mover comes near
-    // or hides the player of, as soon as it is known what they show. Returns
-    // whether a shot begins.
+    // players of `among` who have a pose; where that is everybody, also the fixed shots that no mover comes
+    // near or hides the player of, as soon as it is known what they show. Returns whether a shot begins.
     bool choose(AutomaticShot& shot, const Among& among, const Roster& roster, const Setting& setting) const;
     // Reasons are to be told again, for those who have come since they were: once a second.
     [[nodiscard]] bool repeats_reasons() const { return due_ && decided_ % reasons_every == 0; }

@@ -42,7 +42,7 @@ void Match::choose_targets(const PoseFrame& frame, CameraFrame& cameras) {
                                                           : shot.key.target;
         const std::uint32_t fixed = shot.is_automatic() ? shot.automatic.fixed : freespace::none;
         if (target != shot.target || fixed != shot.fixed) {
-            // Where another director has cut, its camera is on the air.
+            // Only of a cut of its own: where another director's is followed, its camera has a place already.
             const auto line = cuts ? line_to_keep(shot, target) : std::nullopt;
             shot.restart();
             shot.state.line = line;
@@ -52,6 +52,7 @@ void Match::choose_targets(const PoseFrame& frame, CameraFrame& cameras) {
     }
 }
 
+// The line of action of a cut to the player `next`.
 // Of two living enemies, whether or not the freespace lets them see each other: it takes some for hidden who
 // are not.
 std::optional<camera::LineOfAction> Match::line_to_keep(const Shot& shot, std::uint32_t next) const {

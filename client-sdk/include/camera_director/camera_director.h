@@ -267,8 +267,8 @@ CDIR_API cdir_status cdir_orientation_to_angles(const float* orientation, float*
 /* What a director passes on to observers, and shows to its operator. */
 typedef struct cdir_player {
     uint32_t struct_size;
-    uint32_t id; /* any value but CDIR_NO_PLAYER; unique within the match */
-    uint8_t team;
+    uint32_t id;  /* any value but CDIR_NO_PLAYER; unique within the match */
+    uint8_t team; /* 0 = of none: everybody's enemy. Automatic shots go by it. */
     uint8_t reserved[7];
     char name[64];
     char player_class[32];
@@ -498,8 +498,9 @@ typedef struct cdir_shot_request {
      * narrow them. */
     CDIR_POINTER(const char*, overrides);
     uint32_t group_count; /* <= CDIR_MAX_PLAYERS */
-    /* With CDIR_CHOOSE_TARGET: the director chooses among players of this team alone, of those of the group
-     * where there is one too; 0 = of any. Directors that know no teams choose without. */
+    /* With CDIR_CHOOSE_TARGET, else 0: only players of this team (cdir_player.team) are shown, where there is
+     * a group too only those of both; 0 = of any. Whoever leaves the team is shown no more. Where nobody of
+     * it plays, the request waits, and its status says so. Directors older than this field ignore it. */
     uint8_t team;
     uint8_t reserved[3]; /* 0 */
 } cdir_shot_request;
@@ -540,7 +541,7 @@ typedef struct cdir_camera {
     uint32_t struct_size;
     uint32_t camera_id;
     /* player id: of a group shot the first of its group; CDIR_CHOOSE_TARGET where the director has chosen a
-     * camera that stands still, or nobody yet */
+     * camera that stands still, or nobody, yet or any more */
     uint32_t target;
     uint32_t flags;       /* bitwise or of CDIR_CAMERA_ values */
     float position[3];    /* map units */
@@ -549,11 +550,11 @@ typedef struct cdir_camera {
     float clearance;      /* lower bound of the distance to the nearest obstacle, map units */
     uint32_t reserved;
     /* Where the director chooses the target: why it cut to this one. "opening" (the
-     * shot's first, or what was shown can be shown no more: a player who left the game, a fixed camera that a
-     * door comes near), "death" (of the one before), "length" (the one before was shown long enough), or the
-     * name of a rule of the director's configuration, such as "kill", with the players of its moment. Empty
-     * where it is not known: for up to a second after the observer has come. cdir_observer_next_frame() has
-     * it in the frame of the cut and then once a second. */
+     * shot's first, or what was shown can be shown no more: a player who left the game or the team, a
+     * fixed camera that a door comes near), "death" (of the one before), "length" (the one before was shown
+     * long enough), or the name of a rule of the director's configuration, such as "kill", with the players
+     * of its moment. Empty where it is not known: for up to a second after the observer has come.
+     * cdir_observer_next_frame() has it in the frame of the cut and then once a second. */
     uint32_t reason_actor;   /* player id or CDIR_NO_PLAYER */
     uint32_t reason_subject; /* player id or CDIR_NO_PLAYER */
     char reason[32];
