@@ -52,9 +52,8 @@ void Match::choose_targets(const PoseFrame& frame, CameraFrame& cameras) {
     }
 }
 
-// The line of action of a cut to the player `next`.
-// Of two living enemies, whether or not the freespace lets them see each other: it takes some for hidden who
-// are not.
+// The line of action of a cut to the player `next`. Two living enemies have one whether or not the freespace
+// lets them see each other: it takes some for hidden who are not.
 std::optional<camera::LineOfAction> Match::line_to_keep(const Shot& shot, std::uint32_t next) const {
     const std::uint32_t before = shot.fixed == freespace::none ? shot.target : edit_.subject_of(shot.fixed);
     if (before == no_player || next == no_player || before == next) return {};
