@@ -142,14 +142,14 @@ GameView CommandedPath::view(int time, std::size_t newest) const {
 
 Vec3d CommandedPath::player(int slot, int time, std::size_t newest) const {
     const std::size_t index = snapshot_at(time, newest);
-    const witness_player& from = snapshots_[index].frame.players[slot];
-    if (index < newest) {
-        const witness_player& to = snapshots_[index + 1].frame.players[slot];
-        if ((from.entity_flags & teleport_flag) != (to.entity_flags & teleport_flag))
-            return vector(from.base);
-        return vector(from.base) + fraction(index, time) * (vector(to.base) - vector(from.base));
-    }
-    return vector(from.base) + (time - snapshots_[index].frame.level_time) / 1000.0 * vector(from.velocity);
+    const witness_record& frame = snapshots_[index].frame;
+    const witness_player& from = frame.players[slot];
+    const witness_player* to = index < newest ? &snapshots_[index + 1].frame.players[slot] : nullptr;
+    const bool teleports = to && (from.entity_flags & teleport_flag) != (to->entity_flags & teleport_flag);
+    // Clients go on at the velocity until they show the player elsewhere.
+    if (!to || teleports)
+        return vector(from.base) + (time - frame.level_time) / 1000.0 * vector(from.velocity);
+    return vector(from.base) + fraction(index, time) * (vector(to->base) - vector(from.base));
 }
 
 std::optional<std::size_t> CommandedPath::newest_at(std::int64_t clock) const {
