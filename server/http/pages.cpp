@@ -3,6 +3,7 @@
 #include <prometheus/text_serializer.h>
 
 #include <algorithm>
+#include <array>
 #include <boost/beast/websocket/rfc6455.hpp>
 #include <cstring>
 #include <memory>
@@ -51,22 +52,32 @@ Content live(const Sources& sources, std::string_view /*below*/) {
     return {Status::ok, "application/json", share(sources.live())};
 }
 
+struct MapFile {
+    std::string_view name;
+    live::ModelKind kind;
+    const char* type;
+};
+constexpr std::array map_files = {MapFile{"obstacles.glb", live::ModelKind::obstacles, "model/gltf-binary"},
+                                  MapFile{"mesh.glb", live::ModelKind::mesh, "model/gltf-binary"},
+                                  MapFile{"contents.json", live::ModelKind::contents, "application/json"}};
+
 Content model(const Sources& sources, std::string_view below) {
-    using live::ModelKind;
     using live::Models;
     const auto not_found =
-        plain(Status::not_found, "expected /map/NAME/obstacles.glb or /map/NAME/mesh.glb\n");
+        plain(Status::not_found,
+              "expected obstacles.glb, mesh.glb or contents.json of a map: /map/NAME/mesh.glb\n");
     if (below.empty()) return not_found;
     below.remove_prefix(1);
     const std::size_t slash = std::min(below.rfind('/'), below.size());
     const std::string_view file = below.substr(std::min(slash + 1, below.size()));
     const auto map = recording::percent_decoded(below.substr(0, slash));
-    if (!map || (file != "obstacles.glb" && file != "mesh.glb")) return not_found;
-    const auto answer = sources.model(*map, file == "mesh.glb" ? ModelKind::mesh : ModelKind::obstacles);
+    const auto* known = std::ranges::find(map_files, file, &MapFile::name);
+    if (!map || known == map_files.end()) return not_found;
+    const auto answer = sources.model(*map, known->kind);
     if (answer.model)
         // Shares the model's memory.
-        return {Status::ok, "model/gltf-binary", Text(answer.model, &answer.model->gzip),
-                kept,       answer.model->tag,   "gzip"};
+        return {Status::ok, known->type,       Text(answer.model, &answer.model->gzip),
+                kept,       answer.model->tag, "gzip"};
     switch (answer.failure) {
         case Models::Failure::busy:
             return plain(Status::service_unavailable, "another model is being made: ask again\n");

@@ -33,6 +33,12 @@ void put_camera(recording::ByteSink& sink, const director::ShotCamera& camera, s
     sink.fixed(pack_rotation(camera.orientation, camera_rotation_bits), 6);
 }
 
+void put_mover(recording::ByteSink& sink, const director::MoverPose& mover, float step) {
+    sink.fixed(mover.mover_id, 4);
+    sink.fixed(pack_position(mover.position, step), 8);
+    sink.fixed(pack_rotation(mover.orientation, camera_rotation_bits), 6);
+}
+
 }  // namespace
 
 float position_step(float metres_per_unit) {
@@ -70,8 +76,8 @@ std::uint64_t pack_position(const Vec3f& position, float step) {
     return packed;
 }
 
-std::string encode_frame(const director::PoseFrame& poses, const director::CameraFrame& cameras, float step,
-                         const SlotOf& slot_of) {
+std::string encode_frame(const director::PoseFrame& poses, const director::CameraFrame& cameras,
+                         std::span<const director::MoverPose> movers, float step, const SlotOf& slot_of) {
     recording::ByteSink players;
     std::uint64_t player_count = 0;
     for (const director::PlayerPose& pose : poses.poses) {
@@ -85,13 +91,15 @@ std::string encode_frame(const director::PoseFrame& poses, const director::Camer
     sink.fixed(0, 1);
     sink.fixed(player_count, 2);
     sink.fixed(cameras.cameras.size(), 2);
-    sink.fixed(0, 2);
+    sink.fixed(movers.size(), 2);
     sink.fixed(poses.frame_number, 4);
     sink.fixed(static_cast<std::uint64_t>(poses.frame_time), 8);
     sink.fixed(static_cast<std::uint64_t>(poses.source_time), 8);
     sink.append(players.bytes);
     for (const director::ShotCamera& camera : cameras.cameras)
         put_camera(sink, camera, slot_of(camera.target), step);
+    for (const director::MoverPose& mover : movers)
+        put_mover(sink, mover, step);
     return {reinterpret_cast<const char*>(sink.bytes.data()), sink.bytes.size()};
 }
 

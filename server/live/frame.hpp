@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 
 #include "director/messages.hpp"
@@ -20,14 +21,15 @@ namespace camdir::live {
 [[nodiscard]] std::uint64_t pack_position(const Vec3f& position, float step);
 
 inline constexpr int player_rotation_bits = 10;
-inline constexpr int camera_rotation_bits = 15;
+inline constexpr int camera_rotation_bits = 15;  // and movers
 
 // The slot in the match's list of players; 255 is none.
 using SlotOf = std::function<std::uint8_t(std::uint32_t player)>;
 inline constexpr std::uint8_t no_slot = 255;
 
-// Players without a slot are left out. `step`: of positions.
+// Players without a slot are left out. `movers`: where they are, at most 65,535. `step`: of positions.
 [[nodiscard]] std::string encode_frame(const director::PoseFrame& poses, const director::CameraFrame& cameras,
-                                       float step, const SlotOf& slot_of);
+                                       std::span<const director::MoverPose> movers, float step,
+                                       const SlotOf& slot_of);
 
 }  // namespace camdir::live

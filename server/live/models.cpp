@@ -9,20 +9,29 @@
 
 #include "export/glb.hpp"
 #include "live/gzip.hpp"
+#include "live/map_contents.hpp"
 #include "maps/source.hpp"
 
 namespace camdir::live {
 namespace {
 
-Models::Answer compressed(const Result<Bytes>& glb) {
-    if (!glb) return {nullptr, Models::Failure::no_source, glb.error().message};
+Models::Answer compressed(std::span<const std::byte> content) {
     auto model = std::make_shared<Model>();
-    model->gzip = gzip(*glb);
+    model->gzip = gzip(content);
     std::array<char, 20> tag{};
     std::snprintf(tag.data(), tag.size(), "%016llx",
                   static_cast<unsigned long long>(XXH3_64bits(model->gzip.data(), model->gzip.size())));
     model->tag = tag.data();
     return {std::move(model), {}, {}};
+}
+
+std::span<const std::byte> as_bytes(std::string_view text) {
+    return std::as_bytes(std::span(text));
+}
+
+Models::Answer compressed(const Result<Bytes>& glb) {
+    if (!glb) return {nullptr, Models::Failure::no_source, glb.error().message};
+    return compressed(std::span<const std::byte>(*glb));
 }
 
 Models::Answer without_source(std::string reason) {
@@ -48,10 +57,21 @@ Models::Answer Models::find(const std::string& map, ModelKind kind) {
     if (const auto known = look_up(key)) return *known;
     const std::unique_lock making(making_, std::try_to_lock);
     if (!making) return {nullptr, Failure::busy, {}};
-    Answer answer = kind == ModelKind::mesh ? compressed(exports::to_glb(*entry->freespace))
-                                            : make_obstacles(*entry, map);
+    Answer answer = make(*entry, map, kind);
     keep(key, answer);
     return answer;
+}
+
+Models::Answer Models::make(const director::MapEntry& map, const std::string& name, ModelKind kind) {
+    switch (kind) {
+        case ModelKind::mesh:
+            return compressed(exports::to_glb(*map.freespace));
+        case ModelKind::contents:
+            return compressed(as_bytes(map_contents(*map.freespace)));
+        case ModelKind::obstacles:
+            break;
+    }
+    return make_obstacles(map, name);
 }
 
 // Reasons name no file: whoever opens the page reads them. The log does.

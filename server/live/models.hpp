@@ -1,4 +1,4 @@
-// The maps as a browser draws them: glTF, compressed.
+// The maps as a browser draws them, compressed.
 #pragma once
 
 #include <cstdint>
@@ -17,11 +17,12 @@ namespace camdir::live {
 enum class ModelKind {
     obstacles,  // the source's surfaces
     mesh,       // the medial mesh, coloured by free distance
+    contents,   // fixed cameras and movers: JSON, the others are binary glTF
 };
 
 struct Model {
-    std::string gzip;  // of a binary glTF
-    std::string tag;   // of these bytes
+    std::string gzip;
+    std::string tag;  // of these bytes
 };
 
 // Models are made when they are first asked for, one at a time, and the latest asked for are kept.
@@ -63,6 +64,7 @@ class Models {
 
     [[nodiscard]] std::optional<Answer> look_up(const Key& key);
     void keep(const Key& key, const Answer& answer);
+    [[nodiscard]] Answer make(const director::MapEntry& map, const std::string& name, ModelKind kind);
     [[nodiscard]] Answer make_obstacles(const director::MapEntry& map, const std::string& name);
 
     const director::MapLibrary& maps_;

@@ -1,10 +1,12 @@
 #include "live/notes.hpp"
 
-#include <nlohmann/json.hpp>
-
 #include <array>
 #include <charconv>
+#include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
+
+#include "live/map_contents.hpp"
 
 namespace camdir::live {
 namespace {
@@ -73,6 +75,16 @@ SharedMessage history_note(const History& history, const SlotOf& slot_of) {
             text += note->content;
         }
     return std::make_shared<Message>(Message{Message::Kind::note, text + "]}"});
+}
+
+SharedMessage movers_note(std::span<const director::Mover> movers) {
+    json content = {{"kind", "movers"}, {"movers", json::array()}};
+    for (const director::Mover& mover : movers) {
+        json entry = {{"id", mover.id}};
+        entry.update(mover_json(mover.shape));
+        content["movers"].push_back(std::move(entry));
+    }
+    return note(content);
 }
 
 SharedMessage event_note(const director::MatchEvent& event, const SlotOf& slot_of) {

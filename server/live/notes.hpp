@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "director/messages.hpp"
@@ -24,6 +25,8 @@ using Roster = std::map<std::uint8_t, Place>;  // by slot
 [[nodiscard]] SharedMessage match_note(const director::MatchInfo& match, const Roster& roster);
 // Follows the match for who has just joined.
 [[nodiscard]] SharedMessage history_note(const History& history, const SlotOf& slot_of);
+// Precedes the frames that have them.
+[[nodiscard]] SharedMessage movers_note(std::span<const director::Mover> movers);
 [[nodiscard]] SharedMessage event_note(const director::MatchEvent& event, const SlotOf& slot_of);
 [[nodiscard]] SharedMessage cut_note(const Cut& cut, const SlotOf& slot_of);
 [[nodiscard]] SharedMessage dropped_note(std::size_t frames);

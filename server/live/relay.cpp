@@ -11,6 +11,7 @@
 #include "live/frame.hpp"
 #include "live/history.hpp"
 #include "live/notes.hpp"
+#include "live/shown_movers.hpp"
 
 namespace camdir::live {
 
@@ -49,6 +50,7 @@ class Relay::Channel {
     std::optional<History> history_;               // of this epoch; none before and after the match
     director::PoseFrame poses_;                    // the last ones
     director::CameraFrame cameras_;
+    ShownMovers movers_;
     std::vector<std::shared_ptr<Viewer>> viewers_;
 };
 
@@ -58,6 +60,7 @@ void Relay::Channel::show(const director::MatchInfo& shown) {
         history_.emplace();
         poses_ = {};
         cameras_ = {};
+        movers_ = {};
     }
     match_ = shown;
     give_slots();
@@ -70,6 +73,7 @@ void Relay::Channel::show(const director::PoseFrame& poses, const director::Came
     poses_ = poses;
     cameras_ = cameras;
     add_unlisted(poses);
+    if (movers_.follow(poses.movers)) put(movers_note(movers_.movers()));
     for (const Cut& cut : history_->add(poses, cameras)) {
         const SharedMessage note = cut_note(cut, slots());
         history_->keep_cut(note);
@@ -101,6 +105,7 @@ bool Relay::Channel::join(const std::shared_ptr<Viewer>& viewer) {
     if (!history_) return false;
     viewer->put(match_note(match_, roster_));
     viewer->put(history_note(*history_, slots()));
+    if (!movers_.movers().empty()) viewer->put(movers_note(movers_.movers()));
     if (!poses_.poses.empty()) viewer->put(encode_last());
     viewers_.push_back(viewer);
     return true;
@@ -165,9 +170,9 @@ void Relay::Channel::forget_left() {
 }
 
 SharedMessage Relay::Channel::encode_last() const {
-    return std::make_shared<Message>(
-        Message{Message::Kind::frame,
-                encode_frame(poses_, cameras_, position_step(match_.metres_per_unit), slots())});
+    return std::make_shared<Message>(Message{
+        Message::Kind::frame,
+        encode_frame(poses_, cameras_, movers_.poses(), position_step(match_.metres_per_unit), slots())});
 }
 
 void Relay::Channel::put(const SharedMessage& message) {

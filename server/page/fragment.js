@@ -38,9 +38,16 @@ export class Roster {
     }
 }
 
-// The match after some records: {match, poses, cameras}, each null or the last record's; the poses that `full` has are
-// also those of players whom the last record has not.
-export const noState = {match: null, poses: null, cameras: null};
+// The match after some records: {match, poses, cameras, moverList}, each null or the last record's, and where movers are, by
+// id; the poses that `full` has are also those of players whom the last record has not.
+export const noState = {match: null, poses: null, cameras: null, moverList: null, movers: new Map()};
+
+// Those of a list, where they were before or are in these records.
+function placedMovers({moverList, movers}, placed) {
+    const ids = new Set((moverList?.movers ?? []).map(({id}) => id));
+    const all = [...movers, ...placed.map(({id, position, rotation}) => [id, {position, rotation}])];
+    return new Map(all.filter(([id]) => ids.has(id)));
+}
 
 export function apply(state, record) {
     if (record.match) {
@@ -49,6 +56,8 @@ export function apply(state, record) {
     }
     if (record.poses) return {...state, poses: record.poses};
     if (record.cameras) return {...state, cameras: record.cameras};
+    if (record.moverList) return {...state, moverList: record.moverList, movers: placedMovers({...state, moverList: record.moverList}, [])};
+    if (record.moverPoses) return {...state, movers: placedMovers(state, record.moverPoses.movers)};
     return state;
 }
 
@@ -92,11 +101,11 @@ function eventNote({event, actor, subject, value, detail}, slotOf) {
     return {kind: 'event', event: eventNames[event - 1] ?? event, actor: slotOf(actor), subject: slotOf(subject), value, detail};
 }
 
-function frameOf(poses, cameras, slotOf) {
+function frameOf({poses, moverList, movers}, cameras, slotOf) {
     const players = poses.players.map(({id, flags, position, rotation}) => [slotOf(id), {slot: slotOf(id), flags, position, rotation}]);
     const shots = cameras.cameras.map(camera => [camera.id, {...camera, target: slotOf(camera.target)}]);
     return {number: poses.number, epoch: poses.epoch, sourceTime: Number(poses.sourceTime / 1000n) / 1e3,
-        players: new Map(players), cameras: new Map(shots)};
+        players: new Map(players), cameras: new Map(shots), movers, moverList: moverList?.movers ?? []};
 }
 
 function median(values) {
@@ -147,7 +156,7 @@ export async function readFragment(bytes, n, state, origin, roster) {
             const t = Math.max(timeOf(cameras, at, offsets, maxJitterMs, maxJitterMs), last + least);
             last = t;
             for (const cut of cutsOf(state.cameras, cameras, state.poses, slotOf)) fragment.cuts.push({...cut, t});
-            const frame = frameOf(state.poses, cameras, slotOf);
+            const frame = frameOf(state, cameras, slotOf);
             fragment.frames.push({...frame, t, latency: latencyOf(frame.sourceTime, beginMs + record.after)});
         }
         state = apply(state, record);

@@ -21,6 +21,7 @@ export class LiveSource {
         this.repeats = false;  // the next frame may be an old one
         this.ended = false;
         this.step = 1;
+        this.movers = [];      // as the last note has them
         model.begin(kept);
         this.link = new Connection(token, {
             state: (state, retryMs) => {
@@ -64,6 +65,7 @@ export class LiveSource {
             this.model.timeline.addHistory(note);
             this.repeats = true;
         },
+        movers: note => { this.movers = note.movers; },
         cut: note => this.model.timeline.addNote(note),
         event: note => this.model.timeline.addNote(note),
         dropped: ({frames}) => {
@@ -86,9 +88,9 @@ export class LiveSource {
     }
 
     add(data) {
-        const {step} = this;
+        const {step, movers} = this;
         const frame = decodeFrame(data, step);
-        if (!frame || !this.model.buffer.add(frame.t, data.byteLength, () => decodeFrame(data, step))) return;
+        if (!frame || !this.model.buffer.add(frame.t, data.byteLength, () => ({...decodeFrame(data, step), moverList: movers}))) return;
         this.model.clock.arrived(frame.t, now());
         this.model.timeline.addFrame(frame);
         this.age = latencyOf(frame.sourceTime, Date.now());

@@ -1,7 +1,12 @@
-// Loads the map of the match that is watched: obstacles where the server has them, and the medial mesh.
+// Loads the map of the match that is watched: what is in it, obstacles where the server has them, and the medial mesh.
 
 const firstRetryMs = 3000;
 const longestRetryMs = 60e3;
+
+const nothing = {fixed_cameras: [], movers: []};
+
+// Where the map is not there, there are none.
+const contentsOf = ({file}) => file ? JSON.parse(new TextDecoder().decode(file)) : nothing;
 
 function noteOf(obstacles, mesh) {
     if (obstacles.file) return '';
@@ -11,6 +16,7 @@ function noteOf(obstacles, mesh) {
 
 export class MapLoader {
     // `stage`: {map: MapView, metre}. `fetchModel(map, file)`: resolves to {file} or {file: null, reason}. `now()`: ms.
+    // `on.contents(contents)`: of /map/MAP/contents.json.
     // `on.obstacles(hasObstacles)`: the map has them or none; `on.loaded(hasObstacles)`: `note` says what is missing.
     constructor(stage, fetchModel, now, on) {
         Object.assign(this, {stage, fetchModel, now, on});
@@ -27,9 +33,13 @@ export class MapLoader {
         const waitMs = retry.of === name ? retry.waitMs : firstRetryMs;
         this.retry = {of: name, at: this.now() + waitMs, waitMs: Math.min(2 * waitMs, longestRetryMs)};
         this.stage.map.clear();
+        this.on.contents(nothing);
         let obstacles;
         let mesh;
         try {
+            const contents = contentsOf(await this.fetchModel(name, 'contents.json'));
+            if (this.shown !== name) return;
+            this.on.contents(contents);
             obstacles = await this.fetchModel(name, 'obstacles.glb');
             if (this.shown !== name) return;
             if (obstacles.file) this.stage.map.setObstacles(obstacles.file, this.stage.metre);

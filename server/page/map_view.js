@@ -22,11 +22,12 @@ const faceVertexShader = `
     #endif
     void main() {
         vec3 place = (modelMatrix * vec4(position, 1.0)).xyz;
-        vec3 surface = normalize(normal);
+        vec3 surface = normalize(mat3(modelMatrix) * normal);
     #ifdef INSIDE
         if (dot(surface, cameraPosition - place) < 0.0) surface = -surface;
         vec3 flatness = abs(surface);
-        cells = (flatness.z > max(flatness.x, flatness.y) ? place.xy : flatness.x > flatness.y ? place.yz : place.xz) / (2.0 * metre) - 0.5;
+        vec3 at = LINES;
+        cells = (flatness.z > max(flatness.x, flatness.y) ? at.xy : flatness.x > flatness.y ? at.yz : at.xz) / (2.0 * metre) - 0.5;
     #endif
     #ifdef CUT
         height = place.z;
@@ -35,7 +36,7 @@ const faceVertexShader = `
         float side = max(dot(surface, vec3(-0.754829, 0.646996, 0.107833)), 0.0);
         float light = 0.34 + 0.12 * surface.z + 0.40 * sun + 0.22 * side;
         float part = (place.z - heights.x) / max(heights.y - heights.x, 1.0);
-        paint = light * mix(vec3(0.40, 0.50, 0.62), vec3(0.80, 0.76, 0.68), part);
+        paint = light * mix(LOW, HIGH, part);
         gl_Position = projectionMatrix * viewMatrix * vec4(place, 1.0);
     }`;
 // Inside: darker with distance, about exp(-x); fine lines every 2 m show how surfaces run and how fast a camera moves.
@@ -64,6 +65,10 @@ const faceFragmentShader = `
         gl_FragColor = vec4(paint, 1.0);
     #endif
     }`;
+
+// The colours at the lowest and the highest point, and where the lines run: with what moves.
+const wall = {LOW: 'vec3(0.40, 0.50, 0.62)', HIGH: 'vec3(0.80, 0.76, 0.68)', LINES: 'place'};
+const mover = {LOW: 'vec3(0.85, 0.62, 0.28)', HIGH: 'vec3(0.95, 0.74, 0.40)', LINES: 'position'};
 
 const edgeVertexShader = `
     varying float height;
@@ -133,11 +138,13 @@ export class MapView {
         const lines = defines => new three.ShaderMaterial({vertexShader: edgeVertexShader, fragmentShader: edgeFragmentShader, defines,
             uniforms: this.uniforms, transparent: true, depthWrite: false});
         // How faces and edges are painted: seen from inside, and from outside whole or cut.
-        this.paints = {
-            inside: [faces({INSIDE: ''}, three.DoubleSide), lines({OPACITY: '0.28'})],
-            whole: [faces({}, three.FrontSide), lines({OPACITY: '0.3'})],
-            cut: [faces({CUT: ''}, three.FrontSide), lines({OPACITY: '0.3', CUT: ''})],
-        };
+        const paints = colours => ({
+            inside: [faces({...colours, INSIDE: ''}, three.DoubleSide), lines({OPACITY: '0.28'})],
+            whole: [faces(colours, three.FrontSide), lines({OPACITY: '0.3'})],
+            cut: [faces({...colours, CUT: ''}, three.FrontSide), lines({OPACITY: '0.3', CUT: ''})],
+        });
+        this.paints = paints(wall);
+        this.moverPaints = paints(mover);
         this.meshPaint = new three.MeshBasicMaterial({vertexColors: three.VertexColors, side: three.DoubleSide, transparent: true,
             depthWrite: false});
         this.clear();
@@ -205,9 +212,15 @@ export class MapView {
         this.uniforms.weight.value = weight;
     }
 
+    // How movers are painted, as the map is.
+    get moverPaint() {
+        return this.moverPaints[this.seen];
+    }
+
     // To be seen through a camera, or from outside up to the height `cut`.
     show(inside, cut) {
-        const [facePaint, edgePaint] = inside ? this.paints.inside : cut < this.heights[1] ? this.paints.cut : this.paints.whole;
+        this.seen = inside ? 'inside' : cut < this.heights[1] ? 'cut' : 'whole';
+        const [facePaint, edgePaint] = this.paints[this.seen];
         for (const face of this.faces) face.material = facePaint;
         for (const edge of this.edges) {
             edge.material = edgePaint;

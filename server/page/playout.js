@@ -18,6 +18,11 @@ function mixRotations(a, b, part) {
     return q.map(value => value / length);
 }
 
+// `before` on its way to `after`.
+function between(before, after, part) {
+    return {...before, position: mix(before.position, after.position, part), rotation: mixRotations(before.rotation, after.rotation, part)};
+}
+
 // Frames in the order of their time, bounded.
 export class FrameBuffer {
     constructor(keptMs) {
@@ -89,25 +94,21 @@ export class FrameBuffer {
         const players = new Map();
         for (const [slot, before] of a.players) {
             const after = b.players.get(slot);
-            players.set(slot, !after || after.flags & playerFlag.discontinuity ? before : {
-                ...before,
-                position: mix(before.position, after.position, part),
-                rotation: mixRotations(before.rotation, after.rotation, part),
-            });
+            players.set(slot, !after || after.flags & playerFlag.discontinuity ? before : between(before, after, part));
         }
         const cameras = new Map();
         for (const [id, before] of a.cameras) {
             const after = b.cameras.get(id);
             const jumps = !after || after.flags & cameraFlag.cut || after.target !== before.target ||
                 cutBetween(id, a.t, b.t);
-            cameras.set(id, jumps ? before : {
-                ...before,
-                position: mix(before.position, after.position, part),
-                rotation: mixRotations(before.rotation, after.rotation, part),
-                fov: before.fov + (after.fov - before.fov) * part,
-            });
+            cameras.set(id, jumps ? before : {...between(before, after, part), fov: before.fov + (after.fov - before.fov) * part});
         }
-        return {...a, t, players, cameras};
+        const movers = new Map();
+        for (const [id, before] of a.movers) {
+            const after = b.movers.get(id);
+            movers.set(id, after ? between(before, after, part) : before);
+        }
+        return {...a, t, players, cameras, movers};
     }
 }
 

@@ -14,6 +14,7 @@ const kindFrame = 1;
 const headerSize = 28;
 const playerSize = 14;
 const cameraSize = 22;
+const moverSize = 18;
 
 // Signed, of 21 bits.
 function signed21(value) {
@@ -49,7 +50,8 @@ function playerRotation(view, at) {
     return rotation([packed & 0x3ff, (packed >>> 10) & 0x3ff, (packed >>> 20) & 0x3ff], packed >>> 30, 0x3ff);
 }
 
-function cameraRotation(view, at) {
+// Of cameras and movers.
+function fineRotation(view, at) {
     const low = view.getUint32(at, true);
     const high = view.getUint16(at + 4, true);
     const parts = [low & 0x7fff, (low >>> 15) & 0x7fff, (low >>> 30) | ((high & 0x1fff) << 2)];
@@ -66,7 +68,8 @@ export function decodeFrame(buffer, step) {
     const view = new DataView(buffer);
     const playerCount = view.getUint16(2, true);
     const cameraCount = view.getUint16(4, true);
-    const size = headerSize + playerCount * playerSize + cameraCount * cameraSize;
+    const moverCount = view.getUint16(6, true);
+    const size = headerSize + playerCount * playerSize + cameraCount * cameraSize + moverCount * moverSize;
     if (view.getUint8(0) !== kindFrame || buffer.byteLength < size) return null;
     const frame = {
         number: view.getUint32(8, true),
@@ -74,6 +77,7 @@ export function decodeFrame(buffer, step) {
         sourceTime: Number(view.getBigInt64(20, true) / 1000n) / 1e3,
         players: new Map(),
         cameras: new Map(),
+        movers: new Map(),
     };
     let at = headerSize;
     for (let i = 0; i < playerCount; ++i, at += playerSize) {
@@ -92,8 +96,10 @@ export function decodeFrame(buffer, step) {
             flags: view.getUint8(at + 5),
             fov: view.getUint16(at + 6, true) / 65535 * Math.PI,
             position: position(view, at + 8, step),
-            rotation: cameraRotation(view, at + 16),
+            rotation: fineRotation(view, at + 16),
         });
     }
+    for (let i = 0; i < moverCount; ++i, at += moverSize)
+        frame.movers.set(view.getUint32(at, true), {position: position(view, at + 4, step), rotation: fineRotation(view, at + 12)});
     return frame;
 }

@@ -1,4 +1,4 @@
-// The resources of idl/recording.md, of which the page takes what it shows: matches, poses, events and cameras.
+// The resources of idl/recording.md, of which the page takes what it shows: matches, poses, events, cameras and movers.
 // What is wrong with one is thrown as Damaged, which names it, the byte and what was expected.
 import {ByteSource, Damaged, floatOf} from './bytes.js';
 
@@ -14,6 +14,9 @@ const maxRecords = 1 << 17;
 const maxPlayers = 256;
 const maxPoses = 512;
 const maxCameras = 256;
+const maxMovers = 256;
+const maxHulls = 256;  // and balls, of a mover
+const maxHalfSpaces = 64;
 const maxLengthError = 1e-3;  // of quaternions
 
 const crcTable = Uint32Array.from({length: 256}, (_, byte) => {
@@ -114,6 +117,11 @@ class Floats {
     }
 }
 
+// A list of half spaces or balls.
+function readFours(source, max) {
+    return Array.from({length: source.count(16, max)}, () => Array.from({length: 4}, () => source.float()));
+}
+
 function readFrameHead(source) {
     return {epoch: source.big(), number: source.id()};
 }
@@ -148,13 +156,29 @@ const readers = {
             () => ({camera: source.id(), actor: source.id(), subject: source.id(), rule: source.text()}));
         return {cameras: {...head, ...times, cameras: shown, reasons}};
     },
+    7: source => ({moverList: {epoch: source.big(), movers: Array.from({length: source.count(5, maxMovers)}, () => ({
+        id: source.id(), name: source.text(), kind: source.text(),
+        hulls: Array.from({length: source.count(1, maxHulls)}, () => readFours(source, maxHalfSpaces)),
+        balls: readFours(source, maxHulls),
+    }))}}),
+    8(source, {movers}) {
+        const epoch = source.big();
+        source.bigDifference();  // frame_time and
+        source.bigDifference();  // source_time
+        return {moverPoses: {epoch, movers: Array.from({length: source.count(8, maxMovers)}, () => {
+            const id = source.id();
+            const values = movers.read(source, id);
+            return {id, position: values.slice(0, 3), rotation: values.slice(3, 7)};
+        })}};
+    },
 };
 
-// The records of `full` or `delta`: {after: ms since the fragment's begin, and one of match, poses, event, cameras}.
+// The records of `full` or `delta`: {after: ms since the fragment's begin, and one of match, poses, event, cameras,
+// moverList, moverPoses}.
 // Others are left out.
 export function decodeRecords(content, name) {
     const source = new ByteSource(content, name);
-    const floats = {poses: new Floats(10), cameras: new Floats(9)};
+    const floats = {poses: new Floats(10), cameras: new Floats(9), movers: new Floats(7)};
     const records = [];
     let after = 0n;
     while (source.left > 0) {

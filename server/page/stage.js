@@ -3,6 +3,7 @@ import * as three from './three.js';
 import {Figures} from './figures.js';
 import {MapView, background} from './map_view.js';
 import {Marks} from './marks.js';
+import {Movers} from './movers.js';
 import {SmallPictures} from './small_pictures.js';
 import {StillMap} from './still_map.js';
 
@@ -33,8 +34,9 @@ export class Stage {
         this.map = new MapView();
         this.figures = new Figures(this.hasCard ? 20 : 8);
         this.marks = new Marks();
+        this.movers = new Movers();
         this.scene = new three.Scene();
-        this.scene.add(this.map.group, this.marks.group, this.figures.group);
+        this.scene.add(this.map.group, this.movers.group, this.marks.group, this.figures.group);
         this.stillMap = new StillMap(this.renderer);
         this.pictures = new SmallPictures(this.renderer, this.hasCard ? 2 : 1);
         this.eye = new three.PerspectiveCamera(60, 1, 1, 10000);
@@ -59,6 +61,7 @@ export class Stage {
     show(sample, chosen, searches) {
         Object.assign(this, {sample, chosen, searches});
         this.figures.show(sample.players, this.metre);
+        this.movers.show(sample.moverList, sample.movers);
     }
 
     // ratio: pixels of the canvas for each of the page.
@@ -136,6 +139,7 @@ export class Stage {
 
     draw(camera, size, {inside, times = 1, names = true, namesHidden = false}) {
         this.map.show(inside, this.cut);
+        this.movers.paint(this.map.moverPaint);
         this.marks.group.visible = !inside && this.sample !== null;
         if (this.marks.group.visible) this.marks.show(this.sample, this.chosen, this.searches, this.metre);
         this.figures.aim(camera, size, {times, names, namesHidden});
@@ -147,7 +151,7 @@ export class Stage {
 
     // What moves over the map, which may stand still.
     drawOverMap(camera, {width, height, ratio}) {
-        const moving = [this.figures.group, this.marks.group];
+        const moving = [this.figures.group, this.marks.group, this.movers.group];
         const shown = moving.map(({visible}) => visible);
         camera.updateMatrixWorld();
         const key = [...camera.matrixWorld.elements, ...camera.projectionMatrix.elements, this.map.look].join(' ');

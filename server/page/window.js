@@ -2,6 +2,7 @@
 import {Broadcast, Refused} from './broadcast.js';
 import {choose, isFull} from './choice.js';
 import {Feed} from './feed.js';
+import {nameOfFixed} from './fixed_cameras.js';
 import {Rows, shotEntry} from './lists.js';
 import {latencyText} from './latency.js';
 import {LiveSource} from './live_source.js';
@@ -38,7 +39,7 @@ const look = slot => model.look(slot);
 // Of the players of a group shot a frame has the first alone: all of them, of no other shot any.
 const groupOf = id => watched?.stream?.shots.find(({camera_id: camera}) => camera === id)?.group ?? [];
 function lookOfShot(shot) {
-    if (modeOf(shot) === 'fixed') return {...look(null), name: 'fixed camera'};
+    if (modeOf(shot) === 'fixed') return {...look(null), name: nameOfFixed(fixedCameras, shot.position)};
     const group = groupOf(shot.id);
     return group.length > 0 ? {...look(shot.target), name: group.map(nameOf).join(', ')} : look(shot.target);
 }
@@ -49,6 +50,7 @@ const searchMark = new SearchMark(find('search-mark'));
 
 let stage = null;
 let mapLoader = null;
+let fixedCameras = [];    // of the map
 let quality = null;
 let source = null;        // LiveSource or Playback: what feeds the model
 let watched = null;       // the entry of `matches` that it shows
@@ -124,6 +126,12 @@ function showMessage(text, asksForToken = false) {
     find('message').hidden = text === '';
     find('message-text').textContent = text;
     find('token-form').hidden = !asksForToken;
+}
+
+function takeContents(contents) {
+    fixedCameras = contents.fixed_cameras;
+    stage.movers.setMap(contents.movers);
+    dirty = true;
 }
 
 function showObstacles(hasObstacles) {
@@ -595,6 +603,7 @@ window.cameraDirector = {
         players: sample ? [...sample.players.values()].map(player => ({...player, id: model.players.get(player.slot)?.id,
             name: nameOf(model.players.get(player.slot))})) : [],
         cameras: shownCameras().map(shot => ({...shot, target: model.players.get(shot.target)?.id ?? null})),
+        movers: sample ? [...sample.movers].map(([id, {position}]) => ({id, position})) : [],
         cuts: model.timeline.cuts.length, events: model.timeline.events.length,
         obstacles: Boolean(stage?.map.hasObstacles), mesh: Boolean(stage?.map.mesh), note: mapLoader?.note ?? '', quality: quality?.level ?? null,
     }),
@@ -602,7 +611,7 @@ window.cameraDirector = {
 
 try {
     stage = new Stage(find('canvas'));
-    mapLoader = new MapLoader(stage, server.model, now, {obstacles: showObstacles, loaded: showLoadedMap});
+    mapLoader = new MapLoader(stage, server.model, now, {contents: takeContents, obstacles: showObstacles, loaded: showLoadedMap});
     quality = new Quality(stage.hasCard ? 0 : levelOfProcessor(screenPixels()), stage.hasCard);
     attach(find('canvas'), viewpoint, {
         active: () => view !== 'camera' || !shownCamera(),

@@ -135,6 +135,32 @@ const tests = {
         assert.deepEqual([...reached].sort(), wanted.slice().sort());
         await browser.evaluate('document.querySelector("[data-view=camera]").click()');
     },
+    async 'a door is drawn where it is, live and from the recording'(browser) {
+        const game = programs.start('example-game-server', '--match', 'door', '--map', 'hall', '--centre', '8,8,1.7', '--radius', '1',
+            '--door', '2', '--domain', domain);
+        const watch = async match => {
+            const button = `[...document.querySelectorAll('#matches button')].find(b => b.textContent.includes('${match}'))`;
+            await browser.until(`Boolean(${button})`);
+            await browser.evaluate(`${button}.click()`);
+            await browser.until(`cameraDirector.state().match === '${match}'`);
+        };
+        await watch('door');
+        const height = () => browser.evaluate('cameraDirector.state().movers[0]?.position[2] ?? null');
+        const isOnItsWay = z => z > 1.6 && z < 130;
+        const moves = async () => {
+            const before = await browser.until('cameraDirector.state().movers.length === 1 && cameraDirector.state().movers[0].position[2]');
+            assert.ok(isOnItsWay(before), `${before}`);
+            await eventually('movement', async () => Math.abs(await height() - before) > 1);
+        };
+        await moves();
+        await browser.until('!document.getElementById("begin").hidden');
+        await browser.press('Home');
+        await browser.until('cameraDirector.state().recorded && cameraDirector.state().time !== null');
+        await moves();
+        await stop(game);
+        await watch('walk-0');
+        await browser.until(`cameraDirector.state().live && cameraDirector.state().cameras.length === ${players}`);
+    },
     async 'nothing is wider than a small phone'(browser) {
         await browser.resize({width: 360, height: 740, scale: 2, mobile: true});
         await browser.until('innerWidth === 360');

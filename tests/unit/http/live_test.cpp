@@ -206,6 +206,9 @@ TEST(Models, AreServedByTheNameOfTheirMap) {
     EXPECT_EQ(obstacles.header.at("content-type"), "model/gltf-binary");
     EXPECT_EQ(obstacles.header.at("content-encoding"), "gzip");
     EXPECT_EQ(obstacles.header.at("etag"), "\"1\"");
+    const auto contents = server.ask("GET", "/map/a%20map%2F2/contents.json");
+    EXPECT_EQ(contents.body, "contents");
+    EXPECT_EQ(contents.header.at("content-type"), "application/json");
     EXPECT_EQ(server.status_of("GET", "/map/no%20source/obstacles.glb"), 404);
     EXPECT_EQ(server.status_of("GET", "/map/busy/obstacles.glb"), 503);
     for (const char* path : {"/map", "/map/", "/map/a", "/map/%/mesh.glb", "/mapping", "/map/other/mesh.glb",

@@ -93,8 +93,10 @@ class TestServer {
             if (map == "no source") return {nullptr, live::Models::Failure::no_source, "no source"};
             if (map == "busy") return {nullptr, live::Models::Failure::busy, ""};
             if (map != "a map/2") return {};
-            const bool mesh = kind == live::ModelKind::mesh;
-            return {std::make_shared<live::Model>(live::Model{mesh ? "mesh" : "obstacles", "1"}), {}, ""};
+            const char* content = kind == live::ModelKind::mesh        ? "mesh"
+                                  : kind == live::ModelKind::obstacles ? "obstacles"
+                                                                       : "contents";
+            return {std::make_shared<live::Model>(live::Model{content, "1"}), {}, ""};
         };
         sources.join = [this](const std::string& match_id, const std::shared_ptr<live::Viewer>& viewer) {
             return relay.join(match_id, viewer);

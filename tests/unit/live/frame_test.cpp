@@ -9,6 +9,7 @@
 #include <fstream>
 #include <numbers>
 #include <random>
+#include <span>
 #include <string>
 
 namespace camdir::live {
@@ -85,7 +86,7 @@ TEST(Position, HasAStepWhereTheUnitIsUnknown) {
     EXPECT_EQ(position_step(-1.0F), 1.0F / 12.0F);
 }
 
-std::string frame_of(int players) {
+std::string frame_of(int players, std::size_t mover_count = 0) {
     director::PoseFrame poses{1, 7, 1'500'000'000, 1'700'000'000'123'456'789, {}};
     for (int i = 0; i < players; ++i) {
         director::PlayerPose pose;
@@ -104,9 +105,13 @@ std::string frame_of(int players) {
     camera.vertical_fov = 1.0F;
     camera.flags = 3;
     cameras.cameras = {camera};
-    return encode_frame(poses, cameras, 0.25F, [](std::uint32_t player) {
-        return player == 990 ? no_slot : static_cast<std::uint8_t>(player / 10);
-    });
+    const std::array<director::MoverPose, 2> movers = {
+        director::MoverPose{3},
+        {4'294'967'295U, Vec3f(8.0F, -0.5F, 96.25F), Quatf(Eigen::AngleAxisf(0.75F, Vec3f::UnitZ()))}};
+    return encode_frame(poses, cameras, std::span(movers).first(mover_count), 0.25F,
+                        [](std::uint32_t player) {
+                            return player == 990 ? no_slot : static_cast<std::uint8_t>(player / 10);
+                        });
 }
 
 std::string hex_of(const std::string& bytes) {
@@ -124,7 +129,7 @@ TEST(Frame, IsTheGoldenOne) {
     std::ifstream file(CAMDIR_GOLDEN_FRAME);
     std::string golden;
     ASSERT_TRUE(file >> golden) << CAMDIR_GOLDEN_FRAME;
-    EXPECT_EQ(hex_of(frame_of(2)), golden);
+    EXPECT_EQ(hex_of(frame_of(2, 2)), golden);
 }
 
 TEST(Frame, LeavesOutPlayersWithoutASlot) {

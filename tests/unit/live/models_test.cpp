@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "base/file.hpp"
+#include "live/map_contents.hpp"
 #include "scene/load.hpp"
 #include "support/freespace_meshes.hpp"
 #include "support/temporary_folder.hpp"
@@ -24,7 +27,24 @@ class Library {
         auto contents = test::square_contents();
         contents.metadata.source_hash = source_hash;
         contents.metadata.metres_per_unit = 1.0F;  // as of the source
+        contents.spawn_points = {{Vec3f(1.0F, 1.0F, 1.0F), 0.0F}};
+        contents.fixed_shots = {{Vec3f(10.0F, 20.0F, 5.0F), 0.5F, -0.25F, 0}};
+        contents.movers = {mover()};
         maps.set_ready("room", test::make_freespace(contents));
+    }
+
+    static freespace::MoverShape mover() {
+        freespace::MoverShape door;
+        door.name = "*3";
+        door.kind = "func_door";
+        door.balls = {{Vec3f(1.0F, 2.0F, 3.0F), 0.5F}};
+        freespace::ConvexHull cube;
+        for (int axis = 0; axis < 3; ++axis)
+            for (const float side : {1.0F, -1.0F})
+                cube.half_spaces.push_back({side * Vec3f::Unit(axis), 2.0F});
+        cube.bounds = Box3f(Vec3f::Constant(-2.0F), Vec3f::Constant(2.0F));
+        door.hulls = {cube};
+        return door;
     }
 
     director::MapLibrary maps;
@@ -51,6 +71,20 @@ TEST(Models, ShowsTheMeshWithoutASource) {
     const auto answer = models.find("room", ModelKind::obstacles);
     EXPECT_FALSE(answer.model);
     EXPECT_EQ(answer.failure, Models::Failure::no_source);
+}
+
+TEST(Models, SaysWhatIsInAMapAndWhatMovesThere) {
+    const Library library;
+    Models models(library.maps);
+    EXPECT_TRUE(models.find("room", ModelKind::contents).model);
+    const auto contents = nlohmann::json::parse(map_contents(*library.maps.find("room")->freespace));
+    EXPECT_EQ(contents["version"], 1);
+    EXPECT_EQ(contents["fixed_cameras"],
+              nlohmann::json::parse(
+                  R"([{"position": [10, 20, 5], "yaw": 0.5, "pitch": -0.25, "spawn_point": 0}])"));
+    EXPECT_EQ(contents["movers"], nlohmann::json::parse(R"([{"name": "*3", "kind": "func_door", "hulls": [[
+        [1, 0, 0, 2], [-1, 0, 0, 2], [0, 1, 0, 2], [0, -1, 0, 2], [0, 0, 1, 2], [0, 0, -1, 2]]],
+        "balls": [[1, 2, 3, 0.5]]}])"));
 }
 
 TEST(Models, NamesNoFileToViewers) {

@@ -34,6 +34,7 @@ class Match {
         ++info_.epoch;
         info_.map_name = "yard";
         frame_time_ = -7'000'000'000;
+        movers_ = nullptr;
         info_.players.push_back({70'000, "late", "", 2});
         show(info_);
     }
@@ -44,11 +45,12 @@ class Match {
         for (const std::uint32_t id : {3U, 4U, 9U, 70'000U})
             if (random_() % 8 != 0 && (id != 9 || number_ > 150)) poses.poses.push_back(pose(id));
         const director::CameraFrame cameras = cameras_of(poses);
+        poses.movers = move();
         append(poses);
         append(cameras);
-        add_expected(poses, cameras);
         relay_.show(info_.match_id, poses, cameras);
         take();
+        add_expected(poses, cameras);
         if (random_() % 5 == 0) show_event();
         if (random_() % 20 == 0)
             append(director::ObserverRequest{info_.match_id, "tv", 3, {}, "close", "{}"});
@@ -74,6 +76,34 @@ class Match {
         start.match.rate_hz = 20.0F;
         start.match.players = {{3, "Ann", "soldier", 1}, {4, "Bob", "", 2}};
         return start;
+    }
+
+    // Of all, in some frames; now and then there are others.
+    std::shared_ptr<const director::MatchMovers> move() {
+        if (!movers_ || random_() % 40 == 0) {
+            director::MoverInfo info{info_.epoch, {}};
+            for (std::uint32_t id = 0; id < random_() % 5; ++id) {
+                director::Mover mover;
+                mover.id = 10 * id;
+                mover.shape = {"*" + std::to_string(id), "func_door \xc3\xa9", {}, {{place(), 1.5F}}, {}};
+                freespace::ConvexHull hull;
+                for (int i = 0; i < 4; ++i)
+                    hull.half_spaces.push_back({place().normalized(), number()});
+                mover.shape.hulls = {hull, hull};
+                info.movers.push_back(mover);
+            }
+            movers_ = std::make_shared<director::MoverInfo>(info);
+            mover_frame_ = nullptr;
+            append(info);
+        }
+        if (!mover_frame_ || random_() % 2 == 0) {
+            director::MoverFrame frame{info_.epoch, frame_time_, time_, {}};
+            for (const director::Mover& mover : movers_->movers)
+                frame.poses.push_back({mover.id, place(), rotation()});
+            mover_frame_ = std::make_shared<director::MoverFrame>(frame);
+            append(frame);
+        }
+        return std::make_shared<director::MatchMovers>(director::MatchMovers{movers_, mover_frame_});
     }
 
     float number() { return std::uniform_real_distribution<float>(-4096.0F, 4096.0F)(random_); }
@@ -134,6 +164,7 @@ class Match {
             if (note.contains("t")) note["t"] = note["t"].get<double>() + model_ms(0);
             if (note.contains("epoch"))  // above what JavaScript has of a number
                 note["epoch"] = std::to_string(info_.epoch);
+            if (note["kind"] == "movers") mover_list_ = note["movers"];
             notes_.push_back(note);
             if (note["kind"] == "match")
                 for (const json& player : note["players"])
@@ -165,11 +196,18 @@ class Match {
                              {"position", numbers(camera.position)},
                              {"rotation", numbers(camera.orientation)},
                              {"fov", camera.vertical_fov}});
+        json movers = json::array();
+        for (const director::MoverPose& mover : poses.movers->frame->poses)
+            movers.push_back({{"id", mover.mover_id},
+                              {"position", numbers(mover.position)},
+                              {"rotation", numbers(mover.orientation)}});
         frames_.push_back({{"t", model_ms(poses.frame_time)},
                            {"number", poses.frame_number},
                            {"source_time_ms", static_cast<double>(source_us) / 1e3},
                            {"players", players},
-                           {"cameras", shots}});
+                           {"cameras", shots},
+                           {"movers", movers},
+                           {"mover_list", mover_list_}});
     }
 
     std::mt19937 random_{7};
@@ -184,6 +222,9 @@ class Match {
     recording::Writer writer_;
     Relay relay_{1};
     std::shared_ptr<Viewer> viewer_ = std::make_shared<Viewer>([] {});
+    std::shared_ptr<const director::MoverInfo> movers_;
+    std::shared_ptr<const director::MoverFrame> mover_frame_;
+    json mover_list_ = json::array();  // as viewers of the stream are told
     json frames_ = json::array();
     json notes_ = json::array();
 };

@@ -99,6 +99,85 @@ TEST(Relay, TellsALateJoinerTheMatchItsHistoryAndTheLastFrame) {
     EXPECT_EQ(told[2], frame_bytes);
 }
 
+// Of id 4 with one ball, and of those ids as well.
+std::shared_ptr<const director::MoverInfo> mover_info(const std::vector<std::uint32_t>& more = {}) {
+    director::MoverInfo info{1, {}};
+    director::Mover lift;
+    lift.id = 4;
+    lift.shape.name = "*2";
+    lift.shape.kind = "func_plat";
+    lift.shape.balls = {{Vec3f(1.0F, 2.0F, 3.0F), 16.0F}};
+    info.movers = {lift};
+    for (const std::uint32_t id : more)
+        info.movers.push_back({id, {}});
+    return std::make_shared<director::MoverInfo>(info);
+}
+
+director::PoseFrame among(director::PoseFrame poses, const std::shared_ptr<const director::MoverInfo>& info,
+                          const std::vector<std::uint32_t>& moved) {
+    director::MoverFrame frame{1, poses.frame_time, 0, {}};
+    for (const std::uint32_t id : moved)
+        frame.poses.push_back(
+            {id, Vec3f::Constant(static_cast<float>(poses.frame_number)), Quatf::Identity()});
+    poses.movers = std::make_shared<director::MatchMovers>(
+        director::MatchMovers{info, std::make_shared<director::MoverFrame>(frame)});
+    return poses;
+}
+
+TEST(Relay, TellsOfMoversBeforeTheFrameThatHasThem) {
+    Relay relay(10);
+    relay.show(match_info("cup", {{7, "Ann", "", 2}}));
+    const auto watching = viewer();
+    EXPECT_EQ(relay.join("cup", watching), Relay::Admission::joined);
+    take_all(*watching);
+    const auto info = mover_info();
+    auto poses = among(poses_of({7}, 1), info, {4, 99});
+    relay.show("cup", poses, cameras_of(poses, 7, 2));
+    const auto taken = take_all(*watching);
+    ASSERT_EQ(taken.size(), 3U);
+    EXPECT_EQ(taken[0], json::parse(R"({"kind": "movers", "movers": [{"id": 4, "name": "*2", )"
+                                    R"("kind": "func_plat", "hulls": [], "balls": [[1, 2, 3, 16]]}]})"));
+    EXPECT_EQ(taken[1]["kind"], "cut");
+    constexpr std::size_t mover_bytes = 18;
+    EXPECT_EQ(taken[2], frame_bytes + mover_bytes) << "none that was not announced";
+
+    poses = among(poses_of({7}, 2), info, {});
+    relay.show("cup", poses, cameras_of(poses, 7, 2));
+    EXPECT_EQ(take_all(*watching), std::vector<json>{frame_bytes + mover_bytes}) << "it stands where it was";
+
+    const auto late = viewer();
+    EXPECT_EQ(relay.join("cup", late), Relay::Admission::joined);
+    const auto told = take_all(*late);
+    ASSERT_EQ(told.size(), 4U);
+    EXPECT_EQ(told[2], taken[0]);
+    EXPECT_EQ(told[3], frame_bytes + mover_bytes);
+
+    poses = among(poses_of({7}, 3), mover_info({5}), {5});
+    relay.show("cup", poses, cameras_of(poses, 7, 2));
+    const auto more = take_all(*watching);
+    ASSERT_EQ(more.size(), 2U);
+    EXPECT_EQ(more[0]["movers"].size(), 2U);
+    EXPECT_EQ(more[1], frame_bytes + 2 * mover_bytes);
+
+    poses = poses_of({7}, 4);
+    relay.show("cup", poses, cameras_of(poses, 7, 2));
+    EXPECT_EQ(take_all(*watching),
+              (std::vector<json>{json::parse(R"({"kind": "movers", "movers": []})"), frame_bytes}));
+}
+
+TEST(Relay, ForgetsTheMoversOfAnEpochThatIsOver) {
+    Relay relay(10);
+    relay.show(match_info("cup", {{7, "Ann", "", 2}}));
+    const auto poses = among(poses_of({7}, 1), mover_info(), {4});
+    relay.show("cup", poses, cameras_of(poses, 7, 2));
+    relay.show(match_info("cup", {{7, "Ann", "", 2}}, 2));
+    const auto late = viewer();
+    EXPECT_EQ(relay.join("cup", late), Relay::Admission::joined);
+    for (const json& message : take_all(*late)) {
+        EXPECT_FALSE(message.is_object() && message["kind"] == "movers");
+    }
+}
+
 TEST(Relay, SaysWhyAShotWasCut) {
     Relay relay(10);
     relay.show(match_info("cup", {{1, "", "", 0}, {2, "", "", 0}}));

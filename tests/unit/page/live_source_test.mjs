@@ -41,7 +41,7 @@ function stream() {
 
 // As if frames had come.
 function fill(model) {
-    for (const t of [0, 16, 32]) model.buffer.add(t, 100, () => ({t, players: new Map(), cameras: new Map()}));
+    for (const t of [0, 16, 32]) model.buffer.add(t, 100, () => ({t, players: new Map(), cameras: new Map(), movers: new Map()}));
 }
 
 test('who joins or leaves changes nothing of what is kept', () => {

@@ -9,7 +9,7 @@ const keptMs = 5 * 60e3;
 function frame(t, x, {flags = 2, playerFlags = 1, target = 0, epoch} = {}) {
     const place = {position: [x, 0, 0], rotation: [0, 0, 0, 1]};
     return {t, epoch, players: new Map([[0, {slot: 0, flags: playerFlags, ...place}]]),
-        cameras: new Map([[5, {id: 5, target, flags, fov: 1, ...place}]])};
+        cameras: new Map([[5, {id: 5, target, flags, fov: 1, ...place}]]), movers: new Map([[9, place]])};
 }
 
 const add = (buffer, data) => buffer.add(data.t, 64, () => data);
@@ -26,6 +26,7 @@ test('between two frames things move evenly', () => {
         const sample = buffer.sample(t);
         assert.equal(sample.players.get(0).position[0], x);
         assert.equal(sample.cameras.get(5).position[0], x);
+        assert.equal(sample.movers.get(9).position[0], x);
     }
     assert.equal(buffer.sample(90).players.get(0).position[0], 0, 'before the first');
     assert.equal(buffer.sample(900).players.get(0).position[0], 10, 'after the last');
@@ -40,6 +41,12 @@ test('a cut is not interpolated, a jump of a player neither', () => {
     assert.equal(at({epoch: 2}).players.get(0).position[0], 0, 'another epoch');
     assert.equal(at({}, (id, from, to) => id === 5 && from === 100 && to === 120).cameras.get(5).position[0], 0,
         'a cut whose frame was dropped');
+});
+
+test('a mover that is gone from the next frame stands where it was', () => {
+    const buffer = filled(frame(100, 0), {...frame(120, 10), movers: new Map()});
+    assert.equal(buffer.sample(110).movers.get(9).position[0], 0);
+    assert.equal(buffer.sample(120).movers.size, 0);
 });
 
 test('over a long gap nothing moves', () => {

@@ -27,6 +27,10 @@ test('a frame is what the server encoded', () => {
     assert.deepEqual(camera.position, [-100, 0, 50]);
     near(camera.rotation, [0, 0, Math.sin(-0.625), Math.cos(-0.625)], 5e-5);
     near([camera.fov], [1], 5e-5);
+    assert.deepEqual([...frame.movers.keys()], [3, 4294967295]);
+    const door = frame.movers.get(4294967295);
+    assert.deepEqual(door.position, [8, -0.5, 96.25]);
+    near(door.rotation, [0, 0, Math.sin(0.375), Math.cos(0.375)], 5e-5);
 });
 
 test('what is no frame is not read', () => {

@@ -49,6 +49,8 @@ all.frames.forEach((frame, i) => {
     assert.equal(frame.sourceTime, wanted.source_time_ms);
     assert.deepEqual([...frame.players.values()], wanted.players, 'every bit of a float is kept');
     assert.deepEqual([...frame.cameras.values()], wanted.cameras);
+    assert.deepEqual([...frame.movers].map(([id, pose]) => ({id, ...pose})), wanted.movers);
+    assert.deepEqual(frame.moverList, wanted.mover_list);
 });
 sameTimes(sorted(all.cuts), sorted(expected.notes.filter(note => note.kind === 'cut')));
 sameTimes(sorted(all.events), sorted(expected.notes.filter(note => note.kind === 'event')));
