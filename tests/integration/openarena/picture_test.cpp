@@ -157,7 +157,7 @@ class Markers {
     void judge(const Judged& picture) {
         // Clients extrapolate players whom they will not see after a cut.
         if (picture.before_cut || may_show_corpse(picture)) return;
-        const Vec3d place = path_.player(marker, picture.drawn.time, picture.drawn.newest);
+        const Vec3d place = player(marker, picture.drawn.time, picture);
         const auto box = box_at(picture, picture.drawn.time);
         expect_in(extended(box, picture), picture);
         if (!box || !is_in_sight(picture, place, *box)) return;
@@ -182,10 +182,13 @@ class Markers {
         return false;
     }
 
+    Vec3d player(int slot, int time, const Judged& picture) const {
+        return path_.player(slot, time, picture.drawn.newest, picture.drawn.motion);
+    }
+
     std::optional<PixelBox> box_at(const Judged& picture, int time) const {
-        return picture_of_ball(path_.view(time, picture.drawn.newest),
-                               path_.player(marker, time, picture.drawn.newest), marker_radius,
-                               picture.picture.width, picture.picture.height);
+        return picture_of_ball(path_.view(time, picture.drawn.newest), player(marker, time, picture),
+                               marker_radius, picture.picture.width, picture.picture.height);
     }
 
     // By what the time drawn is not known better.
@@ -222,7 +225,7 @@ class Markers {
         const std::array guesses = {picture.drawn.earliest_guess, picture.drawn.latest_guess};
         return std::ranges::any_of(guesses, [&](int time) {
             const GameView camera = path_.view(time, picture.drawn.newest);
-            const Vec3d place = path_.player(marker, time, picture.drawn.newest);
+            const Vec3d place = player(marker, time, picture);
             return camera.axes.col(0).dot(place - camera.position) > -marker_radius;
         });
     }
@@ -245,7 +248,7 @@ class Markers {
         for (int slot = 0; slot < witness_slots; ++slot) {
             const witness_player& other = picture.from->players[slot];
             if (slot == marker || !other.bot || !other.in_game) continue;
-            const Vec3d there = path_.player(slot, picture.drawn.time, picture.drawn.newest);
+            const Vec3d there = player(slot, picture.drawn.time, picture);
             const double along = std::clamp((there - eye).dot(sight) / sight.squaredNorm(), 0.0, 1.0);
             constexpr double reach = 80.0;  // of a player with a weapon
             if ((eye + along * sight - there).norm() < reach) return false;

@@ -47,14 +47,14 @@ std::vector<Vec3d> models_of(const drawn_record& picture, const GameView& view) 
 }
 
 // How badly the players' places at a time explain the models drawn.
-double misfit_of_players(const CommandedPath& path, int time, std::size_t newest,
+double misfit_of_players(const CommandedPath& path, int time, std::size_t newest, Motion motion,
                          const std::vector<Vec3d>& models) {
     constexpr double limit = 2.0;  // farther models are something else
     double sum = 0.0;
     const auto& players = path.snapshots()[path.snapshot_at(time, newest)].frame.players;
     for (int slot = 0; slot < witness_slots; ++slot) {
         if (!players[slot].bot || !players[slot].in_game) continue;
-        const Vec3d place = path.player(slot, time, newest);
+        const Vec3d place = path.player(slot, time, newest, motion);
         double nearest = limit * limit;
         for (const Vec3d& model : models)
             nearest = std::min(nearest, (model - place).squaredNorm());
@@ -140,13 +140,13 @@ GameView CommandedPath::view(int time, std::size_t newest) const {
     return {eye_of(from) + s * step, axes_of(angles)};
 }
 
-Vec3d CommandedPath::player(int slot, int time, std::size_t newest) const {
+Vec3d CommandedPath::player(int slot, int time, std::size_t newest, Motion motion) const {
     const std::size_t index = snapshot_at(time, newest);
     const witness_record& frame = snapshots_[index].frame;
     const witness_player& from = frame.players[slot];
-    const witness_player* to = index < newest ? &snapshots_[index + 1].frame.players[slot] : nullptr;
+    const bool goes_on = motion == Motion::extrapolated || index == newest;
+    const witness_player* to = goes_on ? nullptr : &snapshots_[index + 1].frame.players[slot];
     const bool teleports = to && (from.entity_flags & teleport_flag) != (to->entity_flags & teleport_flag);
-    // Clients go on at the velocity until they show the player elsewhere.
     if (!to || teleports)
         return vector(from.base) + (time - frame.level_time) / 1000.0 * vector(from.velocity);
     return vector(from.base) + fraction(index, time) * (vector(to->base) - vector(from.base));
@@ -176,6 +176,7 @@ Located locate_with(const CommandedPath& path, const drawn_record& picture, std:
     struct Candidate {
         int time;
         double offset, turn, misfit;
+        Motion motion = Motion::interpolated;
     };
     std::vector<Candidate> candidates;
     double least = std::numeric_limits<double>::infinity();
@@ -188,8 +189,15 @@ Located locate_with(const CommandedPath& path, const drawn_record& picture, std:
     // The players tell the time while the camera stands still.
     std::erase_if(candidates, [&](const Candidate& c) { return c.misfit > least + negligible; });
     const auto models = models_of(picture, drawn);
-    for (Candidate& candidate : candidates)
-        candidate.misfit = misfit_of_players(path, candidate.time, newest, models);
+    for (Candidate& candidate : candidates) {
+        candidate.misfit = std::numeric_limits<double>::infinity();
+        for (const Motion motion : {Motion::interpolated, Motion::extrapolated}) {
+            const double misfit = misfit_of_players(path, candidate.time, newest, motion, models);
+            if (misfit >= candidate.misfit) continue;
+            candidate.misfit = misfit;
+            candidate.motion = motion;
+        }
+    }
     const auto best = std::min_element(candidates.begin(), candidates.end(),
                                        [](const auto& a, const auto& b) { return a.misfit < b.misfit; });
     const auto latest = std::find_if(candidates.rbegin(), candidates.rend(), [&](const Candidate& c) {
@@ -203,7 +211,7 @@ Located locate_with(const CommandedPath& path, const drawn_record& picture, std:
     const double age =
         shown < newest ? static_cast<double>(newest - shown) - static_cast<double>(since) / step : 0.0;
     DrawnView result{drawn,        best->time, latest->time, best->time, best->time,
-                     best->offset, best->turn, age,          newest};
+                     best->offset, best->turn, age,          newest,     best->motion};
     constexpr double a_unit = 1.0;
     for (const Candidate& candidate : candidates) {
         if (candidate.misfit > best->misfit + a_unit) continue;

@@ -36,6 +36,11 @@ struct PixelBox {
 [[nodiscard]] std::optional<PixelBox> picture_of_ball(const GameView& camera, const Vec3d& centre,
                                                       double radius, int width, int height);
 
+// Clients interpolate players between snapshots. Without the next one, or where it has the player elsewhere
+// by a teleport, they go on at the velocity; who has begun so goes on so until the next snapshot, also when
+// that has come and the camera is interpolated.
+enum class Motion { interpolated, extrapolated };
+
 // What one spectator's client was sent, and how it interpolates that: the snapshots of one life of a map.
 class CommandedPath {
   public:
@@ -50,7 +55,7 @@ class CommandedPath {
 
     // At a level time in ms, as a client draws it that has the snapshots up to index `newest`.
     [[nodiscard]] GameView view(int time, std::size_t newest) const;
-    [[nodiscard]] Vec3d player(int slot, int time, std::size_t newest) const;
+    [[nodiscard]] Vec3d player(int slot, int time, std::size_t newest, Motion motion) const;
     // Index of the snapshot from which the client goes on at that time.
     [[nodiscard]] std::size_t snapshot_at(int time, std::size_t newest) const;
     // Index of the last snapshot that was sent by then (CLOCK_MONOTONIC); none before the first.
@@ -74,6 +79,7 @@ struct DrawnView {
     double turn;         // of the drawn axes from the commanded ones, degrees
     double age;          // snapshots from the time drawn to the newest one that the client had
     std::size_t newest;  // index of that snapshot
+    Motion motion;       // of the players, which fits the picture best
 };
 
 // None when the client had none of the path's snapshots yet.

@@ -20,8 +20,8 @@ witness_record snapshot(int time, float x, int entity_flags) {
     return record;
 }
 
-double x_at(int time, const std::vector<witness_record>& records) {
-    return CommandedPath(records, spectator).player(player, time, records.size() - 1).x();
+double x_at(int time, const std::vector<witness_record>& records, Motion motion = Motion::interpolated) {
+    return CommandedPath(records, spectator).player(player, time, records.size() - 1, motion).x();
 }
 
 TEST(CommandedPath, PlayersMoveBetweenSnapshots) {
@@ -35,7 +35,9 @@ TEST(CommandedPath, PlayersGoOnUntilTheyAreShownElsewhere) {
 }
 
 TEST(CommandedPath, PlayersGoOnWhileTheNextSnapshotIsLate) {
-    EXPECT_EQ(x_at(460, {snapshot(400, 10.0F, 0), snapshot(450, 20.0F, 0)}), 23.0);
+    const std::vector<witness_record> records = {snapshot(400, 10.0F, 0), snapshot(450, 20.0F, 0)};
+    EXPECT_EQ(x_at(460, records), 23.0);
+    EXPECT_EQ(x_at(440, records, Motion::extrapolated), 22.0) << "also when it has come meanwhile";
 }
 
 }  // namespace
