@@ -183,7 +183,8 @@ class Markers {
     }
 
     Vec3d player(int slot, int time, const Judged& picture) const {
-        return path_.player(slot, time, picture.drawn.newest, picture.drawn.motion);
+        return path_.player(slot, time, picture.drawn.newest,
+                            picture.drawn.motions.at(static_cast<std::size_t>(slot)));
     }
 
     std::optional<PixelBox> box_at(const Judged& picture, int time) const {

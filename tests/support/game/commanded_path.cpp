@@ -46,20 +46,37 @@ std::vector<Vec3d> models_of(const drawn_record& picture, const GameView& view) 
     return models;
 }
 
-// How badly the players' places at a time explain the models drawn.
-double misfit_of_players(const CommandedPath& path, int time, std::size_t newest, Motion motion,
+// By how much the nearest model misses a place, squared; farther ones than the limit are something else.
+double misfit_of(const Vec3d& place, const std::vector<Vec3d>& models) {
+    constexpr double limit = 2.0;
+    double nearest = limit * limit;
+    for (const Vec3d& model : models)
+        nearest = std::min(nearest, (model - place).squaredNorm());
+    return nearest;
+}
+
+// The motion of a player that explains the models drawn best, and how badly it does.
+struct Fit {
+    Motion motion;
+    double misfit;
+};
+Fit fit_of_player(const CommandedPath& path, int slot, int time, std::size_t newest,
+                  const std::vector<Vec3d>& models) {
+    Fit best{Motion::interpolated, std::numeric_limits<double>::infinity()};
+    for (const Motion motion : {Motion::interpolated, Motion::extrapolated}) {
+        const double misfit = misfit_of(path.player(slot, time, newest, motion), models);
+        if (misfit < best.misfit) best = {motion, misfit};
+    }
+    return best;
+}
+
+double misfit_of_players(const CommandedPath& path, int time, std::size_t newest,
                          const std::vector<Vec3d>& models) {
-    constexpr double limit = 2.0;  // farther models are something else
     double sum = 0.0;
     const auto& players = path.snapshots()[path.snapshot_at(time, newest)].frame.players;
-    for (int slot = 0; slot < witness_slots; ++slot) {
-        if (!players[slot].bot || !players[slot].in_game) continue;
-        const Vec3d place = path.player(slot, time, newest, motion);
-        double nearest = limit * limit;
-        for (const Vec3d& model : models)
-            nearest = std::min(nearest, (model - place).squaredNorm());
-        sum += nearest;
-    }
+    for (int slot = 0; slot < witness_slots; ++slot)
+        if (players[slot].bot && players[slot].in_game)
+            sum += fit_of_player(path, slot, time, newest, models).misfit;
     return sum;
 }
 
@@ -176,7 +193,6 @@ Located locate_with(const CommandedPath& path, const drawn_record& picture, std:
     struct Candidate {
         int time;
         double offset, turn, misfit;
-        Motion motion = Motion::interpolated;
     };
     std::vector<Candidate> candidates;
     double least = std::numeric_limits<double>::infinity();
@@ -189,15 +205,8 @@ Located locate_with(const CommandedPath& path, const drawn_record& picture, std:
     // The players tell the time while the camera stands still.
     std::erase_if(candidates, [&](const Candidate& c) { return c.misfit > least + negligible; });
     const auto models = models_of(picture, drawn);
-    for (Candidate& candidate : candidates) {
-        candidate.misfit = std::numeric_limits<double>::infinity();
-        for (const Motion motion : {Motion::interpolated, Motion::extrapolated}) {
-            const double misfit = misfit_of_players(path, candidate.time, newest, motion, models);
-            if (misfit >= candidate.misfit) continue;
-            candidate.misfit = misfit;
-            candidate.motion = motion;
-        }
-    }
+    for (Candidate& candidate : candidates)
+        candidate.misfit = misfit_of_players(path, candidate.time, newest, models);
     const auto best = std::min_element(candidates.begin(), candidates.end(),
                                        [](const auto& a, const auto& b) { return a.misfit < b.misfit; });
     const auto latest = std::find_if(candidates.rbegin(), candidates.rend(), [&](const Candidate& c) {
@@ -211,7 +220,10 @@ Located locate_with(const CommandedPath& path, const drawn_record& picture, std:
     const double age =
         shown < newest ? static_cast<double>(newest - shown) - static_cast<double>(since) / step : 0.0;
     DrawnView result{drawn,        best->time, latest->time, best->time, best->time,
-                     best->offset, best->turn, age,          newest,     best->motion};
+                     best->offset, best->turn, age,          newest,     {}};
+    for (int slot = 0; slot < witness_slots; ++slot)
+        result.motions[static_cast<std::size_t>(slot)] =
+            fit_of_player(path, slot, best->time, newest, models).motion;
     constexpr double a_unit = 1.0;
     for (const Candidate& candidate : candidates) {
         if (candidate.misfit > best->misfit + a_unit) continue;

@@ -36,9 +36,8 @@ struct PixelBox {
 [[nodiscard]] std::optional<PixelBox> picture_of_ball(const GameView& camera, const Vec3d& centre,
                                                       double radius, int width, int height);
 
-// Clients interpolate players between snapshots. Without the next one, or where it has the player elsewhere
-// by a teleport, they go on at the velocity; who has begun so goes on so until the next snapshot, also when
-// that has come and the camera is interpolated.
+// Clients interpolate players between snapshots. One who is not in the next one, which leaves out whom the
+// camera cannot see from there, or elsewhere by a teleport, goes on at the velocity.
 enum class Motion { interpolated, extrapolated };
 
 // What one spectator's client was sent, and how it interpolates that: the snapshots of one life of a map.
@@ -79,7 +78,7 @@ struct DrawnView {
     double turn;         // of the drawn axes from the commanded ones, degrees
     double age;          // snapshots from the time drawn to the newest one that the client had
     std::size_t newest;  // index of that snapshot
-    Motion motion;       // of the players, which fits the picture best
+    std::array<Motion, witness_slots> motions;  // of the players: which fits the picture best
 };
 
 // None when the client had none of the path's snapshots yet.

@@ -37,7 +37,7 @@ TEST(CommandedPath, PlayersGoOnUntilTheyAreShownElsewhere) {
 TEST(CommandedPath, PlayersGoOnWhileTheNextSnapshotIsLate) {
     const std::vector<witness_record> records = {snapshot(400, 10.0F, 0), snapshot(450, 20.0F, 0)};
     EXPECT_EQ(x_at(460, records), 23.0);
-    EXPECT_EQ(x_at(440, records, Motion::extrapolated), 22.0) << "also when it has come meanwhile";
+    EXPECT_EQ(x_at(440, records, Motion::extrapolated), 22.0) << "as who is not in it";
 }
 
 }  // namespace
