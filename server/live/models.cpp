@@ -55,8 +55,8 @@ Models::Answer Models::find(const std::string& map, ModelKind kind) {
     if (!entry || !entry->freespace) return {};
     const Key key{map, entry->generation, kind};
     if (const auto known = look_up(key)) return *known;
-    const std::unique_lock making(making_, std::try_to_lock);
-    if (!making) return {nullptr, Failure::busy, {}};
+    std::unique_lock making(making_, std::defer_lock);
+    if (kind != ModelKind::contents && !making.try_lock()) return {nullptr, Failure::busy, {}};
     Answer answer = make(*entry, map, kind);
     keep(key, answer);
     return answer;

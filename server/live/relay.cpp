@@ -73,7 +73,7 @@ void Relay::Channel::show(const director::PoseFrame& poses, const director::Came
     poses_ = poses;
     cameras_ = cameras;
     add_unlisted(poses);
-    if (movers_.follow(poses.movers)) put(movers_note(movers_.movers()));
+    if (movers_.follow(poses.movers) && !viewers_.empty()) put(movers_note(movers_.movers()));
     for (const Cut& cut : history_->add(poses, cameras)) {
         const SharedMessage note = cut_note(cut, slots());
         history_->keep_cut(note);

@@ -1,6 +1,7 @@
 // The surface of a convex hull that is given by its half spaces, as those of movers are.
 
-const far = 1e5;  // map units: no map reaches there
+const far = 4e6;           // map units: hulls are within a quarter of it
+const parallel = 1 - 1e-9;  // cosine
 
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
@@ -18,6 +19,12 @@ function square([x, y, z, distance]) {
     return [[1, 1], [-1, 1], [-1, -1], [1, -1]].map(([a, u]) => normal.map((n, axis) => n * distance + far * (a * across[axis] + u * up[axis])));
 }
 
+// Without those that are parallel to one that cuts off as much: each would take the other's face away.
+function distinct(halfSpaces) {
+    const isBehind = (a, i) => halfSpaces.some((b, j) => j !== i && dot(a, b) > parallel && (b[3] < a[3] || b[3] === a[3] && j < i));
+    return halfSpaces.filter((plane, i) => !isBehind(plane, i));
+}
+
 // What of a polygon is in a half space.
 function clipped(polygon, [x, y, z, distance]) {
     const heights = polygon.map(point => dot(point, [x, y, z]) - distance);
@@ -33,6 +40,6 @@ function clipped(polygon, [x, y, z, distance]) {
 // The faces as polygons [[x, y, z], ...], counterclockwise seen from outside, without those of no extent. `halfSpaces`:
 // [x, y, z, distance], the points whose product with the unit vector is at most the distance.
 export function facesOf(halfSpaces) {
-    return halfSpaces.map((plane, i) => halfSpaces.reduce(
+    return distinct(halfSpaces).map((plane, i, all) => all.reduce(
         (polygon, other, j) => i === j ? polygon : clipped(polygon, other), square(plane))).filter(polygon => polygon.length > 2);
 }

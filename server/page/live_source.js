@@ -54,13 +54,17 @@ export class LiveSource {
         match: note => {
             if (note.version !== version) return this.on.problem('The server speaks another version: reload this page.');
             const before = this.model.note;
-            if (before && (before.epoch !== note.epoch || this.ended || this.isOfAnother(note))) this.model.begin(kept);
+            if (before && (before.epoch !== note.epoch || this.ended || this.isOfAnother(note))) {
+                this.model.begin(kept);
+                this.movers = [];
+            }
             this.ended = false;
             this.step = note.position_step;
             this.model.setMatch(note);
             this.on.match(note);
         },
         history: note => {
+            this.movers = [];
             this.model.timeline.clear();
             this.model.timeline.addHistory(note);
             this.repeats = true;

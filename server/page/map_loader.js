@@ -5,8 +5,13 @@ const longestRetryMs = 60e3;
 
 const nothing = {fixed_cameras: [], movers: []};
 
-// Where the map is not there, there are none.
-const contentsOf = ({file}) => file ? JSON.parse(new TextDecoder().decode(file)) : nothing;
+function contentsOf({file}) {
+    try {
+        return file ? JSON.parse(new TextDecoder().decode(file)) : nothing;
+    } catch {
+        return nothing;  // the map can be seen without
+    }
+}
 
 function noteOf(obstacles, mesh) {
     if (obstacles.file) return '';
@@ -15,7 +20,7 @@ function noteOf(obstacles, mesh) {
 }
 
 export class MapLoader {
-    // `stage`: {map: MapView, metre}. `fetchModel(map, file)`: resolves to {file} or {file: null, reason}. `now()`: ms.
+    // `stage`: {map: MapView}. `fetchModel(map, file)`: resolves to {file} or {file: null, reason}. `now()`: ms.
     // `on.contents(contents)`: of /map/MAP/contents.json.
     // `on.obstacles(hasObstacles)`: the map has them or none; `on.loaded(hasObstacles)`: `note` says what is missing.
     constructor(stage, fetchModel, now, on) {
@@ -42,7 +47,7 @@ export class MapLoader {
             this.on.contents(contents);
             obstacles = await this.fetchModel(name, 'obstacles.glb');
             if (this.shown !== name) return;
-            if (obstacles.file) this.stage.map.setObstacles(obstacles.file, this.stage.metre);
+            if (obstacles.file) this.stage.map.setObstacles(obstacles.file);
             this.on.obstacles(Boolean(obstacles.file));
             mesh = await this.fetchModel(name, 'mesh.glb');
         } catch {

@@ -22,10 +22,10 @@ const faceVertexShader = `
     #endif
     void main() {
         vec3 place = (modelMatrix * vec4(position, 1.0)).xyz;
-        vec3 surface = normalize(mat3(modelMatrix) * normal);
+        vec3 surface = normalize((modelMatrix * vec4(normal, 0.0)).xyz);
     #ifdef INSIDE
         if (dot(surface, cameraPosition - place) < 0.0) surface = -surface;
-        vec3 flatness = abs(surface);
+        vec3 flatness = abs(normal);
         vec3 at = LINES;
         cells = (flatness.z > max(flatness.x, flatness.y) ? at.xy : flatness.x > flatness.y ? at.yz : at.xz) / (2.0 * metre) - 0.5;
     #endif
@@ -162,13 +162,17 @@ export class MapView {
 
     get hasObstacles() { return this.faces.length > 0; }
 
-    // `file`: glTF. metre: in map units.
-    setObstacles(file, metre) {
+    // metre: in map units.
+    setScale(metre) {
+        this.uniforms.metre.value = metre;
+    }
+
+    // `file`: glTF.
+    setObstacles(file) {
         const data = readMesh(file, 'obstacles');
         this.faces = objects(three.Mesh, data.positions, data.indices, 3);
         this.faces.forEach(addNormals);
         this.edges = objects(three.LineSegments, data.positions, featureEdges(data), 2);
-        this.uniforms.metre.value = metre;
         this.add(...this.faces, ...this.edges);
     }
 
@@ -207,6 +211,8 @@ export class MapView {
         return `${this.changes} ${Math.min(cut.value, this.heights[1])} ${weight.value}`;
     }
 
+    get hasEdges() { return this.uniforms.weight.value > 0; }
+
     // How much edges are seen: less where a pixel is large; 0: not at all.
     setEdges(weight) {
         this.uniforms.weight.value = weight;
@@ -224,7 +230,7 @@ export class MapView {
         for (const face of this.faces) face.material = facePaint;
         for (const edge of this.edges) {
             edge.material = edgePaint;
-            edge.visible = this.uniforms.weight.value > 0;
+            edge.visible = this.hasEdges;
         }
         this.uniforms.cut.value = cut;
     }

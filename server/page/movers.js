@@ -77,8 +77,21 @@ export class Movers {
         }
     }
 
-    paint([faces, edges]) {
-        for (const model of this.group.children)
-            for (const part of model.children) part.material = part instanceof three.Mesh ? faces : edges;
+    // Edges may be left out.
+    paint([faces, edges], hasEdges) {
+        for (const model of this.group.children) {
+            for (const part of model.children) {
+                const isFace = part instanceof three.Mesh;
+                part.material = isFace ? faces : edges;
+                part.visible = isFace || hasEdges;
+            }
+        }
+    }
+
+    // What is drawn: {id, position, corners}.
+    get drawn() {
+        const cornersOf = ({children}) => children.reduce((sum, {geometry}) => sum + geometry.getAttribute('position').count, 0);
+        return [...this.models].filter(([, model]) => model.visible)
+            .map(([id, model]) => ({id, position: model.position.toArray(), corners: cornersOf(model)}));
     }
 }

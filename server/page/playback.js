@@ -22,7 +22,7 @@ const surveyPauseMs = 10;
 const maxUnreadable = 16;   // fragments, one after the other
 const firstRetryMs = 500;
 const longestRetryMs = 15e3;
-const frameBytes = 400;     // of a player or camera in memory
+const frameBytes = 400;     // of a player, camera or mover in memory
 
 const now = () => performance.now();
 const isMissing = error => error instanceof Refused && (error.status === 404 || error.status === 410);
@@ -282,8 +282,12 @@ export class Playback {
     put(fragment) {
         const {buffer} = this.model;
         const first = buffer.first;
-        for (const frame of fragment.frames)
-            buffer.add(frame.t, frameBytes * (1 + frame.players.size + frame.cameras.size), () => frame);
+        let movers = null;  // that the frame before has as well
+        for (const frame of fragment.frames) {
+            const own = frame.movers === movers ? 0 : frame.movers.size;
+            movers = frame.movers;
+            buffer.add(frame.t, frameBytes * (1 + frame.players.size + frame.cameras.size + own), () => frame);
+        }
         if (first !== null && buffer.first > first) this.loaded.from = buffer.first;
         for (const {t, note} of fragment.matches) this.notes.push({t, note, key: JSON.stringify(note)});
         while (this.notes.length > 1 && this.notes[1].t <= this.loaded.from) this.notes.shift();

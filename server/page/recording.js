@@ -16,7 +16,9 @@ const maxPoses = 512;
 const maxCameras = 256;
 const maxMovers = 256;
 const maxHulls = 256;  // and balls, of a mover
+const leastHalfSpaces = 4;
 const maxHalfSpaces = 64;
+const maxParts = 2048;   // half spaces of all movers, and balls
 const maxLengthError = 1e-3;  // of quaternions
 
 const crcTable = Uint32Array.from({length: 256}, (_, byte) => {
@@ -118,8 +120,22 @@ class Floats {
 }
 
 // A list of half spaces or balls.
-function readFours(source, max) {
-    return Array.from({length: source.count(16, max)}, () => Array.from({length: 4}, () => source.float()));
+function readFours(source, least, most) {
+    const list = Array.from({length: source.count(16, most)}, () => Array.from({length: 4}, () => source.float()));
+    if (list.length < least) source.fail(`at least ${least} half spaces`);
+    if (!list.flat().every(Number.isFinite)) source.fail('finite numbers');
+    return list;
+}
+
+function readMovers(source) {
+    const movers = Array.from({length: source.count(5, maxMovers)}, () => ({
+        id: source.id(), name: source.text(), kind: source.text(),
+        hulls: Array.from({length: source.count(1, maxHulls)}, () => readFours(source, leastHalfSpaces, maxHalfSpaces)),
+        balls: readFours(source, 0, maxHulls),
+    }));
+    for (const parts of [movers.flatMap(({hulls}) => hulls.flat()), movers.flatMap(({balls}) => balls)])
+        if (parts.length > maxParts) source.fail(`at most ${maxParts} half spaces and balls`);
+    return movers;
 }
 
 function readFrameHead(source) {
@@ -156,11 +172,7 @@ const readers = {
             () => ({camera: source.id(), actor: source.id(), subject: source.id(), rule: source.text()}));
         return {cameras: {...head, ...times, cameras: shown, reasons}};
     },
-    7: source => ({moverList: {epoch: source.big(), movers: Array.from({length: source.count(5, maxMovers)}, () => ({
-        id: source.id(), name: source.text(), kind: source.text(),
-        hulls: Array.from({length: source.count(1, maxHulls)}, () => readFours(source, maxHalfSpaces)),
-        balls: readFours(source, maxHulls),
-    }))}}),
+    7: source => ({moverList: {epoch: source.big(), movers: readMovers(source)}}),
     8(source, {movers}) {
         const epoch = source.big();
         source.bigDifference();  // frame_time and

@@ -48,6 +48,7 @@ export class Stage {
 
     setScale(metresPerUnit) {
         this.metre = 1 / (metresPerUnit > 0 ? metresPerUnit : 0.0254);
+        this.map.setScale(this.metre);
     }
 
     // `looks`: by slot {colour, label}; the players' names and colours have changed.
@@ -139,7 +140,7 @@ export class Stage {
 
     draw(camera, size, {inside, times = 1, names = true, namesHidden = false}) {
         this.map.show(inside, this.cut);
-        this.movers.paint(this.map.moverPaint);
+        this.movers.paint(this.map.moverPaint, this.map.hasEdges);
         this.marks.group.visible = !inside && this.sample !== null;
         if (this.marks.group.visible) this.marks.show(this.sample, this.chosen, this.searches, this.metre);
         this.figures.aim(camera, size, {times, names, namesHidden});

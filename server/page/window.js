@@ -603,7 +603,7 @@ window.cameraDirector = {
         players: sample ? [...sample.players.values()].map(player => ({...player, id: model.players.get(player.slot)?.id,
             name: nameOf(model.players.get(player.slot))})) : [],
         cameras: shownCameras().map(shot => ({...shot, target: model.players.get(shot.target)?.id ?? null})),
-        movers: sample ? [...sample.movers].map(([id, {position}]) => ({id, position})) : [],
+        movers: stage?.movers.drawn ?? [],
         cuts: model.timeline.cuts.length, events: model.timeline.events.length,
         obstacles: Boolean(stage?.map.hasObstacles), mesh: Boolean(stage?.map.mesh), note: mapLoader?.note ?? '', quality: quality?.level ?? null,
     }),

@@ -153,6 +153,7 @@ const tests = {
             await eventually('movement', async () => Math.abs(await height() - before) > 1);
         };
         await moves();
+        assert.equal(await browser.evaluate('cameraDirector.state().movers[0].corners'), 6 * 6 + 6 * 8, 'triangles and edges of a box');
         await browser.until('!document.getElementById("begin").hidden');
         await browser.press('Home');
         await browser.until('cameraDirector.state().recorded && cameraDirector.state().time !== null');

@@ -36,8 +36,8 @@ struct PixelBox {
 [[nodiscard]] std::optional<PixelBox> picture_of_ball(const GameView& camera, const Vec3d& centre,
                                                       double radius, int width, int height);
 
-// Clients interpolate players between snapshots. One who is not in the next one, which leaves out whom the
-// camera cannot see from there, or elsewhere by a teleport, goes on at the velocity.
+// Clients interpolate players between snapshots. A player whom the next snapshot leaves out, because they
+// cannot be seen from its camera, or shows elsewhere after a teleport, goes on at their velocity.
 enum class Motion { interpolated, extrapolated };
 
 // What one spectator's client was sent, and how it interpolates that: the snapshots of one life of a map.

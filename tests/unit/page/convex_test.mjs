@@ -38,6 +38,17 @@ test('a half space through a corner leaves a closed surface', () => {
     assert.ok(Math.abs(sixVolumes(faces) - 6 * 8) < 1e-6);
 });
 
+test('a plane that is given twice, or nearly, has one face', () => {
+    const [c, s] = [Math.cos(0.3), Math.sin(0.3)];
+    const turned = box([0, 0, 0], 8).map(([x, y, z, d]) => [c * x - s * y, s * x + c * y, z, d]);
+    for (const more of [turned[0], turned[0].map(Math.fround), [turned[0][0] * (1 + 1e-7), ...turned[0].slice(1)]]) {
+        const faces = facesOf([...turned, more]);
+        assert.equal(faces.length, 6);
+        assert.ok(Math.abs(sixVolumes(faces) - 6 * 16 ** 3) < 0.1);
+    }
+    assert.equal(facesOf(box([900000, 0, 0], 8)).length, 6, 'far away');
+});
+
 test('random hulls are closed: as many faces and corners as edges and two', () => {
     let seed = 5;
     const random = () => (seed = seed * 48271 % 2147483647) / 2147483647 * 2 - 1;

@@ -1,5 +1,6 @@
 // A match's stream as the page takes it, from a server of which only the WebSocket is made up.
 import assert from 'node:assert/strict';
+import {readFileSync} from 'node:fs';
 import {test} from 'node:test';
 import {LiveSource} from '../../../server/page/live_source.js';
 import {Model} from '../../../server/page/model.js';
@@ -110,5 +111,22 @@ test('the timeline has the latency of frames as they arrive, where the clocks ag
     newest().onmessage(frameOf(3000, Date.now() + 3600e3));
     assert.equal(model.timeline.latencyAt(3000), null);
     assert.equal(source.age, null);
+    source.close();
+});
+
+test('a frame has the movers of the last note before it, and those of another epoch are forgotten', () => {
+    const golden = readFileSync(new URL('../live/frame.hex', import.meta.url), 'utf8').trim();
+    const {model, source} = stream();
+    newest().open();
+    newest().note(matchOf([7, 9]));
+    newest().note({kind: 'history', states: [], notes: []});
+    const door = {id: 3, name: '*1', kind: 'func_door', hulls: [], balls: [[0, 0, 0, 1]]};
+    newest().note({kind: 'movers', movers: [door]});
+    newest().onmessage({data: Uint8Array.from(golden.match(/../g), byte => parseInt(byte, 16)).buffer});
+    const {moverList, movers} = model.buffer.sample(1500);
+    assert.deepEqual(moverList, [door]);
+    assert.ok(movers.has(3));
+    newest().note(matchOf([7, 9], {epoch: 2}));
+    assert.deepEqual(source.movers, []);
     source.close();
 });

@@ -6,13 +6,13 @@ import {MapLoader} from '../../../server/page/map_loader.js';
 function stageOf(answers) {
     const done = [];
     const clock = {ms: 0};
-    const map = {clear: () => done.push('clear'), setObstacles: (file, metre) => done.push(`obstacles ${file} ${metre}`),
+    const map = {clear: () => done.push('clear'), setObstacles: file => done.push(`obstacles ${file}`),
         setMesh: file => done.push(`mesh ${file}`)};
     const fetchModel = async (name, file) => {
         const answer = answers[`${name}/${file}`];
         return typeof answer === 'function' ? answer() : answer;
     };
-    const loader = new MapLoader({map, metre: 40}, fetchModel, () => clock.ms,
+    const loader = new MapLoader({map}, fetchModel, () => clock.ms,
         {contents: ({movers}) => done.push(`movers: ${movers}`), obstacles: has => done.push(`has obstacles: ${has}`), loaded: has => done.push(`loaded: ${has}`)});
     return {answers, clock, done, loader};
 }
@@ -25,7 +25,7 @@ const unreachable = () => Promise.reject(new TypeError('no network'));
 test('a map is its obstacles, then its mesh, once', async () => {
     const {done, loader} = stageOf(whole);
     await loader.load('hall');
-    assert.deepEqual(done.splice(0), ['clear', 'movers: ', 'movers: door', 'obstacles o 40', 'has obstacles: true', 'mesh m', 'loaded: true']);
+    assert.deepEqual(done.splice(0), ['clear', 'movers: ', 'movers: door', 'obstacles o', 'has obstacles: true', 'mesh m', 'loaded: true']);
     assert.equal(loader.note, '');
     await loader.load('hall');
     assert.deepEqual(done, [], 'it is shown already');
@@ -68,9 +68,9 @@ test('of a map that is no longer wanted nothing is shown', async () => {
         await new Promise(resolve => setImmediate(resolve));
         done.length = 0;
         await loader.load('other');
-        arrive({file: 'late'});
+        arrive(late === 'contents.json' ? contents(['late']) : {file: 'late'});
         await first;
-        assert.deepEqual(done, ['clear', 'movers: ', 'movers: lift', 'obstacles o2 40', 'has obstacles: true', 'mesh m2', 'loaded: true']);
+        assert.deepEqual(done, ['clear', 'movers: ', 'movers: lift', 'obstacles o2', 'has obstacles: true', 'mesh m2', 'loaded: true']);
         assert.equal(loader.shown, 'other');
     }
 });
