@@ -154,9 +154,12 @@ const tests = {
         };
         await moves();
         assert.equal(await browser.evaluate('cameraDirector.state().movers[0].corners'), 6 * 6 + 6 * 8, 'triangles and edges of a box');
-        await browser.until('!document.getElementById("begin").hidden');
-        await browser.press('Home');
-        await browser.until('cameraDirector.state().recorded && cameraDirector.state().time !== null');
+        // As soon as the list of matches has its recording.
+        await eventually('the recording', async () => {
+            await browser.press('Home');
+            return browser.evaluate('cameraDirector.state().recorded');
+        });
+        await browser.until('cameraDirector.state().time !== null');
         await moves();
         await stop(game);
         await watch('walk-0');
