@@ -17,7 +17,7 @@ namespace camdir::live {
 enum class ModelKind {
     obstacles,  // the source's surfaces
     mesh,       // the medial mesh, coloured by free distance
-    contents,   // fixed cameras and movers: JSON, the others are binary glTF
+    contents,   // fixed cameras and movers: JSON; the others are binary glTF
 };
 
 struct Model {
@@ -25,7 +25,7 @@ struct Model {
     std::string tag;  // of these bytes
 };
 
-// Models are made when they are first asked for, one at a time, and the latest asked for are kept.
+// Models are made when they are first asked for, glTF one at a time, and the latest asked for are kept.
 // Thread-safe.
 class Models {
   public:

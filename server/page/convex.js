@@ -1,6 +1,6 @@
 // The surface of a convex hull that is given by its half spaces, as those of movers are.
 
-const far = 4e6;           // map units: hulls are within a quarter of it
+const far = 4e6;            // map units: hulls are within a quarter of it
 const parallel = 1 - 1e-9;  // cosine
 
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];

@@ -70,6 +70,7 @@ Fit fit_of_player(const CommandedPath& path, int slot, int time, std::size_t new
     return best;
 }
 
+// How badly the players' places at a time explain the models drawn.
 double misfit_of_players(const CommandedPath& path, int time, std::size_t newest,
                          const std::vector<Vec3d>& models) {
     double sum = 0.0;
