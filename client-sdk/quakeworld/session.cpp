@@ -59,6 +59,7 @@ class Session {
             if (!taken) return taken;
         }
         tell_unread();
+        tell_lost_events();
         tell_directors();
         return {};
     }
@@ -89,6 +90,14 @@ class Session {
         log("part of the stream cannot be read: " + stream_.first_unread());
     }
 
+    // Twice as many each time: a director that hangs loses all.
+    void tell_lost_events() {
+        const std::uint64_t lost = publisher_.lost_events();
+        if (lost <= 2 * lost_events_) return;
+        lost_events_ = lost;
+        log(std::to_string(lost) + " events were not sent so far: a director is too far behind");
+    }
+
     void tell_directors() {
         const std::uint32_t directors = publisher_.directors();
         if (directors != directors_) log("directors: " + std::to_string(directors));
@@ -101,6 +110,7 @@ class Session {
     Stream stream_;
     std::uint32_t level_ = 0;
     std::uint32_t directors_ = 0;
+    std::uint64_t lost_events_ = 0;
     bool refused_ = false;
     bool has_published_ = false;
     bool told_unread_ = false;

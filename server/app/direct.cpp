@@ -145,7 +145,8 @@ Result<std::vector<Judged>> judge(const Rushes& rushes, std::span<const directio
         {"bound", figures(direction::direct_for_kills(rushes.judged, events, rules, unit))}};
 }
 
-// Of the rules that count, those to be shown from their begin on: a lead, a streak or a carried flag goes on.
+// Of the rules that count, those to be shown from their begin on: a lead, a streak or a carried flag goes on,
+// and a killer was to be shown before.
 std::vector<direction::Moment> moments_to_begin_with(std::span<const direction::Moment> moments,
                                                      const direction::Rules& rules) {
     using direction::Trigger;
@@ -153,7 +154,8 @@ std::vector<direction::Moment> moments_to_begin_with(std::span<const direction::
     std::ranges::copy_if(moments, std::back_inserter(some), [&](const direction::Moment& moment) {
         const direction::Rule& rule = rules.moments[moment.rule];
         return (rule.worth > 0.0 || rule.worth_both > 0.0) && rule.trigger != Trigger::lead &&
-               rule.trigger != Trigger::streak && rule.trigger != Trigger::flag_run;
+               rule.trigger != Trigger::streak && rule.trigger != Trigger::flag_run &&
+               rule.trigger != Trigger::killer;
     });
     return some;
 }

@@ -243,6 +243,9 @@ std::optional<EventKind> kind_of(std::string_view name) {
         {"damage", EventKind::damage},
         {"award", EventKind::award},
         {"item", EventKind::item},
+        {"round", EventKind::round_won},
+        {"spawn", EventKind::spawn},
+        {"respawn", EventKind::spawn},
     };
     const auto found = kinds.find(name);
     if (found == kinds.end()) return {};
@@ -317,6 +320,7 @@ std::vector<direction::Event> events_of(const Trace& trace,
     for (const evaluation::TraceEvent& event : events) {
         const auto kind = kind_of(event.kind);
         if (!kind || event.time < trace.frames.front().time) continue;
+        if (*kind == EventKind::round_won && event.detail != "end") continue;
         const auto index = [&](const std::optional<std::uint32_t>& player) {
             return player ? index_of(trace, *player) : direction::nobody;
         };

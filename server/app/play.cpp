@@ -1,4 +1,5 @@
 // camera-director play: serves a recording over HTTP, with the page that shows it.
+#include <algorithm>
 #include <boost/asio/ip/address.hpp>
 #include <cmath>
 #include <cstdio>
@@ -6,6 +7,7 @@
 #include <memory>
 
 #include "app/commands.hpp"
+#include "base/utf8.hpp"
 #include "http/server.hpp"
 #include "http/status.hpp"
 #include "recording/playback.hpp"
@@ -32,8 +34,8 @@ Result<config::Http> listening(const PlayOptions& options) {
     config::Http http;
     const std::size_t colon = options.http.rfind(':');
     const std::string port = colon == std::string::npos ? "" : options.http.substr(colon + 1);
-    if (port.empty() || port.size() > 5 || port.find_first_not_of("0123456789") != std::string::npos ||
-        std::stoi(port) > 65535)
+    if (colon == 0 || port.empty() || port.size() > 5 ||
+        port.find_first_not_of("0123456789") != std::string::npos || std::stoi(port) > 65535)
         return fail("--http " + options.http + ": expected ADDRESS:PORT");
     http.address = options.http.substr(0, colon);
     if (http.address.starts_with('[') && http.address.ends_with(']'))
@@ -41,6 +43,14 @@ Result<config::Http> listening(const PlayOptions& options) {
     http.port = std::stoi(port);
     http.token_file = options.token_file;
     return http;
+}
+
+// A recording may come from elsewhere: nothing in it commands the terminal.
+std::string printable(const std::string& text) {
+    std::string shown = to_utf8(text);
+    std::ranges::replace_if(
+        shown, [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; }, '?');
+    return shown;
 }
 
 // For a browser on this host.
@@ -63,7 +73,7 @@ class PlayedMap {
         if (!freespace) return tl::unexpected(freespace.error());
         if (match.map_hash != 0 && match.map_hash != freespace->metadata().source_hash)
             std::cerr << "camera-director: warning: " << options.freespace
-                      << " was baked from another version of the map " << match.map_name
+                      << " was baked from another version of the map " << printable(match.map_name)
                       << " than the match was played on\n";
         library_.set_ready(match.map_name, std::move(*freespace));
         models_.set_source(match.map_name, options.map);
@@ -101,8 +111,8 @@ http::Sources sources_of(const recording::Broadcast& broadcast, live::Models& mo
 void announce(const PlayOptions& options, const recording::Playback& playback, const std::string& link) {
     const auto seconds = static_cast<long>(std::ceil(playback.length_s()));
     std::fprintf(stderr, "camera-director: %s: match %s on %s, %ld:%02ld: watch it at %s, until Ctrl-C\n",
-                 options.recording.c_str(), playback.match().match_id.c_str(),
-                 playback.match().map_name.c_str(), seconds / 60, seconds % 60, link.c_str());
+                 options.recording.c_str(), printable(playback.match().match_id).c_str(),
+                 printable(playback.match().map_name).c_str(), seconds / 60, seconds % 60, link.c_str());
     if (options.freespace.empty())
         std::fprintf(
             stderr,
@@ -110,11 +120,8 @@ void announce(const PlayOptions& options, const recording::Playback& playback, c
 }
 
 // What the match had come to so many seconds after it went on.
-Result<void> show(double elapsed_s, recording::Playback& playback, recording::Broadcast& broadcast) {
-    auto channel = playback.at(elapsed_s);
-    if (!channel) return tl::unexpected(channel.error());
-    broadcast.set(playback.match().match_id, std::move(*channel));
-    return {};
+void show(double elapsed_s, recording::Playback& playback, recording::Broadcast& broadcast) {
+    broadcast.set(playback.match().match_id, playback.at(elapsed_s));
 }
 
 // What the first request finds.
@@ -125,19 +132,18 @@ Result<void> show_first(const PlayOptions& options, recording::Playback& playbac
         return {};
     }
     if (auto begun = playback.go_on(options.from, options.speed); !begun) return begun;
-    return show(0.0, playback, broadcast);
+    show(0.0, playback, broadcast);
+    return {};
 }
 
 // Until the user stops it.
-Result<void> serve(const PlayOptions& options, recording::Playback& playback, recording::Broadcast& broadcast,
-                   service::Signals& signals) {
+void serve(const PlayOptions& options, recording::Playback& playback, recording::Broadcast& broadcast,
+           service::Signals& signals) {
     const auto begin = std::chrono::steady_clock::now();
     while (signals.wait(step) != service::Signal::stop) {
         const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
-        if (!options.live) continue;
-        if (auto shown = show(elapsed.count(), playback, broadcast); !shown) return shown;
+        if (options.live) show(elapsed.count(), playback, broadcast);
     }
-    return {};
 }
 
 Result<void> play(const PlayOptions& options) {
@@ -154,7 +160,8 @@ Result<void> play(const PlayOptions& options) {
     const auto server = http::Server::start(*http, sources_of(broadcast, map.models()));
     if (!server) return tl::unexpected(server.error());
     announce(options, *playback, link_to(http->address, (*server)->port()));
-    return serve(options, *playback, broadcast, signals);
+    serve(options, *playback, broadcast, signals);
+    return {};
 }
 
 }  // namespace

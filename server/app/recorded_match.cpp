@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -135,27 +136,28 @@ class Assembly {
 Result<evaluation::RecordedMatch> match_of_recording(const std::filesystem::path& folder) {
     const auto reader = recording::Reader::open(folder);
     if (!reader) return tl::unexpected(reader.error());
-    const auto begin = reader->begin_time(reader->first_fragment());
-    if (!begin) return tl::unexpected(begin.error());
     Assembly assembly;
     assembly.add(reader->start().match);
-    const auto read = reader->replay(*begin, [&](const recording::Record& record) {
+    constexpr auto from_begin = std::numeric_limits<std::int64_t>::min();
+    const auto left_out = reader->replay(from_begin, [&](const recording::Record& record) {
         if (const auto* info = std::get_if<director::MatchInfo>(&record.message)) assembly.add(*info);
         if (const auto* frame = std::get_if<director::PoseFrame>(&record.message)) assembly.add(*frame);
         if (const auto* event = std::get_if<director::MatchEvent>(&record.message)) assembly.add(*event);
     });
-    if (!read) return tl::unexpected(read.error());
     auto trace = assembly.finish(folder.string());
-    if (!trace) return tl::unexpected(trace.error());
+    if (!trace) return tl::unexpected(left_out.empty() ? trace.error() : left_out.front());
     evaluation::RecordedMatch match{std::move(*trace), {}, {}};
+    if (!left_out.empty())
+        match.warning =
+            std::to_string(left_out.size()) + " fragments are left out; " + left_out.front().message;
     if (auto events = assembly.events_of(match.trace); !events.empty()) match.events = std::move(events);
     return match;
 }
 
 Result<evaluation::RecordedMatch> read_match(const std::filesystem::path& path, ProgressLine& line) {
     line.show("reading " + path.string(), 0, 0);
-    if (std::filesystem::is_directory(path)) return match_of_recording(path);
-    auto match = evaluation::read_match(path);
+    auto match =
+        std::filesystem::is_directory(path) ? match_of_recording(path) : evaluation::read_match(path);
     if (!match || match->warning.empty()) return match;
     line.clear();
     std::cerr << "camera-director: warning: " << match->warning << '\n';

@@ -61,9 +61,12 @@ bool write_all(int fd, std::span<const std::byte> content) {
 
 }  // namespace
 
-Result<Bytes> read_file(const std::filesystem::path& path) {
+Result<Bytes> read_file(const std::filesystem::path& path, std::size_t max_bytes) {
     auto file = open_regular(path);
     if (!file) return tl::unexpected(file.error());
+    if (file->size > max_bytes)
+        return fail(path.string() + ": has " + std::to_string(file->size) + " bytes, expected at most " +
+                    std::to_string(max_bytes));
     Bytes content(file->size);
     std::size_t done = 0;
     while (done < content.size()) {

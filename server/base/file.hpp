@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -15,8 +16,9 @@ namespace camdir {
 
 using Bytes = std::vector<std::byte>;
 
-// Reads a regular file. Errors name the path and the system's reason.
-[[nodiscard]] Result<Bytes> read_file(const std::filesystem::path& path);
+// Reads a regular file of at most `max_bytes`. Errors name the path and the system's reason.
+[[nodiscard]] Result<Bytes> read_file(const std::filesystem::path& path,
+                                      std::size_t max_bytes = std::numeric_limits<std::size_t>::max());
 
 // Writes to a temporary file beside `path`, syncs it and renames it over `path`: a reader sees the old
 // content or all of the new one, and a failed write leaves nothing behind (a killed one at most

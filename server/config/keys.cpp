@@ -16,15 +16,19 @@ namespace camdir::direction {
 NLOHMANN_JSON_SERIALIZE_ENUM(Trigger, {{Trigger::sight, "sight"},
                                        {Trigger::exchange, "exchange"},
                                        {Trigger::kill, "kill"},
+                                       {Trigger::killer, "killer"},
                                        {Trigger::multi_kill, "multi_kill"},
                                        {Trigger::flag_taken, "flag_taken"},
                                        {Trigger::flag_captured, "flag_captured"},
                                        {Trigger::objective, "objective"},
                                        {Trigger::award, "award"},
                                        {Trigger::item, "item"},
+                                       {Trigger::round_won, "round_won"},
+                                       {Trigger::spawn, "spawn"},
                                        {Trigger::streak, "streak"},
                                        {Trigger::flag_run, "flag_run"},
-                                       {Trigger::lead, "lead"}})
+                                       {Trigger::lead, "lead"},
+                                       {Trigger::last_alive, "last_alive"}})
 
 }  // namespace camdir::direction
 
@@ -371,13 +375,14 @@ void add_moments(std::vector<Key>& table) {
          "trigger",
          in_rule(&Rule::trigger),
          "What begins a moment: enemies in mutual sight, wounds of two players each within `after_s` of "
-         "the last, an event, several kills of one player each within 3 s of the last, three kills in "
-         "one life, a flag until it is captured or its carrier dies, more kills than anybody else.",
+         "the last, an event, a kill (`killer`: of the killer alone), several kills of one player each "
+         "within 3 s of the last, three kills in one life, a flag until it is captured or its carrier dies, "
+         "more kills than anybody else, the only one of a team who lives while an enemy does.",
          "",
          0,
          16,
-         {"sight", "exchange", "kill", "multi_kill", "flag_taken", "flag_captured", "objective", "award",
-          "item", "streak", "flag_run", "lead"},
+         {"sight", "exchange", "kill", "killer", "multi_kill", "flag_taken", "flag_captured", "objective",
+          "award", "item", "round_won", "spawn", "streak", "flag_run", "lead", "last_alive"},
          false,
          true});
     const auto add = [&](const char* name, double Rule::*member, const char* help, const char* unit,

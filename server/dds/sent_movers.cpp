@@ -39,7 +39,9 @@ void SentMovers::put(const SenderId& sender, std::shared_ptr<director::MoverInfo
 }
 
 void SentMovers::put_bounded(const SenderId& sender, std::shared_ptr<const director::MoverInfo> info) {
-    if (Sent* sent = find(sender)) sent->info = std::move(info);
+    Sent* sent = find(sender);
+    if (sent == nullptr || (sent->info && *sent->info == *info)) return;
+    sent->info = std::move(info);
 }
 
 void SentMovers::put(const SenderId& sender, Frame frame) {

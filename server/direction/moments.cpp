@@ -33,10 +33,37 @@ std::optional<Trigger> trigger_of(EventKind kind) {
             return Trigger::award;
         case EventKind::item:
             return Trigger::item;
+        case EventKind::round_won:
+            return Trigger::round_won;
+        case EventKind::spawn:
+            return Trigger::spawn;
         case EventKind::damage:
             break;
     }
     return {};
+}
+
+// The only ones of their teams who live, where an enemy lives.
+PlayerSet last_of_teams(std::span<const PlayerState> players) {
+    struct Team {
+        std::size_t present = 0;
+        std::size_t alive = 0;
+    };
+    std::array<Team, 256> teams{};
+    std::size_t alive = 0;
+    for (const PlayerState& player : players) {
+        Team& team = teams[player.team];
+        team.present += player.present ? 1 : 0;
+        team.alive += player.alive ? 1 : 0;
+        alive += player.alive ? 1 : 0;
+    }
+    PlayerSet last;
+    for (std::size_t i = 0; i < players.size(); ++i) {
+        const Team& team = teams[players[i].team];
+        last[i] =
+            players[i].alive && players[i].team != 0 && team.present > 1 && team.alive == 1 && alive > 1;
+    }
+    return last;
 }
 
 class Finder {
@@ -60,8 +87,12 @@ class Finder {
         switch (rules_.moments[rule].trigger) {
             case Trigger::sight:
                 return find_sights(rule);
+            case Trigger::last_alive:
+                return find_last_alive(rule);
             case Trigger::exchange:
                 return find_exchanges(rule);
+            case Trigger::killer:
+                return find_killers(rule);
             case Trigger::multi_kill:
                 return find_multi_kills(rule);
             case Trigger::streak:
@@ -87,6 +118,12 @@ class Finder {
             if (trigger_of(event.kind) == rules_.moments[rule].trigger &&
                 (event.kind != EventKind::kill || between_players(event)))
                 add(rule, event.time, event.time, event.actor, event.subject);
+    }
+
+    void find_killers(Index rule) {
+        for (const Event& event : recent_)
+            if (event.kind == EventKind::kill && between_players(event))
+                add(rule, event.time, event.time, event.actor, nobody);
     }
 
     void find_multi_kills(Index rule) {
@@ -170,6 +207,24 @@ class Finder {
         for (Index a = 0; a < players; ++a)
             for (Index b = a + 1; b < players; ++b)
                 close(runs[a * players + b], a, b);
+    }
+
+    // Runs of beats of each player.
+    void find_last_alive(Index rule) {
+        std::vector<Beat> since(footage_.players(), -1);
+        for (Beat beat = from_; beat <= footage_.beats(); ++beat) {
+            const PlayerSet last =
+                beat < footage_.beats() ? last_of_teams(footage_.players_at(beat)) : PlayerSet();
+            for (Index player = 0; player < footage_.players(); ++player) {
+                if (last[player] == (since[player] >= 0)) continue;
+                if (last[player]) {
+                    since[player] = beat;
+                } else {
+                    const Beat begin = std::exchange(since[player], -1);
+                    moments_.push_back({rule, begin, beat, begin, player, nobody});
+                }
+            }
+        }
     }
 
     const Footage& footage_;

@@ -17,6 +17,8 @@ enum class EventKind : std::uint8_t {
     damage,         // by the actor to the subject
     award,          // to the actor
     item,           // taken by the actor
+    round_won,      // by the actor
+    spawn,          // the actor entered the game, or again after a death
 };
 
 struct Event {
@@ -32,15 +34,19 @@ enum class Trigger : std::uint8_t {
     sight,       // two living enemies in mutual sight, while the sentence's range and angle hold
     exchange,    // one hurt the other; while the next wound of the two comes within the time after
     kill,        // one killed another
+    killer,      // likewise; of the killer alone
     multi_kill,  // a kill within 3 s of the same killer's last: from the first one on
     flag_taken,
     flag_captured,
     objective,
     award,
     item,
-    streak,    // somebody killed three since they last died: until they die
-    flag_run,  // somebody took a flag: until they capture it or die
-    lead,      // somebody killed more than anybody else: until another does
+    round_won,
+    spawn,
+    streak,      // somebody killed three since they last died: until they die
+    flag_run,    // somebody took a flag: until they capture it or die
+    lead,        // somebody killed more than anybody else: until another does
+    last_alive,  // the only one of their team who lives, of several, while an enemy lives
 };
 
 // A sentence: `name`: while (or when) `trigger`, from `before_s` before to `after_s` after, for whoever is in

@@ -61,6 +61,11 @@ std::optional<direction::EventKind> kind_of(const MatchEvent& event) {
             return EventKind::award;
         case MatchEventKind::item:
             return EventKind::item;
+        case MatchEventKind::round:
+            if (event.detail != "end") return {};
+            return EventKind::round_won;
+        case MatchEventKind::spawn:
+            return EventKind::spawn;
         default:
             return {};
     }

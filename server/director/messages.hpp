@@ -60,11 +60,15 @@ struct PlayerPose {
 struct Mover {
     std::uint32_t id = 0;
     freespace::MoverShape shape;
+
+    bool operator==(const Mover&) const = default;
 };
 
 struct MoverInfo {
     std::uint64_t epoch = 0;
     std::vector<Mover> movers;
+
+    bool operator==(const MoverInfo&) const = default;
 };
 
 struct MoverPose {

@@ -13,17 +13,23 @@ namespace camdir::freespace {
 struct HalfSpace {
     Vec3f normal;
     float distance;
+
+    bool operator==(const HalfSpace&) const = default;
 };
 
 // A bounded intersection of half spaces.
 struct ConvexHull {
     std::vector<HalfSpace> half_spaces;  // 4 .. max_half_spaces
-    Box3f bounds;                        // encloses it
+    Box3f bounds;                        // encloses it; follows from them
+
+    bool operator==(const ConvexHull& other) const { return half_spaces == other.half_spaces; }
 };
 
 struct MoverBall {
     Vec3f centre;
     float radius;  // > 0
+
+    bool operator==(const MoverBall&) const = default;
 };
 
 // The union of hulls and balls, in the mover's own frame: map units, from where the mover's position is. A
@@ -34,6 +40,8 @@ struct MoverShape {
     std::vector<ConvexHull> hulls;
     std::vector<MoverBall> balls;
     Vec3f rest = Vec3f::Zero();  // the position where the map puts it, unrotated
+
+    bool operator==(const MoverShape&) const = default;
 };
 
 // Limits of what is read from outside.

@@ -1,8 +1,11 @@
 #include "http/connection.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include <boost/asio/post.hpp>
 #include <boost/beast/http/read.hpp>
 #include <boost/beast/http/write.hpp>
+#include <exception>
 #include <utility>
 
 #include "http/live_connection.hpp"
@@ -39,6 +42,16 @@ std::optional<Status> status_of(const beast::error_code& unread) {
     return of_http ? std::optional(Status::bad_request) : std::nullopt;
 }
 
+// What fails for one request, as where no memory is left, is no reason to end the others.
+Response made(const Page& page, const Sources& sources, const Request& request) {
+    try {
+        return answer(request, page.make(sources, below(page, request)));
+    } catch (const std::exception& error) {
+        spdlog::error("http: {}: {}", page.path, error.what());
+        return refusal(request, Status::internal_server_error);
+    }
+}
+
 }  // namespace
 
 std::uint64_t Connections::move_to_end(std::uint64_t place, beast::tcp_stream& connection) {
@@ -55,7 +68,10 @@ bool Connections::close_oldest() {
 }
 
 Connection::Connection(asio::ip::tcp::socket socket, Site& site)
-    : stream_(std::move(socket)), site_(site), buffer_(max_header + chunk) {}
+    : stream_(std::move(socket)), site_(site), buffer_(max_header + chunk) {
+    ErrorCode ignored;
+    stream_.socket().set_option(asio::socket_base::send_buffer_size(system_buffer), ignored);
+}
 
 Connection::~Connection() {
     end_slow_page();
@@ -135,7 +151,7 @@ void Connection::make(const Page& page, Request request) {
     ++site_.slow_pages;
     has_slow_page_ = true;
     asio::post(site_.makers, [self = shared_from_this(), &page, request = std::move(request)]() mutable {
-        Response response = answer(request, page.make(self->site_.sources, below(page, request)));
+        Response response = made(page, self->site_.sources, request);
         auto& io = self->site_.io;
         asio::post(io, [self = std::move(self), response = std::move(response)]() mutable {
             self->send(std::move(response));

@@ -16,6 +16,10 @@
 
 namespace camdir::http {
 
+// Of what was sent to a client and has not arrived: who reads slowly holds no more of the system's memory,
+// and takes no more of the thread's time at once.
+inline constexpr int system_buffer = 64 * 1024;  // bytes
+
 // The connections in the order in which they began what they do: wait, read or answer.
 class Connections {
   public:

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/beast/core/string.hpp>
+#include <boost/beast/http/rfc7230.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
 #include <cstring>
 #include <memory>
@@ -141,6 +143,17 @@ std::string authorization_of(const Request& request) {
     return {};
 }
 
+bool accepts_gzip(const Request& request) {
+    for (const auto& [coding, parameters] : boost::beast::http::ext_list{request[field::accept_encoding]}) {
+        if (!boost::beast::iequals(coding, "gzip")) continue;
+        for (const auto& [name, value] : parameters)
+            if (boost::beast::iequals(name, "q"))
+                return view(value).find_first_of("123456789") != std::string_view::npos;
+        return true;
+    }
+    return false;
+}
+
 // The client may name several tags, or * for any.
 bool client_has(const Request& request, const std::string& tag) {
     const std::string_view known = view(request[field::if_none_match]);
@@ -152,7 +165,11 @@ bool client_has(const Request& request, const std::string& tag) {
 const Page file_page = {"/", true, false, true, true, nullptr};
 
 std::string_view path_of(const Request& request) {
-    const std::string_view target = view(request.target());
+    std::string_view target = view(request.target());
+    if (target.starts_with("http://")) {  // as it is asked of a proxy
+        target.remove_prefix(std::strlen("http://"));
+        target.remove_prefix(std::min(target.find('/'), target.size()));
+    }
     return target.substr(0, target.find('?'));
 }
 
@@ -171,9 +188,8 @@ std::string_view below(const Page& page, const Request& request) {
 }
 
 Content content_of(const File& file, const Request& request) {
-    const bool compressed = view(request[field::accept_encoding]).find("gzip") != std::string_view::npos;
-    return {Status::ok, file.type, compressed ? file.gzip : file.text,
-            kept,       file.tag,  compressed ? "gzip" : ""};
+    if (!accepts_gzip(request)) return {Status::ok, file.type, file.text, kept, file.tag, "", true};
+    return {Status::ok, file.type, file.gzip, kept, file.tag + "-gzip", "gzip", true};
 }
 
 Response answer(const Request& request, const Content& content) {
@@ -183,10 +199,8 @@ Response answer(const Request& request, const Content& content) {
     response.set("X-Content-Type-Options", "nosniff");
     response.set("Content-Security-Policy", content_security_policy);
     response.set("Referrer-Policy", "no-referrer");
-    if (!content.encoding.empty()) {
-        response.set(field::content_encoding, content.encoding);
-        response.set(field::vary, "Accept-Encoding");
-    }
+    if (!content.encoding.empty()) response.set(field::content_encoding, content.encoding);
+    if (content.has_encodings) response.set(field::vary, "Accept-Encoding");
     response.keep_alive(request.keep_alive());
     if (!content.tag.empty()) {
         const std::string tag = '"' + content.tag + '"';
@@ -195,6 +209,7 @@ Response answer(const Request& request, const Content& content) {
     }
     if (response.result() != Status::not_modified) response.body() = content.text;
     response.prepare_payload();
+    if (response.result() == Status::not_modified) response.erase(field::content_length);
     if (request.method() == verb::head) response.body() = nullptr;
     return response;
 }

@@ -22,8 +22,9 @@ struct Content {
     std::string type;
     Text text;
     std::string cache_control = "no-store";
-    std::string tag = {};       // empty: none
-    std::string encoding = {};  // of `text`
+    std::string tag = {};        // empty: none
+    std::string encoding = {};   // of `text`
+    bool has_encodings = false;  // other clients get it in another one
 };
 
 struct Page {

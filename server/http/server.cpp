@@ -67,6 +67,8 @@ void warn_of_missing(const Files& files) {
 
 struct Server::Listener {
     void accept();
+    void accept_waiting();
+    void take(tcp::socket socket);
     void accept_later();
     void close_oldest(Bound bound);
     // Shows again and again that the thread goes on.
@@ -85,17 +87,37 @@ struct Server::Listener {
 void Server::Listener::accept() {
     acceptor.async_accept([this](boost::system::error_code error, tcp::socket socket) {
         if (error) return accept_later();
-        if (site.connections.size() >= site.limits.connections) close_oldest(Bound::connections);
-        std::make_shared<Connection>(std::move(socket), site)->wait_for_request();
+        take(std::move(socket));
+        accept_waiting();
         accept();
     });
 }
 
-// The process has no file or memory left: a connection gives its own back.
+// A probe is not to wait until the thread has turned to each of a crowd that came before it.
+void Server::Listener::accept_waiting() {
+    constexpr int most = 128;  // the system keeps few more
+    for (int i = 0; i < most; ++i) {
+        boost::system::error_code none;
+        tcp::socket socket(site.io);
+        acceptor.accept(socket, none);
+        if (none) return;
+        take(std::move(socket));
+    }
+}
+
+void Server::Listener::take(tcp::socket socket) {
+    if (site.connections.size() >= site.limits.connections) close_oldest(Bound::connections);
+    std::make_shared<Connection>(std::move(socket), site)->wait_for_request();
+}
+
+// The process has no file or memory left: a connection gives its own back, once those that have come are
+// answered.
 void Server::Listener::accept_later() {
-    close_oldest(Bound::files);
     retry.expires_after(retry_delay);
-    retry.async_wait([this](boost::system::error_code) { accept(); });
+    retry.async_wait([this](boost::system::error_code) {
+        close_oldest(Bound::files);
+        accept();
+    });
 }
 
 void Server::Listener::close_oldest(Bound bound) {
@@ -132,6 +154,7 @@ Result<std::unique_ptr<Server>> Server::start(const config::Http& config, Source
         acceptor.set_option(tcp::acceptor::reuse_address(true));
         acceptor.bind(*endpoint);
         acceptor.listen();
+        acceptor.non_blocking(true);
         listener->endpoint = acceptor.local_endpoint();
     } catch (const boost::system::system_error& error) {
         return fail("http: cannot listen on " + config.address + " port " + std::to_string(config.port) +

@@ -50,15 +50,16 @@ void Models::remove_source(const std::string& map) {
     sources_.erase(map);
 }
 
-Models::Answer Models::find(const std::string& map, ModelKind kind) {
+Models::Answer Models::find(const std::string& map, ModelKind kind, Clock::time_point now) {
     const auto entry = maps_.find(map);
     if (!entry || !entry->freespace) return {};
     const Key key{map, entry->generation, kind};
-    if (const auto known = look_up(key)) return *known;
+    if (const auto known = look_up(key, now)) return *known;
     std::unique_lock making(making_, std::defer_lock);
     if (kind != ModelKind::contents && !making.try_lock()) return {nullptr, Failure::busy, {}};
+    if (const auto known = look_up(key, now)) return *known;  // made until now
     Answer answer = make(*entry, map, kind);
-    keep(key, answer);
+    keep(key, answer, now);
     return answer;
 }
 
@@ -97,21 +98,23 @@ Models::Answer Models::make_obstacles(const director::MapEntry& map, const std::
     return compressed(exports::to_glb(*scene));
 }
 
-std::optional<Models::Answer> Models::look_up(const Key& key) {
+std::optional<Models::Answer> Models::look_up(const Key& key, Clock::time_point now) {
+    constexpr std::chrono::minutes refused_for{1};
     const std::lock_guard lock(mutex_);
     const auto found = std::ranges::find(kept_, key, &Kept::key);
     if (found == kept_.end()) return std::nullopt;
+    if (!found->answer.model && now - found->made_at > refused_for) return std::nullopt;
     kept_.splice(kept_.begin(), kept_, found);
     return kept_.front().answer;
 }
 
-void Models::keep(const Key& key, const Answer& answer) {
+void Models::keep(const Key& key, const Answer& answer, Clock::time_point now) {
     constexpr std::size_t entry_bytes = 1024;
     const std::lock_guard lock(mutex_);
     std::erase_if(kept_, [&](const Kept& kept) {
-        return kept.key.map == key.map && kept.key.generation != key.generation;
+        return kept.key == key || (kept.key.map == key.map && kept.key.generation != key.generation);
     });
-    kept_.push_front({key, answer});
+    kept_.push_front({key, answer, now});
     std::size_t bytes = 0;
     const auto beyond = std::ranges::find_if(kept_, [&](const Kept& kept) {
         bytes += entry_bytes + (kept.answer.model ? kept.answer.model->gzip.size() : 0);

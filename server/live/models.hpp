@@ -1,6 +1,7 @@
 // The maps as a browser draws them, compressed.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <list>
 #include <map>
@@ -25,12 +26,14 @@ struct Model {
     std::string tag;  // of these bytes
 };
 
-// Models are made when they are first asked for, glTF one at a time, and the latest asked for are kept.
+// Models are made when they are first asked for, glTF one at a time, and the latest asked for are kept. What
+// cannot be made is tried again after a minute: somebody may have mended it.
 // Thread-safe.
 class Models {
   public:
     static constexpr std::size_t max_bytes = 64U << 20U;     // of all that are kept
     static constexpr std::size_t max_triangles = 2'000'000;  // of one
+    using Clock = std::chrono::steady_clock;
 
     explicit Models(const director::MapLibrary& maps) : maps_(maps) {}
 
@@ -48,7 +51,7 @@ class Models {
         Failure failure = Failure::no_map;
         std::string reason;
     };
-    [[nodiscard]] Answer find(const std::string& map, ModelKind kind);
+    [[nodiscard]] Answer find(const std::string& map, ModelKind kind, Clock::time_point now = Clock::now());
 
   private:
     struct Key {
@@ -60,10 +63,11 @@ class Models {
     struct Kept {
         Key key;
         Answer answer;
+        Clock::time_point made_at;
     };
 
-    [[nodiscard]] std::optional<Answer> look_up(const Key& key);
-    void keep(const Key& key, const Answer& answer);
+    [[nodiscard]] std::optional<Answer> look_up(const Key& key, Clock::time_point now);
+    void keep(const Key& key, const Answer& answer, Clock::time_point now);
     [[nodiscard]] Answer make(const director::MapEntry& map, const std::string& name, ModelKind kind);
     [[nodiscard]] Answer make_obstacles(const director::MapEntry& map, const std::string& name);
 

@@ -36,7 +36,8 @@ class Relay::Channel {
         return [this](std::uint32_t player) { return slot_of(player); };
     }
     void give_slots();
-    void give_slot(const Place& place);
+    // False: it has one, or there is none.
+    bool give_slot(const Place& place);
     void add_unlisted(const director::PoseFrame& poses);
     void forget_left();
     [[nodiscard]] SharedMessage encode_last() const;
@@ -56,7 +57,7 @@ class Relay::Channel {
 
 void Relay::Channel::show(const director::MatchInfo& shown) {
     const std::lock_guard lock(mutex_);
-    if (!history_ || match_.epoch != shown.epoch) {
+    if (!history_ || match_.epoch != shown.epoch || match_.map_name != shown.map_name) {
         history_.emplace();
         poses_ = {};
         cameras_ = {};
@@ -128,38 +129,39 @@ void Relay::Channel::give_slots() {
     for (auto& [slot, place] : roster_)
         place.listed = false;
     for (const director::Player& player : match_.players)
+        if (const std::uint8_t slot = slot_of(player.id); slot != no_slot) roster_[slot] = {player, true};
+    for (const director::Player& player : match_.players)
         give_slot({player, true});
 }
 
-void Relay::Channel::give_slot(const Place& place) {
-    std::uint8_t slot = slot_of(place.player.id);
+bool Relay::Channel::give_slot(const Place& place) {
+    if (slot_of(place.player.id) != no_slot) return false;
+    std::uint8_t slot = 0;
+    while (slot < no_slot && roster_.contains(slot))
+        ++slot;
     if (slot == no_slot) {
-        for (slot = 0; slot < no_slot && roster_.contains(slot);)
-            ++slot;
-        if (slot == no_slot) {
-            const auto gone = std::ranges::find_if(roster_, [&](const auto& taken) {
-                return !taken.second.listed &&
-                       std::ranges::find(poses_.poses, taken.second.player.id,
-                                         &director::PlayerPose::player_id) == poses_.poses.end();
-            });
-            if (gone == roster_.end()) return;  // more players than slots: these are not shown
-            slot = gone->first;
-            slots_.erase(gone->second.player.id);
-        }
-        slots_[place.player.id] = slot;
+        const auto gone = std::ranges::find_if(roster_, [&](const auto& taken) {
+            return !taken.second.listed &&
+                   std::ranges::find(poses_.poses, taken.second.player.id,
+                                     &director::PlayerPose::player_id) == poses_.poses.end();
+        });
+        if (gone == roster_.end()) return false;  // more players than slots: these are not shown
+        slot = gone->first;
+        slots_.erase(gone->second.player.id);
     }
+    slots_[place.player.id] = slot;
     roster_[slot] = place;
+    return true;
 }
 
 void Relay::Channel::add_unlisted(const director::PoseFrame& poses) {
-    const std::size_t before = slots_.size();
-    for (const director::PlayerPose& pose : poses.poses)
-        if (slot_of(pose.player_id) == no_slot) {
-            director::Player player;
-            player.id = pose.player_id;
-            give_slot({player, false});
-        }
-    if (slots_.size() != before) put(match_note(match_, roster_));
+    bool any = false;
+    for (const director::PlayerPose& pose : poses.poses) {
+        director::Player player;
+        player.id = pose.player_id;
+        any = give_slot({player, false}) || any;
+    }
+    if (any) put(match_note(match_, roster_));
 }
 
 void Relay::Channel::forget_left() {

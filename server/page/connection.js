@@ -83,6 +83,11 @@ export class Connection {
         if (this.isSilent) this.retry();
     }
 
+    // The match does not stand still: a stream that is silent came by a network that is gone.
+    runs() {
+        if (this.isSilent) this.retry();
+    }
+
     retry() {
         this.close();
         const wait = this.retryMs * (0.75 + Math.random() / 2);

@@ -122,6 +122,11 @@ export class Figures {
         this.tints = new Map();
     }
 
+    // Nobody is there.
+    forget() {
+        this.shown = [];
+    }
+
     // Players of a sample; metre: in map units.
     show(players, metre) {
         this.metre = metre;
@@ -142,13 +147,16 @@ export class Figures {
     // are drawn for each. Figures are enlarged so many times; names are hidden by what is before them, or not, or left out.
     aim(camera, {width, height, ratio}, {times, names, namesHidden}) {
         const seen = this.seenBy(camera, times);
+        const boxes = this.sheet.boxesOf(seen.map(({slot}) => {
+            const {label, colour} = this.looks(slot);
+            return {key: slot, text: label, colour};
+        }));
         seen.forEach(({slot, eye, height: share, turn: by}, i) => {
             const {place, turn, tint, box} = this.attributes;
             place.setXYZW(i, eye.x, eye.y, eye.z, share);
             turn.setXYZW(i, ...by);
             tint.setXYZ(i, ...this.tintOf(slot));
-            const {label, colour} = this.looks(slot);
-            box.setXYZW(i, ...this.sheet.boxOf(slot, {text: label, colour}));
+            box.setXYZW(i, ...boxes[i]);
         });
         for (const attribute of Object.values(this.attributes)) attribute.needsUpdate = true;
         for (const mesh of this.meshes) {

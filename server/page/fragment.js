@@ -8,10 +8,12 @@ const maxEventAgeMs = 5e3;  // by which an event may be older than its record
 const least = 1e-3;         // ms between frames
 const eventNames = ['kill', 'flag taken', 'flag captured', 'objective', 'damage', 'award', 'item', 'round', 'spawn', 'weapon'];
 
-// Players' slots, which they keep.
+// Players' slots, which they keep, and their names, also where a match does not list them.
 export class Roster {
     constructor() {
         this.players = new Map();  // by id: what the note has of them
+        this.known = new Map();    // by slot: as they were listed last, by the match's time; else without a name
+        this.listedAt = new Map(); // by slot: when that was
     }
 
     // Null: nobody, or nobody who was ever listed or seen.
@@ -22,25 +24,39 @@ export class Roster {
     // Returns whether there is somebody new.
     add(ids) {
         const before = this.players.size;
-        for (const id of ids)
-            if (!this.players.has(id)) this.players.set(id, {slot: this.players.size, id, listed: false});
+        for (const id of ids) {
+            if (this.players.has(id)) continue;
+            const player = {slot: this.players.size, id, listed: false};
+            this.players.set(id, player);
+            this.known.set(player.slot, player);
+        }
         return this.players.size > before;
     }
 
-    // The match's note of idl/live.md.
-    note(match) {
+    // The match's note of idl/live.md. `t`: since when the match is so, in ms of the model.
+    note(match, t) {
         this.add(match.players.map(({id}) => id));
         for (const [id, {slot}] of this.players) this.players.set(id, {slot, id, listed: false});
-        for (const {id, name, class: kind, team} of match.players)
-            this.players.set(id, {slot: this.slotOf(id), id, listed: true, name, class: kind, team});
+        for (const {id, name, class: kind, team} of match.players) {
+            const player = {slot: this.slotOf(id), id, listed: true, name, class: kind, team};
+            this.players.set(id, player);
+            this.keep(player, t);
+        }
         return {kind: 'match', match_id: match.matchId, epoch: String(match.epoch), map: match.map, metres_per_unit: match.metresPerUnit,
             rate_hz: match.rateHz, players: [...this.players.values()].map(player => ({...player}))};
     }
+
+    // Fragments are read in any order.
+    keep(player, t) {
+        if (this.listedAt.get(player.slot) > t) return;
+        this.listedAt.set(player.slot, t);
+        this.known.set(player.slot, player);
+    }
 }
 
-// The match after some records: {match, poses, cameras, moverList}, each null or the last record's, and where movers are, by
-// id; the poses that `full` has are also those of players whom the last record has not.
-export const noState = {match: null, poses: null, cameras: null, moverList: null, movers: new Map()};
+// The match after some records: {match, poses, cameras, moverList, moved}, each null or empty or the last record's, and where
+// the movers of the list are, by id; the poses that `full` has are also those of players whom the last record has not.
+export const noState = {match: null, poses: null, cameras: null, moverList: null, moved: [], movers: new Map()};
 
 // Those of a list, where they were before or are in these records.
 function placedMovers({moverList, movers}, placed) {
@@ -51,13 +67,14 @@ function placedMovers({moverList, movers}, placed) {
 
 export function apply(state, record) {
     if (record.match) {
-        const goesOn = state.match?.epoch === record.match.epoch || state.match === null;
+        const {match} = state;
+        const goesOn = match === null || match.epoch === record.match.epoch && match.map === record.match.map;
         return {...(goesOn ? state : noState), match: record.match};
     }
     if (record.poses) return {...state, poses: record.poses};
     if (record.cameras) return {...state, cameras: record.cameras};
-    if (record.moverList) return {...state, moverList: record.moverList, movers: placedMovers({...state, moverList: record.moverList}, [])};
-    if (record.moverPoses) return {...state, movers: placedMovers(state, record.moverPoses.movers)};
+    if (record.moverList) return {...state, moverList: record.moverList, movers: placedMovers({...state, ...record}, state.moved)};
+    if (record.moverPoses) return {...state, moved: record.moverPoses.movers, movers: placedMovers(state, record.moverPoses.movers)};
     return state;
 }
 
@@ -142,7 +159,7 @@ export async function readFragment(bytes, n, state, origin, roster) {
     const records = decodeRecords(content, name).map(record => ({...record, at: from + record.after, frame: record.cameras}));
     const offsets = clockOffsets(records);
     const beginMs = Number(beginTime / 1000n) / 1e3;
-    const tellMatch = (t, match) => fragment.matches.push({t, note: roster.note(match)});
+    const tellMatch = (t, match) => fragment.matches.push({t, note: roster.note(match, t)});
     roster.add((state.poses?.players ?? []).map(({id}) => id));
     if (state.match) tellMatch(from, state.match);
     let last = -Infinity;

@@ -49,6 +49,7 @@ export function readMesh(file, name) {
 // Edges between faces that meet at an angle, and edges of one face: pairs of vertices. The mesh is welded.
 export function featureEdges({positions: p, indices}, minAngle = 0.35) {
     const normals = new Float32Array(indices.length);
+    const count = p.length / 3;  // of vertices: keys of edges, from * count + to, stay exact
     const seen = new Map();
     const edges = [];
     const minCosine = Math.cos(minAngle);
@@ -62,7 +63,7 @@ export function featureEdges({positions: p, indices}, minAngle = 0.35) {
         for (let side = 0; side < 3; ++side) {
             const from = indices[i + side];
             const to = indices[i + (side + 1) % 3];
-            const key = from < to ? from * 4294967296 + to : to * 4294967296 + from;
+            const key = Math.min(from, to) * count + Math.max(from, to);
             if (!seen.has(key)) {
                 seen.set(key, i);
                 continue;
@@ -74,6 +75,6 @@ export function featureEdges({positions: p, indices}, minAngle = 0.35) {
             if (cosine < minCosine) edges.push(from, to);
         }
     }
-    for (const key of seen.keys()) edges.push(Math.floor(key / 4294967296), key % 4294967296);
+    for (const key of seen.keys()) edges.push(Math.floor(key / count), key % count);
     return new Uint32Array(edges);
 }

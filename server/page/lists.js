@@ -42,8 +42,15 @@ export class Rows {
             setAttribute(row.mode, 'data-mode', entry.mode ?? '');
             setAttribute(row.button, 'aria-pressed', entry.pressed);
             row.button.onclick = entry.choose;
-            if (this.list.children[i] !== row.item) this.list.insertBefore(row.item, this.list.children[i]);
+            this.place(row.item, i);
         });
+    }
+
+    // An item that is moved loses the focus: the others make room for one that has it.
+    place(item, i) {
+        const {children} = this.list;
+        if (item.contains(document.activeElement)) while (children[i] !== item) this.list.append(children[i]);
+        else if (children[i] !== item) this.list.insertBefore(item, children[i]);
     }
 
     rowOf(key) {

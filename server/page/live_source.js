@@ -1,5 +1,6 @@
 // Feeds the model from a match's stream (idl/live.md).
 import {Connection} from './connection.js';
+import {areMovers} from './contents.js';
 import {latencyOf} from './latency.js';
 import {decodeFrame, version} from './protocol.js';
 
@@ -13,13 +14,14 @@ export const kept = {
 const now = () => performance.now();
 
 export class LiveSource {
-    // `on.match(note)`, `on.problem(text)`, `on.change()`.
+    // `on.begin()`: what was shown is of another epoch or of other players; `on.match(note)`, `on.problem(text)`, `on.change()`.
     constructor(matchId, model, token, on) {
         Object.assign(this, {matchId, model, on});
         this.dropped = 0;
         this.age = null;  // ms from the sampling of the last frame to its arrival, null where it is not known
         this.repeats = false;  // the next frame may be an old one
         this.ended = false;
+        this.isOutdated = false;  // the page: the server speaks another version
         this.step = 1;
         this.movers = [];      // as the last note has them
         model.begin(kept);
@@ -50,13 +52,19 @@ export class LiveSource {
         this.link.unreachable();
     }
 
+    // The server says that the match runs.
+    runs() {
+        this.link.runs();
+    }
+
     notes = {
         match: note => {
-            if (note.version !== version) return this.on.problem('The server speaks another version: reload this page.');
+            if (note.version !== version) return this.stopAsOutdated();
             const before = this.model.note;
-            if (before && (before.epoch !== note.epoch || this.ended || this.isOfAnother(note))) {
+            if (before && (before.epoch !== note.epoch || before.map !== note.map || this.ended || this.isOfAnother(note))) {
                 this.model.begin(kept);
                 this.movers = [];
+                this.on.begin();
             }
             this.ended = false;
             this.step = note.position_step;
@@ -69,7 +77,9 @@ export class LiveSource {
             this.model.timeline.addHistory(note);
             this.repeats = true;
         },
-        movers: note => { this.movers = note.movers; },
+        movers: ({movers}) => {
+            if (areMovers(movers)) this.movers = movers; else this.on.problem('What moves in the map cannot be read');
+        },
         cut: note => this.model.timeline.addNote(note),
         event: note => this.model.timeline.addNote(note),
         dropped: ({frames}) => {
@@ -83,6 +93,12 @@ export class LiveSource {
             if (this.ended) this.link.close();
         },
     };
+
+    stopAsOutdated() {
+        this.isOutdated = true;
+        this.link.close();
+        this.on.problem('The server speaks another version: reload this page');
+    }
 
     // A server that was started again has given slots anew: what is kept would be read as of others. One that runs names all
     // that it has ever given.
@@ -121,9 +137,10 @@ export class LiveSource {
         clock.advance(at, buffer.first, buffer.last);
     }
 
-    // What it does: connecting, waiting (until retryAt), silent, empty, ended, paused, live, behind.
+    // What it does: outdated, connecting, waiting (until retryAt), silent, empty, ended, paused, live, behind.
     get state() {
         const {buffer, clock} = this.model;
+        if (this.isOutdated) return 'outdated';
         if (this.ended) return 'ended';
         if (this.connection === 'waiting' || this.connection === 'connecting') return this.connection;
         if (this.connection === 'silent') return 'silent';

@@ -170,9 +170,10 @@ export class MapView {
     // `file`: glTF.
     setObstacles(file) {
         const data = readMesh(file, 'obstacles');
-        this.faces = objects(three.Mesh, data.positions, data.indices, 3);
-        this.faces.forEach(addNormals);
-        this.edges = objects(three.LineSegments, data.positions, featureEdges(data), 2);
+        const faces = objects(three.Mesh, data.positions, data.indices, 3);
+        faces.forEach(addNormals);
+        const edges = objects(three.LineSegments, data.positions, featureEdges(data), 2);
+        Object.assign(this, {faces, edges});  // of a file that cannot be read nothing
         this.add(...this.faces, ...this.edges);
     }
 

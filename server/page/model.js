@@ -10,6 +10,8 @@ export class Model {
         this.kept = kept;
         this.note = null;         // the match's
         this.players = new Map(); // by slot
+        this.known = new Map();   // by slot: as players were at other times
+        this.looks = new Map();   // by slot
         this.buffer = new FrameBuffer(kept.framesMs);
         this.clock = new PlayoutClock(kept.timing);
         this.timeline = this.newTimeline();
@@ -22,12 +24,26 @@ export class Model {
     setMatch(note) {
         this.note = note;
         this.players = new Map(note.players.map(player => [player.slot, player]));
+        this.looks.clear();
+    }
+
+    // Players of other times: those who are yet to come, or have left, are shown by them.
+    setKnown(players) {
+        this.known = new Map(players.map(player => [player.slot, player]));
+        this.looks.clear();
     }
 
     // How a player is shown; null: nobody.
     look(slot) {
-        const player = this.players.get(slot);
-        return {colour: slot === null ? '#9aa6b5' : colourOf(player, [...this.players.values()]), name: nameOf(player),
+        if (!this.looks.has(slot)) this.looks.set(slot, this.makeLook(slot));
+        return this.looks.get(slot);
+    }
+
+    makeLook(slot) {
+        const shown = this.players.get(slot);
+        const player = shown?.listed ? shown : this.known.get(slot) ?? shown;
+        const all = [...this.known.values(), ...this.players.values()];
+        return {colour: slot === null ? '#9aa6b5' : colourOf(player, all), name: nameOf(player),
             number: slot === null ? '–' : String(slot + 1)};
     }
 

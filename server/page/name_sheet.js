@@ -29,17 +29,22 @@ export class NameSheet {
         this.texture.dispose();  // its size is another
     }
 
-    // Where this name is: x, y, width and height, in parts of the sheet.
-    boxOf(key, {text, colour}) {
-        let name = this.names.get(key);
-        if (!name) {
-            name = {text, colour};
-            this.names.set(key, name);
-            if (!this.draw(name)) this.enlarge();
-            this.texture.needsUpdate = true;
-        }
+    // Where these names are, {key, text, colour}: x, y, width and height, in parts of the sheet, which may grow with each.
+    boxesOf(names) {
+        for (const name of names) this.add(name);
         const side = this.canvas.width;
-        return [name.x / side, name.y / side, name.width / side, height / side];
+        return names.map(({key}) => {
+            const {x, y, width} = this.names.get(key);
+            return [x / side, y / side, width / side, height / side];
+        });
+    }
+
+    add({key, text, colour}) {
+        if (this.names.has(key)) return;
+        const name = {text, colour};
+        this.names.set(key, name);
+        if (!this.draw(name)) this.enlarge();
+        this.texture.needsUpdate = true;
     }
 
     enlarge() {

@@ -1,7 +1,7 @@
 // Plays a recording, or a match that is broadcast: fetches the fragments that the clock comes to, seeks in all there is.
 // One thing is fetched at a time, what is needed first.
 import {Damaged} from './bytes.js';
-import {Refused} from './broadcast.js';
+import {Refused, keepMs} from './broadcast.js';
 import {Roster, readFragment, readState} from './fragment.js';
 import {FragmentIndex, slackMs} from './fragment_index.js';
 
@@ -17,8 +17,10 @@ const silenceMs = 2e3;      // frames farther apart: playing goes on with the ne
 const lookMs = 250;         // after a fragment is to be complete
 const lateMs = 1500;        // how late one may be found, and fetched, without playing having to stand still
 const syncRetryMs = 1e3;    // what a cache keeps `sync`
-const surveyedBytes = 128e6;  // that may be fetched for the timeline alone
-const surveyPauseMs = 10;
+const maxBehind = 3;        // fragments that live playing catches up with; from farther back it jumps to the newest
+const maxSurveyBytes = 128e6;  // that may be fetched for the timeline alone
+const leastSurveyPauseMs = 10;
+const surveyPauses = 3;     // times as long as the reading of a fragment took
 const maxUnreadable = 16;   // fragments, one after the other
 const firstRetryMs = 500;
 const longestRetryMs = 15e3;
@@ -35,6 +37,8 @@ export class Playback {
         this.roster = new Roster();
         this.states = new Map();     // of the match at the begin of fragments
         this.surveyed = new Set();   // numbers of those that the timeline has
+        this.surveyBytes = 0;        // that were fetched for it alone
+        this.decodeMs = 0;           // of the fragment that was read last
         this.unreadable = new Map(); // why, by number
         this.notes = [];             // {t, note, key} of what is loaded
         this.loaded = null;          // {last: number, from, to: ms}
@@ -98,9 +102,11 @@ export class Playback {
         if (!this.start) return () => this.prepare();
         if (this.seeksNewest) return () => this.loadNewest();
         if (!this.covers(clock.t)) return () => this.load(clock.t);
-        if (this.loaded.last < this.sync.last && this.loaded.to - clock.t < aheadMs) return () => this.append(this.loaded.last + 1);
+        if (this.loaded.last < this.sync.last && this.loaded.to - clock.t < aheadMs && this.model.buffer.hasRoomAfter(clock.t))
+            return () => this.append(this.loaded.last + 1);
         if (this.sync.live && now() >= this.syncDue) return () => this.refresh();
-        if (!clock.live && this.broadcast.bytes < surveyedBytes) {
+        if (!this.sync.live && now() >= this.keepDue) return () => this.keep();
+        if (!clock.live && this.surveyBytes < maxSurveyBytes) {
             const n = this.nextToSurvey();
             if (n !== null) return () => this.survey(n);
         }
@@ -124,18 +130,30 @@ export class Playback {
         this.syncDue = now() + (isNew ? Math.max(sync.durationMs - sync.ageMs, 0) + lookMs : syncRetryMs);
     }
 
+    // Of a viewer that pauses, or has fetched everything, nothing else is heard.
+    async keep() {
+        await this.broadcast.keep(this.abort.signal).catch(error => {
+            if (!isMissing(error)) throw error;  // it is too late
+        });
+        this.keepDue = now() + keepMs;
+    }
+
     async prepare() {
         await this.refresh();
         const start = await this.broadcast.start(this.abort.signal);
         const first = await this.readable(this.sync.first, 1);
         this.origin = first.beginTime - BigInt(Math.round((first.n - this.sync.first) * this.sync.durationMs * 1e6));
+        const beginOf = ({beginTime}) => Number(beginTime - this.origin) / 1e6;
+        // Slots are in the order in which players come.
+        const note = this.roster.note(first.state.match ?? start.match, beginOf(first));
         const last = await this.readable(this.sync.last, -1);
         this.index = new FragmentIndex(this.sync.durationMs);
-        for (const {n, beginTime} of [first, last]) this.index.add(n, Number(beginTime - this.origin) / 1e6);
+        for (const fragment of [first, last]) this.index.add(fragment.n, beginOf(fragment));
         if (!this.sync.live) await this.read(last.n);  // tells where it ends
         this.noteNewest();
+        this.keepDue = now() + keepMs;
         this.start = start;
-        this.on.match(this.roster.note(first.state.match ?? start.match));
+        this.on.match(note);
         const {t, behind} = this.begin;
         if (t === undefined && behind === undefined) this.goLive(); else this.seek(t ?? this.newest() - behind);
     }
@@ -175,26 +193,35 @@ export class Playback {
             const {signal} = this.abort;
             const state = this.states.get(n) ?? (await this.readState(n)).state;
             const bytes = await this.broadcast.fragment(n, 'delta', signal);
+            const begin = now();
             const fragment = await readFragment(bytes, n, state, this.origin, this.roster);
             signal.throwIfAborted();
             this.index.add(n, fragment.from, fragment.to);
             this.keepState(n + 1, fragment.state);
             this.enter(fragment);
+            this.tellPlayers();
+            this.decodeMs = now() - begin;
             return fragment;
         } catch (error) {
-            if (isMissing(error) && this.isLive) await this.leaveIfRemoved(n, error);
+            if (isMissing(error)) await this.leaveIfRemoved(n, error);
             this.leaveOut(n, error);
             return null;
         }
     }
 
-    // A recording that has become too large loses its oldest fragments.
+    // A recording that has become too large loses its oldest fragments, one that has ended all at once, with `sync`.
     async leaveIfRemoved(n, error) {
+        const {signal} = this.abort;
         await this.refresh();
+        signal.throwIfAborted();  // another recording has begun
         if (n >= this.sync.first) return;
-        this.tell('What was here is no longer kept: it goes on with the oldest that is');
         this.loaded = null;
-        this.seek(-Infinity);
+        if (this.model.clock.live) {
+            this.goLive();
+        } else {
+            this.tell('What was here is no longer kept: it goes on with the oldest that is');
+            this.seek(-Infinity);
+        }
         throw error;  // the job is aborted
     }
 
@@ -216,10 +243,22 @@ export class Playback {
         this.model.timeline.insert(part, fragment.to);
     }
 
+    // Names of players at other times than the one that is shown, whose match is told again: its players may look otherwise.
+    tellPlayers() {
+        const known = [...this.roster.known.values()];
+        const key = JSON.stringify(known);
+        if (key === this.knownKey) return;
+        this.knownKey = key;
+        this.model.setKnown(known);
+        this.shownKey = null;
+    }
+
     // For the timeline alone; leaves time to draw.
     async survey(n) {
+        const {bytes} = this.broadcast;
         await this.read(n);
-        await this.sleep(surveyPauseMs);
+        this.surveyBytes += this.broadcast.bytes - bytes;
+        await this.sleep(Math.max(surveyPauses * this.decodeMs, leastSurveyPauseMs));
     }
 
     // Behind what is loaded first, then from the begin.
@@ -240,19 +279,25 @@ export class Playback {
             if (next === n) break;
             n = next;
         }
-        if (!fragment) throw new Damaged(`Nothing can be read here: ${[...this.unreadable.values()].pop()}`);
+        if (!fragment) this.failHere();
         this.replace(fragment);
         // Where nothing was recorded, or nothing can be read, it goes on with what follows.
         if (clock.t === t) clock.t = Math.min(Math.max(t, fragment.from), fragment.to);
     }
 
+    failHere() {
+        throw new Damaged(`Nothing can be read here: ${[...this.unreadable.values()].pop()}`);
+    }
+
     async loadNewest() {
         await this.refresh();
-        const {n} = await this.readable(this.sync.last, -1);
+        const {last} = this.sync;
+        const {n} = await this.readable(last, -1);
         const fragment = await this.read(n);
-        if (!fragment) return;
+        if (!fragment) this.failHere();
         this.seeksNewest = false;
         this.replace(fragment);
+        this.loaded.last = last;  // those between cannot be read
         const {clock} = this.model;
         clock.arrivals = [];
         clock.arrived(fragment.from, this.syncAt - this.sync.ageMs + lateMs);
@@ -280,13 +325,14 @@ export class Playback {
     }
 
     put(fragment) {
-        const {buffer} = this.model;
+        const {buffer, clock} = this.model;
+        const neededFrom = Math.min(clock.t ?? Infinity, fragment.from);
         const first = buffer.first;
         let movers = null;  // that the frame before has as well
         for (const frame of fragment.frames) {
             const own = frame.movers === movers ? 0 : frame.movers.size;
             movers = frame.movers;
-            buffer.add(frame.t, frameBytes * (1 + frame.players.size + frame.cameras.size + own), () => frame);
+            buffer.add(frame.t, frameBytes * (1 + frame.players.size + frame.cameras.size + own), () => frame, neededFrom);
         }
         if (first !== null && buffer.first > first) this.loaded.from = buffer.first;
         for (const {t, note} of fragment.matches) this.notes.push({t, note, key: JSON.stringify(note)});
@@ -332,9 +378,10 @@ export class Playback {
 
     seek(t) {
         const [first, last] = this.range;
+        const wasNewest = this.seeksNewest;  // which is being loaded
         this.seeksNewest = false;
         this.model.clock.seek(Math.min(Math.max(t, first), last));
-        if (!this.covers(this.model.clock.t)) this.abort.abort();
+        if (wasNewest || !this.covers(this.model.clock.t)) this.abort.abort();
         this.wake();
     }
 
@@ -348,6 +395,8 @@ export class Playback {
     // Moves the clock on.
     advance(at) {
         const {clock, buffer} = this.model;
+        // Nothing was drawn for long, or the connection is slow.
+        if (clock.live && this.loaded && this.sync.last - this.loaded.last > maxBehind) this.seeksNewest = true;
         if (clock.t === null || this.seeksNewest || !this.covers(clock.t)) return clock.hold(at);
         const follows = this.isLive && this.loaded.last >= this.sync.last;
         clock.advance(at, this.loaded.from, this.loaded.to, false);

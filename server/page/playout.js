@@ -1,7 +1,7 @@
 // Some minutes of a match, and the clock that plays them.
 import {cameraFlag, playerFlag} from './protocol.js';
 
-const keptBytes = 64e6;
+const defaultBytes = 64e6;  // of a buffer
 // How far live playing stays behind the fastest arrivals: as much as the others were late, and a frame.
 const frameMs = 40;
 const maxGapMs = 300;      // frames farther apart are not interpolated
@@ -25,8 +25,8 @@ function between(before, after, part) {
 
 // Frames in the order of their time, bounded.
 export class FrameBuffer {
-    constructor(keptMs) {
-        this.keptMs = keptMs;
+    constructor(keptMs, keptBytes = defaultBytes) {
+        Object.assign(this, {keptMs, keptBytes});
         this.clear();
     }
 
@@ -36,17 +36,23 @@ export class FrameBuffer {
         this.decoded = new Map();
     }
 
-    // `bytes`: that it takes; `read()` returns the frame. Returns whether it was kept: it is newer than the last.
-    add(t, bytes, read) {
+    // `bytes`: that it takes; `read()` returns the frame. What is seen from `neededFrom` on stays, however much it takes.
+    // Returns whether it was kept: it is newer than the last.
+    add(t, bytes, read, neededFrom = Infinity) {
         if (this.frames.length > 0 && t <= this.last) return false;
         this.frames.push({t, bytes, read});
         this.bytes += bytes;
         let old = 0;
-        while (old < this.frames.length - 1 && (t - this.frames[old].t > this.keptMs || this.bytes > keptBytes)) {
-            this.bytes -= this.frames[old++].bytes;
-        }
+        while (old < this.frames.length - 1 && this.frames[old + 1].t <= neededFrom &&
+            (t - this.frames[old].t > this.keptMs || this.bytes > this.keptBytes)) this.bytes -= this.frames[old++].bytes;
         if (old > 0) this.frames.splice(0, old);
         return true;
+    }
+
+    // Whether there is room for more than what is kept after t.
+    hasRoomAfter(t) {
+        const bytes = this.frames.slice(this.indexAt(t) + 1).reduce((sum, frame) => sum + frame.bytes, 0);
+        return bytes < this.keptBytes * 3 / 4;
     }
 
     get first() { return this.frames[0]?.t ?? null; }

@@ -11,10 +11,19 @@ function takeFromAddress() {
         given.delete('token');
         history.replaceState(null, '', `${location.pathname}${location.search}#${given}`);
     }
-    return given.get('match');
+    matchOfAddress = given.get('match');
 }
 
-export const matchOfAddress = takeFromAddress();
+export let matchOfAddress = null;
+takeFromAddress();
+
+// `changed()`: another link of this page was opened in its place, which loads nothing anew.
+export function followAddress(changed) {
+    addEventListener('hashchange', () => {
+        takeFromAddress();
+        changed();
+    });
+}
 
 // `?broadcast=URL`: a list of broadcasts, of a cache for example, is all that there is to watch.
 export const broadcastOfAddress = new URLSearchParams(location.search).get('broadcast');

@@ -58,6 +58,13 @@ export class Stage {
         this.sample = null;
     }
 
+    // Of the match that was shown nothing is drawn any more.
+    forget() {
+        this.sample = null;
+        this.figures.forget();
+        this.movers.clear();
+    }
+
     // From now on a sample of the match is drawn, in which the viewer has chosen a camera. `searches`: searchesOf it.
     show(sample, chosen, searches) {
         Object.assign(this, {sample, chosen, searches});

@@ -2,7 +2,7 @@
 import {stepMs} from './latency.js';
 import {cameraFlag, shownEvents} from './protocol.js';
 
-const maxGapMs = 300;  // between parts that follow each other
+const maxGapMs = 300;  // between parts that follow each other, or by which they overlap
 
 // The index of the first entry that is later than t.
 function indexAfter(entries, t) {
@@ -79,22 +79,26 @@ export class Timeline {
         for (const note of history.notes) this.addNote(note);
     }
 
-    // Another timeline, of a part of the match that ends at `end`, before, after or between the parts that are known.
+    // Another timeline, of a part of the match that ends at `end`, before, after or between the parts that are known. It may
+    // overlap them a little: frames' times are not those of the records.
     insert(part, end) {
         for (const [camera, states] of part.shots) {
             const last = states[states.length - 1];
             const closed = last.flags === null ? states : [...states, {t: end, target: last.target, flags: null}];
             if (!this.shots.has(camera)) this.shots.set(camera, []);
-            this.insertStates(this.shots.get(camera), closed);
+            this.insertStates(this.shots.get(camera), closed, end);
         }
         this.insertMarks(this.cuts, part.cuts);
         this.insertMarks(this.events, part.events);
         this.insertMarks(this.latencies, part.latencies);
     }
 
-    insertStates(states, more) {
-        const at = indexAfter(states, more[0].t);
-        states.splice(at, 0, ...more);
+    // Of parts that overlap each ends where the next one begins.
+    insertStates(states, more, end) {
+        const at = indexAfter(states, end - maxGapMs);  // where later parts begin
+        const next = states[at]?.t ?? Infinity;
+        for (let i = at - 1; i >= 0 && states[i].t > more[0].t; --i) states[i].t = more[0].t;
+        states.splice(at, 0, ...more.map(state => ({...state, t: Math.min(state.t, next)})));
         Timeline.join(states, at + more.length - 1);
         Timeline.join(states, at - 1);
         if (states.length > this.maxStates) states.splice(0, states.length - this.maxStates);
@@ -111,7 +115,9 @@ export class Timeline {
     insertMarks(marks, more) {
         if (more.length === 0) return;
         const sorted = [...more].sort(byTime);
-        marks.splice(indexAfter(marks, sorted[0].t), 0, ...sorted);
+        const from = indexAfter(marks, sorted[0].t);
+        const to = indexAfter(marks, sorted[sorted.length - 1].t);
+        marks.splice(from, to - from, ...[...marks.slice(from, to), ...sorted].sort(byTime));
         if (marks.length > this.maxMarks) marks.splice(0, marks.length - this.maxMarks);
     }
 

@@ -44,11 +44,45 @@ export function modeText(shot, isOfGroup) {
     return (isOfGroup ? groupTexts : modeTexts)[modeOf(shot)];
 }
 
+// {stamp, slots}: a number that changes with all that is drawn of a timeline, and the players in it.
+function stampOf({shots, cuts, events, latencies}) {
+    let stamp = 0;
+    const slots = new Set();
+    const take = value => { stamp = Math.imul(stamp ^ (value ?? -1), 0x01000193) + 1 | 0; };
+    for (const [id, states] of shots) {
+        take(id);
+        for (const {t, target, flags} of states) {
+            take(t);
+            take(target);
+            take(flags);
+            slots.add(target);
+        }
+    }
+    for (const {t, camera} of cuts) {
+        take(t);
+        take(camera);
+    }
+    for (const {t, actor} of events) {
+        take(t);
+        slots.add(actor);
+    }
+    for (const {t, ms} of latencies) {
+        take(t);
+        take(ms);
+    }
+    return {stamp, slots};
+}
+
+// What was drawn last: nothing.
+const blank = {key: '', from: 0, to: 0};
+
 export class TimelineView {
     constructor(element) {
         this.element = element;
         this.canvas = element.querySelector('canvas');
+        this.cursor = element.querySelector('i');
         this.context = this.canvas.getContext('2d');
+        this.drawn = blank;
     }
 
     // The times at both ends: of a whole recording, or of the last minutes.
@@ -64,11 +98,34 @@ export class TimelineView {
         return from + Math.min(Math.max((clientX - left) / width, 0), 1) * (to - from);
     }
 
-    // `delayMs`: of the match, which is no latency.
+    clear() {
+        if (this.drawn === blank) return;
+        this.drawn = blank;
+        this.context.clearRect(0, 0, this.element.clientWidth, this.element.clientHeight);
+        this.cursor.hidden = true;
+    }
+
+    // `delayMs`: of the match, which is no latency. The picture is drawn when something in it is another than in the last one,
+    // or has moved by half a pixel.
     draw({timeline, camera, t, first, last, whole, delayMs, colourOfSlot}) {
+        const {clientWidth: width, clientHeight: height} = this.element;
+        const [from, to] = this.range(first, last, whole);
+        const {stamp, slots} = stampOf(timeline);
+        const bySlot = new Map([...slots].map(slot => [slot, colourOfSlot(slot)]));
+        const key = [stamp, camera, delayMs, width, height, devicePixelRatio, ...bySlot.values()].join(' ');
+        const moved = Math.max(Math.abs(from - this.drawn.from), Math.abs(to - this.drawn.to)) / (to - from) * width;
+        const x = time => (time - from) / (to - from) * width;
+        if (key !== this.drawn.key || moved > 0.5) {
+            this.drawn = {key, from, to};
+            this.drawPicture({timeline, camera, first, whole, delayMs, from, to, x, width, height,
+                colourOfSlot: slot => bySlot.get(slot)});
+        }
+        this.cursor.hidden = false;
+        this.cursor.style.transform = `translateX(${Math.min(Math.round(x(t)), width - 2) - 1}px)`;
+    }
+
+    drawPicture({timeline, camera, first, whole, delayMs, from, to, x, width, height, colourOfSlot}) {
         const ratio = devicePixelRatio;
-        const width = this.element.clientWidth;
-        const height = this.element.clientHeight;
         if (this.canvas.width !== Math.round(width * ratio) || this.canvas.height !== Math.round(height * ratio)) {
             this.canvas.width = Math.round(width * ratio);
             this.canvas.height = Math.round(height * ratio);
@@ -76,8 +133,6 @@ export class TimelineView {
         const c = this.context;
         c.setTransform(ratio, 0, 0, ratio, 0, 0);
         c.clearRect(0, 0, width, height);
-        const [from, to] = this.range(first, last, whole);
-        const x = time => (time - from) / (to - from) * width;
         const latencies = columnsOf(timeline.latencies, from, to, width);
         const greatest = latencies.reduce((most, each) => Math.max(most, each), -1);
         const bottom = height - timesPx - (greatest >= 0 ? latencyPx + 1 : 0);  // of the shots
@@ -85,7 +140,9 @@ export class TimelineView {
         c.fillStyle = '#ffffff10';
         c.fillRect(0, middle - 6, width, 12);
         for (const span of timeline.spans(camera, from, to)) this.drawSpan(c, span, x, middle, colourOfSlot);
-        this.drawOthers(c, timeline, camera, from, to, x, middle + 13, bottom, colourOfSlot);
+        const others = this.othersOf(timeline, camera, from, to);
+        const room = Math.floor(bottom - middle - 13);  // for rows of a pixel
+        this.drawOthers(c, others.slice(0, room), x, middle + 13, bottom, colourOfSlot);
         c.fillStyle = '#ffffff';
         const cutWidth = to - from > thinFromMs ? 1 : 2;
         for (const cut of timeline.cuts)
@@ -95,9 +152,9 @@ export class TimelineView {
         const unseen = x(Math.max(first, from));
         c.fillStyle = '#0d1014aa';
         c.fillRect(0, 0, unseen, height - timesPx);
+        if (others.length > room)
+            this.drawWords(c, `${others.length - room} of ${others.length} other cameras are not drawn`, bottom);
         if (greatest >= 0) this.drawLatencies(c, latencies, greatest, delayMs, height - timesPx);
-        c.fillStyle = '#ffffff';
-        c.fillRect(Math.min(Math.round(x(t)), width - 2) - 1, 2, 3, height - 14);
     }
 
     drawSpan(c, span, x, middle, colourOfSlot) {
@@ -120,13 +177,17 @@ export class TimelineView {
         }
     }
 
-    drawOthers(c, timeline, camera, from, to, x, top, bottom, colourOfSlot) {
-        const others = [...timeline.shots.keys()].filter(id => id !== camera).sort((a, b) => a - b);
-        const each = Math.min((bottom - top) / Math.max(others.length, 1), 4);
-        if (each < 1) return;
+    // The spans of each of the other cameras that has some.
+    othersOf(timeline, camera, from, to) {
+        const ids = [...timeline.shots.keys()].filter(id => id !== camera).sort((a, b) => a - b);
+        return ids.map(id => timeline.spans(id, from, to)).filter(spans => spans.length > 0);
+    }
+
+    drawOthers(c, others, x, top, bottom, colourOfSlot) {
+        const each = Math.min((bottom - top) / others.length, 4);
         c.globalAlpha = 0.65;
-        others.forEach((id, row) => {
-            for (const span of timeline.spans(id, from, to)) {
+        others.forEach((spans, row) => {
+            for (const span of spans) {
                 const mode = modeOf(span);
                 const tall = Math.max(each - 1, 1) * (mode === 'visible' ? 1 : 0.4);  // not by colour alone
                 c.fillStyle = mode === 'visible' ? colourOfSlot(span.target) : colours[mode];
@@ -154,9 +215,13 @@ export class TimelineView {
             const tall = Math.max(lateMs(latency, delayMs) * scale, 0.5);
             if (latency >= 0) c.fillRect(column, bottom - tall, 1, tall);
         });
+        this.drawWords(c, `latency up to ${Math.round(lateMs(greatest, delayMs))} ms`, bottom);
+    }
+
+    // At the left.
+    drawWords(c, text, bottom) {
         c.font = '9.5px system-ui, sans-serif';
         c.textAlign = 'left';
-        const text = `latency up to ${Math.round(lateMs(greatest, delayMs))} ms`;
         c.fillStyle = '#0d1014cc';
         c.fillRect(2, bottom - latencyPx, c.measureText(text).width + 4, latencyPx);
         c.fillStyle = '#ffffff';

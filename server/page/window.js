@@ -2,11 +2,9 @@
 import {Broadcast, Refused} from './broadcast.js';
 import {choose, isFull} from './choice.js';
 import {Feed} from './feed.js';
-import {nameOfFixed} from './fixed_cameras.js';
 import {Rows, shotEntry} from './lists.js';
 import {latencyText} from './latency.js';
 import {LiveSource} from './live_source.js';
-import {MapLoader} from './map_loader.js';
 import {findMatches} from './matches.js';
 import {Model} from './model.js';
 import {nameOf} from './palette.js';
@@ -15,6 +13,7 @@ import {Quality, levelOfProcessor, levels, scaleOf} from './quality.js';
 import {attachScrubbing} from './scrubbing.js';
 import {SearchMark, searchesOf} from './searches.js';
 import * as server from './server.js';
+import {ShownMap} from './shown_map.js';
 import {Stage} from './stage.js';
 import {TimelineView, modeOf, modeText, reasonText} from './timeline_view.js';
 import {Viewpoint, attach} from './viewpoint.js';
@@ -39,7 +38,7 @@ const look = slot => model.look(slot);
 // Of the players of a group shot a frame has the first alone: all of them, of no other shot any.
 const groupOf = id => watched?.stream?.shots.find(({camera_id: camera}) => camera === id)?.group ?? [];
 function lookOfShot(shot) {
-    if (modeOf(shot) === 'fixed') return {...look(null), name: nameOfFixed(fixedCameras, shot.position)};
+    if (modeOf(shot) === 'fixed') return {...look(null), name: map.nameOfCamera(shot.position)};
     const group = groupOf(shot.id);
     return group.length > 0 ? {...look(shot.target), name: group.map(nameOf).join(', ')} : look(shot.target);
 }
@@ -49,8 +48,7 @@ const timelineView = new TimelineView(find('timeline'));
 const searchMark = new SearchMark(find('search-mark'));
 
 let stage = null;
-let mapLoader = null;
-let fixedCameras = [];    // of the map
+let map = null;           // ShownMap
 let quality = null;
 let source = null;        // LiveSource or Playback: what feeds the model
 let watched = null;       // the entry of `matches` that it shows
@@ -69,11 +67,13 @@ let framesCounted = 0;  // in drawRate
 let drawRate = 0;
 let dirty = true;
 let untold = true;        // the time that is shown, to screen readers
+let toldSpeed = null;     // the clock's, that the control has; null: the viewer has changed it
 
 const now = () => performance.now();
 const isRecorded = () => source instanceof Playback;
 
 const reports = {
+    begin: forget,
     match: showMatch,
     problem: notice,
     change: () => { dirty = true; },
@@ -90,6 +90,8 @@ function watch(id, begin) {
     if (watched?.id !== id) {
         camera = wished = null;
         fullUntil = 0;
+        showHeader(id, entry.map);
+        map.load(entry.map);
     }
     watched = entry;
     missed = 0;
@@ -100,22 +102,39 @@ function watch(id, begin) {
         source = new Playback(new Broadcast(entry.sync, server.ask), model, reports);
         source.open(begin ?? (entry.goesOn ? {} : {t: 0}));
     }
+    forget();
+}
+
+// Nothing of what was shown is of the match that the model has now.
+function forget() {
     sample = null;
+    searches = new Map();
+    stage.forget();
     untold = dirty = true;
+}
+
+function showHeader(matchId, mapName) {
+    find('match-name').textContent = matchId;
+    find('map-name').textContent = mapName;
+    document.title = `${matchId} · Camera director`;
 }
 
 function showMatch(note) {
     if (isRecorded()) model.setMatch(note);
     stage.setScale(note.metres_per_unit);
     stage.setLooks(slot => ({...look(slot), label: look(slot).name}));
-    find('match-name').textContent = note.match_id;
-    find('map-name').textContent = note.map;
-    document.title = `${note.match_id} · Camera director`;
-    mapLoader.load(note.map);
+    showHeader(note.match_id, note.map);
+    map.load(note.map);
     dirty = true;
 }
 
+// To screen readers, now.
+function announce(text) {
+    setText('announcement', text);
+}
+
 function notice(text) {
+    announce(text);
     find('notice').textContent = text;
     find('notice').hidden = false;
     clearTimeout(noticeTimer);
@@ -123,32 +142,10 @@ function notice(text) {
 }
 
 function showMessage(text, asksForToken = false) {
+    if (find('message-text').textContent !== text) announce(text);
     find('message').hidden = text === '';
     find('message-text').textContent = text;
     find('token-form').hidden = !asksForToken;
-}
-
-function takeContents(contents) {
-    fixedCameras = contents.fixed_cameras;
-    stage.movers.setMap(contents.movers);
-    dirty = true;
-}
-
-function showObstacles(hasObstacles) {
-    find('mesh').checked = !hasObstacles;
-    fitView();
-}
-
-function showLoadedMap(hasObstacles) {
-    if (!hasObstacles) fitView();
-    find('map-note').textContent = mapLoader.note;
-    find('map-note').hidden = mapLoader.note === '';
-    dirty = true;
-}
-
-function fitView() {
-    if (stage.map.bounds) viewpoint.fit(stage.map.bounds, find('stage').clientWidth / find('stage').clientHeight);
-    dirty = true;
 }
 
 async function refreshList() {
@@ -158,7 +155,7 @@ async function refreshList() {
         showMessage(matches.length > 0 || isInTouch() ? '' : server.broadcastOfAddress === null
             ? 'No match is running. This page shows one as soon as it begins.'
             : 'Nothing is broadcast. This page shows a match as soon as one is.');
-        if (model.note && mapLoader.shown === null) mapLoader.load(model.note.map);
+        if (model.note) map.load(model.note.map);
     } catch (error) {
         source?.unreachable?.();
         if (error instanceof Refused && error.status === 401) {
@@ -179,6 +176,7 @@ function chooseMatch() {
     const entry = matches.find(other => other.id === watched?.id);
     if (entry) watched = entry;
     missed = entry?.stream ? 0 : missed + 1;
+    if (entry?.stream?.state === 'running') source?.runs?.();
     const next = choose(matches, {id: watched?.id ?? null, isRecorded: isRecorded(), hasEnded: source?.state === 'ended',
         isOpen: isInTouch(), missed, refusals: source?.refusals ?? 0}, server.matchOfAddress);
     if (next?.from === 'broadcast') watchBroadcast(); else if (next) watch(next.id);
@@ -236,12 +234,18 @@ function seek(t) {
     untold = dirty = true;
 }
 
+// From what is shown, once something is.
+function step(ms) {
+    if (model.clock.t !== null) seek(model.clock.t + ms);
+}
+
 function goToBegin() {
     if (!isRecorded() && watched?.sync) watch(watched.id, {t: 0}); else if (source?.range) seek(source.range[0]);
 }
 
 function stepCut(by) {
     const {clock, timeline} = model;
+    if (clock.t === null) return;
     const next = by > 0 ? timeline.cutAfter(camera, clock.t + 1) : timeline.cutBefore(camera, clock.t - 1000);
     if (next) seek(next.t);
 }
@@ -314,7 +318,7 @@ function showState() {
     const element = find('state');
     if (element.dataset.state !== state) {
         element.dataset.state = state;
-        setText('announcement', text);  // read out now, not with every tenth of a second
+        announce(text);  // not with every tenth of a second
     }
     const label = element.querySelector('span');
     if (label.textContent !== text) label.textContent = text;
@@ -327,7 +331,7 @@ function showState() {
         find('play').setAttribute('aria-label', playing ? 'Pause' : 'Play');
         find('play').querySelector('path').setAttribute('d', playing ? 'M4 2h3v12H4zM9 2h3v12H9z' : 'M4 2l9 6-9 6z');
     }
-    if (document.activeElement !== find('speed')) find('speed').value = String(clock.speed);
+    if (clock.speed !== toldSpeed) find('speed').value = toldSpeed = clock.speed;
     setText('clock', shownTime());
 }
 
@@ -416,9 +420,7 @@ function drawStage() {
     const places = layPictures(shots);
     const shot = shownCamera();
     if (sample) stage.show(sample, camera, searches);
-    if (stage.map.mesh) stage.map.mesh.visible = find('mesh').checked;
-    const [low, high] = stage.map.heights;
-    stage.cut = low + (high - low) * Number(find('cut').value) + 1;
+    map.applyTools();
     if (view !== 'camera' && find('follow').checked && shot) {
         const followed = sample.players.get(shot.target);
         if (followed) viewpoint.centre.set(...followed.position);
@@ -444,7 +446,6 @@ function showSearch() {
 // To screen readers, which read it out when it changes: while the timeline has the focus only after a step.
 function tellTime() {
     const {clock} = model;
-    if (!source?.range || clock.t === null) return;
     untold = false;
     const [first, last] = source.range;
     const element = find('timeline');
@@ -455,18 +456,25 @@ function tellTime() {
     element.setAttribute('aria-valuetext', [time, ...latencyWords(clock.t)].join(', '));
 }
 
-function drawTimeline() {
-    const [first, last] = source?.range ?? [0, 0];
-    const {clock, timeline} = model;
+function clearTimeline() {
+    timelineView.clear();
     const element = find('timeline');
-    if (document.activeElement !== element || untold) tellTime();
-    if (source?.range && clock.t !== null)
-        timelineView.draw({timeline, camera, t: clock.t, first, last, whole: isRecorded(), delayMs: delayMs(),
-            colourOfSlot: slot => look(slot).colour});
+    for (const name of ['aria-valuemin', 'aria-valuemax', 'aria-valuenow']) element.setAttribute(name, 0);
+    element.removeAttribute('aria-valuetext');
+}
+
+function drawTimeline() {
+    const {clock, timeline} = model;
+    if (!source?.range || clock.t === null) return clearTimeline();
+    const [first, last] = source.range;
+    if (document.activeElement !== find('timeline') || untold) tellTime();
+    timelineView.draw({timeline, camera, t: clock.t, first, last, whole: isRecorded(), delayMs: delayMs(),
+        colourOfSlot: slot => look(slot).colour});
 }
 
 let lastPanel = 0;
 function frame(at) {
+    requestAnimationFrame(frame);  // what fails below may go well in the next picture
     const shownBefore = model.clock.t;
     source?.advance(now());
     resize();
@@ -490,7 +498,6 @@ function frame(at) {
         showLists();
         drawTimeline();
     }
-    requestAnimationFrame(frame);
 }
 
 const keys = {
@@ -500,8 +507,8 @@ const keys = {
     n: () => stepCamera(1),
     p: () => stepCamera(-1),
     ' ': () => setPaused(!model.clock.paused),
-    j: () => seek(model.clock.t - stepMs),
-    k: () => seek(model.clock.t + stepMs),
+    j: () => step(-stepMs),
+    k: () => step(stepMs),
     b: goToBegin,
     '<': () => stepSpeed(-1),
     '>': () => stepSpeed(1),
@@ -550,10 +557,16 @@ function latencyWords(t) {
     return latency === null ? [] : [latencyText(latency, delayMs())];
 }
 
+// Where the shown camera was, as far as frames are kept.
+function placeAt(t) {
+    const {buffer} = model;
+    return t >= buffer.first && t <= buffer.last ? buffer.sample(t)?.cameras.get(camera)?.position : null;
+}
+
 // What the shot did at a time, and the nearest cut.
 function describeTime(t) {
     const [first, last] = source.range;
-    const span = model.timeline.spans(camera, t, t + 1).map(state => ({...state, id: camera}))[0];
+    const span = model.timeline.spans(camera, t, t + 1).map(state => ({...state, id: camera, position: placeAt(t)}))[0];
     const near = model.cutNear(camera, t, 0.005 * Math.max(last - first, 300e3));
     const parts = [isRecorded() ? clockText(t - first) : `−${seconds(last - t)}`];
     if (span) parts.push(`${lookOfShot(span).name}: ${textOfShot(span).toLowerCase()}`);
@@ -582,7 +595,10 @@ find('ahead').addEventListener('click', keys.k);
 find('play').addEventListener('click', keys[' ']);
 find('live').addEventListener('click', goLive);
 find('begin').addEventListener('click', goToBegin);
-find('speed').addEventListener('change', () => setSpeed(Number(find('speed').value)));
+find('speed').addEventListener('change', () => {
+    setSpeed(Number(find('speed').value));
+    toldSpeed = null;
+});
 for (const id of ['cut', 'mesh', 'follow']) find(id).addEventListener('input', () => { dirty = true; });
 find('token-form').addEventListener('submit', event => {
     event.preventDefault();
@@ -590,6 +606,18 @@ find('token-form').addEventListener('submit', event => {
     showMessage('Opening');
 });
 document.addEventListener('visibilitychange', () => { dirty = true; });
+// The link's address would take the place of the match's.
+document.querySelector('.skip').addEventListener('click', event => {
+    event.preventDefault();
+    find('timeline').focus();
+});
+server.followAddress(() => {
+    if (!find('token-form').hidden) showMessage('Opening');
+    if (server.matchOfAddress !== watched?.id) watch(server.matchOfAddress);
+});
+addEventListener('error', ({message}) => {
+    if (message) notice(`This page has failed: ${message}`);
+});
 
 // For tests and for whoever is curious: what is drawn.
 window.cameraDirector = {
@@ -605,13 +633,13 @@ window.cameraDirector = {
         cameras: shownCameras().map(shot => ({...shot, target: model.players.get(shot.target)?.id ?? null})),
         movers: stage?.movers.drawn ?? [],
         cuts: model.timeline.cuts.length, events: model.timeline.events.length,
-        obstacles: Boolean(stage?.map.hasObstacles), mesh: Boolean(stage?.map.mesh), note: mapLoader?.note ?? '', quality: quality?.level ?? null,
+        obstacles: Boolean(stage?.map.hasObstacles), mesh: Boolean(stage?.map.mesh), note: map?.note ?? '', quality: quality?.level ?? null,
     }),
 };
 
 try {
     stage = new Stage(find('canvas'));
-    mapLoader = new MapLoader(stage, server.model, now, {contents: takeContents, obstacles: showObstacles, loaded: showLoadedMap});
+    map = new ShownMap(stage, viewpoint, () => { dirty = true; });
     quality = new Quality(stage.hasCard ? 0 : levelOfProcessor(screenPixels()), stage.hasCard);
     attach(find('canvas'), viewpoint, {
         active: () => view !== 'camera' || !shownCamera(),

@@ -18,6 +18,7 @@ export function clockText(ms, tenths = true) {
 export function stateText(state, {retryInMs, known, isFull, entry, behindMs, lateMs}) {
     const texts = {
         none: () => ['empty', 'No match'],
+        outdated: () => ['outdated', 'Another version: reload this page'],
         connecting: () => ['connecting', known ? 'Reconnecting' : 'Connecting'],
         waiting: () => ['waiting', `${isFull ? 'No room for another viewer: trying again' : 'Reconnecting'} in ${
             Math.max(1, Math.round(retryInMs / 1000))} s`],

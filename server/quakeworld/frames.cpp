@@ -14,7 +14,14 @@ constexpr std::uint8_t print_for_everyone = 2;
 constexpr std::size_t longest_line = 1024;
 constexpr std::size_t longest_name = 255;  // of players, teams and maps: servers allow less
 constexpr std::size_t blocks_for_one_unread = 100;
+constexpr std::size_t recent_blocks = 10'000;  // some minutes
 constexpr std::size_t most_in_a_frame = 1024;  // flashes, occurrences
+
+// Nothing else, as it would where a player has called themselves so.
+bool says(std::string_view line, std::string_view sentence) {
+    if (!line.starts_with(sentence)) return false;
+    return line.find_first_not_of("!.\n", sentence.size()) == std::string_view::npos;
+}
 
 bool is_set(std::string_view value) {
     return !value.empty() && value != "0";
@@ -42,7 +49,7 @@ void FrameReader::Bodies::add(const Models& models) {
 
 std::optional<std::string> FrameReader::Lines::add(std::string_view text) {
     if (line_.size() + text.size() > longest_line) line_.clear();
-    line_ += plain(text.substr(0, longest_line));
+    line_ += plain_lines(text.substr(0, longest_line));
     if (line_.empty() || line_.back() != '\n') return std::nullopt;
     line_.pop_back();
     return std::exchange(line_, {});
@@ -54,7 +61,7 @@ std::optional<Frame> FrameReader::read(const Block& block) {
         before = finish();
         frame_.time = block.time;
     }
-    ++blocks_;
+    count_block();
     if (block.audience == Audience::nobody)
         read_hidden(block);
     else
@@ -77,16 +84,26 @@ std::optional<Frame> FrameReader::finish() {
 }
 
 Result<void> FrameReader::expect_readable() const {
-    if (unread_blocks_ * blocks_for_one_unread <= blocks_) return {};
-    return fail(first_unread_ + "; " + std::to_string(unread_blocks_) + " of " + std::to_string(blocks_) +
+    if (lost_level_) return fail(*lost_level_);
+    if (recent_.unread * blocks_for_one_unread <= recent_.all) return {};
+    return fail(first_unread_ + "; " + std::to_string(recent_.unread) + " of " + std::to_string(recent_.all) +
                 " blocks cannot be read, expected at most one in " + std::to_string(blocks_for_one_unread));
+}
+
+// A stream goes on for days: what counts is how it is now.
+void FrameReader::count_block() {
+    ++blocks_;
+    if (++recent_.all >= recent_blocks) {
+        recent_.all /= 2;
+        recent_.unread /= 2;
+    }
 }
 
 void FrameReader::read_messages(const Block& block) {
     MessageReader messages(block.content, protocol_);
     while (!messages.at_end()) {
         const auto message = messages.next();
-        if (!message) return note_unread(block, message.error());
+        if (!message) return note_unread(block, messages, message.error());
         std::visit([&](const auto& content) { take(block, content); }, *message);
     }
 }
@@ -96,9 +113,11 @@ void FrameReader::read_hidden(const Block& block) {
         note(Occurrence::Kind::damage, damage.attacker, damage.victim, std::to_string(damage.amount));
 }
 
-void FrameReader::note_unread(const Block& block, const Error& error) {
-    if (unread_blocks_++ == 0)
-        first_unread_ = "block at byte " + std::to_string(block.offset) + ": " + error.message;
+void FrameReader::note_unread(const Block& block, const MessageReader& messages, const Error& error) {
+    const std::string what = "block at byte " + std::to_string(block.offset) + ": " + error.message;
+    if (messages.begins_level()) lost_level_ = what;
+    if (unread_blocks_++ == 0) first_unread_ = what;
+    ++recent_.unread;
 }
 
 void FrameReader::take(const Block& block, const BeginLevel& /*unused*/) {
@@ -131,10 +150,10 @@ void FrameReader::take(const Block& block, const Print& print) {
     if (print.level == print_of_obituaries) {
         if (const auto line = level_.obituaries.add(print.text)) take_obituary(*line);
     }
-    if (print.level != print_of_obituaries && print.level != print_for_everyone) return;
-    const std::string text = plain(print.text);
-    if (text.find("match has begun") != std::string::npos) begin_match();
-    if (text.find("match is over") != std::string::npos) end_match();
+    if (print.level != print_for_everyone) return;
+    const std::string line = plain_lines(print.text.substr(0, longest_line));
+    if (says(line, "The match has begun")) begin_match();
+    if (says(line, "The match is over")) end_match();
 }
 
 void FrameReader::take(const Block& block, const ClientCommand& command) {

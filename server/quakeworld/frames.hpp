@@ -73,7 +73,8 @@ class FrameReader {
     // Of which some messages, from one on, could not be read; where and why the first time.
     [[nodiscard]] std::size_t unread_blocks() const { return unread_blocks_; }
     [[nodiscard]] const std::string& first_unread() const { return first_unread_; }
-    // An error when these are more than one in a hundred.
+    // An error when of the last ones more than one in a hundred could not be read, or the begin of a level:
+    // what follows is of another one than what is known.
     [[nodiscard]] Result<void> expect_readable() const;
 
   private:
@@ -122,7 +123,8 @@ class FrameReader {
 
     void read_messages(const Block& block);
     void read_hidden(const Block& block);
-    void note_unread(const Block& block, const Error& error);
+    void count_block();
+    void note_unread(const Block& block, const MessageReader& messages, const Error& error);
 
     void take(const Block& /*unused*/, const Other& /*unused*/) {}
     void take(const Block& block, const BeginLevel& begin);
@@ -152,6 +154,11 @@ class FrameReader {
     std::size_t blocks_ = 0;
     std::size_t unread_blocks_ = 0;
     std::string first_unread_;
+    struct {
+        std::size_t all = 0;
+        std::size_t unread = 0;
+    } recent_;  // the last blocks
+    std::optional<std::string> lost_level_;
 };
 
 }  // namespace camdir::quakeworld

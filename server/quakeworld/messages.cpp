@@ -79,6 +79,7 @@ std::optional<std::uint8_t> client_of(std::uint16_t entity) {
 Result<Message> MessageReader::next() {
     const std::string place = "byte " + std::to_string(cursor_.offset()) + " of the block: message ";
     const std::uint8_t number = cursor_.u8();
+    begins_level_ = number == msg_begin_level;
     auto message = read(number);
     if (!message) return fail(place + std::to_string(number) + message.error().message);
     if (!cursor_.ok()) return fail(place + std::to_string(number) + " ends early");

@@ -85,6 +85,9 @@ class MessageReader {
     // that ends early: where the next one begins is unknown then, and it must not be called again.
     [[nodiscard]] Result<Message> next();
 
+    // Whether the last message, read or not, begins a level.
+    [[nodiscard]] bool begins_level() const { return begins_level_; }
+
   private:
     [[nodiscard]] Result<Message> read(std::uint8_t number);
     [[nodiscard]] Result<Message> read_fixed(std::uint8_t number);
@@ -101,6 +104,7 @@ class MessageReader {
     Cursor cursor_;
     Protocol& protocol_;
     bool invalid_ = false;  // a value of the message was not
+    bool begins_level_ = false;
 };
 
 // Hit points that one client or the world took of another, out of a block that is hidden from clients.

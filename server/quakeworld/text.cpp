@@ -9,7 +9,7 @@ namespace {
 // digits.
 char plain(char sign) {
     const auto code = static_cast<unsigned char>(static_cast<unsigned char>(sign) & 127U);
-    if ((code >= 32 && code < 127) || code == '\n') return static_cast<char>(code);
+    if (code >= 32 && code < 127) return static_cast<char>(code);
     if (code == 16) return '[';
     if (code == 17) return ']';
     if (code >= 18 && code <= 27) return static_cast<char>('0' + code - 18);
@@ -31,6 +31,13 @@ std::string plain(std::string_view text) {
     ascii.reserve(text.size());
     for (const char sign : text)
         ascii += plain(sign);
+    return ascii;
+}
+
+std::string plain_lines(std::string_view text) {
+    std::string ascii = plain(text);
+    for (std::size_t i = 0; i < text.size(); ++i)
+        if ((static_cast<unsigned char>(text[i]) & 127U) == '\n') ascii[i] = '\n';
     return ascii;
 }
 

@@ -6,12 +6,17 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <random>
+#include <regex>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
+#include "base/file.hpp"
 #include "recording/percent.hpp"
+#include "recording/resource.hpp"
 
 namespace camdir::recording {
 namespace {
@@ -31,10 +36,34 @@ std::uint64_t disk_bytes(const fs::path& folder) {
     return bytes;
 }
 
+constexpr std::string_view removed_mark = ".removed-";
+
+// As folder_name() and new_recording_id() make it.
+bool is_folder_name(std::string_view name) {
+    static const std::regex pattern(R"([0-9]{8}T[0-9]{6}\.[0-9]{3}Z-[0-9a-f]{8}-[A-Za-z0-9_%]*)");
+    return std::regex_match(name.begin(), name.end(), pattern);
+}
+
+// What is removed must be certain to be one.
 bool is_recording(const fs::directory_entry& entry) {
     std::error_code error;
-    return entry.symlink_status(error).type() == fs::file_type::directory &&
-           fs::exists(entry.path() / "start", error);
+    if (entry.symlink_status(error).type() != fs::file_type::directory ||
+        !is_folder_name(entry.path().filename().native()))
+        return false;
+    const auto start = read_file(entry.path() / "start", max_resource);
+    return start && has_header(*start, ResourceKind::start, 0);
+}
+
+// One folder of a fragment after the other, so that a stop need not wait for all.
+void remove_files(const fs::path& folder, const std::stop_token& stop) {
+    std::error_code error;
+    for (fs::directory_iterator it(folder, error), end; !error && it != end && !stop.stop_requested();
+         it.increment(error)) {
+        std::error_code ignored;
+        fs::remove_all(it->path(), ignored);
+    }
+    if (!stop.stop_requested()) fs::remove_all(folder, error);
+    if (error) spdlog::error("{}: cannot remove: {}", folder.string(), error.message());
 }
 
 }  // namespace
@@ -49,21 +78,35 @@ std::string new_recording_id(std::int64_t time) {
                        ms % 1000, std::random_device()());
 }
 
-Result<Archive> Archive::open(const fs::path& folder) {
+Result<std::unique_ptr<Archive>> Archive::open(const fs::path& folder) {
     std::error_code error;
     fs::create_directories(folder, error);
     if (error) return fail(folder.string() + ": cannot create: " + error.message());
     const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (descriptor < 0)
         return fail(folder.string() + ": cannot open: " + std::generic_category().message(errno));
-    Archive archive(folder, descriptor);
+    std::unique_ptr<Archive> archive(new Archive(folder, descriptor));
     if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0)
         return fail(folder.string() + ": cannot lock: " + std::generic_category().message(errno) +
                     ": expected a folder that no other director records into");
-    for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error))
-        if (is_recording(*it)) archive.add_ended(it->path().filename().string());
-    if (error) return fail(folder.string() + ": cannot list: " + error.message());
+    if (auto listed = archive->list(); !listed) return tl::unexpected(listed.error());
+    archive->thread_ = std::jthread([raw = archive.get()](const std::stop_token& stop) { raw->run(stop); });
     return archive;
+}
+
+Result<void> Archive::list() {
+    std::error_code error;
+    for (fs::directory_iterator it(folder_, error), end; !error && it != end; it.increment(error)) {
+        const std::string name = it->path().filename().string();
+        if (name.starts_with(removed_mark) &&
+            is_folder_name(std::string_view(name).substr(removed_mark.size())))
+            removed_.push_back(it->path());
+        else if (is_recording(*it))
+            unmeasured_.push_back(name);
+    }
+    if (error) return fail(folder_.string() + ": cannot list: " + error.message());
+    std::ranges::sort(unmeasured_);
+    return {};
 }
 
 Result<void> Archive::check(const fs::path& folder) {
@@ -81,33 +124,60 @@ Result<void> Archive::check(const fs::path& folder) {
     return {};
 }
 
-Archive::Archive(Archive&& other) noexcept
-    : folder_(std::move(other.folder_)),
-      descriptor_(std::exchange(other.descriptor_, -1)),
-      ended_(std::move(other.ended_)),
-      ended_bytes_(other.ended_bytes_) {}
-
 Archive::~Archive() {
-    if (descriptor_ >= 0) ::close(descriptor_);
+    thread_ = {};
+    ::close(descriptor_);
 }
 
-void Archive::add_ended(const std::string& name) {
-    const std::uint64_t bytes = disk_bytes(path_of(name));
+void Archive::add_ended(const std::string& name, std::uint64_t bytes) {
+    const std::lock_guard lock(mutex_);
     if (ended_.emplace(name, bytes).second) ended_bytes_ += bytes;
 }
 
-bool Archive::remove_oldest() {
-    if (ended_.empty()) return false;
-    const auto oldest = ended_.begin();
-    const fs::path folder = path_of(oldest->first);
-    // Without `sync` it is not read any more.
+std::uint64_t Archive::ended_bytes() const {
+    const std::lock_guard lock(mutex_);
+    return ended_bytes_;
+}
+
+std::optional<std::string> Archive::remove_oldest() {
+    const std::lock_guard lock(mutex_);
+    if (ended_.empty()) return std::nullopt;
+    const auto oldest = ended_.extract(ended_.begin());
+    ended_bytes_ -= oldest.mapped();
+    const std::string& name = oldest.key();
+    const fs::path removed = path_of(std::string(removed_mark) + name);
     std::error_code error;
-    fs::remove(folder / "sync", error);
-    if (!error) fs::remove_all(folder, error);
-    if (error) spdlog::error("{}: cannot remove the recording: {}", folder.string(), error.message());
-    ended_bytes_ -= oldest->second;
-    ended_.erase(oldest);
-    return true;
+    fs::rename(path_of(name), removed, error);
+    if (error) {
+        spdlog::error("{}: cannot remove the recording: {}", path_of(name).string(), error.message());
+    } else {
+        spdlog::info("{}: removed: recordings take more than the bound", path_of(name).string());
+        removed_.push_back(removed);
+        wake_.notify_one();
+    }
+    return name;
+}
+
+void Archive::run(const std::stop_token& stop) {
+    measure(stop);
+    while (const auto folder = next_removed(stop))
+        remove_files(*folder, stop);
+}
+
+void Archive::measure(const std::stop_token& stop) {
+    for (const std::string& name : unmeasured_) {
+        if (stop.stop_requested()) return;
+        add_ended(name, disk_bytes(path_of(name)));
+    }
+}
+
+std::optional<fs::path> Archive::next_removed(const std::stop_token& stop) {
+    std::unique_lock lock(mutex_);
+    if (!wake_.wait(lock, stop, [this] { return !removed_.empty(); }) || stop.stop_requested())
+        return std::nullopt;
+    fs::path folder = std::move(removed_.front());
+    removed_.pop_front();
+    return folder;
 }
 
 }  // namespace camdir::recording

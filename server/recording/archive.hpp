@@ -1,10 +1,18 @@
 // The folder that holds recordings, one folder each.
 #pragma once
 
+#include <condition_variable>
 #include <cstdint>
+#include <deque>
 #include <filesystem>
 #include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <stop_token>
 #include <string>
+#include <thread>
+#include <vector>
 
 #include "base/error.hpp"
 
@@ -18,35 +26,52 @@ namespace camdir::recording {
 // Those of later times sort later.
 [[nodiscard]] std::string new_recording_id(std::int64_t time);
 
-// One process at a time has it. Not thread-safe.
+// One process at a time has it. What takes long, measuring what is there and removing, a thread of its own
+// does. Its calls are for one thread at a time.
 class Archive {
   public:
-    // Creates the folder. Fails when another process has it. Recordings that it holds already have ended.
-    [[nodiscard]] static Result<Archive> open(const std::filesystem::path& folder);
+    // Creates the folder. Fails when another process has it. Recordings that it holds already have ended;
+    // what else is there is left alone.
+    [[nodiscard]] static Result<std::unique_ptr<Archive>> open(const std::filesystem::path& folder);
     // Whether open() could use the folder, apart from other processes: it can be written, or made. Leaves
     // nothing behind.
     [[nodiscard]] static Result<void> check(const std::filesystem::path& folder);
-    Archive(Archive&& other) noexcept;
-    Archive& operator=(Archive&&) = delete;
+    Archive(const Archive&) = delete;
+    Archive& operator=(const Archive&) = delete;
+    // What is still to be removed, the next open() removes.
     ~Archive();
 
     [[nodiscard]] std::filesystem::path path_of(const std::string& name) const { return folder_ / name; }
 
-    // A recording in the folder grows no more.
-    void add_ended(const std::string& name);
-    [[nodiscard]] std::uint64_t ended_bytes() const { return ended_bytes_; }  // of the disk
-    // Removes the ended recording that began first; false when there is none. One that cannot be removed
-    // is logged and left.
-    bool remove_oldest();
+    // A recording in the folder, with so many bytes of the disk, grows no more.
+    void add_ended(const std::string& name, std::uint64_t bytes);
+    // Of the disk: of those that have ended, as far as they are measured.
+    [[nodiscard]] std::uint64_t ended_bytes() const;
+    // Removes the ended recording that began first, of those that are measured, and returns its name;
+    // nothing: there is none. From now on nobody reads it; its files follow. One that cannot be removed is
+    // logged and left.
+    std::optional<std::string> remove_oldest();
 
   private:
     Archive(std::filesystem::path folder, int descriptor)
         : folder_(std::move(folder)), descriptor_(descriptor) {}
+    [[nodiscard]] Result<void> list();
+    // On the thread.
+    void run(const std::stop_token& stop);
+    void measure(const std::stop_token& stop);
+    [[nodiscard]] std::optional<std::filesystem::path> next_removed(const std::stop_token& stop);
 
-    std::filesystem::path folder_;
-    int descriptor_;                              // of the folder, locked; -1: moved from
+    const std::filesystem::path folder_;
+    const int descriptor_;                 // of the folder, locked
+    std::vector<std::string> unmeasured_;  // names, the oldest first; the thread's
+
+    mutable std::mutex mutex_;  // guards the next four
+    std::condition_variable_any wake_;
     std::map<std::string, std::uint64_t> ended_;  // bytes by name
     std::uint64_t ended_bytes_ = 0;
+    std::deque<std::filesystem::path> removed_;  // whose files are still there
+
+    std::jthread thread_;
 };
 
 }  // namespace camdir::recording

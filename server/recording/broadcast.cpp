@@ -51,22 +51,35 @@ std::string sync_of(const Channel& channel) {
                  {"live", channel.is_live}});
 }
 
+struct Part {
+    std::string file;  // below the recording's folder
+    ResourceKind kind;
+    std::uint32_t fragment;
+};
+
 // Of the parts that follow the recording's id: start, or a number and the name of a file.
-std::optional<std::string> file_of(const Channel& channel, const std::vector<std::string_view>& parts) {
-    if (parts.size() == 3 && parts[2] == "start") return "start";
+std::optional<Part> part_of(const Channel& channel, const std::vector<std::string_view>& parts) {
+    if (parts.size() == 3 && parts[2] == "start") return Part{"start", ResourceKind::start, 0};
     if (parts.size() != 4 || (parts[3] != "full" && parts[3] != "delta")) return std::nullopt;
     const auto number = fragment_number(parts[2]);
     if (!number || *number < channel.sync.first || *number > channel.sync.last) return std::nullopt;
-    return std::to_string(*number) + "/" + std::string(parts[3]);
+    return Part{std::to_string(*number) + "/" + std::string(parts[3]),
+                parts[3] == "full" ? ResourceKind::full : ResourceKind::delta, *number};
+}
+
+// A recording may come from elsewhere, and its files from anywhere: what is no such resource is not shown.
+std::optional<Bytes> read_part(const Channel& channel, const Part& part) {
+    auto bytes = read_file(channel.folder / part.file, max_resource);
+    if (!bytes || !has_header(*bytes, part.kind, part.fragment)) return std::nullopt;
+    return std::move(*bytes);
 }
 
 }  // namespace
 
-void Broadcast::set(const std::string& match_id, Channel channel, Time now) {
+void Broadcast::set(const std::string& match_id, Channel channel) {
     const std::lock_guard lock(mutex_);
     wanted_at_.erase(match_id);
     channels_[match_id] = std::move(channel);
-    drop_ended(now);
 }
 
 void Broadcast::end(const std::string& match_id, Time now) {
@@ -75,12 +88,22 @@ void Broadcast::end(const std::string& match_id, Time now) {
         channel->second.is_live = false;
         wanted_at_[match_id] = now;
     }
-    drop_ended(now);
 }
 
-void Broadcast::drop_ended(Time now) {
+void Broadcast::drop_unwanted(Time now) {
+    const std::lock_guard lock(mutex_);
     std::erase_if(wanted_at_, [&](const auto& ended) {
         return now - ended.second > unwanted_for && channels_.erase(ended.first) > 0;
+    });
+}
+
+void Broadcast::remove(const std::filesystem::path& folder) {
+    const std::lock_guard lock(mutex_);
+    std::erase_if(wanted_at_, [&](const auto& ended) {
+        const auto channel = channels_.find(ended.first);
+        if (channel == channels_.end() || channel->second.folder != folder) return false;
+        channels_.erase(channel);
+        return true;
     });
 }
 
@@ -88,14 +111,16 @@ std::optional<Broadcast::Answer> Broadcast::get(std::string_view path, Time now)
     if (path.empty()) return Answer{true, "", list()};
     const auto parts = parts_of(path);
     const auto match_id = parts.empty() ? std::nullopt : percent_decoded(parts[0]);
-    const auto channel = match_id ? find(*match_id) : std::nullopt;
+    // In the one way in which it is written, too.
+    const bool is_name = match_id && percent_encoded(*match_id) == parts[0];
+    const auto channel = is_name ? find(*match_id) : std::nullopt;
     if (!channel || parts.size() < 2) return std::nullopt;
     if (parts.size() == 2 && parts[1] == "sync") return Answer{true, "", sync_of(*channel)};
-    const auto file = parts[1] == channel->recording_id ? file_of(*channel, parts) : std::nullopt;
-    const auto bytes = file ? read_file(channel->folder / *file) : Result<Bytes>();
-    if (!file || !bytes) return std::nullopt;
+    const auto part = parts[1] == channel->recording_id ? part_of(*channel, parts) : std::nullopt;
+    const auto bytes = part ? read_part(*channel, *part) : std::nullopt;
+    if (!bytes) return std::nullopt;
     keep_for_longer(*match_id, now);
-    return Answer{false, channel->recording_id + "/" + *file,
+    return Answer{false, channel->recording_id + "/" + part->file,
                   std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size())};
 }
 

@@ -33,10 +33,14 @@ class Broadcast {
     using Time = Channel::Clock::time_point;
 
     // Replaces the match's channel, which may be of another recording.
-    void set(const std::string& match_id, Channel channel, Time now = Channel::Clock::now());
-    // Nothing more follows. The channel stays until nobody has read a part of it for ten minutes, or the
-    // match is set again.
+    void set(const std::string& match_id, Channel channel);
+    // Nothing more follows. The channel stays until nobody has read a part of it for ten minutes, its folder
+    // is removed, or the match is set again.
     void end(const std::string& match_id, Time now = Channel::Clock::now());
+    // Those that have ended and whose time is over.
+    void drop_unwanted(Time now = Channel::Clock::now());
+    // That of a match that has ended, if its recording is in this folder.
+    void remove(const std::filesystem::path& folder);
 
     struct Answer {
         bool is_json = false;
@@ -45,11 +49,10 @@ class Broadcast {
     };
     // The resource of a path below /broadcast: "" is the list of matches, "/MATCH/sync",
     // "/MATCH/RECORDING/start" and so on. Reads a file. The path, from outside, is only looked up in the
-    // table; nullopt: there is no such resource, or no more.
+    // table; nullopt: there is no such resource, or no more, or its file has the header of another one.
     [[nodiscard]] std::optional<Answer> get(std::string_view path, Time now = Channel::Clock::now()) const;
 
   private:
-    void drop_ended(Time now);
     [[nodiscard]] std::string list() const;
     [[nodiscard]] std::optional<Channel> find(const std::string& match_id) const;
     void keep_for_longer(const std::string& match_id, Time now) const;

@@ -37,27 +37,45 @@ Channel Playback::whole() const {
 }
 
 Result<void> Playback::go_on(double from_s, double speed) {
-    const auto recorded = reader_.begin_time(reader_.first_fragment());
-    if (!recorded) return tl::unexpected(recorded.error());
-    begin_ = *recorded + nanoseconds(from_s);
+    if (auto found = find_readable(); !found) return found;
+    begin_ = begin_of(reader_.first_fragment()) + nanoseconds(from_s);
     speed_ = speed;
-    const auto fragment = reader_.fragment_at(begin_);
-    if (!fragment) return tl::unexpected(fragment.error());
-    channel_.sync.last = *fragment;
+    channel_.sync.last = reader_.fragment_at(begin_);
     return {};
 }
 
-Result<Channel> Playback::at(double elapsed_s) {
+Channel Playback::at(double elapsed_s) {
     const std::int64_t time = begin_ + nanoseconds(elapsed_s * speed_);
-    while (channel_.sync.last < reader_.last_fragment()) {
-        const auto next = reader_.begin_time(channel_.sync.last + 1);
-        if (!next) return tl::unexpected(next.error());
-        if (*next > time) break;
+    while (channel_.sync.last < reader_.last_fragment() && begin_of(channel_.sync.last + 1) <= time) {
         ++channel_.sync.last;
         channel_.complete_at = Channel::Clock::now();
     }
     channel_.is_live = channel_.sync.last < reader_.last_fragment();
     return channel_;
+}
+
+Result<void> Playback::find_readable() {
+    Result<std::int64_t> begin;
+    for (std::uint64_t n = reader_.first_fragment(); n <= reader_.last_fragment(); ++n) {
+        known_ = static_cast<std::uint32_t>(n);
+        begin = reader_.begin_time(known_);
+        if (begin) {
+            known_begin_ = *begin;
+            return {};
+        }
+    }
+    return tl::unexpected(begin.error());
+}
+
+// Of one that cannot be read about when it should.
+std::int64_t Playback::begin_of(std::uint32_t fragment) {
+    if (fragment != known_) {
+        if (const auto begin = reader_.begin_time(fragment)) {
+            known_ = fragment;
+            known_begin_ = *begin;
+        }
+    }
+    return known_begin_ + (std::int64_t{fragment} - known_) * reader_.start().fragment_duration;
 }
 
 }  // namespace camdir::recording

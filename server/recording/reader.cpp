@@ -41,11 +41,11 @@ Result<void> check_is_recording(const fs::path& folder) {
 
 Result<Reader> Reader::open(const std::filesystem::path& folder) {
     if (auto is = check_is_recording(folder); !is) return tl::unexpected(is.error());
-    const auto start_bytes = read_file(folder / "start");
+    const auto start_bytes = read_file(folder / "start", max_resource);
     if (!start_bytes) return tl::unexpected(start_bytes.error());
     auto start = decode_start(*start_bytes, (folder / "start").string());
     if (!start) return tl::unexpected(start.error());
-    const auto sync_bytes = read_file(folder / "sync");
+    const auto sync_bytes = read_file(folder / "sync", max_sync);
     if (!sync_bytes) return tl::unexpected(sync_bytes.error());
     const auto sync = decode_sync(*sync_bytes, (folder / "sync").string());
     if (!sync) return tl::unexpected(sync.error());
@@ -71,34 +71,42 @@ Result<std::int64_t> Reader::begin_time(std::uint32_t fragment) const {
     return full->begin_time;
 }
 
-Result<std::uint32_t> Reader::fragment_at(std::int64_t time) const {
+std::uint32_t Reader::fragment_at(std::int64_t time) const {
     std::uint32_t found = sync_.first;
-    for (std::uint32_t after = sync_.last; found < after;) {
-        const std::uint32_t middle = after - (after - found) / 2;
-        const auto begin = begin_time(middle);
-        if (!begin) return tl::unexpected(begin.error());
-        if (*begin <= time)
-            found = middle;
-        else
-            after = middle - 1;
+    // All up to `low` are looked at, and all from `end` on.
+    std::uint64_t low = found;
+    for (std::uint64_t end = std::uint64_t{sync_.last} + 1; low + 1 < end;) {
+        const std::uint64_t middle = low + (end - low) / 2;
+        std::uint64_t probe = middle;
+        auto begin = begin_time(static_cast<std::uint32_t>(probe));
+        while (!begin && probe > low + 1)
+            begin = begin_time(static_cast<std::uint32_t>(--probe));
+        if (begin && *begin > time) {
+            end = probe;
+        } else {
+            low = middle;
+            if (begin) found = static_cast<std::uint32_t>(probe);
+        }
     }
     return found;
 }
 
-Result<void> Reader::replay(std::int64_t time, const std::function<void(const Record&)>& visit) const {
-    const auto first = fragment_at(time);
-    if (!first) return tl::unexpected(first.error());
-    const auto before = records(*first, ResourceKind::full);
-    if (!before) return tl::unexpected(before.error());
-    for (const Record& record : *before)
-        visit(record);
-    for (std::uint64_t fragment = *first; fragment <= sync_.last; ++fragment) {
-        const auto all = delta(static_cast<std::uint32_t>(fragment));
-        if (!all) return tl::unexpected(all.error());
-        for (const Record& record : *all)
-            visit(record);
+std::vector<Error> Reader::replay(std::int64_t time, const std::function<void(const Record&)>& visit) const {
+    std::vector<Error> left_out;
+    bool goes_on = false;
+    for (std::uint64_t n = fragment_at(time); n <= sync_.last; ++n) {
+        const auto fragment = static_cast<std::uint32_t>(n);
+        const auto before = goes_on ? Result<std::vector<Record>>() : records(fragment, ResourceKind::full);
+        const auto all = before ? delta(fragment) : before;
+        goes_on = all.has_value();
+        if (!goes_on) {
+            left_out.push_back(all.error());
+            continue;
+        }
+        for (const auto& part : {*before, *all})
+            std::ranges::for_each(part, visit);
     }
-    return {};
+    return left_out;
 }
 
 std::filesystem::path Reader::path_of(std::uint32_t fragment, ResourceKind kind) const {
@@ -107,7 +115,7 @@ std::filesystem::path Reader::path_of(std::uint32_t fragment, ResourceKind kind)
 
 Result<Resource> Reader::resource(std::uint32_t fragment, ResourceKind kind) const {
     const std::filesystem::path path = path_of(fragment, kind);
-    const auto bytes = read_file(path);
+    const auto bytes = read_file(path, max_resource);
     if (!bytes) return tl::unexpected(bytes.error());
     auto resource = decode_resource(*bytes, path.string());
     if (resource && (resource->kind != kind || resource->fragment != fragment))

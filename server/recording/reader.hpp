@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <vector>
 
 #include "recording/fragment.hpp"
 #include "recording/sync.hpp"
@@ -25,12 +26,14 @@ class Reader {
 
     [[nodiscard]] Result<std::int64_t> begin_time(std::uint32_t fragment) const;  // ns
 
-    // The last fragment that begins at or before the time, in ns; the first one where none does.
-    [[nodiscard]] Result<std::uint32_t> fragment_at(std::int64_t time) const;
+    // The last fragment that begins at or before the time, in ns, of those whose `full` can be read; the
+    // first one where none does.
+    [[nodiscard]] std::uint32_t fragment_at(std::int64_t time) const;
 
-    // Visits the messages of `full` of the fragment at the time, then all records to the end.
-    [[nodiscard]] Result<void> replay(std::int64_t time,
-                                      const std::function<void(const Record&)>& visit) const;
+    // Visits the messages of `full` of the fragment at the time, then all records to the end. Returns why
+    // fragments were left out, if any; after them, those of the next one's `full` come first.
+    [[nodiscard]] std::vector<Error> replay(std::int64_t time,
+                                            const std::function<void(const Record&)>& visit) const;
 
   private:
     Reader(std::filesystem::path folder, Start start, Sync sync)

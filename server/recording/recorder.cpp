@@ -14,8 +14,10 @@ namespace {
 constexpr std::size_t max_waiting = 512;
 // Of all matches: as many of 128 matches; beside them, ends.
 constexpr std::size_t max_waiting_of_all = 128 * max_waiting;
+constexpr std::size_t max_waiting_bytes = 128U << 20U;
 constexpr std::size_t max_ends = 8192;
 constexpr std::chrono::milliseconds write_period{50};
+constexpr std::int64_t archive_retry = 10'000'000'000;  // ns
 
 std::int64_t wall_clock_ns() {
     return std::chrono::duration_cast<std::chrono::nanoseconds>(
@@ -23,12 +25,22 @@ std::int64_t wall_clock_ns() {
         .count();
 }
 
+// About; what most matches consist of.
+std::size_t bytes_of(const Message& message) {
+    std::size_t bytes = sizeof message;
+    if (const auto* frame = std::get_if<director::PoseFrame>(&message))
+        bytes += frame->poses.size() * sizeof(director::PlayerPose);
+    if (const auto* frame = std::get_if<director::CameraFrame>(&message))
+        bytes += frame->cameras.size() * sizeof(director::ShotCamera);
+    if (const auto* info = std::get_if<director::MatchInfo>(&message))
+        bytes += info->players.size() * sizeof(director::Player);
+    return bytes;
+}
+
 }  // namespace
 
 Recorder::Recorder(RecorderOptions options)
-    : options_(std::move(options)),
-      clock_offset_(wall_clock_ns() - director::now_ns()),
-      thread_([this](const std::stop_token& stop) { run(stop); }) {}
+    : options_(std::move(options)), thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
 Recorder::~Recorder() {
     thread_.request_stop();
@@ -69,23 +81,22 @@ void Recorder::end(const std::string& match_id) {
         ++statistics_.dropped;
         return;
     }
-    push({now(), match_id, {}, true});
-}
-
-// Never descends, whatever happens to the system's clock.
-std::int64_t Recorder::now() const {
-    return director::now_ns() + clock_offset_;
+    push({director::now_ns(), match_id, {}, true});
 }
 
 void Recorder::put(const std::string& match_id, std::vector<Message> messages, std::size_t max) {
+    std::size_t bytes = 0;
+    for (const Message& message : messages)
+        bytes += bytes_of(message);
     const std::lock_guard lock(mutex_);
     const auto waiting = waiting_of_.find(match_id);
-    if (waiting_.size() >= max_waiting_of_all ||
+    if (waiting_.size() >= max_waiting_of_all || waiting_bytes_ + bytes > max_waiting_bytes ||
         (waiting != waiting_of_.end() && waiting->second.count >= max)) {
         statistics_.dropped += messages.size();
         return;
     }
-    push({now(), match_id, std::move(messages)});
+    waiting_bytes_ += bytes;
+    push({director::now_ns(), match_id, std::move(messages)});
 }
 
 void Recorder::push(Shown shown) {
@@ -106,13 +117,14 @@ void Recorder::wait_until_written() {
 }
 
 void Recorder::run(const std::stop_token& stop) {
+    if (const auto opened = open_archive(); !opened)
+        spdlog::warn("no match is recorded yet: {}", opened.error().message);
     while (!stop.stop_requested()) {
         for (Shown& shown : take(stop))
             write(std::move(shown));
         end_due_fragments();
         keep_within_bound();
-        for (auto& [match_id, match] : matches_)
-            if (match.recording) tell_viewers(match_id, match);
+        broadcast_.drop_unwanted();
         update_statistics();
     }
     for (Shown& shown : take(stop))
@@ -128,6 +140,7 @@ std::vector<Recorder::Shown> Recorder::take(const std::stop_token& stop) {
     written_.wait_for(lock, stop, write_period, [] { return false; });
     is_writing_ = true;
     waiting_of_.clear();
+    waiting_bytes_ = 0;
     return std::exchange(waiting_, {});
 }
 
@@ -142,51 +155,72 @@ void Recorder::write(Shown shown) {
     if (!match.recording && !match.failed && match.requests.empty()) matches_.erase(shown.match_id);
 }
 
-void Recorder::write(const std::string& match_id, Match& match, const Record& record) {
+// The record's time is the steady clock's here.
+void Recorder::write(const std::string& match_id, Match& match, Record record) {
     Result<void> done;
     if (const auto* info = std::get_if<director::MatchInfo>(&record.message)) {
         const bool begins = !match.recording && (!match.failed || info->epoch != match.info.epoch);
         match.info = *info;
         if (begins) done = begin(match_id, match, record.time);
+    } else if (match.failed && !archive_ && record.time >= archive_due_) {
+        done = begin(match_id, match, record.time);
+        if (done)
+            done = match.recording->writer.append({record.time + match.recording->clock_offset, match.info});
     }
     if (const auto* request = std::get_if<director::ObserverRequest>(&record.message))
         match.requests[request->observer_id] = *request;
     if (const auto* withdrawal = std::get_if<Withdrawal>(&record.message))
         match.requests.erase(withdrawal->observer_id);
-    const auto* poses = std::get_if<director::PoseFrame>(&record.message);
-    if (done && match.recording && poses != nullptr && poses->movers)
-        done = append_movers(match, *poses->movers, record.time);
-    if (done && match.recording) done = match.recording->writer.append(record);
-    if (!done) fail(match_id, match, done.error());
+    if (done && match.recording) {
+        record.time += match.recording->clock_offset;
+        if (const auto* poses = std::get_if<director::PoseFrame>(&record.message))
+            done = append_movers(match, *poses, record.time);
+        if (done) done = match.recording->writer.append(record);
+    }
+    if (!done) return fail(match_id, match, done.error());
+    if (match.recording) tell_viewers(match_id, match);
 }
 
-Result<void> Recorder::append_movers(Match& match, const director::MatchMovers& movers, std::int64_t time) {
+Result<void> Recorder::append_movers(Match& match, const director::PoseFrame& poses, std::int64_t time) {
     Result<void> done;
     Writer& writer = match.recording->writer;
+    if (!poses.movers) {
+        const bool had = match.movers.info && match.movers.info->epoch == poses.epoch;
+        match.movers = {};
+        return had ? writer.append({time, director::MoverInfo{poses.epoch, {}}}) : done;
+    }
+    const director::MatchMovers& movers = *poses.movers;
     if (movers.info != match.movers.info) done = writer.append({time, *movers.info});
     if (done && movers.frame != match.movers.frame) done = writer.append({time, *movers.frame});
     match.movers = movers;
     return done;
 }
 
+// Another director may have it, and leave it to this one.
+Result<void> Recorder::open_archive() {
+    archive_due_ = director::now_ns() + archive_retry;
+    auto archive = Archive::open(options_.folder);
+    if (!archive) return tl::unexpected(archive.error());
+    archive_ = std::move(*archive);
+    return {};
+}
+
 Result<void> Recorder::begin(const std::string& match_id, Match& match, std::int64_t time) {
-    if (!archive_) {
-        auto archive = Archive::open(options_.folder);
-        if (!archive) return tl::unexpected(archive.error());
-        archive_.emplace(std::move(*archive));
-    }
-    const std::string id = new_recording_id(time);
+    if (!archive_)
+        if (auto opened = open_archive(); !opened) return opened;
+    const std::int64_t clock_offset = wall_clock_ns() - director::now_ns();
+    const std::string id = new_recording_id(time + clock_offset);
     const std::string name = folder_name(id, match_id);
     auto writer = Writer::create(archive_->path_of(name),
                                  {match.info, options_.director_version, options_.fragment_duration},
                                  options_.max_match_bytes);
     if (!writer) return tl::unexpected(writer.error());
-    match.recording.emplace(Recording{id, name, std::move(*writer)});
+    match.recording.emplace(Recording{id, name, std::move(*writer), clock_offset});
     match.failed = false;
     match.movers = {};
     Result<void> done;
     for (auto request = match.requests.begin(); done && request != match.requests.end(); ++request)
-        done = match.recording->writer.append({time, request->second});
+        done = match.recording->writer.append({time + clock_offset, request->second});
     return done;
 }
 
@@ -211,7 +245,7 @@ void Recorder::end_recording(const std::string& match_id, Match& match) {
     tell_viewers(match_id, match);
     broadcast_.end(match_id);
     ended_fragments_ += match.recording->writer.fragments();
-    archive_->add_ended(match.recording->name);
+    archive_->add_ended(match.recording->name, match.recording->writer.folder_bytes());
     match.recording.reset();
 }
 
@@ -235,17 +269,25 @@ void Recorder::tell_viewers(const std::string& match_id, Match& match) {
 }
 
 void Recorder::end_due_fragments() {
-    const std::int64_t time = now();
     for (auto& [match_id, match] : matches_) {
         if (!match.recording) continue;
+        const std::int64_t time = director::now_ns() + match.recording->clock_offset;
         if (const auto done = match.recording->writer.advance(time); !done)
             fail(match_id, match, done.error());
+        else
+            tell_viewers(match_id, match);
     }
 }
 
 void Recorder::keep_within_bound() {
-    while (disk_bytes() > options_.max_bytes && (archive_->remove_oldest() || remove_oldest_fragment())) {
+    while (disk_bytes() > options_.max_bytes && (remove_oldest_recording() || remove_oldest_fragment())) {
     }
+}
+
+bool Recorder::remove_oldest_recording() {
+    const auto name = archive_->remove_oldest();
+    if (name) broadcast_.remove(archive_->path_of(*name));
+    return name.has_value();
 }
 
 bool Recorder::remove_oldest_fragment() {
@@ -259,7 +301,10 @@ bool Recorder::remove_oldest_fragment() {
     }
     if (oldest == nullptr) return false;
     auto& [match_id, match] = *oldest;
-    if (const auto done = match.recording->writer.remove_oldest(); !done) fail(match_id, match, done.error());
+    if (const auto done = match.recording->writer.remove_oldest(); !done)
+        fail(match_id, match, done.error());
+    else
+        tell_viewers(match_id, match);
     return true;
 }
 

@@ -22,7 +22,7 @@ namespace camdir::recording {
 
 struct RecorderOptions {
     std::filesystem::path folder;
-    std::uint64_t max_bytes = 0;        // of the disk, for all recordings; at most one fragment a match more
+    std::uint64_t max_bytes = 0;        // of the disk, for all recordings; at most two fragments a match more
     std::uint64_t max_match_bytes = 0;  // for each
     std::int64_t fragment_duration = 3'000'000'000;  // ns
     std::string director_version;
@@ -39,15 +39,16 @@ struct RecorderStatistics {
 // A match is recorded from its first MatchInfo to its end, across epochs, in a folder of its own. The
 // audience's calls copy what they are shown; one thread encodes and writes. What waits for it is bounded for
 // each match, where frames, events and requests are dropped first, then descriptions and withdrawals, and for
-// all matches, where ends are dropped last: a recording whose end was dropped goes on with the next match of
-// its id, or ends with the recorder. All that is dropped is counted.
+// all matches, also in bytes, where ends are dropped last: a recording whose end was dropped goes on with the
+// next match of its id, or ends with the recorder. All that is dropped is counted.
 //
 // An error of the disk ends the recording of its match: it is logged and counted, and the match's next epoch
 // begins a new one. When all recordings take more than max_bytes, the oldest that have ended are removed,
 // then the oldest fragments of the others. statistics() and wait_until_written() are thread-safe.
 class Recorder final : public director::Audience {
   public:
-    // Does not fail: a folder that cannot be used fails each match's recording.
+    // Does not fail: a folder that cannot be used fails each match's recording, and is tried again every ten
+    // seconds.
     explicit Recorder(RecorderOptions options);
     Recorder(const Recorder&) = delete;
     Recorder& operator=(const Recorder&) = delete;
@@ -69,7 +70,7 @@ class Recorder final : public director::Audience {
 
   private:
     struct Shown {
-        std::int64_t time;
+        std::int64_t time;  // ns of the steady clock
         std::string match_id;
         std::vector<Message> messages;
         bool ends = false;  // the match, after the messages
@@ -78,6 +79,9 @@ class Recorder final : public director::Audience {
         std::string id;
         std::string name;  // of its folder
         Writer writer;
+        // Of its records' times, ns since 1970, from the steady clock: they never descend, whatever happens
+        // to the system's clock, which may not be set yet when the process begins.
+        std::int64_t clock_offset = 0;
         // What viewers were told of.
         std::uint32_t first = 0;
         std::uint32_t end = 0;  // one after the last
@@ -96,7 +100,6 @@ class Recorder final : public director::Audience {
         bool ends = false;  // the last is its end
     };
 
-    [[nodiscard]] std::int64_t now() const;
     // Dropped where `max` of the match wait.
     void put(const std::string& match_id, std::vector<Message> messages, std::size_t max);
     // With mutex_ held.
@@ -106,10 +109,11 @@ class Recorder final : public director::Audience {
     void run(const std::stop_token& stop);
     [[nodiscard]] std::vector<Shown> take(const std::stop_token& stop);
     void write(Shown shown);
-    void write(const std::string& match_id, Match& match, const Record& record);
-    // Before the poses that are among them, where they are others than before.
-    [[nodiscard]] static Result<void> append_movers(Match& match, const director::MatchMovers& movers,
+    void write(const std::string& match_id, Match& match, Record record);
+    // Of these poses, which follow, where they are others than before.
+    [[nodiscard]] static Result<void> append_movers(Match& match, const director::PoseFrame& poses,
                                                     std::int64_t time);
+    [[nodiscard]] Result<void> open_archive();
     // Also appends the requests that preceded the match.
     [[nodiscard]] Result<void> begin(const std::string& match_id, Match& match, std::int64_t time);
     void finish(const std::string& match_id, Match& match);
@@ -119,25 +123,27 @@ class Recorder final : public director::Audience {
     void end_due_fragments();
     void keep_within_bound();
     // False when there is none that may be removed.
+    bool remove_oldest_recording();
     bool remove_oldest_fragment();
     [[nodiscard]] std::uint64_t disk_bytes() const;
     void update_statistics();
 
     const RecorderOptions options_;
-    const std::int64_t clock_offset_;  // of the records' times, ns since 1970, from the steady clock
     LogLimit failure_lines_;
 
-    mutable std::mutex mutex_;  // guards the next five
+    mutable std::mutex mutex_;  // guards the next six
     std::condition_variable_any written_;
     std::vector<Shown> waiting_;
     std::unordered_map<std::string, Waiting> waiting_of_;  // by match
+    std::size_t waiting_bytes_ = 0;
     bool is_writing_ = false;
     RecorderStatistics statistics_;
 
     Broadcast broadcast_;
 
     // Used by the thread only.
-    std::optional<Archive> archive_;  // none until a match has needed it
+    std::unique_ptr<Archive> archive_;  // null: it cannot be opened
+    std::int64_t archive_due_ = 0;      // ns of the steady clock: when it is tried again
     std::map<std::string, Match> matches_;
     std::uint64_t ended_fragments_ = 0;
     std::uint64_t failures_ = 0;

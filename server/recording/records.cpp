@@ -14,7 +14,7 @@ template <class... Functions>
 Overloaded(Functions...) -> Overloaded<Functions...>;
 
 void apply_info(State& state, const director::MatchInfo& info) {
-    if (state.info && state.info->epoch != info.epoch) {
+    if (state.info && (state.info->epoch != info.epoch || state.info->map_name != info.map_name)) {
         state.poses.reset();
         state.cameras.reset();
         state.movers.reset();
@@ -41,6 +41,27 @@ void apply_poses(State& state, const director::PoseFrame& frame) {
         state.poses->poses.push_back(pose);
 }
 
+bool lists(const std::optional<director::MoverInfo>& movers, std::uint32_t id) {
+    return movers && std::ranges::find(movers->movers, id, &director::Mover::id) != movers->movers.end();
+}
+
+// Movers that a frame leaves out stay where they are.
+void apply_mover_frame(State& state, const director::MoverFrame& frame) {
+    std::map<std::uint32_t, director::MoverPose> last;
+    if (state.mover_frame && state.mover_frame->epoch == frame.epoch)
+        for (const director::MoverPose& pose : state.mover_frame->poses)
+            if (lists(state.movers, pose.mover_id)) last[pose.mover_id] = pose;
+    for (const director::MoverPose& pose : frame.poses)
+        last[pose.mover_id] = pose;
+    // A list that follows may have those that this one has not.
+    if (last.size() > freespace::max_movers)
+        std::erase_if(last, [&](const auto& entry) { return !lists(state.movers, entry.first); });
+    state.mover_frame = frame;
+    state.mover_frame->poses.clear();
+    for (const auto& [id, pose] : last)
+        state.mover_frame->poses.push_back(pose);
+}
+
 }  // namespace
 
 void State::apply(const Message& message) {
@@ -52,7 +73,7 @@ void State::apply(const Message& message) {
                    [&](const Withdrawal& withdrawal) { requests.erase(withdrawal.observer_id); },
                    [&](const director::CameraFrame& frame) { cameras = frame; },
                    [&](const director::MoverInfo& described) { movers = described; },
-                   [&](const director::MoverFrame& frame) { mover_frame = frame; },
+                   [&](const director::MoverFrame& frame) { apply_mover_frame(*this, frame); },
                },
                message);
 }

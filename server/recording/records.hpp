@@ -37,9 +37,10 @@ struct State {
     std::map<std::string, director::ObserverRequest> requests;  // by observer
     std::optional<director::CameraFrame> cameras;               // the last frame's
     std::optional<director::MoverInfo> movers;
+    // The last one, also with the last poses of those of `movers` that it leaves out.
     std::optional<director::MoverFrame> mover_frame;
 
-    // A new epoch in a MatchInfo forgets poses, cameras and movers.
+    // A new epoch or map in a MatchInfo forgets poses, cameras and movers.
     void apply(const Message& message);
 
     // The messages that make this state from an empty one.

@@ -67,6 +67,19 @@ Bytes encode(const Resource& resource) {
     return std::move(sink.bytes);
 }
 
+bool has_header(std::span<const std::byte> bytes, ResourceKind kind, std::uint32_t fragment) {
+    if (bytes.size() < header_size) return false;
+    ByteSource source(bytes);
+    const bool is_resource = source.fixed(4) == magic && source.fixed(1) == major_version;
+    source.fixed(1);
+    const bool is_kind = source.fixed(1) == static_cast<std::uint64_t>(kind);
+    source.fixed(1);
+    const bool is_fragment = source.fixed(4) == fragment;
+    source.fixed(8);
+    source.fixed(4);
+    return is_resource && is_kind && is_fragment && source.fixed(4) == bytes.size() - header_size;
+}
+
 Result<Resource> decode_resource(std::span<const std::byte> bytes, const std::string& name) {
     const auto wrong = [&](std::size_t at, const std::string& what) {
         return fail(name + ": byte " + std::to_string(at) + ": " + what);

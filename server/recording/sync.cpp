@@ -21,8 +21,9 @@ std::string encode(const Sync& sync) {
 }
 
 Result<Sync> decode_sync(std::span<const std::byte> bytes, const std::string& name) {
-    constexpr std::size_t max_size = 4096;  // bounds the nesting that the parser may meet
-    if (bytes.size() > max_size) return fail(name + ": byte 4096: expected at most 4096 bytes of JSON");
+    // Bounds the nesting that the parser may meet.
+    if (bytes.size() > max_sync)
+        return fail(name + ": byte 4096: expected at most " + std::to_string(max_sync) + " bytes of JSON");
     const auto* text = reinterpret_cast<const char*>(bytes.data());
     const auto object = nlohmann::json::parse(text, text + bytes.size(), nullptr, false);
     if (!object.is_object() || !is_number(object, "version") || !is_number(object, "first_fragment") ||

@@ -13,11 +13,10 @@ namespace {
 
 constexpr std::size_t max_delta = max_content / 2;  // a record fits into the other half
 
-constexpr std::uint64_t folder_bytes = 4096;
+// Disks give whole blocks, a folder one.
+constexpr std::uint64_t block = 4096;
 
-// Disks give whole blocks.
 std::uint64_t on_disk(const Bytes& bytes) {
-    constexpr std::uint64_t block = 4096;
     return (bytes.size() + block - 1) / block * block;
 }
 
@@ -47,6 +46,7 @@ Result<Writer> Writer::create(const std::filesystem::path& folder, const Start& 
     std::filesystem::create_directories(folder, error);
     Result<void> done = created(folder, error);
     if (done) done = write_file(folder / "start", encode_start(start));
+    if (done) done = sync_folder(folder.has_parent_path() ? folder.parent_path() : ".");
     if (!done) std::filesystem::remove(folder, ignored);  // when it is empty
     if (!done) return tl::unexpected(done.error());
     return Writer(folder, start.fragment_duration, max_bytes);
@@ -54,7 +54,7 @@ Result<Writer> Writer::create(const std::filesystem::path& folder, const Start& 
 
 Result<void> Writer::append(const Record& record) {
     if (error_) return tl::unexpected(*error_);
-    if (pending_ && record.time < time_)
+    if (record.time < time_)
         return fail(folder_.string() + ": a record at " + std::to_string(record.time) +
                     " ns, expected not before " + std::to_string(time_));
     if (auto done = advance(record.time); !done) return done;
@@ -79,7 +79,8 @@ bool Writer::is_full(const Pending& pending, std::int64_t time) const {
 
 Result<void> Writer::finish() {
     if (error_) return tl::unexpected(*error_);
-    return pending_ ? complete_fragment() : Result<void>{};
+    auto done = pending_ ? complete_fragment() : Result<void>{};
+    return done ? remove_given_up() : done;
 }
 
 Result<void> Writer::complete_fragment() {
@@ -112,8 +113,7 @@ Result<void> Writer::write_fragment() {
     if (done) done = sync_folder(folder_);
     if (!done) return done;
 
-    written_.push_back(
-        {next_, pending_->begin_time, folder_bytes + on_disk(full_bytes) + on_disk(delta_bytes)});
+    written_.push_back({next_, pending_->begin_time, block + on_disk(full_bytes) + on_disk(delta_bytes)});
     bytes_ += written_.back().bytes;
     ++next_;
     return tell(first_within_bound());
@@ -134,19 +134,33 @@ Result<void> Writer::remove_oldest() {
     return done;
 }
 
-// Which fragments there are; the others are removed once nobody is told of them.
+// Which fragments there are; the others are given up.
 Result<void> Writer::tell(std::uint32_t first) {
     auto done = write_file(folder_ / "sync", encode(Sync{first, written_.back().fragment}));
-    if (!done) return done;
+    if (!done || written_.front().fragment == first) return done;
+    done = remove_given_up();
     while (written_.front().fragment < first) {
-        const std::filesystem::path old = folder_ / std::to_string(written_.front().fragment);
-        std::error_code error;
-        std::filesystem::remove_all(old, error);
-        if (error) return fail(old.string() + ": cannot remove: " + error.message());
+        given_up_.push_back(written_.front().fragment);
         bytes_ -= written_.front().bytes;
         written_.erase(written_.begin());
     }
+    return done;
+}
+
+Result<void> Writer::remove_given_up() {
+    for (const std::uint32_t fragment : given_up_) {
+        const std::filesystem::path old = folder_ / std::to_string(fragment);
+        std::error_code error;
+        std::filesystem::remove_all(old, error);
+        if (error) return fail(old.string() + ": cannot remove: " + error.message());
+    }
+    given_up_.clear();
     return {};
+}
+
+std::uint64_t Writer::folder_bytes() const {
+    constexpr std::uint64_t others = 3;  // itself, start, sync
+    return bytes_ + others * block;
 }
 
 }  // namespace camdir::recording

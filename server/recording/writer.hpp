@@ -2,7 +2,9 @@
 #pragma once
 
 #include <filesystem>
+#include <limits>
 #include <optional>
+#include <vector>
 
 #include "recording/fragment.hpp"
 
@@ -12,7 +14,7 @@ namespace camdir::recording {
 class Writer {
   public:
     // Creates the folder; one that has a `start` is refused. max_bytes bounds what the fragments take of the
-    // disk, of which the newest always stays.
+    // disk, apart from those given up last; the newest always stays.
     [[nodiscard]] static Result<Writer> create(const std::filesystem::path& folder, const Start& start,
                                                std::uint64_t max_bytes);
 
@@ -37,9 +39,11 @@ class Writer {
     [[nodiscard]] const std::vector<Written>& written() const { return written_; }
 
     [[nodiscard]] std::uint64_t bytes() const { return bytes_; }     // of the disk, of all written
+    [[nodiscard]] std::uint64_t folder_bytes() const;                // with all else in the folder
     [[nodiscard]] std::uint32_t fragments() const { return next_; }  // also removed ones
 
-    // Removes the oldest fragment, as if max_bytes had asked for it. There must be two.
+    // Gives the oldest fragment up, as if max_bytes had asked for it. There must be two. Its files stay until
+    // the next one is given up, or the recording is finished: a reader may have been told of it just before.
     [[nodiscard]] Result<void> remove_oldest();
 
   private:
@@ -56,15 +60,17 @@ class Writer {
     Result<void> write_fragment();
     [[nodiscard]] std::uint32_t first_within_bound() const;
     Result<void> tell(std::uint32_t first);
+    Result<void> remove_given_up();
 
     std::filesystem::path folder_;
     std::int64_t duration_;
     std::uint64_t max_bytes_;
     State state_;
-    std::int64_t time_ = 0;
+    std::int64_t time_ = std::numeric_limits<std::int64_t>::min();
     std::uint32_t next_ = 0;
     std::optional<Pending> pending_;
     std::vector<Written> written_;
+    std::vector<std::uint32_t> given_up_;  // whose files are still there
     std::uint64_t bytes_ = 0;
     std::optional<Error> error_;
 };

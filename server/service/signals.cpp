@@ -46,6 +46,8 @@ Interruption::~Interruption() {
 
 Signals::Signals() : mask_before_(block({SIGTERM, SIGINT, SIGHUP}, signals_)) {
     std::signal(SIGPIPE, SIG_IGN);
+    // A file that may not grow is an error of its writer.
+    std::signal(SIGXFSZ, SIG_IGN);
 }
 
 Signals::~Signals() {

@@ -67,12 +67,11 @@ Result<void> read_blocks(BlockReader& blocks, FrameReader& frames, Recorder& rec
     return {};
 }
 
-Result<void> read_content(Unpacker& content, FrameReader& frames, Recorder& recorder) {
-    BlockReader blocks;
+Result<void> read_content(Unpacker& content, BlockReader& blocks, FrameReader& frames, Recorder& recorder) {
     while (true) {
         auto piece = content.next();
         if (!piece) return tl::unexpected(piece.error());
-        if (piece->empty()) return blocks.expect_end();
+        if (piece->empty()) return {};
         while (!piece->empty()) {
             const std::size_t size = std::min(piece->size(), piece_size);
             blocks.append(piece->first(size));
@@ -86,13 +85,20 @@ Result<void> read_content(Unpacker& content, FrameReader& frames, Recorder& reco
 }  // namespace
 
 Result<Demo> read_demo(Unpacker& content) {
+    BlockReader blocks;
     FrameReader frames;
     Recorder recorder;
-    if (const auto read = read_content(content, frames, recorder); !read) return tl::unexpected(read.error());
+    if (const auto read = read_content(content, blocks, frames, recorder); !read)
+        return tl::unexpected(read.error());
     if (const auto frame = frames.finish()) recorder.add(*frame, frames);
     if (const auto readable = frames.expect_readable(); !readable) return tl::unexpected(readable.error());
     Demo demo = recorder.take();
-    if (demo.frames.empty()) return fail("no player in it, expected at least one frame with a player");
+    // A crash of who recorded it cuts a demo off; what follows the match's end does not matter.
+    const auto ended = frames.match_is_over() ? Result<void>() : blocks.expect_end();
+    if (demo.frames.empty())
+        return fail(ended ? "no player in it, expected at least one frame with a player"
+                          : ended.error().message);
+    if (!ended) demo.cut_off = ended.error().message;
     demo.blocks = frames.blocks();
     demo.unread_blocks = frames.unread_blocks();
     demo.first_unread = frames.first_unread();

@@ -39,6 +39,7 @@ struct Demo {
     std::size_t blocks = 0;
     std::size_t unread_blocks = 0;  // of which some messages, from one on, could not be read
     std::string first_unread;       // where and why
+    std::string cut_off;            // where, if it ends within a block
 };
 
 // Errors name the byte and what was expected. Memory: at most 40 times the demo's size.

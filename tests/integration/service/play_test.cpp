@@ -93,9 +93,12 @@ TEST_F(PlayTest, AViewerFetchesEveryBitFromTheListToTheEnd) {
     const auto reader = Reader::open(copy);
     ASSERT_TRUE(reader) << reader.error().message;
     std::vector<std::string> gone;
-    EXPECT_TRUE(reader->replay(0, [&](const recording::Record& record) {
-        gone.push_back(std::get<recording::Withdrawal>(record.message).observer_id);
-    }));
+    EXPECT_TRUE(reader
+                    ->replay(0,
+                             [&](const recording::Record& record) {
+                                 gone.push_back(std::get<recording::Withdrawal>(record.message).observer_id);
+                             })
+                    .empty());
     EXPECT_THAT(gone, testing::ElementsAre("0", "1", "2", "3", "4", "5", "6", "7"));
     process_->send_signal(SIGINT);
     EXPECT_EQ(process_->wait(), 0);

@@ -64,8 +64,13 @@ TEST_F(SentMoversTest, WhatHasNotChangedIsTheSameObject) {
     ASSERT_TRUE(first);
     EXPECT_EQ(movers_.at(owner, 1, 21), first);
     sends(owner, movers_in(1));
-    const auto second = movers_.at(owner, 1, 22);
+    EXPECT_EQ(movers_.at(owner, 1, 22), first) << "described again, and the same";
+    const auto others = movers_in(1);
+    others->movers.push_back({7, {"*7", "func_door", {}, {}}});
+    sends(owner, others);
+    const auto second = movers_.at(owner, 1, 23);
     EXPECT_NE(second, first);
+    EXPECT_EQ(second->info->movers.size(), 1U);
     EXPECT_EQ(second->frame, first->frame);
 }
 

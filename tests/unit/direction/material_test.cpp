@@ -53,7 +53,7 @@ TEST(Material, AFloodOfEventsIsBoundedAndItsKillsCountForTheLead) {
     append(material, Script(2, 30).footage(), 30);
     const Rules rules = default_rules();
     const auto moments = material.moments(rules, test::unit, 28);
-    EXPECT_LE(moments.size(), 3 * Material::max_events);
+    EXPECT_LE(moments.size(), 4 * Material::max_events);
     const auto lead = std::ranges::find_if(
         moments, [&](const Moment& moment) { return rules.moments[moment.rule].trigger == Trigger::lead; });
     ASSERT_NE(lead, moments.end());

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 #include "small_match.hpp"
 
 namespace camdir::direction {
@@ -92,6 +94,64 @@ TEST(Moments, KillsInQuickSuccessionAreAMultiKill) {
     EXPECT_EQ(found[0].end, 36);
     EXPECT_EQ(found[1].begin, 10);
     EXPECT_EQ(found[1].end, 65);
+}
+
+TEST(Moments, AfterAKillTheKillerIsWorthSeeing) {
+    const std::vector<Event> events = {kill(1.0, 0, 1), kill(2.0, 1, 1), kill(2.0, nobody, 1)};
+    const auto found =
+        find_moments(Script(2, 60).footage(), events,
+                     only({.name = "tested", .trigger = Trigger::killer, .after_s = 2.0}), test::unit, 0);
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0].actor, 0);
+    EXPECT_EQ(found[0].subject, nobody);
+    EXPECT_EQ(found[0].begin, 10);
+    EXPECT_EQ(found[0].end, 31);
+}
+
+TEST(Moments, TheLastOfATeamWhoLivesIsAMomentWhileAnEnemyLives) {
+    Script script(5, 40);
+    for (std::size_t beat = 0; beat < 40; ++beat) {
+        for (const std::size_t player : {0U, 1U, 2U})
+            script.player(beat, player).team = 1;
+        script.player(beat, 3).team = 2;  // a team of one; 4 is everybody's enemy
+        script.player(beat, 0).alive = beat < 10;
+        script.player(beat, 1).alive = beat < 20 || beat >= 30;
+        script.player(beat, 3).alive = script.player(beat, 4).alive = beat < 25;
+    }
+    const auto found = find_moments(script.footage(), {},
+                                    only({.name = "tested", .trigger = Trigger::last_alive}), test::unit, 0);
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0].actor, 2);
+    EXPECT_EQ(found[0].begin, 20);
+    EXPECT_EQ(found[0].end, 25);
+    const auto later = find_moments(script.footage(), {},
+                                    only({.name = "tested", .trigger = Trigger::last_alive}), test::unit, 22);
+    ASSERT_EQ(later.size(), 1U);
+    EXPECT_EQ(later[0].begin, 22);
+}
+
+TEST(Moments, ThatGoOnEndWithWhatIsKnown) {
+    Script script(3, 10);
+    for (std::size_t beat = 0; beat < 10; ++beat) {
+        script.player(beat, 0).team = script.player(beat, 1).team = 1;
+        script.player(beat, 1).alive = false;
+    }
+    const auto found = find_moments(script.footage(), {},
+                                    only({.name = "tested", .trigger = Trigger::last_alive}), test::unit, 0);
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0].end, 10);
+}
+
+TEST(Moments, AWonRoundAndAnEntranceAreOfWhoDidThem) {
+    const std::vector<Event> events = {{1.0, EventKind::spawn, 1}, {3.0, EventKind::round_won, 0}};
+    for (const auto& [trigger, actor, begin] : {std::tuple(Trigger::spawn, Index{1}, Beat{10}),
+                                                std::tuple(Trigger::round_won, Index{0}, Beat{30})}) {
+        const auto found = find_moments(Script(2, 60).footage(), events,
+                                        only({.name = "tested", .trigger = trigger}), test::unit, 0);
+        ASSERT_EQ(found.size(), 1U);
+        EXPECT_EQ(found[0].actor, actor);
+        EXPECT_EQ(found[0].begin, begin);
+    }
 }
 
 TEST(Moments, AnExchangeEndsWithItsLastWound) {

@@ -469,6 +469,18 @@ TEST(Demo, ErrorsOfTheContainerNameTheByte) {
                 HasSubstr("a block of 4294967295 bytes, expected at most 1048576"));
 }
 
+TEST(Demo, ThatIsCutOffIsReadToThere) {
+    DemoWriter demo = begun();
+    for (int i = 0; i < 3; ++i)
+        frame(demo, 10, at({8, 16, 24}), at({100, 0, 0}));
+    const Bytes& whole = demo.bytes();
+    const auto match = parse_match(std::span(whole).first(whole.size() - 1), "match.mvd");
+    ASSERT_TRUE(match) << match.error().message;
+    EXPECT_EQ(match->trace.frames.size(), 2U);
+    EXPECT_THAT(match->warning, HasSubstr("match.mvd: is cut off; byte "));
+    EXPECT_THAT(parse_match(whole, "match.mvd")->warning, testing::IsEmpty());
+}
+
 TEST(Demo, MayBeCompressed) {
     DemoWriter demo = begun();
     frame(demo, 10, at({8, 16, 24}), at({100, 0, 0}));

@@ -156,6 +156,7 @@ TEST(Bounds, OldConnectionsMakeRoomWhenFilesRunOut) {
     }
     for (const auto& client : clients)
         EXPECT_EQ(client->receive().status, 200);
+    clients.pop_back();  // whose file the next one needs
     EXPECT_GE(times_reached(server, "files"), 1);
 }
 

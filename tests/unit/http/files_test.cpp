@@ -64,9 +64,17 @@ TEST(Files, OfTheBuildTreeAreServedCompressedToWhoTakesThat) {
     EXPECT_EQ(plain.header.at("content-type"), "text/html; charset=utf-8");
     EXPECT_TRUE(plain.header.at("content-security-policy").starts_with("default-src 'self'"));
     EXPECT_FALSE(plain.header.contains("content-encoding"));
-    const auto compressed = server.ask("GET", "/", "Accept-Encoding: gzip, br\r\n");
-    EXPECT_EQ(compressed.header.at("content-encoding"), "gzip");
-    EXPECT_EQ(inflated(compressed.body), plain.body);
+    EXPECT_EQ(plain.header.at("vary"), "Accept-Encoding");
+    for (const char* accepted : {"gzip, br", "br;q=1.0, GZIP;q=0.5", "gzip;q=1"}) {
+        const auto compressed = server.ask("GET", "/", "Accept-Encoding: " + std::string(accepted) + "\r\n");
+        EXPECT_EQ(compressed.header.at("content-encoding"), "gzip");
+        EXPECT_EQ(compressed.header.at("vary"), "Accept-Encoding");
+        EXPECT_NE(compressed.header.at("etag"), plain.header.at("etag"));
+        EXPECT_EQ(inflated(compressed.body), plain.body);
+    }
+    for (const char* refused : {"gzip;q=0", "br, gzip;q=0.000", "identity", "notgzip"})
+        EXPECT_EQ(server.ask("GET", "/", "Accept-Encoding: " + std::string(refused) + "\r\n").body,
+                  plain.body);
 }
 
 TEST(Files, AreNotSentToWhoHasThem) {

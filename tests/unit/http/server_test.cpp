@@ -47,6 +47,8 @@ TEST(Server, ServesNothingElse) {
     EXPECT_EQ(status.status, 200);
     EXPECT_EQ(status.header.at("content-type"), "application/json");
     EXPECT_EQ(status.header.at("cache-control"), "no-store");
+    EXPECT_EQ(server.ask("GET", "http://localhost/status?of=all").body, status.body) << "as of a proxy";
+    EXPECT_EQ(server.status_of("GET", "http://localhost"), 404);
     for (const char* path :
          {"/nothing", "/index", "/-/healthy/", "/../../etc/passwd", "/%2e%2e/etc/passwd", "*"})
         EXPECT_EQ(server.status_of("GET", path), 404) << path;
@@ -83,6 +85,7 @@ TEST(Server, LetsCachesKeepWhatNeverChanges) {
         const HttpAnswer known =
             client.ask("GET", "/broadcast/x", "If-None-Match: " + std::string(tags) + "\r\n");
         EXPECT_EQ(known.status, 304) << tags;
+        EXPECT_FALSE(known.header.contains("content-length")) << "which would be that of the whole answer";
         EXPECT_EQ(known.header.at("etag"), "\"r/x\"");
     }
     EXPECT_EQ(client.ask("GET", "/broadcast/x", "If-None-Match: \"r/xx\"\r\n").body, "/x");

@@ -97,6 +97,19 @@ TEST(Models, NamesNoFileToViewers) {
     EXPECT_EQ(answer.reason.find('/'), std::string::npos) << answer.reason;
 }
 
+TEST(Models, AreTriedAgainAfterAMinute) {
+    Library library;
+    Models models(library.maps);
+    models.set_source("room", library.source + ".gone");
+    const auto begin = Models::Clock::now();
+    EXPECT_FALSE(models.find("room", ModelKind::obstacles, begin).model);
+    models.set_source("room", library.source);
+    EXPECT_FALSE(models.find("room", ModelKind::obstacles, begin + std::chrono::seconds(59)).model);
+    const auto later = begin + std::chrono::seconds(61);
+    EXPECT_TRUE(models.find("room", ModelKind::obstacles, later).model);
+    EXPECT_TRUE(models.find("room", ModelKind::obstacles, later + std::chrono::hours(1)).model);
+}
+
 TEST(Models, DoesNotShowObstaclesThatTheMapWasNotBakedFrom) {
     Library library;
     Models models(library.maps);

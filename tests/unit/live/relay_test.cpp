@@ -254,6 +254,64 @@ TEST(Relay, GivesSlotsOfThoseWhoHaveGoneAwayWhenAllAreTaken) {
         1);
 }
 
+// All slots are taken by those of `first` and on.
+std::vector<director::Player> crowd(std::uint32_t first, std::uint32_t count = 255) {
+    std::vector<director::Player> players;
+    for (std::uint32_t player = first; player < first + count; ++player)
+        players.push_back({player, "", "", 0});
+    return players;
+}
+
+json last_players(Viewer& watcher) {
+    json last;
+    for (const json& message : take_all(watcher))
+        if (message.is_object() && message["kind"] == "match") last = message["players"];
+    return last;
+}
+
+TEST(Relay, WhoIsStillListedKeepsTheirSlotThoughANewPlayerIsListedBefore) {
+    Relay relay(10);
+    auto players = crowd(1000);
+    relay.show(match_info("cup", players));
+    const auto watcher = viewer();
+    ASSERT_EQ(relay.join("cup", watcher), Relay::Admission::joined);
+    const json before = last_players(*watcher);
+    players.pop_back();  // of whose slot the new one is
+    players.insert(players.begin(), {7, "new", "", 0});
+    relay.show(match_info("cup", players));
+    const json after = last_players(*watcher);
+    ASSERT_EQ(after.size(), 255U);
+    for (std::size_t slot = 0; slot < 254; ++slot)
+        EXPECT_EQ(after[slot]["id"], before[slot]["id"]);
+    EXPECT_EQ(after[254]["id"], 7);
+}
+
+TEST(Relay, TellsWhoHasTheSlotOfAnotherNow) {
+    Relay relay(10);
+    relay.show(match_info("cup", crowd(1000)));
+    relay.show(match_info("cup", crowd(1000, 254)));
+    const auto watcher = viewer();
+    ASSERT_EQ(relay.join("cup", watcher), Relay::Admission::joined);
+    const auto poses = poses_of({7}, 1);  // is not listed
+    relay.show("cup", poses, cameras_of(poses, 7, 2));
+    const json players = last_players(*watcher);
+    ASSERT_EQ(players.size(), 255U);
+    EXPECT_EQ(players[254]["id"], 7);
+}
+
+TEST(Relay, ForgetsTheHistoryOfAnotherMap) {
+    Relay relay(10);
+    director::MatchInfo info = match_info("cup", {{7, "Ann", "", 0}});
+    relay.show(info);
+    const auto poses = poses_of({7}, 1);
+    relay.show("cup", poses, cameras_of(poses, 7, 2));
+    info.map_name = "yard";
+    relay.show(info);
+    const auto watcher = viewer();
+    ASSERT_EQ(relay.join("cup", watcher), Relay::Admission::joined);
+    EXPECT_EQ(take_all(*watcher).size(), 2U) << "match and an empty history, no frame";
+}
+
 TEST(Relay, ForgetsTheHistoryOfAnEpochThatIsOver) {
     Relay relay(10);
     relay.show(match_info("cup", {{1, "", "", 0}}));

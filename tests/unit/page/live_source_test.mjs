@@ -34,10 +34,14 @@ const newest = () => Socket.made[Socket.made.length - 1];
 const matchOf = (players, {epoch = 1, listed = players.length} = {}) => ({kind: 'match', version: 1, match_id: 'cup', epoch, map: 'hall', metres_per_unit: 0.0254,
     position_step: 0.01, rate_hz: 60, players: players.map((id, slot) => ({slot, id, listed: slot < listed, name: `p${id}`}))});
 
+// `told`: what it has told.
 function stream() {
     const model = new Model();
-    const source = new LiveSource('cup', model, () => null, {match() {}, problem() {}, change() {}});
-    return {model, source};
+    const told = [];
+    const tell = what => () => told.push(what);
+    const source = new LiveSource('cup', model, () => null,
+        {begin: tell('begin'), match: tell('match'), problem: text => told.push(text), change() {}});
+    return {model, source, told};
 }
 
 // As if frames had come.
@@ -114,13 +118,14 @@ test('the timeline has the latency of frames as they arrive, where the clocks ag
     source.close();
 });
 
+const door = {id: 3, name: '*1', kind: 'func_door', hulls: [], balls: [[0, 0, 0, 1]]};
+
 test('a frame has the movers of the last note before it, and those of another epoch are forgotten', () => {
     const golden = readFileSync(new URL('../live/frame.hex', import.meta.url), 'utf8').trim();
     const {model, source} = stream();
     newest().open();
     newest().note(matchOf([7, 9]));
     newest().note({kind: 'history', states: [], notes: []});
-    const door = {id: 3, name: '*1', kind: 'func_door', hulls: [], balls: [[0, 0, 0, 1]]};
     newest().note({kind: 'movers', movers: [door]});
     newest().onmessage({data: Uint8Array.from(golden.match(/../g), byte => parseInt(byte, 16)).buffer});
     const {moverList, movers} = model.buffer.sample(1500);
@@ -128,5 +133,67 @@ test('a frame has the movers of the last note before it, and those of another ep
     assert.ok(movers.has(3));
     newest().note(matchOf([7, 9], {epoch: 2}));
     assert.deepEqual(source.movers, []);
+    source.close();
+});
+
+test('movers that are not as they should be are told and left out', () => {
+    const {source, told} = stream();
+    newest().open();
+    newest().note(matchOf([7, 9]));
+    newest().note({kind: 'movers', movers: [door]});
+    told.length = 0;
+    for (const bad of [undefined, {}, [null], [{...door, hulls: undefined}], [{...door, balls: [[0, 0, 1]]}]])
+        newest().note({kind: 'movers', movers: bad});
+    assert.deepEqual(told, Array(5).fill('What moves in the map cannot be read'));
+    assert.deepEqual(source.movers, [door]);
+    source.close();
+});
+
+test('another epoch, and other players in the same slots, are told as a begin before their match', () => {
+    const {source, told} = stream();
+    newest().open();
+    newest().note(matchOf([7, 9]));
+    newest().note(matchOf([7, 9, 11]));
+    assert.deepEqual(told.splice(0), ['match', 'match'], 'what is shown goes on');
+    newest().note(matchOf([7, 9, 11], {epoch: 2}));
+    assert.deepEqual(told.splice(0), ['begin', 'match']);
+    newest().note(matchOf([9, 7], {epoch: 2}));
+    assert.deepEqual(told, ['begin', 'match']);
+    source.close();
+});
+
+test('of a server of another version nothing more is taken, and it is not asked again', () => {
+    const {model, source, told} = stream();
+    const socket = newest();
+    socket.open();
+    socket.note({...matchOf([7, 9]), version: 2});
+    assert.equal(source.state, 'outdated');
+    socket.onmessage(frameOf(0, Date.now()));
+    assert.equal(model.buffer.last, null);
+    source.link.unreachable();
+    source.runs();
+    assert.equal(newest(), socket);
+    assert.deepEqual(told, ['The server speaks another version: reload this page']);
+    source.close();
+});
+
+test('a stream that is silent while its match runs is opened again', context => {
+    context.mock.timers.enable({apis: ['setTimeout']});
+    const {source} = stream();
+    const socket = newest();
+    socket.open();
+    socket.note(matchOf([]));
+    source.runs();
+    context.mock.timers.tick(11e3);
+    source.runs();
+    assert.equal(source.state, 'empty', 'it is not silent yet');
+    context.mock.timers.tick(1e3);
+    assert.equal(source.state, 'silent');
+    context.mock.timers.tick(60e3);
+    assert.equal(newest(), socket, 'the match may stand still');
+    source.runs();
+    assert.equal(source.state, 'waiting');
+    context.mock.timers.tick(1e3);
+    assert.notEqual(newest(), socket);
     source.close();
 });

@@ -185,6 +185,65 @@ test('a broadcast is watched at its newest, and followed', () =>
         assert.deepEqual(stage.problems, []);
     }, {sync: {last_fragment: 20, live: true, age_s: 0.9}, begin: {}}));
 
+test('a seek is followed also while the newest is being loaded', () =>
+    watch(writer.recording(30), async stage => {
+        await stage.until('begins', () => stage.shown === 2 && stage.playback.loaded.last > 10);
+        const answer = stage.answer.bind(stage);
+        stage.answer = (url, abort) => {
+            const found = answer(url, abort);
+            stage.answer = answer;
+            stage.playback.seek(6000);
+            stage.model.clock.setPaused(true);
+            return found;
+        };
+        stage.playback.goLive();
+        for (const end = Date.now() + 400; Date.now() < end; await new Promise(resolve => setTimeout(resolve, 5))) stage.play(0);
+        assert.equal(stage.model.clock.t, 6000);
+        assert.equal(stage.playback.state, 'paused');
+        assert.equal(stage.shown, 6);
+    }, {sync: {last_fragment: 20, live: true}, begin: {t: 2000}}));
+
+// The page is hidden: nothing is drawn until the broadcast has gone on for long.
+async function hideUntil(stage, change) {
+    const asked = stage.asked.length;
+    change();
+    while (!stage.asked.slice(asked).includes('sync')) await new Promise(resolve => setTimeout(resolve, 10));
+    await new Promise(resolve => setTimeout(resolve, 100));
+}
+
+test('a broadcast that was not drawn for long goes on with the newest, not with all that was missed', () =>
+    watch(writer.recording(300), async stage => {
+        await stage.until('begins', () => stage.playback.state === 'live' && stage.playback.loaded.last === 20);
+        await hideUntil(stage, () => { stage.sync.last_fragment = 299; });
+        stage.play(0);
+        assert.equal(stage.playback.state, 'loading');
+        await stage.until('newest', () => stage.playback.state === 'live' && stage.playback.loaded.last === 299);
+        assert.ok(stage.model.clock.live && stage.asked.length < 70, `${stage.asked.length} requests`);
+    }, {sync: {last_fragment: 20, live: true, age_s: 0.9}, begin: {}}));
+
+test('a broadcast of which what was shown has been removed goes on with the newest', () =>
+    watch(writer.recording(300), async stage => {
+        await stage.until('begins', () => stage.playback.state === 'live' && stage.playback.loaded.last === 20);
+        await hideUntil(stage, () => {
+            Object.assign(stage.sync, {first_fragment: 250, last_fragment: 299});
+            for (let n = 0; n < 250; ++n) for (const name of ['full', 'delta']) delete stage.files[`${n}/${name}`];
+        });
+        await stage.until('newest', () => stage.playback.state === 'live' && stage.playback.loaded.last === 299);
+        assert.ok(stage.model.clock.live);
+        assert.deepEqual(stage.problems, []);
+    }, {sync: {last_fragment: 20, live: true, age_s: 0.9}, begin: {}}));
+
+test('a broadcast whose newest fragments are damaged is asked for in no haste', () => {
+    const files = writer.recording(21);
+    for (let n = 16; n < 21; ++n) files[`${n}/full`] = new Uint8Array(1);
+    return watch(files, async stage => {
+        await stage.until('begins', () => stage.playback.state === 'live' && stage.model.buffer.last === 15e3);
+        const asked = stage.asked.length;
+        for (const end = Date.now() + 500; Date.now() < end; await new Promise(resolve => setTimeout(resolve, 5))) stage.play(0);
+        assert.ok(stage.asked.length - asked < 5, `${stage.asked.length - asked} requests`);
+    }, {sync: {live: true}, begin: {}});
+});
+
 test('who plays to the newest is told', () =>
     watch(writer.recording(30), async stage => {
         await stage.until('begins', () => stage.shown === 9);
@@ -206,6 +265,108 @@ test('what is removed meanwhile is not waited for', () =>
         assert.equal(stage.playback.range[0], 150e3);
     }, {sync: {live: true}}));
 
+test('more than the memory has room for is played without being fetched again', () =>
+    watch(writer.recording(40), async stage => {
+        stage.model.buffer.keptBytes = 6000;  // five frames
+        await stage.until('begins', () => stage.shown === 0);
+        await stage.until('the timeline', () => stage.model.timeline.cuts.length === 40);
+        const asked = stage.asked.length;
+        for (let n = 0; n < 30; ++n) {
+            await stage.until(`what follows ${n}`, () => stage.playback.loaded.last > n + 1);
+            assert.equal(stage.shown, n);
+            assert.equal(stage.playback.state, 'playing');
+            stage.play(1000);
+        }
+        assert.ok(stage.asked.length - asked < 70, `${stage.asked.length - asked} requests`);
+        assert.ok(stage.model.buffer.frames.length < 8);
+    }, {begin: {t: 100}}));
+
+test('an ended broadcast that the server no longer has is not taken for one without fragments', () =>
+    watch(writer.recording(40), async stage => {
+        await stage.until('begins', () => stage.shown === 0);
+        stage.status = 404;
+        stage.playback.seek(30e3);
+        await stage.until('it waits', () => stage.playback.state === 'waiting');
+        assert.match(stage.problems.join(), /^sync: the server answers with 404$/);
+        stage.status = 0;
+        await stage.until('it is there again', () => stage.shown === 30);
+        assert.equal(stage.playback.unreadable.size, 0);
+    }));
+
+test('an ended broadcast is asked for now and then, so that the server keeps it', () =>
+    watch(writer.recording(4), async stage => {
+        await stage.until('begins', () => stage.shown === 0);
+        stage.model.clock.setPaused(true);
+        await stage.until('all there is', () => stage.model.timeline.cuts.length === 4 && stage.playback.loaded.last === 3);
+        const asked = stage.asked.length;
+        stage.playback.keepDue = 0;
+        await stage.until('asked', () => stage.asked.length > asked);
+        assert.deepEqual(stage.asked.slice(asked), ['r/start']);
+        assert.ok(stage.playback.keepDue > performance.now() + 60e3);
+        stage.status = 404;
+        stage.playback.keepDue = 0;
+        await stage.until('asked again', () => stage.playback.keepDue > 0);
+        assert.equal(stage.playback.state, 'paused', 'what is loaded is shown still');
+        assert.deepEqual(stage.problems, []);
+    }));
+
+// Carl is in the match from fragment 3 on, followed there, and has left in fragment 5; Zoe is in the last one alone.
+function ofManyPlayers() {
+    const files = writer.recording(7);
+    const at = n => ({ms: n * 1000, time: writer.begin + BigInt(n * 1000) * 1000000n});
+    const content = (n, players, target) => [...writer.record(1, 0, writer.match({players})),
+        ...writer.record(2, 0, writer.poses(n, at(n).ms * 1e6, n)),
+        ...writer.record(6, 0, writer.cameras(n, at(n).ms * 1e6, n, {target})), ...writer.record(1, 1e6, writer.match({players}))];
+    const all = {3: [[[0, 'Ann'], [8, 'Carl']], 8], 5: [[[0, 'Ann'], [1, 'Bob']], 0], 6: [[[9, 'Zoe'], [0, 'Ann']], 9]};
+    for (const [n, [players, target]] of Object.entries(all))
+        files[`${n}/delta`] = writer.resource(3, n, at(n).time, content(n, players, target));
+    files['6/full'] = writer.resource(2, 6, at(6).time, content(6, all[6][0], 9));
+    return files;
+}
+
+test('the timeline names players also where they are not in the match that is shown', () =>
+    watch(ofManyPlayers(), async stage => {
+        await stage.until('begins', () => stage.shown === 0);
+        const {timeline} = stage.model;
+        await stage.until('the timeline', () => stage.playback.surveyed.size === 7);
+        stage.play(0);
+        const nameAt = t => stage.model.look(timeline.spans(5, t, t + 1)[0].target).name;
+        assert.deepEqual([0, 3000, 6000].map(nameAt), ['Ann', 'Carl', 'Zoe']);
+        assert.deepEqual(stage.told[0].players.map(({slot, name}) => [slot, name]), [[0, 'Ann'], [1, 'Bob']],
+            'slots are in the order in which players come');
+        stage.playback.seek(6000);
+        await stage.until('the end', () => stage.shown === 6);
+        stage.play(0);
+        assert.ok(stage.told.length > 1);
+        assert.equal(nameAt(3000), 'Carl', 'who has left');
+    }));
+
+test('what is played is not counted as fetched for the timeline', () =>
+    watch(writer.recording(40), async stage => {
+        stage.playback.broadcast.bytes = 1e9;
+        await stage.until('the timeline', () => stage.model.timeline.cuts.length === 40);
+        assert.ok(stage.playback.surveyBytes > 0);
+    }));
+
+test('the timeline is fetched in less than half of the time, so that there is time to draw', () =>
+    watch(writer.recording(60), async stage => {
+        await stage.until('begins', () => stage.shown === 0);
+        const {playback, model: {timeline}} = stage;
+        const waits = [];
+        const sleep = playback.sleep.bind(playback);
+        playback.sleep = ms => {
+            waits.push(ms);
+            return sleep(Math.min(ms, 1));
+        };
+        const insert = timeline.insert.bind(timeline);
+        timeline.insert = (...part) => {
+            for (const end = performance.now() + 40; performance.now() < end;);
+            insert(...part);
+        };
+        await stage.until('the timeline', () => timeline.cuts.length > 25);
+        assert.ok(waits.filter(ms => ms > 80).length > 5, `${waits}`);
+    }));
+
 test('a server that does not answer is asked again', () =>
     watch(writer.recording(5), async stage => {
         stage.status = 503;
@@ -223,6 +384,17 @@ test('another recording of the match is begun anew', () =>
         stage.sync.recording = 'other';
         await stage.until('it restarts', () => stage.told.includes('restart'));
     }, {sync: {live: true}, begin: {}}));
+
+test('what another recording of the match does not have is not told as missing', () =>
+    watch(writer.recording(40), async stage => {
+        await stage.until('begins', () => stage.shown === 0);
+        stage.sync.recording = 'other';
+        for (let n = 0; n < 40; ++n) delete stage.files[`${n}/delta`];
+        stage.playback.seek(30e3);
+        await stage.until('it restarts', () => stage.told.includes('restart'));
+        await new Promise(resolve => setTimeout(resolve, 50));
+        assert.deepEqual(stage.problems, ['Another recording of this match has begun']);
+    }));
 
 test('a recording of which nothing can be read says so, and is not asked for in haste', () => {
     const files = writer.recording(5);

@@ -73,6 +73,21 @@ test('the buffer is bounded and takes frames in order', () => {
     assert.equal(buffer.bytes, buffer.frames.length * 64);
 });
 
+test('what is needed is kept however much it takes', () => {
+    const buffer = new FrameBuffer(keptMs, 640);
+    const addUntil = (last, neededFrom) => {
+        for (let t = (buffer.last ?? 0) + 20; t <= last; t += 20) buffer.add(t, 64, () => frame(t, 0), neededFrom);
+    };
+    addUntil(400, Infinity);
+    assert.deepEqual([buffer.first, buffer.last], [220, 400]);
+    addUntil(1000, 310);
+    assert.deepEqual([buffer.first, buffer.last], [300, 1000], 'with the frame before it, which it is interpolated from');
+    assert.ok(!buffer.hasRoomAfter(310));
+    assert.ok(buffer.hasRoomAfter(900));
+    addUntil(1020, 900);
+    assert.equal(buffer.bytes, 640);
+});
+
 // Plays 60 frames a second for some seconds; frames arrive with this delay.
 function play(clock, seconds, delayOf, start = 0) {
     const shown = [];

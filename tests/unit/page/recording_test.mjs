@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import {test} from 'node:test';
 import {ByteSource, Damaged} from '../../../server/page/bytes.js';
-import {cutsOf} from '../../../server/page/fragment.js';
+import {Roster, apply, cutsOf, noState} from '../../../server/page/fragment.js';
 import {cameraFlag} from '../../../server/page/protocol.js';
 import {decodeRecords, decodeResource, decodeStart, decodeSync} from '../../../server/page/recording.js';
 import * as writer from './recording_writer.mjs';
@@ -90,6 +90,30 @@ test('any bytes are read or refused', async () => {
             assert.ok(error instanceof Damaged, error.stack);
         }
     }
+});
+
+test('a mover is where it was last placed, also before the list had it', () => {
+    const list = (...ids) => ({moverList: {movers: ids.map(id => ({id}))}});
+    const poses = (...places) => ({moverPoses: {movers: places.map(([id, x]) => ({id, position: [x, 0, 0], rotation: [0, 0, 0, 1]}))}});
+    const placed = (...records) => [...records.reduce(apply, noState).movers].map(([id, {position}]) => [id, position[0]]);
+    assert.deepEqual(placed(list(1), poses([1, 10], [2, 20]), list(1, 2)), [[1, 10], [2, 20]]);
+    assert.deepEqual(placed(list(1, 2), poses([1, 10], [2, 20]), poses([2, 21])), [[1, 10], [2, 21]], 'left out: it stands');
+    assert.deepEqual(placed(list(1, 2), poses([1, 10], [2, 20]), list(2)), [[2, 20]]);
+    assert.deepEqual(placed(list(1), poses([1, 10]), list()), []);
+});
+
+test('of players the name that they had last is known, in whatever order matches are read', () => {
+    const matchOf = (...players) => ({epoch: 1, players: players.map(([id, name]) => ({id, name, class: 'scout', team: 1}))});
+    const roster = new Roster();
+    const note = roster.note(matchOf([7, 'Ann'], [9, 'Bob']), 5000);
+    assert.deepEqual(note.players.map(({slot, name}) => [slot, name]), [[0, 'Ann'], [1, 'Bob']]);
+    roster.note(matchOf([9, 'Bobby'], [4, 'Carl']), 1000);
+    const later = roster.note(matchOf([7, 'Anna']), 9000);
+    roster.add([12]);
+    assert.deepEqual(later.players[1], {slot: 1, id: 9, listed: false}, 'the note has what was then');
+    assert.deepEqual([...roster.known].map(([slot, {id, name}]) => [slot, id, name]),
+        [[0, 7, 'Anna'], [1, 9, 'Bob'], [2, 4, 'Carl'], [3, 12, undefined]]);
+    assert.deepEqual(roster.known.get(1), {slot: 1, id: 9, listed: true, name: 'Bob', class: 'scout', team: 1});
 });
 
 test('start and sync are checked', async () => {

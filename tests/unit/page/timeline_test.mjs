@@ -78,17 +78,18 @@ test('it is bounded whatever happens', () => {
     assert.ok(timeline.cuts.length <= 1024);
 });
 
-// Parts of a recording: four of 3 s, in which camera 5 sees player 1, loses it at 4 s and is gone at 8 s.
-function parts() {
+// Parts of a recording: four of 3 s, in which camera 5 sees player 1, loses it at `lostAt` and is gone at 8 s. The frames of
+// each are so much earlier than its records.
+function parts({earlyMs = 0, lostAt = 4000} = {}) {
     return [0, 1, 2, 3].map(n => {
         const part = new Timeline(whole);
-        for (let t = n * 3000; t < (n + 1) * 3000; t += 100)
-            part.addFrame(t < 8000 ? frame(t, [5, 1, t < 4000 ? visible : searching]) : frame(t));
+        for (let t = n * 3000 - earlyMs; t < (n + 1) * 3000 - earlyMs; t += 100)
+            part.addFrame(t < 8000 ? frame(t, [5, 1, t < lostAt ? visible : searching]) : frame(t));
         part.addNote({kind: 'cut', t: n * 3000, camera: 5, target: 1, reason: 'begin'});
         part.addNote({kind: 'event', t: n * 3000 + 5, event: 'kill'});
         part.addNote({kind: 'event', t: n * 3000 + 1, event: 'award'});
         part.addLatency(n * 3000, n);
-        return {part, end: n * 3000 + 2900};
+        return {part, end: n * 3000 + 2900 + earlyMs};
     });
 }
 
@@ -108,6 +109,48 @@ test('parts make the same timeline in any order', () => {
         assert.deepEqual(timeline.cuts, inOrder.cuts);
         assert.deepEqual(timeline.events, inOrder.events);
         assert.deepEqual(timeline.latencies, [0, 1, 2, 3].map(n => ({t: n * 3000, ms: n})));
+    }
+});
+
+const orders = [[0, 1, 2, 3], [3, 2, 1, 0], [2, 0, 3, 1], [1, 3, 0, 2]];
+
+test('parts that overlap a little leave nothing out', () => {
+    for (const earlyMs of [10, 90, 110]) for (const order of orders) {
+        const timeline = new Timeline(whole);
+        const all = parts({earlyMs});
+        for (const n of order) timeline.insert(all[n].part, all[n].end);
+        const seen = timeline.spans(5, 0, 12000);
+        assert.deepEqual(seen.map(({flags}) => flags), [visible, searching], `${earlyMs} ms, ${order}`);
+        assert.equal(seen[0].to, seen[1].from);
+        assert.ok(seen[0].from === 0 && seen[0].to >= 4000 && seen[0].to < 4100 && seen[1].to >= 8000 && seen[1].to < 8100);
+    }
+});
+
+test('where states of parts that overlap alternate, each part is known still', () => {
+    for (const order of orders) {
+        const timeline = new Timeline(whole);
+        const all = parts({lostAt: 6000}).map((each, n) => {
+            each.part.addState(n * 3000 + 3003, 5, 1, 0);
+            return {...each, end: n * 3000 + 3005};
+        });
+        for (const n of order) timeline.insert(all[n].part, all[n].end);
+        const states = timeline.shots.get(5);
+        assert.ok(states.every(({t}, i) => i === 0 || t >= states[i - 1].t), `${order}: ${states.map(({t}) => t)}`);
+        for (let t = 50; t < 8000; t += 100)
+            assert.ok(timeline.spans(5, t, t + 1).some(({flags}) => flags === (t < 6000 ? visible : searching)), `${order}: ${t}`);
+    }
+});
+
+test('events that are told late are in order, whatever part comes first', () => {
+    const told = [[1000, 2000, 2900], [2500, 5000], [5900, 7000]];
+    for (const order of [[0, 1, 2], [2, 1, 0], [1, 0, 2]]) {
+        const timeline = new Timeline(whole);
+        for (const n of order) {
+            const part = new Timeline(whole);
+            for (const t of told[n]) part.addNote({kind: 'event', t, event: 'kill'});
+            timeline.insert(part, n * 3000 + 2999);
+        }
+        assert.deepEqual(timeline.events.map(({t}) => t), [1000, 2000, 2500, 2900, 5000, 5900, 7000]);
     }
 });
 

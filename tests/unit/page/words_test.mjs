@@ -13,9 +13,9 @@ test('only what is live is called so', () => {
     const of = (state, more) => stateText(state, {...facts, ...more});
     assert.deepEqual(of('live'), ['live', 'Live · 12.5 s after the game']);
     assert.deepEqual(of('live', {lateMs: null}), ['live', 'Live · 2.5 s after the game']);
-    const others = {none: 'No match', waiting: 'Reconnecting in 2 s', connecting: 'Reconnecting', opening: 'Opening', loading: 'Loading',
-        ended: 'Ended', silent: 'No frames: running', empty: 'running', paused: 'Paused, 2.5 s behind', behind: '2.5 s behind',
-        playing: 'Recording, 0:02 behind'};
+    const others = {none: 'No match', outdated: 'Another version: reload this page', waiting: 'Reconnecting in 2 s',
+        connecting: 'Reconnecting', opening: 'Opening', loading: 'Loading', ended: 'Ended', silent: 'No frames: running',
+        empty: 'running', paused: 'Paused, 2.5 s behind', behind: '2.5 s behind', playing: 'Recording, 0:02 behind'};
     for (const [state, text] of Object.entries(others)) {
         assert.equal(of(state)[1], text);
         assert.notEqual(of(state)[0], 'live', state);

@@ -80,6 +80,73 @@ TEST(Frames, MatchesBeginAndEndAgainAndAgain) {
     EXPECT_EQ(kinds, (std::vector{Kind::match_begin, Kind::match_end, Kind::match_begin, Kind::match_end}));
 }
 
+TEST(Frames, NoPlayersNameBeginsOrEndsAMatch) {
+    DemoWriter demo;
+    demo.to_everyone(0, level("maps/dm3.bsp").user_info(2, R"(\name\The match is over)"));
+    const auto prints = [&](int print_level, std::string_view line) {
+        demo.to_everyone(10, DemoMessages().print(print_level, line).player(2, {}));
+    };
+    prints(2, "The match has begun!\n");
+    prints(1, "The match is over was gibbed by anna's rocket\n");
+    prints(2, "The match is over entered the game\n");
+    prints(1, "The match is over\n");
+    demo.to_everyone(10, DemoMessages());
+    FrameReader reader;
+    std::vector<Occurrence::Kind> kinds;
+    const auto collect = [&](const std::vector<Frame>& frames) {
+        for (const Frame& frame : frames)
+            for (const Occurrence& occurrence : frame.occurrences)
+                if (occurrence.kind != Occurrence::Kind::obituary) kinds.push_back(occurrence.kind);
+    };
+    collect(read(reader, demo));
+    EXPECT_EQ(kinds, std::vector{Occurrence::Kind::match_begin});
+    DemoWriter end;
+    end.to_everyone(10, DemoMessages().print(2, "\xd4\xe8\xe5 match is over\n").player(2, {}));
+    end.to_everyone(10, DemoMessages());
+    collect(read(reader, end));
+    EXPECT_EQ(kinds.size(), 2U) << "in letters of another colour";
+}
+
+TEST(Frames, ALevelWhoseBeginCannotBeReadIsAnErrorAtOnce) {
+    DemoWriter demo;
+    demo.to_everyone(0, level("maps/dm3.bsp"));
+    for (int i = 0; i < 1000; ++i)
+        demo.to_everyone(10, DemoMessages().player(2, {}));
+    FrameReader reader;
+    (void)read(reader, demo);
+    EXPECT_TRUE(reader.expect_readable());
+    (void)read(reader, DemoWriter().to_everyone(0, DemoMessages().begin_level({}, 29)));
+    const auto readable = reader.expect_readable();
+    ASSERT_FALSE(readable);
+    EXPECT_NE(readable.error().message.find("protocol 29, expected 28"), std::string::npos);
+}
+
+TEST(Frames, WhatCanBeReadIsJudgedByTheLastBlocks) {
+    FrameReader reader;
+    const auto pass = [&](int count, const DemoMessages& messages) {
+        DemoWriter demo;
+        for (int i = 0; i < count; ++i)
+            demo.to_everyone(10, messages);
+        (void)read(reader, demo);
+    };
+    const DemoMessages unknown = DemoMessages().number(255, 1);
+    pass(100'000, DemoMessages().player(2, {}));
+    pass(50, unknown);
+    EXPECT_TRUE(reader.expect_readable());
+    pass(100, unknown);
+    EXPECT_FALSE(reader.expect_readable()) << "0.15 % of all, but 1.5 % of the last";
+}
+
+TEST(Frames, NamesHaveNoLineFeeds) {
+    FrameReader reader;
+    (void)read(reader,
+               DemoWriter().to_everyone(
+                   0, level("maps/dm\n3.bsp").user_key(2, "name", "an\nna").user_key(3, "name", "b\x8at")));
+    EXPECT_EQ(reader.map(), "dm?3");
+    EXPECT_EQ(reader.clients()[2].name, "an?na");
+    EXPECT_EQ(reader.clients()[3].name, "b?t");
+}
+
 TEST(Frames, ThatNeverEndDoNotGrow) {
     DemoWriter demo;
     demo.to_everyone(0, level("maps/dm3.bsp"));

@@ -9,6 +9,7 @@
 
 #include "base/file.hpp"
 #include "recording/percent.hpp"
+#include "recording/resource.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace camdir::recording {
@@ -20,10 +21,11 @@ class BroadcastTest : public testing::Test {
   protected:
     // Fragments 0 to 4, of which viewers know 1 to 3.
     BroadcastTest() {
-        write("start", "s");
-        for (int n = 0; n < 5; ++n)
-            for (const char* name : {"full", "delta"})
-                write(std::to_string(n) + "/" + name, name + std::to_string(n));
+        write("start", content_of({ResourceKind::start, 0, 0, {}}));
+        for (std::uint32_t n = 0; n < 5; ++n) {
+            write(std::to_string(n) + "/full", content_of({ResourceKind::full, n, 0, {}}));
+            write(std::to_string(n) + "/delta", content_of({ResourceKind::delta, n, 0, {}}));
+        }
         write("secret", "x");
         std::ofstream(folder_ / "secret") << "x";
         broadcast_.set("m/1", channel("id"));
@@ -31,6 +33,10 @@ class BroadcastTest : public testing::Test {
 
     [[nodiscard]] Channel channel(const std::string& recording_id) const {
         return {recording_id, folder_ / "r", "square", 3.0, 10.0, {1, 3}, Channel::Clock::now()};
+    }
+    [[nodiscard]] static std::string content_of(const Resource& resource) {
+        const Bytes bytes = encode(resource);
+        return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
     }
     [[nodiscard]] std::string content(const std::string& path) const {
         const auto answer = broadcast_.get(path);
@@ -40,7 +46,6 @@ class BroadcastTest : public testing::Test {
     const test::TemporaryFolder folder_;
     Broadcast broadcast_;
 
-  private:
     void write(const std::string& name, const std::string& content) const {
         std::filesystem::create_directories((folder_ / "r" / name).parent_path());
         std::ofstream(folder_ / "r" / name) << content;
@@ -48,9 +53,9 @@ class BroadcastTest : public testing::Test {
 };
 
 TEST_F(BroadcastTest, HasTheResourcesOfARecording) {
-    EXPECT_EQ(content("/m%2F1/id/start"), "s");
-    EXPECT_EQ(content("/m%2f1/id/1/full"), "full1");
-    EXPECT_EQ(content("/%6D%2F1/id/3/delta"), "delta3");
+    EXPECT_EQ(content("/m%2F1/id/start"), content_of({ResourceKind::start, 0, 0, {}}));
+    EXPECT_EQ(content("/m%2F1/id/1/full"), content_of({ResourceKind::full, 1, 0, {}}));
+    EXPECT_EQ(content("/m%2F1/id/3/delta"), content_of({ResourceKind::delta, 3, 0, {}}));
     const auto one = broadcast_.get("/m%2F1/id/1/full");
     EXPECT_FALSE(one->is_json);
     EXPECT_EQ(one->tag, "id/1/full");
@@ -110,6 +115,8 @@ TEST_F(BroadcastTest, HasNothingElse) {
                              "/m%2F1/id/1/../../secret",
                              "/m%2F1/../secret/start",
                              "/m%2F1/id/..%2F..%2Fsecret",
+                             "/m%2f1/sync",
+                             "/%6D%2F1/sync",
                              "/m%2/sync",
                              "/m%2G1/sync",
                              "/other/sync",
@@ -121,14 +128,14 @@ TEST_F(BroadcastTest, HasNothingElse) {
 TEST_F(BroadcastTest, NeverMixesTwoRecordings) {
     broadcast_.set("m/1", channel("second"));
     EXPECT_FALSE(broadcast_.get("/m%2F1/id/start"));
-    EXPECT_EQ(content("/m%2F1/second/start"), "s");
+    EXPECT_EQ(content("/m%2F1/second/start"), content_of({ResourceKind::start, 0, 0, {}}));
 }
 
 TEST_F(BroadcastTest, AnEndedMatchCanBeSeenToItsEnd) {
     broadcast_.end("m/1");
     broadcast_.end("unknown");
     EXPECT_EQ(json::parse(content("/m%2F1/sync"))["live"], false);
-    EXPECT_EQ(content("/m%2F1/id/3/delta"), "delta3");
+    EXPECT_TRUE(broadcast_.get("/m%2F1/id/3/delta"));
     broadcast_.set("m/1", channel("second"));
     EXPECT_EQ(json::parse(content("/m%2F1/sync"))["live"], true);
 }
@@ -138,11 +145,41 @@ TEST_F(BroadcastTest, AnEndedMatchStaysAsLongAsSomebodyWatchesIt) {
     const auto after = [&](int minutes) { return end + std::chrono::minutes(minutes); };
     broadcast_.end("m/1", end);
     for (int minutes = 5; minutes <= 30; minutes += 5) {
-        broadcast_.set("another", channel("its"), after(minutes));
+        broadcast_.drop_unwanted(after(minutes));
         EXPECT_TRUE(broadcast_.get("/m%2F1/id/3/delta", after(minutes))) << minutes;
     }
-    broadcast_.set("another", channel("its"), after(41));
+    broadcast_.drop_unwanted(after(41));
     EXPECT_FALSE(broadcast_.get("/m%2F1/id/3/delta", after(41)));
+}
+
+TEST_F(BroadcastTest, ARemovedRecordingIsGoneAndNoOther) {
+    broadcast_.set("runs", channel("other"));
+    broadcast_.end("m/1");
+    broadcast_.remove(folder_ / "elsewhere");
+    EXPECT_TRUE(broadcast_.get("/m%2F1/sync"));
+    broadcast_.remove(folder_ / "r");
+    EXPECT_FALSE(broadcast_.get("/m%2F1/sync"));
+    EXPECT_TRUE(broadcast_.get("/runs/sync"));
+}
+
+TEST_F(BroadcastTest, WhatIsNoSuchResourceIsNotShown) {
+    namespace fs = std::filesystem;
+    const auto replace = [&](const fs::path& name, const std::string& content) {
+        fs::remove(folder_ / "r" / name);
+        write(name.string(), content);
+    };
+    fs::remove(folder_ / "r" / "1" / "full");
+    fs::create_symlink(folder_ / "secret", folder_ / "r" / "1" / "full");
+    EXPECT_FALSE(broadcast_.get("/m%2F1/id/1/full"));
+    replace("1/delta", content_of({ResourceKind::delta, 2, 0, {}}));
+    EXPECT_FALSE(broadcast_.get("/m%2F1/id/1/delta")) << "another fragment's";
+    replace("2/full", content_of({ResourceKind::delta, 2, 0, {}}));
+    EXPECT_FALSE(broadcast_.get("/m%2F1/id/2/full")) << "another kind's";
+    replace("2/delta", content_of({ResourceKind::delta, 2, 0, {}}) + "x");
+    EXPECT_FALSE(broadcast_.get("/m%2F1/id/2/delta")) << "longer than it says";
+    replace("3/full", "");
+    fs::resize_file(folder_ / "r" / "3" / "full", 1ULL << 30U);  // takes no place
+    EXPECT_FALSE(broadcast_.get("/m%2F1/id/3/full"));
 }
 
 TEST_F(BroadcastTest, ARotatedFragmentIsGone) {

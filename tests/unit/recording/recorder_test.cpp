@@ -9,6 +9,7 @@
 #include <csignal>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -69,13 +70,14 @@ std::vector<Record> records_in(const fs::path& folder) {
     EXPECT_TRUE(reader) << reader.error().message;
     std::vector<Record> records;
     if (reader) {
-        EXPECT_TRUE(reader->replay(0, [&](const Record& record) { records.push_back(record); }));
+        EXPECT_TRUE(reader->replay(0, [&](const Record& record) { records.push_back(record); }).empty());
     }
     return records;
 }
 
 std::string kinds(const std::vector<Record>& records) {
-    constexpr const char* letters = "IPERWC";
+    constexpr std::string_view letters = "IPERWCDM";  // the last: movers described, and moved
+    static_assert(letters.size() == std::variant_size_v<Message>);
     std::string kinds;
     for (const Record& record : records)
         kinds += letters[record.message.index()];
@@ -188,9 +190,8 @@ TEST(Recorder, TheBoundRemovesEndedRecordingsAndThenFragments) {
         recorder.wait_until_written();
         ASSERT_LE(recorder.statistics().bytes, 200'000U);
     }
-    const auto names = names_in(folder / "r");
-    ASSERT_EQ(names.size(), 1U);
-    const auto reader = Reader::open(folder / "r" / names[0]);
+    ASSERT_TRUE(test::eventually([&] { return names_in(folder / "r").size() == 1; }));
+    const auto reader = Reader::open(folder / "r" / names_in(folder / "r")[0]);
     EXPECT_GT(reader->first_fragment(), 0U);
     EXPECT_GT(reader->last_fragment(), reader->first_fragment() + 5);
     EXPECT_TRUE(reader->full(reader->first_fragment())->info);
@@ -204,15 +205,70 @@ TEST(Recorder, TheBoundCountsWhatEarlierRunsLeft) {
         recorder.show(info(id));
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    fs::create_directory(folder / "r" / "not a recording");
+    // Whatever stands beside them is left alone.
+    for (const char* name : {"0 not a recording", "20200101T000000.000Z-00000000-copy"}) {
+        fs::create_directory(folder / "r" / name);
+        std::ofstream(folder / "r" / name / "start") << "x";
+        std::ofstream(folder / "r" / name / "file") << std::string(100'000, 'x');
+    }
     RecorderOptions bounded = options(folder / "r");
     bounded.max_bytes = 60'000;  // a recording of one fragment takes 6 blocks
     Recorder recorder(bounded);
     recorder.show(info("now"));
     recorder.end("now");
-    recorder.wait_until_written();
-    const auto names = names_in(folder / "r");
-    EXPECT_THAT(names, ElementsAre(testing::EndsWith("-new"), testing::EndsWith("-now"), "not a recording"));
+    const auto expected = ElementsAre("0 not a recording", testing::EndsWith("-copy"),
+                                      testing::EndsWith("-new"), testing::EndsWith("-now"));
+    EXPECT_TRUE(test::eventually([&] { return testing::Value(names_in(folder / "r"), expected); }));
+}
+
+// As a process leaves it that is killed while it removes a recording.
+TEST(Recorder, WhatWasBeingRemovedIsRemovedByTheNextRecorder) {
+    const test::TemporaryFolder folder;
+    fs::create_directories(folder / "r" / ".removed-20261126T120000.000Z-00000000-m" / "3");
+    std::ofstream(folder / "r" / ".removed-20261126T120000.000Z-00000000-m" / "3" / "full") << "x";
+    Recorder recorder(options(folder / "r"));
+    recorder.show(info("m"));
+    EXPECT_TRUE(test::eventually([&] {
+        const auto names = names_in(folder / "r");
+        return names.size() == 1 && names[0].ends_with("-m");
+    }));
+}
+
+TEST(Recorder, ViewersAreNotToldOfARemovedRecording) {
+    const test::TemporaryFolder folder;
+    RecorderOptions bounded = options(folder / "r");
+    bounded.max_bytes = 60'000;  // a recording of one fragment takes 6 blocks
+    Recorder recorder(bounded);
+    for (const char* id : {"first", "second", "third"}) {
+        recorder.show(info(id));
+        recorder.end(id);
+        recorder.wait_until_written();
+    }
+    EXPECT_FALSE(recorder.broadcast().get("/first/sync"));
+    EXPECT_TRUE(recorder.broadcast().get("/third/sync"));
+}
+
+TEST(Recorder, ViewersAreNeverToldOfAFragmentThatIsGone) {
+    const test::TemporaryFolder folder;
+    RecorderOptions bounded = options(folder / "r");
+    bounded.max_match_bytes = 40'000;
+    Recorder recorder(bounded);
+    recorder.show(info("m"));
+    std::uint32_t first = 0;
+    for (std::uint32_t number = 0; first < 20; ++number) {
+        show_frame(recorder, "m", number);
+        const auto told = recorder.broadcast().get("/m/sync");
+        if (!told) continue;
+        const auto sync = nlohmann::json::parse(told->content);
+        first = sync["first_fragment"];
+        // Right after it was told, whatever the recorder does meanwhile; a cache may still tell it a second
+        // later.
+        const std::string path =
+            "/" + sync["recording"].get<std::string>() + "/" + std::to_string(first) + "/full";
+        const bool there = recorder.broadcast().get("/m" + path).has_value();
+        const auto again = nlohmann::json::parse(recorder.broadcast().get("/m/sync")->content);
+        EXPECT_TRUE(there || again["first_fragment"] > first) << path;
+    }
 }
 
 TEST(Recorder, AFolderHasOneRecorder) {
@@ -226,6 +282,25 @@ TEST(Recorder, AFolderHasOneRecorder) {
     EXPECT_EQ(first.statistics().failures, 0U);
     EXPECT_EQ(second.statistics().failures, 1U);
     EXPECT_EQ(names_in(folder / "r").size(), 1U);
+}
+
+TEST(Recorder, RecordsOnceTheOtherRecorderHasLeftTheFolder) {
+    const test::TemporaryFolder folder;
+    auto first = std::make_unique<Recorder>(options(folder / "r"));
+    first->wait_until_written();
+    Recorder second(options(folder / "r"));
+    second.show(info("m"));
+    second.wait_until_written();
+    EXPECT_EQ(second.statistics().running, 0U);
+    first.reset();
+    std::uint32_t number = 0;
+    EXPECT_TRUE(test::eventually([&] {
+        show_frame(second, "m", ++number);
+        return second.statistics().running == 1;
+    }));
+    second.end("m");
+    second.wait_until_written();
+    EXPECT_EQ(kinds(records_in(folder / "r" / names_in(folder / "r")[0])).substr(0, 3), "IPC");
 }
 
 TEST(Recorder, AFolderThatCannotBeWrittenFailsTheEpoch) {

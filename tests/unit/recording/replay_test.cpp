@@ -37,7 +37,7 @@ class Recorded {
         for (const auto& entry : std::filesystem::directory_iterator(folder_.path())) {
             const auto reader = Reader::open(entry.path());
             EXPECT_TRUE(reader) << reader.error().message;
-            EXPECT_TRUE(reader->replay(0, [&](const Record& record) { records.push_back(record); }));
+            EXPECT_TRUE(reader->replay(0, [&](const Record& record) { records.push_back(record); }).empty());
         }
         return records;
     }
@@ -177,6 +177,26 @@ TEST(Replay, HasTheMoversBeforeTheFirstPosesAmongThem) {
     EXPECT_EQ(before_poses, 2U);
     EXPECT_EQ(infos, 1U);
     EXPECT_EQ(frames, 16U + 5U) << "those in which something has moved";
+}
+
+TEST(Replay, TellsThatAMatchHasNoMoversAnyMore) {
+    Recorded recorded;
+    Stage stage(Stage::default_config(), recorded.audiences());
+    stage.start();
+    for (std::uint32_t number = 0; number < 45; ++number) {
+        PoseFrame frame = walk(number);
+        if (number >= 30 && number < 40) frame.movers = nullptr;
+        stage.send(frame);
+    }
+    std::vector<std::size_t> described;
+    std::size_t again = 0;
+    for (const Record& record : recorded.records()) {
+        if (const auto* info = std::get_if<MoverInfo>(&record.message))
+            described.push_back(info->movers.size());
+        again += described.size() == 3 && std::holds_alternative<MoverFrame>(record.message) ? 1 : 0;
+    }
+    EXPECT_EQ(described, (std::vector<std::size_t>{2, 0, 2}));
+    EXPECT_EQ(again, 5U) << "where they were when they came again, and each motion after it";
 }
 
 TEST(Replay, MakesTheCamerasOfADelayedMatch) {
