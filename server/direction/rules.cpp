@@ -26,7 +26,7 @@ Rules default_rules() {
          .worth = 6.0,
          .worth_both = 1.0,
          .whole = true},
-        {.name = "killer", .trigger = Trigger::killer, .after_s = 2.0, .worth = 0.3},
+        {.name = "killer", .trigger = Trigger::killer, .after_s = 2.0, .worth = 0.15},
         {.name = "multi-kill",
          .trigger = Trigger::multi_kill,
          .before_s = 1.0,
