@@ -70,7 +70,7 @@ find client-sdk server tests -name '*.[ch]pp' -print0 -o -name '*.[ch]' -print0 
 sanitized=(base config dds director evaluation http live recording scene sdk soak)
 either() { (IFS='|'; echo "($*)"); }
 left_out="unit-$(either "${sanitized[@]}")|fuzz-.*|unit-paper|integration-(all-maps|paper)"
-left_out+='|bench-(all-maps|delaunay|display|movers|openarena|paper|queries|serve)|raw-director'
+left_out+='|bench-(all-maps|delaunay|direction|display|movers|openarena|paper|queries|serve)|raw-director'
 
 step "Release build"
 cmake --preset release

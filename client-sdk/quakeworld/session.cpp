@@ -28,7 +28,10 @@ void log(const std::string& line) {
 class Session {
   public:
     Session(const Subscription& subscription, Publisher& publisher, const StopEvent& stop)
-        : subscription_(subscription), publisher_(publisher), stop_(stop) {}
+        : subscription_(subscription),
+          publisher_(publisher),
+          stop_(stop),
+          lost_events_(publisher.lost_events()) {}
 
     // Returns why it has ended.
     [[nodiscard]] Error run() {
@@ -110,7 +113,7 @@ class Session {
     Stream stream_;
     std::uint32_t level_ = 0;
     std::uint32_t directors_ = 0;
-    std::uint64_t lost_events_ = 0;
+    std::uint64_t lost_events_;  // that were told
     bool refused_ = false;
     bool has_published_ = false;
     bool told_unread_ = false;

@@ -377,7 +377,7 @@ void add_moments(std::vector<Key>& table) {
          "What begins a moment: enemies in mutual sight, wounds of two players each within `after_s` of "
          "the last, an event, a kill (`killer`: of the killer alone), several kills of one player each "
          "within 3 s of the last, three kills in one life, a flag until it is captured or its carrier dies, "
-         "more kills than anybody else, the only one of a team who lives while an enemy does.",
+         "more kills than anybody else, who lives, all others of a team dead for 5 s, while an enemy does.",
          "",
          0,
          16,

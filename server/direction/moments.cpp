@@ -43,25 +43,28 @@ std::optional<Trigger> trigger_of(EventKind kind) {
     return {};
 }
 
-// The only ones of their teams who live, where an enemy lives.
-PlayerSet last_of_teams(std::span<const PlayerState> players) {
+constexpr Beat out_after = 50;  // beats of death
+
+// The only ones of their teams who live, where an enemy lives. Who died just now may come back at once.
+PlayerSet last_of_teams(std::span<const PlayerState> players, std::span<const Beat> dead_since, Beat beat) {
     struct Team {
         std::size_t present = 0;
-        std::size_t alive = 0;
+        std::size_t out = 0;
     };
     std::array<Team, 256> teams{};
     std::size_t alive = 0;
-    for (const PlayerState& player : players) {
-        Team& team = teams[player.team];
-        team.present += player.present ? 1 : 0;
-        team.alive += player.alive ? 1 : 0;
-        alive += player.alive ? 1 : 0;
+    for (std::size_t i = 0; i < players.size(); ++i) {
+        if (!players[i].present) continue;
+        Team& team = teams[players[i].team];
+        ++team.present;
+        team.out += !players[i].alive && beat - dead_since[i] >= out_after ? 1 : 0;
+        alive += players[i].alive ? 1 : 0;
     }
     PlayerSet last;
     for (std::size_t i = 0; i < players.size(); ++i) {
         const Team& team = teams[players[i].team];
-        last[i] =
-            players[i].alive && players[i].team != 0 && team.present > 1 && team.alive == 1 && alive > 1;
+        last[i] = players[i].alive && players[i].team != 0 && team.present > 1 &&
+                  team.out + 1 == team.present && alive > 1;
     }
     return last;
 }
@@ -211,18 +214,22 @@ class Finder {
 
     // Runs of beats of each player.
     void find_last_alive(Index rule) {
-        std::vector<Beat> since(footage_.players(), -1);
-        for (Beat beat = from_; beat <= footage_.beats(); ++beat) {
-            const PlayerSet last =
-                beat < footage_.beats() ? last_of_teams(footage_.players_at(beat)) : PlayerSet();
-            for (Index player = 0; player < footage_.players(); ++player) {
-                if (last[player] == (since[player] >= 0)) continue;
-                if (last[player]) {
-                    since[player] = beat;
-                } else {
-                    const Beat begin = std::exchange(since[player], -1);
-                    moments_.push_back({rule, begin, beat, begin, player, nobody});
-                }
+        const std::size_t players = footage_.players();
+        const Beat first = std::max(footage_.first(), from_ - out_after);
+        std::vector<Beat> dead_since(players, first);
+        std::vector<Beat> last_since(players, -1);
+        for (Beat beat = first; beat <= footage_.beats(); ++beat) {
+            PlayerSet last;
+            if (beat < footage_.beats()) {
+                const auto states = footage_.players_at(beat);
+                for (std::size_t i = 0; i < players; ++i)
+                    if (states[i].alive) dead_since[i] = beat + 1;
+                if (beat >= from_) last = last_of_teams(states, dead_since, beat);
+            }
+            for (Index player = 0; player < players; ++player) {
+                if (last[player] == (last_since[player] >= 0)) continue;
+                const Beat begin = std::exchange(last_since[player], last[player] ? beat : -1);
+                if (!last[player]) moments_.push_back({rule, begin, beat, begin, player, nobody});
             }
         }
     }

@@ -46,7 +46,7 @@ enum class Trigger : std::uint8_t {
     streak,      // somebody killed three since they last died: until they die
     flag_run,    // somebody took a flag: until they capture it or die
     lead,        // somebody killed more than anybody else: until another does
-    last_alive,  // the only one of their team who lives, of several, while an enemy lives
+    last_alive,  // who lives, all others of their team dead for 5 s and more, while an enemy lives
 };
 
 // A sentence: `name`: while (or when) `trigger`, from `before_s` before to `after_s` after, for whoever is in

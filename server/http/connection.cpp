@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <boost/asio/post.hpp>
 #include <boost/beast/http/read.hpp>
 #include <boost/beast/http/write.hpp>
@@ -20,6 +21,10 @@ namespace beast = boost::beast;
 constexpr std::size_t max_header = 16 * 1024;  // enough for a browser's
 constexpr std::size_t max_body = 4 * 1024;
 constexpr std::size_t chunk = 4 * 1024;
+// Of what was sent to a client and has not arrived: who reads slowly holds no more of the system's memory,
+// and takes no more of the thread's time at once.
+constexpr int send_buffer = 128 * 1024;
+constexpr std::uint64_t least_rate = 64 * 1024;  // bytes a second, of a large answer
 // So much of what follows an answer to an unread request is taken: the system would else reset the
 // connection, and the client might not see the answer.
 constexpr std::size_t max_discarded = 256 * 1024;
@@ -70,7 +75,7 @@ bool Connections::close_oldest() {
 Connection::Connection(asio::ip::tcp::socket socket, Site& site)
     : stream_(std::move(socket)), site_(site), buffer_(max_header + chunk) {
     ErrorCode ignored;
-    stream_.socket().set_option(asio::socket_base::send_buffer_size(system_buffer), ignored);
+    stream_.socket().set_option(asio::socket_base::send_buffer_size(send_buffer), ignored);
 }
 
 Connection::~Connection() {
@@ -161,15 +166,26 @@ void Connection::make(const Page& page, Request request) {
 
 void Connection::send(Response response) {
     response_ = std::move(response);
-    stream_.expires_after(site_.limits.answer);
-    beast::http::async_write(stream_, response_, [self = shared_from_this()](ErrorCode error, std::size_t) {
-        if (error) return self->note_time(error, Bound::answer_time);
-        self->sent();
-    });
+    serializer_.emplace(response_);
+    const std::chrono::seconds for_size(response_.payload_size().value_or(0) / least_rate);
+    answer_until_ = Clock::now() + site_.limits.answer + for_size;
+    send_more();
+}
+
+// The client takes some of it in time, and all of it at no less than the least rate.
+void Connection::send_more() {
+    stream_.expires_at(std::min(Clock::now() + site_.limits.answer, answer_until_));
+    beast::http::async_write_some(stream_, *serializer_,
+                                  [self = shared_from_this()](ErrorCode error, std::size_t) {
+                                      if (error) return self->note_time(error, Bound::answer_time);
+                                      if (!self->serializer_->is_done()) return self->send_more();
+                                      self->sent();
+                                  });
 }
 
 void Connection::sent() {
     end_slow_page();
+    serializer_.reset();
     if (response_.need_eof()) return hang_up();
     response_ = {};
     wait_for_request();

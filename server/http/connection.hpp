@@ -6,6 +6,7 @@
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/http/parser.hpp>
+#include <boost/beast/http/serializer.hpp>
 #include <map>
 #include <memory>
 #include <optional>
@@ -15,10 +16,6 @@
 #include "http/pages.hpp"
 
 namespace camdir::http {
-
-// Of what was sent to a client and has not arrived: who reads slowly holds no more of the system's memory,
-// and takes no more of the thread's time at once.
-inline constexpr int system_buffer = 64 * 1024;  // bytes
 
 // The connections in the order in which they began what they do: wait, read or answer.
 class Connections {
@@ -60,6 +57,7 @@ class Connection final : public std::enable_shared_from_this<Connection> {
 
   private:
     using ErrorCode = boost::beast::error_code;
+    using Clock = std::chrono::steady_clock;
 
     void read_request();
     void handle(ErrorCode error);
@@ -70,6 +68,7 @@ class Connection final : public std::enable_shared_from_this<Connection> {
     void watch(const Page& page, Request request);
     void make(const Page& page, Request request);
     void send(Response response);
+    void send_more();
     void sent();
     void hang_up();
     void discard_input();
@@ -81,6 +80,8 @@ class Connection final : public std::enable_shared_from_this<Connection> {
     boost::beast::flat_buffer buffer_;  // read and not yet parsed
     std::optional<boost::beast::http::request_parser<boost::beast::http::string_body>> parser_;
     Response response_;
+    std::optional<boost::beast::http::response_serializer<SharedText>> serializer_;  // while it is sent
+    Clock::time_point answer_until_{};
     bool has_slow_page_ = false;
     std::size_t discarded_ = 0;  // bytes after the last request
 };

@@ -18,6 +18,7 @@ using beast::http::field;
 constexpr const char* subprotocol = "camera-director.v1";
 constexpr std::size_t max_received = 1024;
 // What the system keeps of frames is old when it arrives: a second or two are enough.
+constexpr int system_buffer = 64 * 1024;
 
 // Browsers say which site's page asks; other clients say nothing.
 bool is_of_this_site(const Request& request) {

@@ -60,7 +60,8 @@ struct Limits {
     std::size_t slow_pages = 64;
     std::chrono::milliseconds idle{60'000};     // until a request begins
     std::chrono::milliseconds request{20'000};  // from a request's first byte to its last
-    std::chrono::milliseconds answer{20'000};   // until the client has taken the answer
+    std::chrono::milliseconds answer{
+        20'000};  // until the client has taken some of the answer: all of it, with a second for each 64 kB
 };
 
 // Serves until it is destroyed, with three threads: one for all connections and the prompt pages, two that

@@ -2,9 +2,6 @@
 import {Damaged} from './bytes.js';
 import {decodeResource, decodeStart, decodeSync, maxResource} from './recording.js';
 
-// How often an ended broadcast is asked for: the server drops it when it was not for ten minutes.
-export const keepMs = 4 * 60e3;
-
 const maxSync = 4096;  // bytes
 
 // The server answers otherwise than with the resource.
@@ -53,12 +50,6 @@ export class Broadcast {
     async start(abort) {
         const {bytes} = await this.get('start', `${this.below}start`, maxResource, abort);
         return decodeStart((await decodeResource(bytes, 'start', 0, 'start')).content, 'start');
-    }
-
-    // Has the server keep a broadcast that has ended. The browser has `start` already, so that only with another query does it
-    // ask for it; a cache that minds the query asks once for all viewers.
-    async keep(abort) {
-        await this.get('start', `${this.below}start?${Math.floor(Date.now() / keepMs)}`, maxResource, abort);
     }
 
     // `file`: full or delta.

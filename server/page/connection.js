@@ -3,7 +3,7 @@ import {subprotocol} from './protocol.js';
 
 const firstRetryMs = 500;
 const longestRetryMs = 15e3;
-const silenceMs = 12e3;
+export const silenceMs = 12e3;
 
 // `token()`: what the server wants; null: nothing. Calls `on.note(object)`, `on.frame(ArrayBuffer)` and
 // `on.state(name, ms until the next attempt)`: connecting, open, silent, waiting.

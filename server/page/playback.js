@@ -1,7 +1,7 @@
 // Plays a recording, or a match that is broadcast: fetches the fragments that the clock comes to, seeks in all there is.
 // One thing is fetched at a time, what is needed first.
 import {Damaged} from './bytes.js';
-import {Refused, keepMs} from './broadcast.js';
+import {Refused} from './broadcast.js';
 import {Roster, readFragment, readState} from './fragment.js';
 import {FragmentIndex, slackMs} from './fragment_index.js';
 
@@ -13,6 +13,7 @@ export const kept = {
 };
 
 const aheadMs = 15e3;       // that is fetched before the clock comes to it
+const keepMs = 4 * 60e3;    // between looks at an ended broadcast: the server drops it when nobody asks for ten minutes
 const silenceMs = 2e3;      // frames farther apart: playing goes on with the next
 const lookMs = 250;         // after a fragment is to be complete
 const lateMs = 1500;        // how late one may be found, and fetched, without playing having to stand still
@@ -43,6 +44,7 @@ export class Playback {
         this.notes = [];             // {t, note, key} of what is loaded
         this.loaded = null;          // {last: number, from, to: ms}
         this.retryMs = firstRetryMs;
+        this.isGone = false;         // from the server
         this.problems = [];
     }
 
@@ -100,12 +102,13 @@ export class Playback {
     nextJob() {
         const {clock} = this.model;
         if (!this.start) return () => this.prepare();
+        if (!this.sync.live && now() >= this.keepDue) return () => this.keep();
+        if (this.isGone) return null;
         if (this.seeksNewest) return () => this.loadNewest();
         if (!this.covers(clock.t)) return () => this.load(clock.t);
         if (this.loaded.last < this.sync.last && this.loaded.to - clock.t < aheadMs && this.model.buffer.hasRoomAfter(clock.t))
             return () => this.append(this.loaded.last + 1);
         if (this.sync.live && now() >= this.syncDue) return () => this.refresh();
-        if (!this.sync.live && now() >= this.keepDue) return () => this.keep();
         if (!clock.live && this.surveyBytes < maxSurveyBytes) {
             const n = this.nextToSurvey();
             if (n !== null) return () => this.survey(n);
@@ -132,10 +135,20 @@ export class Playback {
 
     // Of a viewer that pauses, or has fetched everything, nothing else is heard.
     async keep() {
-        await this.broadcast.keep(this.abort.signal).catch(error => {
-            if (!isMissing(error)) throw error;  // it is too late
-        });
+        await this.refreshEnded();
         this.keepDue = now() + keepMs;
+    }
+
+    // What has ended is gone at last, with its `sync`: what is loaded is all that can be seen then, unless it comes back.
+    async refreshEnded() {
+        try {
+            await this.refresh();
+            this.isGone = false;
+        } catch (error) {
+            if (!isMissing(error)) throw error;
+            if (!this.isGone) this.tell('The server no longer has this: only what is loaded can be seen');
+            this.isGone = true;
+        }
     }
 
     async prepare() {
@@ -212,8 +225,9 @@ export class Playback {
     // A recording that has become too large loses its oldest fragments, one that has ended all at once, with `sync`.
     async leaveIfRemoved(n, error) {
         const {signal} = this.abort;
-        await this.refresh();
-        signal.throwIfAborted();  // another recording has begun
+        if (this.isLive) await this.refresh(); else await this.refreshEnded();
+        if (this.isGone) this.abort.abort();
+        signal.throwIfAborted();  // or another recording has begun
         if (n >= this.sync.first) return;
         this.loaded = null;
         if (this.model.clock.live) {
@@ -289,11 +303,19 @@ export class Playback {
         throw new Damaged(`Nothing can be read here: ${[...this.unreadable.values()].pop()}`);
     }
 
+    async newestReadable(last) {
+        let fragment = null;
+        for (let n = last; !fragment && n > last - maxUnreadable && n >= this.sync.first; --n) {
+            n = (await this.readable(n, -1)).n;
+            fragment = await this.read(n);
+        }
+        return fragment;
+    }
+
     async loadNewest() {
         await this.refresh();
         const {last} = this.sync;
-        const {n} = await this.readable(last, -1);
-        const fragment = await this.read(n);
+        const fragment = await this.newestReadable(last);
         if (!fragment) this.failHere();
         this.seeksNewest = false;
         this.replace(fragment);
@@ -301,7 +323,7 @@ export class Playback {
         const {clock} = this.model;
         clock.arrivals = [];
         clock.arrived(fragment.from, this.syncAt - this.sync.ageMs + lateMs);
-        this.newestArrived = n;
+        this.newestArrived = fragment.n;
         clock.t = Math.min(clock.target(now()), fragment.to);  // in the fragment before, where this one is new
     }
 
@@ -366,14 +388,16 @@ export class Playback {
 
     // [first, last] ms where one may go, or null.
     get range() {
-        return this.start ? [this.index.beginOf(this.sync.first), this.index.endOf(this.sync.last)] : null;
+        if (!this.start) return null;
+        if (this.isGone && this.loaded !== null) return [this.loaded.from, this.loaded.to];
+        return [this.index.beginOf(this.sync.first), this.index.endOf(this.sync.last)];
     }
 
     get isLive() { return this.sync?.live ?? false; }
 
     // Everything there is was played.
     get atEnd() {
-        return this.loaded !== null && this.loaded.last >= this.sync.last && this.model.clock.t >= this.loaded.to - 1;
+        return this.loaded !== null && (this.isGone || this.loaded.last >= this.sync.last) && this.model.clock.t >= this.loaded.to - 1;
     }
 
     seek(t) {
@@ -420,6 +444,7 @@ export class Playback {
         const {clock} = this.model;
         if (this.retryAt) return 'waiting';
         if (!this.start) return 'opening';
+        if (this.isGone && !this.covers(clock.t)) return 'ended';
         if (this.seeksNewest || !this.covers(clock.t)) return 'loading';
         if (!this.isLive && this.atEnd) return 'ended';
         if (clock.paused) return 'paused';

@@ -18,7 +18,7 @@ export class ShownMap {
         });
     }
 
-    // This map from now on; what of it is missing is asked for again.
+    // This map from now on; where nothing of it could be had, it is asked for again.
     load(name) {
         this.loader.load(name);
     }

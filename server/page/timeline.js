@@ -95,7 +95,7 @@ export class Timeline {
 
     // Of parts that overlap each ends where the next one begins.
     insertStates(states, more, end) {
-        const at = indexAfter(states, end - maxGapMs);  // where later parts begin
+        const at = indexAfter(states, Math.max(more[0].t, end - maxGapMs));  // where later parts begin
         const next = states[at]?.t ?? Infinity;
         for (let i = at - 1; i >= 0 && states[i].t > more[0].t; --i) states[i].t = more[0].t;
         states.splice(at, 0, ...more.map(state => ({...state, t: Math.min(state.t, next)})));

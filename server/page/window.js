@@ -1,6 +1,7 @@
 // The window: anyone who has the link watches the match through the director's cameras.
 import {Broadcast, Refused} from './broadcast.js';
 import {choose, isFull} from './choice.js';
+import {silenceMs} from './connection.js';
 import {Feed} from './feed.js';
 import {Rows, shotEntry} from './lists.js';
 import {latencyText} from './latency.js';
@@ -54,6 +55,8 @@ let source = null;        // LiveSource or Playback: what feeds the model
 let watched = null;       // the entry of `matches` that it shows
 let missed = 0;           // lists in a row that did not have its stream
 let fullUntil = 0;        // its stream has no room
+let runsSince = null;     // when lists began to say that it runs; null: they do not
+let linked = null;        // the match of a link that is not in the list yet
 let matches = [];         // of findMatches
 let camera = null;        // the id of the camera that is shown
 let wished = null;        // the one that the viewer has chosen, which may not be there at the time that is shown
@@ -88,7 +91,7 @@ function watch(id, begin) {
     const entry = matches.find(other => other.id === id);
     if (!entry) return;
     if (watched?.id !== id) {
-        camera = wished = null;
+        camera = wished = runsSince = null;
         fullUntil = 0;
         showHeader(id, entry.map);
         map.load(entry.map);
@@ -151,6 +154,7 @@ function showMessage(text, asksForToken = false) {
 async function refreshList() {
     try {
         matches = await findMatches();
+        followLink();
         chooseMatch();
         showMessage(matches.length > 0 || isInTouch() ? '' : server.broadcastOfAddress === null
             ? 'No match is running. This page shows one as soon as it begins.'
@@ -172,11 +176,19 @@ async function refreshList() {
 // A stream that runs, or a recording.
 const isInTouch = () => isRecorded() || source?.connection === 'open' && !source.ended;
 
+function followLink() {
+    if (!matches.some(({id}) => id === linked)) return;
+    if (linked !== watched?.id) watch(linked);
+    linked = null;
+}
+
 function chooseMatch() {
     const entry = matches.find(other => other.id === watched?.id);
     if (entry) watched = entry;
     missed = entry?.stream ? 0 : missed + 1;
-    if (entry?.stream?.state === 'running') source?.runs?.();
+    runsSince = entry?.stream?.state === 'running' ? runsSince ?? now() : null;
+    // What begins to run is seen a delay later.
+    if (runsSince !== null && now() - runsSince > silenceMs + delayMs()) source?.runs?.();
     const next = choose(matches, {id: watched?.id ?? null, isRecorded: isRecorded(), hasEnded: source?.state === 'ended',
         isOpen: isInTouch(), missed, refusals: source?.refusals ?? 0}, server.matchOfAddress);
     if (next?.from === 'broadcast') watchBroadcast(); else if (next) watch(next.id);
@@ -613,7 +625,8 @@ document.querySelector('.skip').addEventListener('click', event => {
 });
 server.followAddress(() => {
     if (!find('token-form').hidden) showMessage('Opening');
-    if (server.matchOfAddress !== watched?.id) watch(server.matchOfAddress);
+    linked = server.matchOfAddress;
+    followLink();
 });
 addEventListener('error', ({message}) => {
     if (message) notice(`This page has failed: ${message}`);

@@ -122,6 +122,7 @@ void FrameReader::note_unread(const Block& block, const MessageReader& messages,
 
 void FrameReader::take(const Block& block, const BeginLevel& /*unused*/) {
     level_ = {};
+    lost_level_.reset();
     map_.clear();
     ++levels_;
     frame_ = {};

@@ -158,23 +158,24 @@ std::optional<std::string> Archive::remove_oldest() {
     return name;
 }
 
+// What is removed goes first: the disk may be full.
 void Archive::run(const std::stop_token& stop) {
-    measure(stop);
-    while (const auto folder = next_removed(stop))
-        remove_files(*folder, stop);
-}
-
-void Archive::measure(const std::stop_token& stop) {
-    for (const std::string& name : unmeasured_) {
-        if (stop.stop_requested()) return;
-        add_ended(name, disk_bytes(path_of(name)));
+    std::ranges::reverse(unmeasured_);
+    while (!stop.stop_requested()) {
+        if (const auto folder = next_removed(stop)) {
+            remove_files(*folder, stop);
+        } else if (!unmeasured_.empty()) {
+            add_ended(unmeasured_.back(), disk_bytes(path_of(unmeasured_.back())));
+            unmeasured_.pop_back();
+        }
     }
 }
 
+// Waits for one where nothing else is to be done.
 std::optional<fs::path> Archive::next_removed(const std::stop_token& stop) {
     std::unique_lock lock(mutex_);
-    if (!wake_.wait(lock, stop, [this] { return !removed_.empty(); }) || stop.stop_requested())
-        return std::nullopt;
+    if (unmeasured_.empty()) wake_.wait(lock, stop, [this] { return !removed_.empty(); });
+    if (removed_.empty()) return std::nullopt;
     fs::path folder = std::move(removed_.front());
     removed_.pop_front();
     return folder;

@@ -58,7 +58,6 @@ class Archive {
     [[nodiscard]] Result<void> list();
     // On the thread.
     void run(const std::stop_token& stop);
-    void measure(const std::stop_token& stop);
     [[nodiscard]] std::optional<std::filesystem::path> next_removed(const std::stop_token& stop);
 
     const std::filesystem::path folder_;

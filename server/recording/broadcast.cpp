@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <nlohmann/json.hpp>
+#include <utility>
 #include <vector>
 
 #include "base/file.hpp"
@@ -37,6 +38,17 @@ std::optional<std::uint32_t> fragment_number(std::string_view text) {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
     if (error != std::errc() || std::to_string(number) != text) return std::nullopt;
     return number;
+}
+
+// As it is written, or as proxies write it who leave what need not be encoded: caches keep each resource
+// once.
+bool is_spelling_of(const std::string& match_id, std::string_view name) {
+    std::string plain = percent_encoded(match_id);
+    if (name == plain) return true;
+    for (const auto& [encoded, sign] : {std::pair("%2D", "-"), std::pair("%2E", "."), std::pair("%7E", "~")})
+        for (std::size_t at = plain.find(encoded); at != std::string::npos; at = plain.find(encoded, at))
+            plain.replace(at, 3, sign);
+    return name == plain;
 }
 
 std::string sync_of(const Channel& channel) {
@@ -111,11 +123,12 @@ std::optional<Broadcast::Answer> Broadcast::get(std::string_view path, Time now)
     if (path.empty()) return Answer{true, "", list()};
     const auto parts = parts_of(path);
     const auto match_id = parts.empty() ? std::nullopt : percent_decoded(parts[0]);
-    // In the one way in which it is written, too.
-    const bool is_name = match_id && percent_encoded(*match_id) == parts[0];
-    const auto channel = is_name ? find(*match_id) : std::nullopt;
+    const auto channel = match_id && is_spelling_of(*match_id, parts[0]) ? find(*match_id) : std::nullopt;
     if (!channel || parts.size() < 2) return std::nullopt;
-    if (parts.size() == 2 && parts[1] == "sync") return Answer{true, "", sync_of(*channel)};
+    if (parts.size() == 2 && parts[1] == "sync") {
+        keep_for_longer(*match_id, now);
+        return Answer{true, "", sync_of(*channel)};
+    }
     const auto part = parts[1] == channel->recording_id ? part_of(*channel, parts) : std::nullopt;
     const auto bytes = part ? read_part(*channel, *part) : std::nullopt;
     if (!bytes) return std::nullopt;

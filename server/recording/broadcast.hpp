@@ -34,8 +34,8 @@ class Broadcast {
 
     // Replaces the match's channel, which may be of another recording.
     void set(const std::string& match_id, Channel channel);
-    // Nothing more follows. The channel stays until nobody has read a part of it for ten minutes, its folder
-    // is removed, or the match is set again.
+    // Nothing more follows. The channel stays until nobody has asked for a part of it for ten minutes, its
+    // folder is removed, or the match is set again.
     void end(const std::string& match_id, Time now = Channel::Clock::now());
     // Those that have ended and whose time is over.
     void drop_unwanted(Time now = Channel::Clock::now());

@@ -403,7 +403,8 @@ Result<Start> decode_start(std::span<const std::byte> bytes, const std::string& 
     start.director_version = source.text();
     start.fragment_duration = source.difference();
     const bool valid = get_info(source, start.match);
-    if (!source.ok() || !valid || start.fragment_duration <= 0)
+    if (!source.ok() || !valid || start.fragment_duration <= 0 ||
+        start.fragment_duration > max_fragment_duration)
         return fail(name + ": byte " + std::to_string(source.offset()) +
                     " of the inflated content: expected version, duration and match");
     return start;

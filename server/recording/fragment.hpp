@@ -16,6 +16,8 @@ struct Start {
     std::int64_t fragment_duration = 3'000'000'000;  // ns: a fragment ends with the first record after it
 };
 
+inline constexpr std::int64_t max_fragment_duration = 3'600'000'000'000;  // ns
+
 [[nodiscard]] Bytes encode_start(const Start& start);
 [[nodiscard]] Result<Start> decode_start(std::span<const std::byte> bytes, const std::string& name);
 

@@ -1,15 +1,20 @@
 #include "recording/playback.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include "recording/archive.hpp"
 
 namespace camdir::recording {
 namespace {
 
-// From a player's input.
-constexpr double max_s = 1e9;
-
-std::int64_t nanoseconds(double seconds) {
-    return static_cast<std::int64_t>(std::min(seconds, max_s) * 1e9);
+// Both may be anything.
+std::int64_t later(std::int64_t time, double ns) {
+    constexpr auto most = std::numeric_limits<std::int64_t>::max();
+    const double sum = static_cast<double>(time) + ns;
+    if (!(std::abs(sum) < 9e18 && std::abs(ns) < 9e18)) return sum < 0.0 ? -most : most;
+    return time + static_cast<std::int64_t>(ns);
 }
 
 }  // namespace
@@ -38,16 +43,18 @@ Channel Playback::whole() const {
 
 Result<void> Playback::go_on(double from_s, double speed) {
     if (auto found = find_readable(); !found) return found;
-    begin_ = begin_of(reader_.first_fragment()) + nanoseconds(from_s);
+    begin_ = later(begin_of(reader_.first_fragment()), from_s * 1e9);
     speed_ = speed;
     channel_.sync.last = reader_.fragment_at(begin_);
     return {};
 }
 
 Channel Playback::at(double elapsed_s) {
-    const std::int64_t time = begin_ + nanoseconds(elapsed_s * speed_);
-    while (channel_.sync.last < reader_.last_fragment() && begin_of(channel_.sync.last + 1) <= time) {
-        ++channel_.sync.last;
+    const std::int64_t time = later(begin_, elapsed_s * speed_ * 1e9);
+    const auto& fragments = reader_.fragments();
+    for (auto next = std::ranges::upper_bound(fragments, channel_.sync.last);
+         next != fragments.end() && begin_of(*next) <= time; ++next) {
+        channel_.sync.last = *next;
         channel_.complete_at = Channel::Clock::now();
     }
     channel_.is_live = channel_.sync.last < reader_.last_fragment();
@@ -56,13 +63,12 @@ Channel Playback::at(double elapsed_s) {
 
 Result<void> Playback::find_readable() {
     Result<std::int64_t> begin;
-    for (std::uint64_t n = reader_.first_fragment(); n <= reader_.last_fragment(); ++n) {
-        known_ = static_cast<std::uint32_t>(n);
-        begin = reader_.begin_time(known_);
-        if (begin) {
-            known_begin_ = *begin;
-            return {};
-        }
+    for (const std::uint32_t fragment : reader_.fragments()) {
+        begin = reader_.begin_time(fragment);
+        if (!begin) continue;
+        known_ = fragment;
+        known_begin_ = *begin;
+        return {};
     }
     return tl::unexpected(begin.error());
 }
@@ -75,7 +81,8 @@ std::int64_t Playback::begin_of(std::uint32_t fragment) {
             known_begin_ = *begin;
         }
     }
-    return known_begin_ + (std::int64_t{fragment} - known_) * reader_.start().fragment_duration;
+    const double fragments = static_cast<double>(fragment) - known_;
+    return later(known_begin_, fragments * static_cast<double>(reader_.start().fragment_duration));
 }
 
 }  // namespace camdir::recording

@@ -1,6 +1,8 @@
 #include "recording/reader.hpp"
 
 #include <algorithm>
+#include <charconv>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -20,6 +22,21 @@ std::vector<std::string> recordings_in(const fs::path& folder) {
     }
     std::ranges::sort(names);
     return names;
+}
+
+// A damaged `sync` may name any number: what is there counts.
+std::vector<std::uint32_t> fragments_in(const fs::path& folder, const Sync& sync) {
+    std::vector<std::uint32_t> fragments;
+    std::error_code error;
+    for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+        const std::string name = it->path().filename().string();
+        std::uint32_t number = 0;
+        const auto [stop, wrong] = std::from_chars(name.data(), name.data() + name.size(), number);
+        const bool is_number = wrong == std::errc() && std::to_string(number) == name;
+        if (is_number && number >= sync.first && number <= sync.last) fragments.push_back(number);
+    }
+    std::ranges::sort(fragments);
+    return fragments;
 }
 
 Result<void> check_is_recording(const fs::path& folder) {
@@ -49,7 +66,11 @@ Result<Reader> Reader::open(const std::filesystem::path& folder) {
     if (!sync_bytes) return tl::unexpected(sync_bytes.error());
     const auto sync = decode_sync(*sync_bytes, (folder / "sync").string());
     if (!sync) return tl::unexpected(sync.error());
-    return Reader(folder, std::move(*start), *sync);
+    auto fragments = fragments_in(folder, *sync);
+    if (fragments.empty())
+        return fail(folder.string() + ": none of the fragments " + std::to_string(sync->first) + " to " +
+                    std::to_string(sync->last) + " that its sync names is there");
+    return Reader(folder, std::move(*start), std::move(fragments));
 }
 
 Result<State> Reader::full(std::uint32_t fragment) const {
@@ -72,41 +93,53 @@ Result<std::int64_t> Reader::begin_time(std::uint32_t fragment) const {
 }
 
 std::uint32_t Reader::fragment_at(std::int64_t time) const {
-    std::uint32_t found = sync_.first;
+    std::size_t found = 0;
     // All up to `low` are looked at, and all from `end` on.
-    std::uint64_t low = found;
-    for (std::uint64_t end = std::uint64_t{sync_.last} + 1; low + 1 < end;) {
-        const std::uint64_t middle = low + (end - low) / 2;
-        std::uint64_t probe = middle;
-        auto begin = begin_time(static_cast<std::uint32_t>(probe));
+    std::size_t low = 0;
+    for (std::size_t end = fragments_.size(); low + 1 < end;) {
+        const std::size_t middle = low + (end - low) / 2;
+        std::size_t probe = middle;
+        auto begin = begin_time(fragments_[probe]);
         while (!begin && probe > low + 1)
-            begin = begin_time(static_cast<std::uint32_t>(--probe));
+            begin = begin_time(fragments_[--probe]);
         if (begin && *begin > time) {
             end = probe;
         } else {
             low = middle;
-            if (begin) found = static_cast<std::uint32_t>(probe);
+            if (begin) found = probe;
         }
     }
-    return found;
+    return fragments_[found];
 }
 
 std::vector<Error> Reader::replay(std::int64_t time, const std::function<void(const Record&)>& visit) const {
     std::vector<Error> left_out;
-    bool goes_on = false;
-    for (std::uint64_t n = fragment_at(time); n <= sync_.last; ++n) {
-        const auto fragment = static_cast<std::uint32_t>(n);
-        const auto before = goes_on ? Result<std::vector<Record>>() : records(fragment, ResourceKind::full);
-        const auto all = before ? delta(fragment) : before;
-        goes_on = all.has_value();
-        if (!goes_on) {
-            left_out.push_back(all.error());
-            continue;
-        }
-        for (const auto& part : {*before, *all})
-            std::ranges::for_each(part, visit);
+    std::optional<std::uint32_t> before;  // the last that was read
+    auto next = std::ranges::lower_bound(fragments_, fragment_at(time));
+    for (std::uint32_t expected = *next; next != fragments_.end(); expected = *next++ + 1) {
+        if (*next != expected) left_out.push_back(missing(expected, *next));
+        if (const auto read = replay(*next, before && *before + 1 == *next, visit); read)
+            before = *next;
+        else
+            left_out.push_back(read.error());
     }
     return left_out;
+}
+
+Error Reader::missing(std::uint32_t first, std::uint32_t end) const {
+    const std::string last = end - first > 1 ? " to " + std::to_string(end - 1) : "";
+    return {folder_.string() + ": " + std::to_string(first) + last + ": missing"};
+}
+
+Result<void> Reader::replay(std::uint32_t fragment, bool goes_on,
+                            const std::function<void(const Record&)>& visit) const {
+    const auto state = goes_on ? Result<std::vector<Record>>() : records(fragment, ResourceKind::full);
+    if (!state) return tl::unexpected(state.error());
+    const auto all = delta(fragment);
+    if (!all) return tl::unexpected(all.error());
+    std::ranges::for_each(*state, visit);
+    std::ranges::for_each(*all, visit);
+    return {};
 }
 
 std::filesystem::path Reader::path_of(std::uint32_t fragment, ResourceKind kind) const {

@@ -17,7 +17,6 @@ constexpr std::size_t max_waiting_of_all = 128 * max_waiting;
 constexpr std::size_t max_waiting_bytes = 128U << 20U;
 constexpr std::size_t max_ends = 8192;
 constexpr std::chrono::milliseconds write_period{50};
-constexpr std::int64_t archive_retry = 10'000'000'000;  // ns
 
 std::int64_t wall_clock_ns() {
     return std::chrono::duration_cast<std::chrono::nanoseconds>(
@@ -159,10 +158,10 @@ void Recorder::write(Shown shown) {
 void Recorder::write(const std::string& match_id, Match& match, Record record) {
     Result<void> done;
     if (const auto* info = std::get_if<director::MatchInfo>(&record.message)) {
-        const bool begins = !match.recording && (!match.failed || info->epoch != match.info.epoch);
+        if (info->epoch != match.info.epoch) match.failed = match.needs_archive = false;
         match.info = *info;
-        if (begins) done = begin(match_id, match, record.time);
-    } else if (match.failed && !archive_ && record.time >= archive_due_) {
+        if (!match.recording && !match.failed) done = begin(match_id, match, record.time);
+    } else if (match.needs_archive && (archive_ || record.time >= archive_due_)) {
         done = begin(match_id, match, record.time);
         if (done)
             done = match.recording->writer.append({record.time + match.recording->clock_offset, match.info});
@@ -198,7 +197,7 @@ Result<void> Recorder::append_movers(Match& match, const director::PoseFrame& po
 
 // Another director may have it, and leave it to this one.
 Result<void> Recorder::open_archive() {
-    archive_due_ = director::now_ns() + archive_retry;
+    archive_due_ = director::now_ns() + options_.folder_retry;
     auto archive = Archive::open(options_.folder);
     if (!archive) return tl::unexpected(archive.error());
     archive_ = std::move(*archive);
@@ -216,7 +215,7 @@ Result<void> Recorder::begin(const std::string& match_id, Match& match, std::int
                                  options_.max_match_bytes);
     if (!writer) return tl::unexpected(writer.error());
     match.recording.emplace(Recording{id, name, std::move(*writer), clock_offset});
-    match.failed = false;
+    match.failed = match.needs_archive = false;
     match.movers = {};
     Result<void> done;
     for (auto request = match.requests.begin(); done && request != match.requests.end(); ++request)
@@ -232,8 +231,9 @@ void Recorder::finish(const std::string& match_id, Match& match) {
 }
 
 void Recorder::fail(const std::string& match_id, Match& match, const Error& error) {
-    ++failures_;
+    failures_ += match.failed ? 0 : 1;
     match.failed = true;
+    match.needs_archive = archive_ == nullptr;
     end_recording(match_id, match);
     if (const auto times = failure_lines_.due())
         spdlog::error("match {}: no longer recorded: {} ({} since the last such line)", match_id,

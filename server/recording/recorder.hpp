@@ -25,6 +25,7 @@ struct RecorderOptions {
     std::uint64_t max_bytes = 0;        // of the disk, for all recordings; at most two fragments a match more
     std::uint64_t max_match_bytes = 0;  // for each
     std::int64_t fragment_duration = 3'000'000'000;  // ns
+    std::int64_t folder_retry = 10'000'000'000;      // ns: a folder that cannot be used is tried again
     std::string director_version;
 };
 
@@ -47,8 +48,7 @@ struct RecorderStatistics {
 // then the oldest fragments of the others. statistics() and wait_until_written() are thread-safe.
 class Recorder final : public director::Audience {
   public:
-    // Does not fail: a folder that cannot be used fails each match's recording, and is tried again every ten
-    // seconds.
+    // Does not fail: a folder that cannot be used fails each match's recording until it can.
     explicit Recorder(RecorderOptions options);
     Recorder(const Recorder&) = delete;
     Recorder& operator=(const Recorder&) = delete;
@@ -93,6 +93,7 @@ class Recorder final : public director::Audience {
         std::optional<Recording> recording;
         director::MatchMovers movers;  // the last ones of the recording
         bool failed = false;           // in this epoch
+        bool needs_archive = false;    // and therefore failed
     };
 
     struct Waiting {  // of a match

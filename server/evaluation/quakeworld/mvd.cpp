@@ -9,10 +9,12 @@ namespace camdir::evaluation::quakeworld {
 namespace {
 
 std::string warning_of(const Demo& demo) {
-    if (!demo.cut_off.empty()) return "is cut off; " + demo.cut_off;
-    if (demo.unread_blocks == 0) return {};
-    return std::to_string(demo.unread_blocks) + " of " + std::to_string(demo.blocks) +
-           " blocks are read only in part; " + demo.first_unread;
+    std::string warning;
+    if (demo.unread_blocks > 0)
+        warning = std::to_string(demo.unread_blocks) + " of " + std::to_string(demo.blocks) +
+                  " blocks are read only in part; " + demo.first_unread;
+    if (demo.cut_off.empty()) return warning;
+    return (warning.empty() ? "" : warning + "; ") + "is cut off; " + demo.cut_off;
 }
 
 }  // namespace

@@ -109,37 +109,49 @@ TEST(Moments, AfterAKillTheKillerIsWorthSeeing) {
 }
 
 TEST(Moments, TheLastOfATeamWhoLivesIsAMomentWhileAnEnemyLives) {
-    Script script(5, 40);
-    for (std::size_t beat = 0; beat < 40; ++beat) {
+    Script script(5, 160);
+    for (std::size_t beat = 0; beat < 160; ++beat) {
         for (const std::size_t player : {0U, 1U, 2U})
             script.player(beat, player).team = 1;
         script.player(beat, 3).team = 2;  // a team of one; 4 is everybody's enemy
         script.player(beat, 0).alive = beat < 10;
-        script.player(beat, 1).alive = beat < 20 || beat >= 30;
-        script.player(beat, 3).alive = script.player(beat, 4).alive = beat < 25;
+        script.player(beat, 1).alive = beat < 20 || beat >= 130;
+        script.player(beat, 3).alive = script.player(beat, 4).alive = beat < 100;
     }
-    const auto found = find_moments(script.footage(), {},
-                                    only({.name = "tested", .trigger = Trigger::last_alive}), test::unit, 0);
-    ASSERT_EQ(found.size(), 1U);
-    EXPECT_EQ(found[0].actor, 2);
-    EXPECT_EQ(found[0].begin, 20);
-    EXPECT_EQ(found[0].end, 25);
-    const auto later = find_moments(script.footage(), {},
-                                    only({.name = "tested", .trigger = Trigger::last_alive}), test::unit, 22);
-    ASSERT_EQ(later.size(), 1U);
-    EXPECT_EQ(later[0].begin, 22);
+    const auto found = [&](Beat from) {
+        return find_moments(script.footage(), {}, only({.name = "tested", .trigger = Trigger::last_alive}),
+                            test::unit, from);
+    };
+    ASSERT_EQ(found(0).size(), 1U);
+    EXPECT_EQ(found(0)[0].actor, 2);
+    EXPECT_EQ(found(0)[0].begin, 70) << "5 s after the other's death";
+    EXPECT_EQ(found(0)[0].end, 100);
+    ASSERT_EQ(found(80).size(), 1U);
+    EXPECT_EQ(found(80)[0].begin, 80);
+}
+
+TEST(Moments, NobodyIsTheLastWhoLivesWhileTheOthersComeBack) {
+    Script script(3, 300);
+    for (std::size_t beat = 0; beat < 300; ++beat) {
+        script.player(beat, 0).team = script.player(beat, 1).team = 1;
+        script.player(beat, 1).alive = beat % 50 >= 40;  // dead for 4 s each time
+    }
+    EXPECT_TRUE(find_moments(script.footage(), {}, only({.name = "tested", .trigger = Trigger::last_alive}),
+                             test::unit, 0)
+                    .empty());
 }
 
 TEST(Moments, ThatGoOnEndWithWhatIsKnown) {
-    Script script(3, 10);
-    for (std::size_t beat = 0; beat < 10; ++beat) {
+    Script script(3, 60);
+    for (std::size_t beat = 0; beat < 60; ++beat) {
         script.player(beat, 0).team = script.player(beat, 1).team = 1;
         script.player(beat, 1).alive = false;
     }
     const auto found = find_moments(script.footage(), {},
                                     only({.name = "tested", .trigger = Trigger::last_alive}), test::unit, 0);
     ASSERT_EQ(found.size(), 1U);
-    EXPECT_EQ(found[0].end, 10);
+    EXPECT_EQ(found[0].begin, 50);
+    EXPECT_EQ(found[0].end, 60);
 }
 
 TEST(Moments, AWonRoundAndAnEntranceAreOfWhoDidThem) {

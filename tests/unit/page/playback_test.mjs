@@ -207,7 +207,9 @@ test('a seek is followed also while the newest is being loaded', () =>
 async function hideUntil(stage, change) {
     const asked = stage.asked.length;
     change();
-    while (!stage.asked.slice(asked).includes('sync')) await new Promise(resolve => setTimeout(resolve, 10));
+    const isAsked = () => stage.asked.slice(asked).includes('sync');
+    for (const end = Date.now() + patienceMs; !isAsked() && Date.now() < end;) await new Promise(resolve => setTimeout(resolve, 10));
+    assert.ok(isAsked());
     await new Promise(resolve => setTimeout(resolve, 100));
 }
 
@@ -242,6 +244,16 @@ test('a broadcast whose newest fragments are damaged is asked for in no haste', 
         for (const end = Date.now() + 500; Date.now() < end; await new Promise(resolve => setTimeout(resolve, 5))) stage.play(0);
         assert.ok(stage.asked.length - asked < 5, `${stage.asked.length - asked} requests`);
     }, {sync: {live: true}, begin: {}});
+});
+
+test('the newest that can be read is shown, also where only what follows its begin is damaged', async () => {
+    const files = writer.recording(10);
+    files['9/delta'] = files['9/delta'].slice(0, -1);
+    for (const live of [false, true])
+        await watch(files, async stage => {
+            await stage.until('begins', () => stage.model.buffer.last === 8e3);
+            assert.match(stage.problems.join(), /^Damaged, left out: fragment 9, delta/);
+        }, {sync: {live}, begin: {}});
 });
 
 test('who plays to the newest is told', () =>
@@ -284,12 +296,22 @@ test('more than the memory has room for is played without being fetched again', 
 test('an ended broadcast that the server no longer has is not taken for one without fragments', () =>
     watch(writer.recording(40), async stage => {
         await stage.until('begins', () => stage.shown === 0);
+        stage.model.clock.setPaused(true);
+        await stage.until('what is ahead', () => stage.playback.loaded.last >= 14);
         stage.status = 404;
-        stage.playback.seek(30e3);
-        await stage.until('it waits', () => stage.playback.state === 'waiting');
-        assert.match(stage.problems.join(), /^sync: the server answers with 404$/);
+        stage.playback.seek(38e3);
+        await stage.until('it knows', () => stage.playback.isGone);
+        assert.deepEqual(stage.problems, ['The server no longer has this: only what is loaded can be seen']);
+        assert.equal(stage.playback.state, 'ended');
+        assert.equal(stage.playback.range[0], 0);
+        stage.playback.seek(5e3);
+        assert.equal(stage.shown, 5);
+        assert.equal(stage.playback.state, 'paused');
         stage.status = 0;
-        await stage.until('it is there again', () => stage.shown === 30);
+        stage.playback.keepDue = 0;
+        await stage.until('it is there again', () => !stage.playback.isGone);
+        stage.playback.seek(38e3);
+        await stage.until('and goes on', () => stage.shown === 38);
         assert.equal(stage.playback.unreadable.size, 0);
     }));
 
@@ -301,13 +323,16 @@ test('an ended broadcast is asked for now and then, so that the server keeps it'
         const asked = stage.asked.length;
         stage.playback.keepDue = 0;
         await stage.until('asked', () => stage.asked.length > asked);
-        assert.deepEqual(stage.asked.slice(asked), ['r/start']);
+        assert.deepEqual(stage.asked.slice(asked), ['sync']);
         assert.ok(stage.playback.keepDue > performance.now() + 60e3);
         stage.status = 404;
         stage.playback.keepDue = 0;
         await stage.until('asked again', () => stage.playback.keepDue > 0);
         assert.equal(stage.playback.state, 'paused', 'what is loaded is shown still');
-        assert.deepEqual(stage.problems, []);
+        assert.equal(stage.problems.length, 1);
+        stage.playback.keepDue = 0;
+        await stage.until('asked once more', () => stage.playback.keepDue > 0);
+        assert.equal(stage.problems.length, 1);
     }));
 
 // Carl is in the match from fragment 3 on, followed there, and has left in fragment 5; Zoe is in the last one alone.

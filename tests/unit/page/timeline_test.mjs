@@ -126,6 +126,20 @@ test('parts that overlap a little leave nothing out', () => {
     }
 });
 
+test('a last part of some frames follows on, in either order', () => {
+    const part = (from, to) => {
+        const timeline = new Timeline(whole);
+        timeline.addState(from, 5, 1, visible);
+        return [timeline, to];
+    };
+    for (const order of [[0, 1], [1, 0]]) {
+        const all = [part(0, 3000), part(3010, 3220)];
+        const timeline = new Timeline(whole);
+        for (const n of order) timeline.insert(...all[n]);
+        assert.deepEqual(timeline.spans(5, 0, 9000).map(({from, to}) => [from, to]), [[0, 3220]], order);
+    }
+});
+
 test('where states of parts that overlap alternate, each part is known still', () => {
     for (const order of orders) {
         const timeline = new Timeline(whole);

@@ -146,7 +146,8 @@ TEST_F(BroadcastTest, AnEndedMatchStaysAsLongAsSomebodyWatchesIt) {
     broadcast_.end("m/1", end);
     for (int minutes = 5; minutes <= 30; minutes += 5) {
         broadcast_.drop_unwanted(after(minutes));
-        EXPECT_TRUE(broadcast_.get("/m%2F1/id/3/delta", after(minutes))) << minutes;
+        const char* part = minutes % 10 == 0 ? "/m%2F1/id/3/delta" : "/m%2F1/sync";
+        EXPECT_TRUE(broadcast_.get(part, after(minutes))) << minutes;
     }
     broadcast_.drop_unwanted(after(41));
     EXPECT_FALSE(broadcast_.get("/m%2F1/id/3/delta", after(41)));
@@ -180,6 +181,14 @@ TEST_F(BroadcastTest, WhatIsNoSuchResourceIsNotShown) {
     replace("3/full", "");
     fs::resize_file(folder_ / "r" / "3" / "full", 1ULL << 30U);  // takes no place
     EXPECT_FALSE(broadcast_.get("/m%2F1/id/3/full"));
+}
+
+TEST_F(BroadcastTest, AProxyMayLeaveWhatNeedNotBeEncoded) {
+    broadcast_.set("a-b.c~d", channel("id"));
+    for (const char* path : {"/a%2Db%2Ec%7Ed/sync", "/a-b.c~d/sync"})
+        EXPECT_TRUE(broadcast_.get(path)) << path;
+    for (const char* path : {"/a%2Db.c~d/sync", "/a-b%2Ec~d/sync"})
+        EXPECT_FALSE(broadcast_.get(path)) << path << ": a cache would keep it once more";
 }
 
 TEST_F(BroadcastTest, ARotatedFragmentIsGone) {

@@ -68,6 +68,26 @@ TEST(Playback, OfNothingThatCanBeReadSaysWhy) {
     EXPECT_NE(begun.error().message.find("full: byte 24"), std::string::npos) << begun.error().message;
 }
 
+TEST(Playback, OfASyncThatNamesAnythingIsOfWhatIsThere) {
+    const StoredMatch recorded(3);
+    fs::remove_all(recorded.folder() / "1");
+    std::ofstream(recorded.folder() / "sync")
+        << R"({"first_fragment":0,"last_fragment":4294967295,"version":1})";
+    auto playback = Playback::open(recorded.folder());
+    ASSERT_TRUE(playback);
+    ASSERT_TRUE(playback->go_on(0.0, 1000.0));
+    EXPECT_EQ(playback->at(1e9).sync.last, 2U);
+    const auto reader = Reader::open(recorded.folder());
+    const auto left_out = reader->replay(0, [](const Record&) {});
+    ASSERT_EQ(left_out.size(), 1U);
+    EXPECT_NE(left_out[0].message.find(": 1: missing"), std::string::npos) << left_out[0].message;
+    fs::remove_all(recorded.folder() / "0");
+    fs::remove_all(recorded.folder() / "2");
+    const auto none = Reader::open(recorded.folder());
+    ASSERT_FALSE(none);
+    EXPECT_NE(none.error().message.find("none of the fragments 0 to 4294967295"), std::string::npos);
+}
+
 TEST(Reader, FindsTheLastFragmentUpToATimeOfThoseThatCanBeRead) {
     std::mt19937 random(7);
     for (int round = 0; round < 20; ++round) {
