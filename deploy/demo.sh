@@ -98,9 +98,11 @@ done
 step "Watch the match in a browser: $(link)"
 
 watch_again() {
+    send TERM "$director"  # which then writes what it has recorded
+    while running "$director"; do wait "$director" || true; done
     local recordings=("$1"/recordings/*/sync)
     [ ! -e "${recordings[-1]}" ] || echo "Watch it again, from its beginning:
-    $bin/camera-director play $(dirname "${recordings[-1]}") $1/oa_dm1.vfs --map $map" >&2
+    $PWD/$bin/camera-director play $PWD/$(dirname "${recordings[-1]}") $PWD/$1/oa_dm1.vfs --map $map" >&2
 }
 
 if $openarena; then

@@ -63,13 +63,16 @@ Result<Inputs> read_inputs(const DirectOptions& options, ProgressLine& line) {
         if (!events) return tl::unexpected(events.error());
         match->events = std::move(*events);
     }
-    if (!match->events) return fail(options.trace + ": holds no events; name them with --events");
+    if (!match->events)
+        std::cerr << "camera-director: warning: " << options.trace
+                  << " holds no events, so that no kill can be foreseen: name them with --events\n";
     line.show("reading " + options.map, 0, 0);
     auto map = open_map(options.freespace, options.map);
     if (!map) return tl::unexpected(map.error());
     line.clear();
     warn_of_another_source(options.freespace, options.map, *map);
-    return Inputs{std::move(match->trace), std::move(*match->events), std::move(*map),
+    return Inputs{std::move(match->trace),
+                  std::move(match->events).value_or(std::vector<evaluation::TraceEvent>()), std::move(*map),
                   std::move(config->direction)};
 }
 

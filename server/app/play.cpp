@@ -75,6 +75,10 @@ class PlayedMap {
             std::cerr << "camera-director: warning: " << options.freespace
                       << " was baked from another version of the map " << printable(match.map_name)
                       << " than the match was played on\n";
+        if (match.map_hash == 0 && match.map_name != freespace->metadata().map_name)
+            std::cerr << "camera-director: warning: the match was played on " << printable(match.map_name)
+                      << ", " << options.freespace << " is of " << printable(freespace->metadata().map_name)
+                      << ": its walls may not be those of the match\n";
         library_.set_ready(match.map_name, std::move(*freespace));
         models_.set_source(match.map_name, options.map);
         return {};

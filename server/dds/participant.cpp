@@ -150,10 +150,12 @@ Result<Participant> Participant::open(const config::Dds& config) {
     const auto id = static_cast<dds_domainid_t>(config.domain);
     const std::string where = "DDS domain " + std::to_string(id);
 
-    auto domain = created(dds_create_domain(id, domain_xml(config).c_str()),
-                          where + ": joining as participant index " +
-                              std::to_string(config.participant_index) + " on interface '" +
-                              config.interface + "' (is the index taken, or the configuration bad?)");
+    auto domain = created(
+        dds_create_domain(id, domain_xml(config).c_str()),
+        where + ": joining as participant index " + std::to_string(config.participant_index) +
+            " on interface '" + config.interface +
+            "' (another process of this host may have this index: set /dds/participant_index to another "
+            "one, or to -1; or the interface or /dds/xml is wrong)");
     if (!domain) return tl::unexpected(domain.error());
     participant.domain_ = std::move(*domain);
     if (config.security.empty() && !config.insecure) {

@@ -32,7 +32,7 @@ const calm = matchMedia('(prefers-reduced-motion: reduce)');
 const model = new Model();
 model.begin(kept);
 const viewpoint = new Viewpoint();
-const shotRows = new Rows(find('shots'), 'No camera is on: no spectator has asked for one.');
+const shotRows = new Rows(find('shots'), 'No camera is on: no spectator has asked for one. “Cut ›” goes to the next.');
 const matchRows = new Rows(find('matches'), 'No match is running.');
 
 const look = slot => model.look(slot);
@@ -258,7 +258,9 @@ function goToBegin() {
 function stepCut(by) {
     const {clock, timeline} = model;
     if (clock.t === null) return;
-    const next = by > 0 ? timeline.cutAfter(camera, clock.t + 1) : timeline.cutBefore(camera, clock.t - 1000);
+    // Where no camera is on, to the next that is.
+    const next = by < 0 ? timeline.cutBefore(camera, clock.t - 1000) : shownCamera() ? timeline.cutAfter(camera, clock.t + 1)
+        : timeline.cuts.find(({t}) => t > clock.t + 1);
     if (next) seek(next.t);
 }
 
@@ -366,7 +368,7 @@ function showCaption() {
 function showLists() {
     const shots = matches.find(other => other.id === watched?.id)?.stream?.shots ?? [];
     const profiles = new Map(shots.map(shot =>
-        [shot.camera_id, shot.automatic ? `${shot.profile}, the director chooses` : shot.profile]));
+        [shot.camera_id, shot.automatic ? `the director chooses, ${shot.profile}` : shot.profile]));
     shotRows.show(shownCameras().map(shot =>
         shotEntry(shot, lookOfShot(shot), groupOf(shot.id).length > 0, profiles.get(shot.id) ?? '', shot.id === camera, () => chooseCamera(shot.id))));
     matchRows.show(matches.map(({id, map, stream, goesOn}) => ({
@@ -540,7 +542,8 @@ function moveCut(by) {
 }
 
 document.addEventListener('keydown', event => {
-    if (event.ctrlKey || event.metaKey || event.altKey || find('help').open) return;
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    if (find('help').open) return event.key === '?' ? find('help').close() : undefined;
     const {target} = event;
     if (target.matches('input:not([type=checkbox]), select')) return;
     if (event.key === ' ' && target.matches('button, input')) return;  // presses it

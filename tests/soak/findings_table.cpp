@@ -1,7 +1,11 @@
 #include "findings_table.hpp"
 
+#include <sys/ioctl.h>
+#include <unistd.h>
+
 #include <iomanip>
 #include <ostream>
+#include <sstream>
 #include <utility>
 
 namespace camdir::soak {
@@ -35,19 +39,30 @@ void print_row(std::ostream& out, const Row& row, double seconds) {
         << found.through_geometry << std::setw(7) << found.jumps << '\n';
 }
 
+// A longer line would take two, and the next table would not be where this one was.
+std::size_t columns_of_terminal() {
+    winsize size{};
+    const bool known = ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+    return known ? size.ws_col : std::string::npos;
+}
+
 }  // namespace
 
 FindingsTable::FindingsTable(std::ostream& out, std::string heading, bool live)
     : out_(out), heading_(std::move(heading)), live_(live) {}
 
 void FindingsTable::print(const std::vector<Row>& rows, double seconds) {
+    std::stringstream table;
+    table << std::fixed << std::setprecision(1) << std::left << std::setw(12) << heading_
+          << "state      visible %  clearance  p50 ms  p99 ms  frames/s  gaps  cuts  in obstacle  through  "
+             "jumps\n";
+    for (const Row& row : rows)
+        print_row(table, row, seconds);
     // Moves the cursor up to the start of the previous table and clears from there.
     if (live_ && printed_lines_ > 0) out_ << "\x1b[" << printed_lines_ << "A\x1b[J";
-    out_ << std::fixed << std::setprecision(1) << std::left << std::setw(12) << heading_
-         << "state      visible %  clearance  p50 ms  p99 ms  frames/s  gaps  cuts  in obstacle  through  "
-            "jumps\n";
-    for (const Row& row : rows)
-        print_row(out_, row, seconds);
+    const std::size_t width = live_ ? columns_of_terminal() : std::string::npos;
+    for (std::string line; std::getline(table, line);)
+        out_ << line.substr(0, width) << '\n';
     out_.flush();
     printed_lines_ = rows.size() + 1;
 }

@@ -19,7 +19,8 @@ struct Row {
 // On a live terminal each table overwrites the previous one.
 class FindingsTable {
   public:
-    // `heading` names the first column. `live`: `out` is a terminal.
+    // `heading` names the first column. `live`: `out` is the terminal of standard error, to whose width lines
+    // are cut.
     FindingsTable(std::ostream& out, std::string heading, bool live);
 
     void print(const std::vector<Row>& rows, double seconds);

@@ -128,8 +128,9 @@ TEST_F(DirectCommand, TakesTheEventsOfADemo) {
     };
     ASSERT_EQ(run(trace), 0) << errors_;
     EXPECT_EQ(json::parse(written(file)).at("kills"), 1);
-    EXPECT_EQ(run(trace_), 1);
-    EXPECT_THAT(errors_, HasSubstr("trace.csv: holds no events; name them with --events"));
+    EXPECT_EQ(run(trace_), 0) << errors_;
+    EXPECT_THAT(errors_, HasSubstr("trace.csv holds no events, so that no kill can be foreseen: name them"));
+    EXPECT_EQ(json::parse(written(file)).at("kills"), 0);
 }
 
 TEST_F(DirectCommand, RefusesEventsOfAnotherMatchAndLeavesWhatWasThere) {
