@@ -165,8 +165,8 @@ std::vector<direction::Moment> moments_to_begin_with(std::span<const direction::
 
 nlohmann::ordered_json object_of(const direction::Figures& figures) {
     nlohmann::ordered_json object;
-    for (const auto& [name, member] : direction::figure_names())
-        object[name] = figures.*member;
+    for (const direction::FigureName& figure : direction::figure_names())
+        object[figure.name] = figures.*figure.member;
     return object;
 }
 
@@ -183,10 +183,10 @@ void print_table(const std::vector<Judged>& judged, std::size_t kills_in_reach) 
     std::fprintf(stderr, "%-18s", "");
     for (const Judged& one : judged)
         std::fprintf(stderr, "%12s", one.name.c_str());
-    for (const auto& [name, member] : direction::figure_names()) {
-        std::fprintf(stderr, "\n%-18s", name);
+    for (const direction::FigureName& figure : direction::figure_names()) {
+        std::fprintf(stderr, "\n%-18s", figure.name);
         for (const Judged& one : judged)
-            std::fprintf(stderr, "%12.2f", one.figures.*member);
+            std::fprintf(stderr, "%12.*f", figure.decimals, one.figures.*figure.member);
     }
     std::fprintf(stderr, "\n%zu kills are in reach of the cameras, whatever the grammar\n", kills_in_reach);
 }

@@ -179,21 +179,26 @@ class Judge {
 };
 
 constexpr std::array<FigureName, 15> names{{
-    {"kills", &Figures::kills},
-    {"kills_seen", &Figures::kills_seen},
-    {"kills_seen_both", &Figures::kills_seen_both},
-    {"multi_kills", &Figures::multi_kills},
-    {"multi_kills_seen", &Figures::multi_kills_seen},
-    {"cuts_per_minute", &Figures::cuts_per_minute},
-    {"shot_s_p10", &Figures::shot_s_p10},
-    {"shot_s_p50", &Figures::shot_s_p50},
-    {"shot_s_p90", &Figures::shot_s_p90},
-    {"shots_under_1_5", &Figures::shots_under_1_5},
-    {"jump_cuts", &Figures::jump_cuts},
-    {"line_crossings", &Figures::line_crossings},
-    {"idle_share", &Figures::idle_share},
-    {"missed_by_cut", &Figures::missed_by_cut},
-    {"moment_delay_s", &Figures::moment_delay_s},
+    {"kills", &Figures::kills, 0, "of one player by another"},
+    {"kills_seen", &Figures::kills_seen, 0,
+     "killer or victim is in view from 1 s before to 0.5 s after: more is better"},
+    {"kills_seen_both", &Figures::kills_seen_both, 0, "both are"},
+    {"multi_kills", &Figures::multi_kills, 0,
+     "two or more kills of one player, each within 3 s of the one before"},
+    {"multi_kills_seen", &Figures::multi_kills_seen, 0, "all of their kills are seen"},
+    {"cuts_per_minute", &Figures::cuts_per_minute, 1, "those that a camera makes by itself too"},
+    {"shot_s_p10", &Figures::shot_s_p10, 1,
+     "seconds between two cuts: one in ten is shorter; wanted 2 or more"},
+    {"shot_s_p50", &Figures::shot_s_p50, 1, "their median; wanted 4 to 8"},
+    {"shot_s_p90", &Figures::shot_s_p90, 1, "one in ten is longer"},
+    {"shots_under_1_5", &Figures::shots_under_1_5, 0, "too short to be read: wanted 0"},
+    {"jump_cuts", &Figures::jump_cuts, 0, "the same player from nearly the same side: wanted 0"},
+    {"line_crossings", &Figures::line_crossings, 0, "two who fight change places on the screen: wanted 0"},
+    {"idle_share", &Figures::idle_share, 2,
+     "share of the time on the dead or idle while others fight: wanted 0.02 or less"},
+    {"missed_by_cut", &Figures::missed_by_cut, 0,
+     "kills that are not seen, with a cut in the second before: wanted 0"},
+    {"moment_delay_s", &Figures::moment_delay_s, 2, "seconds from the begin of a moment to its being shown"},
 }};
 
 }  // namespace
@@ -242,10 +247,10 @@ bool kill_counts(const Footage& footage, double kill_time) {
 
 Figures mean_of(std::span<const Figures> figures) {
     Figures mean;
-    for (const auto& [name, member] : names) {
+    for (const FigureName& figure : names) {
         for (const Figures& one : figures)
-            mean.*member += one.*member;
-        mean.*member /= static_cast<double>(figures.size());
+            mean.*figure.member += one.*figure.member;
+        mean.*figure.member /= static_cast<double>(figures.size());
     }
     return mean;
 }

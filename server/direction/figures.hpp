@@ -58,10 +58,12 @@ inline constexpr double after_kill_s = 0.5;
 // The mean of each. Precondition: at least one.
 [[nodiscard]] Figures mean_of(std::span<const Figures> figures);
 
-// Every figure's name, as in programs and tables, in order.
+// Every figure's name, as in programs and tables, in order, and what it means, for people.
 struct FigureName {
     const char* name;
     double Figures::*member;
+    int decimals;  // worth printing
+    const char* meaning;
 };
 [[nodiscard]] std::span<const FigureName> figure_names();
 

@@ -161,14 +161,19 @@ std::string figures(const ProgrammeSubject& subject) {
     for (const JudgedProgramme& one : subject.judged)
         html += "<th>" + escape(one.name) + "</th>";
     html += "<th></th></tr></thead><tbody>";
-    for (const auto& [name, member] : direction::figure_names()) {
-        html += "<tr id=\"" + std::string(name) + "\"><th>" + name + "</th>";
+    for (const direction::FigureName& figure : direction::figure_names()) {
+        html += "<tr id=\"" + std::string(figure.name) + "\"><th>" + figure.name + "</th>";
         for (const JudgedProgramme& one : subject.judged)
-            html += "<td><data value=\"" + decimal(one.figures.*member, 6) + "\">" +
-                    evaluation::format_value(one.figures.*member, 2) + "</data></td>";
-        html += "<td></td></tr>";
+            html += "<td><data value=\"" + decimal(one.figures.*figure.member, 6) + "\">" +
+                    evaluation::format_value(one.figures.*figure.member, figure.decimals) + "</data></td>";
+        html += "<td>" + escape(figure.meaning) + "</td></tr>";
     }
-    return html + "</tbody></table></div>\n";
+    return html + "</tbody></table></div>\n" +
+           "<p>direction: by cameras that run all the time; running: as a running director shows it, whose "
+           "cameras begin "
+           "with its cuts; random: somebody else every 6 s; hltv, quakeworld: the rules of these; bound: the "
+           "most kills "
+           "that the same grammar allows who knows the whole match.</p>\n";
 }
 
 // The first frame from the beat on; the match's last where there is none.
