@@ -16,15 +16,17 @@ function setAttribute(node, name, value) {
 }
 
 export class Rows {
-    constructor(list, empty) {
+    constructor(list) {
         this.list = list;
         this.rows = new Map();
-        this.empty = element('li', {className: 'empty', textContent: empty});
+        this.empty = element('li', {className: 'empty'});
         list.append(this.empty);
     }
 
-    // `entries`: [{key, number, colour, name, detail, mode, modeText, pressed, choose}], as they are to stand.
-    show(entries) {
+    // `entries`: [{key, number, colour, name, detail, mode, modeText, pressed, choose}], as they are to stand. `empty`: what is
+    // said where there are none.
+    show(entries, empty) {
+        setText(this.empty, empty);
         this.empty.hidden = entries.length > 0;
         const keys = new Set(entries.map(entry => entry.key));
         for (const [key, row] of this.rows) {

@@ -32,8 +32,8 @@ const calm = matchMedia('(prefers-reduced-motion: reduce)');
 const model = new Model();
 model.begin(kept);
 const viewpoint = new Viewpoint();
-const shotRows = new Rows(find('shots'), 'No camera is on: no spectator has asked for one. “Cut ›” goes to the next.');
-const matchRows = new Rows(find('matches'), 'No match is running.');
+const shotRows = new Rows(find('shots'));
+const matchRows = new Rows(find('matches'));
 
 const look = slot => model.look(slot);
 // Of the players of a group shot a frame has the first alone: all of them, of no other shot any.
@@ -370,7 +370,8 @@ function showLists() {
     const profiles = new Map(shots.map(shot =>
         [shot.camera_id, shot.automatic ? `the director chooses, ${shot.profile}` : shot.profile]));
     shotRows.show(shownCameras().map(shot =>
-        shotEntry(shot, lookOfShot(shot), groupOf(shot.id).length > 0, profiles.get(shot.id) ?? '', shot.id === camera, () => chooseCamera(shot.id))));
+        shotEntry(shot, lookOfShot(shot), groupOf(shot.id).length > 0, profiles.get(shot.id) ?? '', shot.id === camera, () => chooseCamera(shot.id))),
+    isRecorded() ? 'No camera was on. “Cut ›” goes to where one was.' : 'No camera is on: no spectator has asked for one.');
     matchRows.show(matches.map(({id, map, stream, goesOn}) => ({
         key: `match ${id}`, number: stream ? String(stream.players.length) : '▸', colour: '#c4ccd6', name: id,
         detail: `${map}, ${stream?.state ?? (goesOn ? 'broadcast' : 'recorded')}`, pressed: id === watched?.id,
@@ -378,7 +379,7 @@ function showLists() {
             server.rememberMatch(id);
             watch(id);
         },
-    })));
+    })), 'No match is running.');
 }
 
 // Buttons over the small pictures, as many as are shown.

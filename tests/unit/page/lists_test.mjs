@@ -42,7 +42,7 @@ const shownIn = list => list.children.filter(({className}) => className !== 'emp
 test('the row that has the focus keeps it, however the rows are ordered', () => {
     for (const focused of 'abcd') {
         const list = new Element('ul');
-        const rows = new Rows(list, 'none');
+        const rows = new Rows(list);
         rows.show(entriesOf('abcd'));
         document.activeElement = rows.rows.get(focused).button;
         for (const order of ['dcba', 'cxadb', 'abcd', 'bdac', 'dcab', 'yabxcd', focused, 'abcd']) {
@@ -55,7 +55,7 @@ test('the row that has the focus keeps it, however the rows are ordered', () => 
 
 test('a row that is gone takes the focus along', () => {
     const list = new Element('ul');
-    const rows = new Rows(list, 'none');
+    const rows = new Rows(list);
     rows.show(entriesOf('ab'));
     document.activeElement = rows.rows.get('a').button;
     rows.show(entriesOf('b'));
