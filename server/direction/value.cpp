@@ -79,11 +79,12 @@ void Value::add_span(const Moment& moment, const Rule& rule) {
     for (Beat beat = std::max(moment.begin, first_); beat < std::min(moment.end, known_); ++beat) {
         for (const Index player : {moment.actor, moment.subject})
             if (player != nobody) worth_of_showing(beat, player) += one;
-        if (both == 0.0) continue;
+        if (both == 0.0 || moment.actor == nobody || moment.subject == nobody) continue;
         const auto actor = footage_.showing(beat, moment.actor);
         const auto subject = footage_.showing(beat, moment.subject);
         for (std::size_t word = 0; word < words; ++word)
-            add_to_rushes(beat, word, actor[word] & subject[word], both);
+            if (const Footage::Word showing_both = actor[word] & subject[word]; showing_both != 0)
+                add_to_rushes(beat, word, showing_both, both);
     }
 }
 

@@ -191,10 +191,12 @@ void measure(std::size_t players, double delay_s) {
 }  // namespace camdir::bench
 
 int main() {
-    std::puts("Milliseconds, one thread; moments are found once for all automatic shots of a match.\n");
     std::puts(
-        "| players | known, s | moments p50 | a decision p50 | p99 | a decision by HLTV's rules | ratio |");
-    std::puts("|---|---|---|---|---|---|---|");
+        "Milliseconds, one thread. Decisions are made five times a second; moments are found once for all "
+        "shots of a "
+        "match.\n");
+    std::puts("| players | known, s | moments p50 | p99 | a decision p50 | p99 |");
+    std::puts("|---|---|---|---|---|---|");
     for (const std::size_t players : {8U, 16U, 32U})
         for (const double delay_s : {0.0, 10.0})
             camdir::bench::measure(players, delay_s);
