@@ -166,9 +166,13 @@ const Page file_page = {"/", true, false, true, true, nullptr};
 
 std::string_view path_of(const Request& request) {
     std::string_view target = view(request.target());
-    if (target.starts_with("http://")) {  // as it is asked of a proxy
-        target.remove_prefix(std::strlen("http://"));
-        target.remove_prefix(std::min(target.find('/'), target.size()));
+    static constexpr std::string_view scheme = "http://";
+    if (boost::beast::iequals({target.data(), std::min(target.size(), scheme.size())},
+                              {scheme.data(), scheme.size()})) {
+        // As it is asked of a proxy.
+        target.remove_prefix(scheme.size());
+        target.remove_prefix(std::min(target.find_first_of("/?"), target.size()));
+        if (!target.starts_with('/')) return "/";
     }
     return target.substr(0, target.find('?'));
 }

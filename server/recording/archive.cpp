@@ -4,6 +4,7 @@
 #include <spdlog/fmt/chrono.h>
 #include <spdlog/spdlog.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -44,14 +45,23 @@ bool is_folder_name(std::string_view name) {
     return std::regex_match(name.begin(), name.end(), pattern);
 }
 
+bool is_folder(const fs::directory_entry& entry) {
+    std::error_code error;
+    return entry.symlink_status(error).type() == fs::file_type::directory;
+}
+
 // What is removed must be certain to be one.
 bool is_recording(const fs::directory_entry& entry) {
-    std::error_code error;
-    if (entry.symlink_status(error).type() != fs::file_type::directory ||
-        !is_folder_name(entry.path().filename().native()))
-        return false;
+    if (!is_folder(entry) || !is_folder_name(entry.path().filename().native())) return false;
     const auto start = read_file(entry.path() / "start", max_resource);
     return start && has_header(*start, ResourceKind::start, 0);
+}
+
+// Its `start` may be gone.
+bool is_being_removed(const fs::directory_entry& entry) {
+    const std::string_view name = entry.path().filename().native();
+    return name.starts_with(removed_mark) && is_folder_name(name.substr(removed_mark.size())) &&
+           is_folder(entry);
 }
 
 // One folder of a fragment after the other, so that a stop need not wait for all.
@@ -97,9 +107,8 @@ Result<std::unique_ptr<Archive>> Archive::open(const fs::path& folder) {
 Result<void> Archive::list() {
     std::error_code error;
     for (fs::directory_iterator it(folder_, error), end; !error && it != end; it.increment(error)) {
-        const std::string name = it->path().filename().string();
-        if (name.starts_with(removed_mark) &&
-            is_folder_name(std::string_view(name).substr(removed_mark.size())))
+        const std::string& name = it->path().filename().native();
+        if (is_being_removed(*it))
             removed_.push_back(it->path());
         else if (is_recording(*it))
             unmeasured_.push_back(name);
@@ -129,6 +138,13 @@ Archive::~Archive() {
     ::close(descriptor_);
 }
 
+bool Archive::is_in_place() const {
+    struct stat locked {};
+    struct stat named {};
+    return ::fstat(descriptor_, &locked) == 0 && ::stat(folder_.c_str(), &named) == 0 &&
+           locked.st_dev == named.st_dev && locked.st_ino == named.st_ino;
+}
+
 void Archive::add_ended(const std::string& name, std::uint64_t bytes) {
     const std::lock_guard lock(mutex_);
     if (ended_.emplace(name, bytes).second) ended_bytes_ += bytes;
@@ -147,7 +163,11 @@ std::optional<std::string> Archive::remove_oldest() {
     const std::string& name = oldest.key();
     const fs::path removed = path_of(std::string(removed_mark) + name);
     std::error_code error;
-    fs::rename(path_of(name), removed, error);
+    // Of somebody else it would only be hidden.
+    if (::access(path_of(name).c_str(), W_OK | X_OK) != 0)
+        error.assign(errno, std::generic_category());
+    else
+        fs::rename(path_of(name), removed, error);
     if (error) {
         spdlog::error("{}: cannot remove the recording: {}", path_of(name).string(), error.message());
     } else {

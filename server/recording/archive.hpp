@@ -41,7 +41,8 @@ class Archive {
     // What is still to be removed, the next open() removes.
     ~Archive();
 
-    [[nodiscard]] std::filesystem::path path_of(const std::string& name) const { return folder_ / name; }
+    // False: the folder was removed, and one that may have come in its place is not locked.
+    [[nodiscard]] bool is_in_place() const;
 
     // A recording in the folder, with so many bytes of the disk, grows no more.
     void add_ended(const std::string& name, std::uint64_t bytes);
@@ -55,6 +56,7 @@ class Archive {
   private:
     Archive(std::filesystem::path folder, int descriptor)
         : folder_(std::move(folder)), descriptor_(descriptor) {}
+    [[nodiscard]] std::filesystem::path path_of(const std::string& name) const { return folder_ / name; }
     [[nodiscard]] Result<void> list();
     // On the thread.
     void run(const std::stop_token& stop);

@@ -74,7 +74,8 @@ std::optional<Part> part_of(const Channel& channel, const std::vector<std::strin
     if (parts.size() == 3 && parts[2] == "start") return Part{"start", ResourceKind::start, 0};
     if (parts.size() != 4 || (parts[3] != "full" && parts[3] != "delta")) return std::nullopt;
     const auto number = fragment_number(parts[2]);
-    if (!number || *number < channel.sync.first || *number > channel.sync.last) return std::nullopt;
+    // Those before the first are there as long as a viewer may just have been told of them.
+    if (!number || *number > channel.sync.last) return std::nullopt;
     return Part{std::to_string(*number) + "/" + std::string(parts[3]),
                 parts[3] == "full" ? ResourceKind::full : ResourceKind::delta, *number};
 }

@@ -205,12 +205,13 @@ Result<void> Recorder::open_archive() {
 }
 
 Result<void> Recorder::begin(const std::string& match_id, Match& match, std::int64_t time) {
+    if (archive_ && !archive_->is_in_place()) archive_.reset();
     if (!archive_)
         if (auto opened = open_archive(); !opened) return opened;
     const std::int64_t clock_offset = wall_clock_ns() - director::now_ns();
     const std::string id = new_recording_id(time + clock_offset);
     const std::string name = folder_name(id, match_id);
-    auto writer = Writer::create(archive_->path_of(name),
+    auto writer = Writer::create(options_.folder / name,
                                  {match.info, options_.director_version, options_.fragment_duration},
                                  options_.max_match_bytes);
     if (!writer) return tl::unexpected(writer.error());
@@ -245,7 +246,7 @@ void Recorder::end_recording(const std::string& match_id, Match& match) {
     tell_viewers(match_id, match);
     broadcast_.end(match_id);
     ended_fragments_ += match.recording->writer.fragments();
-    archive_->add_ended(match.recording->name, match.recording->writer.folder_bytes());
+    if (archive_) archive_->add_ended(match.recording->name, match.recording->writer.folder_bytes());
     match.recording.reset();
 }
 
@@ -260,7 +261,7 @@ void Recorder::tell_viewers(const std::string& match_id, Match& match) {
     recording.first = first;
     recording.end = end;
     broadcast_.set(match_id, {recording.id,
-                              archive_->path_of(recording.name),
+                              options_.folder / recording.name,
                               match.info.map_name,
                               1e-9 * static_cast<double>(options_.fragment_duration),
                               match.info.spectator_delay_s,
@@ -285,8 +286,8 @@ void Recorder::keep_within_bound() {
 }
 
 bool Recorder::remove_oldest_recording() {
-    const auto name = archive_->remove_oldest();
-    if (name) broadcast_.remove(archive_->path_of(*name));
+    const auto name = archive_ ? archive_->remove_oldest() : std::nullopt;
+    if (name) broadcast_.remove(options_.folder / *name);
     return name.has_value();
 }
 

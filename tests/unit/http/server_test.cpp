@@ -48,7 +48,9 @@ TEST(Server, ServesNothingElse) {
     EXPECT_EQ(status.header.at("content-type"), "application/json");
     EXPECT_EQ(status.header.at("cache-control"), "no-store");
     EXPECT_EQ(server.ask("GET", "http://localhost/status?of=all").body, status.body) << "as of a proxy";
-    EXPECT_EQ(server.status_of("GET", "http://localhost"), 404);
+    EXPECT_EQ(server.ask("GET", "HTTP://localhost/status").body, status.body);
+    for (const char* root : {"http://localhost", "http://localhost?/status"})
+        EXPECT_EQ(server.ask("GET", root).body, server.ask("GET", "/").body) << root;
     for (const char* path :
          {"/nothing", "/index", "/-/healthy/", "/../../etc/passwd", "/%2e%2e/etc/passwd", "*"})
         EXPECT_EQ(server.status_of("GET", path), 404) << path;

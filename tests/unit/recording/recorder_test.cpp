@@ -234,6 +234,33 @@ TEST(Recorder, WhatWasBeingRemovedIsRemovedByTheNextRecorder) {
     }));
 }
 
+TEST(Recorder, WhatALinkNamesIsNotRemoved) {
+    const test::TemporaryFolder folder;
+    fs::create_directories(folder / "r");
+    fs::create_directories(folder / "precious");
+    std::ofstream(folder / "precious" / "file") << "x";
+    fs::create_directory_symlink(folder / "precious",
+                                 folder / "r" / ".removed-20261126T120000.000Z-00000000-m");
+    fs::create_directories(folder / "r" / ".removed-20261126T120001.000Z-00000000-m");
+    Recorder recorder(options(folder / "r"));
+    EXPECT_TRUE(test::eventually([&] { return names_in(folder / "r").size() == 1; }));
+    EXPECT_TRUE(fs::exists(folder / "precious" / "file"));
+}
+
+TEST(Recorder, AFolderThatWasRemovedIsLockedAnew) {
+    const test::TemporaryFolder folder;
+    Recorder first(options(folder / "r"));
+    first.show(info("m"));
+    first.wait_until_written();
+    fs::remove_all(folder / "r");
+    first.show(info("n"));
+    first.wait_until_written();
+    Recorder second(options(folder / "r"));
+    second.show(info("o"));
+    second.wait_until_written();
+    EXPECT_EQ(second.statistics().failures, 1U) << "the first has it";
+}
+
 TEST(Recorder, ViewersAreNotToldOfARemovedRecording) {
     const test::TemporaryFolder folder;
     RecorderOptions bounded = options(folder / "r");
