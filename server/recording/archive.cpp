@@ -59,9 +59,9 @@ bool is_recording(const fs::directory_entry& entry) {
 
 // Its `start` may be gone.
 bool is_being_removed(const fs::directory_entry& entry) {
-    const std::string_view name = entry.path().filename().native();
-    return name.starts_with(removed_mark) && is_folder_name(name.substr(removed_mark.size())) &&
-           is_folder(entry);
+    const std::string name = entry.path().filename().string();
+    return name.starts_with(removed_mark) &&
+           is_folder_name(std::string_view(name).substr(removed_mark.size())) && is_folder(entry);
 }
 
 // One folder of a fragment after the other, so that a stop need not wait for all.
@@ -107,7 +107,7 @@ Result<std::unique_ptr<Archive>> Archive::open(const fs::path& folder) {
 Result<void> Archive::list() {
     std::error_code error;
     for (fs::directory_iterator it(folder_, error), end; !error && it != end; it.increment(error)) {
-        const std::string& name = it->path().filename().native();
+        const std::string name = it->path().filename().string();
         if (is_being_removed(*it))
             removed_.push_back(it->path());
         else if (is_recording(*it))
