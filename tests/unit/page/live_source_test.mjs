@@ -177,23 +177,51 @@ test('of a server of another version nothing more is taken, and it is not asked 
     source.close();
 });
 
-test('a stream that is silent while its match runs is opened again', context => {
-    context.mock.timers.enable({apis: ['setTimeout']});
-    const {source} = stream();
-    const socket = newest();
-    socket.open();
-    socket.note(matchOf([]));
-    source.runs();
-    context.mock.timers.tick(11e3);
-    source.runs();
-    assert.equal(source.state, 'empty', 'it is not silent yet');
-    context.mock.timers.tick(1e3);
-    assert.equal(source.state, 'silent');
-    context.mock.timers.tick(60e3);
-    assert.equal(newest(), socket, 'the match may stand still');
-    source.runs();
-    assert.equal(source.state, 'waiting');
-    context.mock.timers.tick(1e3);
-    assert.notEqual(newest(), socket);
-    source.close();
+// In the place of setTimeout, until restore().
+class Timers {
+    constructor() {
+        this.before = {setTimeout, clearTimeout};
+        this.now = 0;
+        this.due = new Map();
+        globalThis.setTimeout = (call, ms) => {
+            const id = Symbol('timer');
+            this.due.set(id, {call, at: this.now + ms});
+            return id;
+        };
+        globalThis.clearTimeout = id => this.due.delete(id);
+    }
+
+    tick(ms) {
+        this.now += ms;
+        for (const [id, {call, at}] of this.due) if (at <= this.now && this.due.delete(id)) call();
+    }
+
+    restore() {
+        Object.assign(globalThis, this.before);
+    }
+}
+
+test('a stream that is silent while its match runs is opened again', () => {
+    const timers = new Timers();
+    try {
+        const {source} = stream();
+        const socket = newest();
+        socket.open();
+        socket.note(matchOf([]));
+        source.runs();
+        timers.tick(11e3);
+        source.runs();
+        assert.equal(source.state, 'empty', 'it is not silent yet');
+        timers.tick(1e3);
+        assert.equal(source.state, 'silent');
+        timers.tick(60e3);
+        assert.equal(newest(), socket, 'the match may stand still');
+        source.runs();
+        assert.equal(source.state, 'waiting');
+        timers.tick(1e3);
+        assert.notEqual(newest(), socket);
+        source.close();
+    } finally {
+        timers.restore();
+    }
 });
