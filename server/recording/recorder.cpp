@@ -149,7 +149,7 @@ void Recorder::write(Shown shown) {
         write(shown.match_id, match, {shown.time, std::move(message)});
     if (shown.ends) {
         finish(shown.match_id, match);
-        match.failed = false;
+        match.failed = match.needs_archive = false;
     }
     if (!match.recording && !match.failed && match.requests.empty()) matches_.erase(shown.match_id);
 }

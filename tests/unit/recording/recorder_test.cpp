@@ -349,6 +349,22 @@ TEST(Recorder, RecordsOnceTheOtherRecorderHasLeftTheFolder) {
         }
 }
 
+TEST(Recorder, AMatchThatHasEndedIsNotRecordedOnceTheFolderCanBeUsed) {
+    const test::TemporaryFolder folder;
+    std::ofstream(folder / "r") << "in the way";
+    RecorderOptions soon = options(folder / "r");
+    soon.folder_retry = 0;
+    Recorder recorder(soon);
+    recorder.request(ObserverRequest{"m", "stays", 1, {}, "", ""});
+    recorder.show(info("m"));
+    recorder.end("m");
+    recorder.wait_until_written();
+    fs::remove(folder / "r");
+    recorder.request(ObserverRequest{"m", "comes", 1, {}, "", ""});
+    recorder.wait_until_written();
+    EXPECT_EQ(recorder.statistics().running, 0U);
+}
+
 TEST(Recorder, AFolderThatCannotBeWrittenFailsTheEpoch) {
     const test::TemporaryFolder folder;
     std::ofstream(folder / "r") << "in the way";
