@@ -1,5 +1,6 @@
 // camera-director direct: makes the programme of a recorded match and judges it beside other directors.
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <iostream>
@@ -148,17 +149,18 @@ Result<std::vector<Judged>> judge(const Rushes& rushes, std::span<const directio
         {"bound", figures(direction::direct_for_kills(rushes.judged, events, rules, unit))}};
 }
 
-// Of the rules that count, those to be shown from their begin on: a lead, a streak or a carried flag goes on,
-// and a killer was to be shown before.
+// Of the rules that count, those to be shown from their begin on: what goes on for long is not, and a killer
+// was to be shown before.
 std::vector<direction::Moment> moments_to_begin_with(std::span<const direction::Moment> moments,
                                                      const direction::Rules& rules) {
     using direction::Trigger;
+    constexpr std::array others = {Trigger::lead, Trigger::streak, Trigger::flag_run, Trigger::last_alive,
+                                   Trigger::killer};
     std::vector<direction::Moment> some;
     std::ranges::copy_if(moments, std::back_inserter(some), [&](const direction::Moment& moment) {
         const direction::Rule& rule = rules.moments[moment.rule];
-        return (rule.worth > 0.0 || rule.worth_both > 0.0) && rule.trigger != Trigger::lead &&
-               rule.trigger != Trigger::streak && rule.trigger != Trigger::flag_run &&
-               rule.trigger != Trigger::killer;
+        return (rule.worth > 0.0 || rule.worth_both > 0.0) &&
+               std::ranges::find(others, rule.trigger) == others.end();
     });
     return some;
 }

@@ -118,7 +118,7 @@ std::vector<Error> Reader::replay(std::int64_t time, const std::function<void(co
     auto next = std::ranges::lower_bound(fragments_, fragment_at(time));
     for (std::uint32_t expected = *next; next != fragments_.end(); expected = *next++ + 1) {
         if (*next != expected) left_out.push_back(missing(expected, *next));
-        if (const auto read = replay(*next, before && *before + 1 == *next, visit); read)
+        if (const auto read = replay_one(*next, before && *before + 1 == *next, visit); read)
             before = *next;
         else
             left_out.push_back(read.error());
@@ -131,8 +131,8 @@ Error Reader::missing(std::uint32_t first, std::uint32_t end) const {
     return {folder_.string() + ": " + std::to_string(first) + last + ": missing"};
 }
 
-Result<void> Reader::replay(std::uint32_t fragment, bool goes_on,
-                            const std::function<void(const Record&)>& visit) const {
+Result<void> Reader::replay_one(std::uint32_t fragment, bool goes_on,
+                                const std::function<void(const Record&)>& visit) const {
     const auto state = goes_on ? Result<std::vector<Record>>() : records(fragment, ResourceKind::full);
     if (!state) return tl::unexpected(state.error());
     const auto all = delta(fragment);

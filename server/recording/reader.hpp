@@ -42,8 +42,8 @@ class Reader {
     Reader(std::filesystem::path folder, Start start, std::vector<std::uint32_t> fragments)
         : folder_(std::move(folder)), start_(std::move(start)), fragments_(std::move(fragments)) {}
     // One fragment; `goes_on`: from the one before.
-    [[nodiscard]] Result<void> replay(std::uint32_t fragment, bool goes_on,
-                                      const std::function<void(const Record&)>& visit) const;
+    [[nodiscard]] Result<void> replay_one(std::uint32_t fragment, bool goes_on,
+                                          const std::function<void(const Record&)>& visit) const;
     // Fragments up to before `end`.
     [[nodiscard]] Error missing(std::uint32_t first, std::uint32_t end) const;
     [[nodiscard]] Result<Resource> resource(std::uint32_t fragment, ResourceKind kind) const;
