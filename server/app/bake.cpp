@@ -178,8 +178,7 @@ void add_read_options(CLI::App& command, scene::ReadOptions& options) {
             "x,y,z in the free space, in map units with z up, in addition to the map's spawn points; "
             "repeatable. Without seeds and spawn points the largest connected part is baked")
         ->type_name("X,Y,Z")
-        ->expected(1)
-        ->take_all();
+        ->allow_extra_args(false);
 }
 
 void add_memory_option(CLI::App& command, BakeOptions& options) {

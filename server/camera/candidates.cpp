@@ -20,7 +20,7 @@ constexpr float body_cost = 5.0F;
 constexpr double bodies_ahead = 1.0;     // s: later the plan is another
 constexpr float closing_speed = 600.0F;  // units/s, of two who run towards each other
 // Vantages are kept for so long, s, while the spot behind the player is no further off than that.
-constexpr double kept_for = 0.05;
+constexpr double kept_for = 0.1;
 constexpr float near_foreseen = 4.0F * radians_of_a_degree<float>;
 
 class Choosing {

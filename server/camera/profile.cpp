@@ -1,6 +1,8 @@
 #include "camera/profile.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cstdint>
 #include <string_view>
 
 #include "base/geometry.hpp"
@@ -84,11 +86,21 @@ constexpr std::array keys = {
 };
 static_assert(keys.size() * sizeof(float) + sizeof(Solver) == sizeof(Profile), "every number has one key");
 
-float scale(std::string_view unit, float profile_units_to_map) {
-    if (unit == units || unit == units_per_second) return profile_units_to_map;
-    if (unit == degrees || unit == degrees_per_second) return radians_of_a_degree<float>;
-    return 1.0F;
+enum class Scale : std::uint8_t { none, length, angle };
+
+constexpr Scale scale_of(std::string_view unit) {
+    if (unit == units || unit == units_per_second) return Scale::length;
+    if (unit == degrees || unit == degrees_per_second) return Scale::angle;
+    return Scale::none;
 }
+
+// Of each key: every step of a shot scales its profile.
+constexpr auto scales = [] {
+    std::array<Scale, keys.size()> all{};
+    std::transform(keys.begin(), keys.end(), all.begin(),
+                   [](const ProfileKey& key) { return scale_of(key.unit); });
+    return all;
+}();
 
 constexpr Profile broadcast() {
     Profile profile;
@@ -144,9 +156,9 @@ std::span<const ShippedProfile> shipped_profiles() {
 
 MapProfile::MapProfile(const Profile& profile, float metres_per_unit)
     : Profile(profile), unit(static_cast<float>(metres_of_nominal_unit) / metres_per_unit) {
-    for (const ProfileKey& key : keys) {
-        this->*key.member *= scale(key.unit, unit);
-    }
+    const std::array factors = {1.0F, unit, radians_of_a_degree<float>};  // in the order of Scale
+    for (std::size_t i = 0; i < keys.size(); ++i)
+        this->*keys[i].member *= factors[static_cast<std::size_t>(scales[i])];
 }
 
 }  // namespace camdir::camera

@@ -19,20 +19,38 @@ float square(float value) {
     return value * value;
 }
 
-// Calls visit(bin, squared bins turned) for each direction that a step can lead to, and come from.
-template <class Visit>
-void for_each_neighbour(std::size_t bin, const Visit& visit) {
-    const auto yaw = static_cast<int>(bin % grid_yaws);
-    const auto elevation = static_cast<int>(bin / grid_yaws);
-    for (int e = std::max(0, elevation - 1);
-         e <= std::min(static_cast<int>(grid_elevations) - 1, elevation + 1); ++e) {
-        for (int turn = -yaw_reach; turn <= yaw_reach; ++turn) {
-            const auto y = static_cast<std::size_t>(yaw + turn + static_cast<int>(grid_yaws)) % grid_yaws;
-            const int rise = e - elevation;
-            visit(static_cast<std::size_t>(e) * grid_yaws + y, static_cast<float>(turn * turn + rise * rise));
-        }
+struct Neighbour {
+    std::uint8_t bin;
+    float turned;  // squared bins
+};
+
+// The directions that a step can lead to from each bin, and come from.
+struct Neighbours {
+    static constexpr std::size_t most = std::size_t{3} * (2 * yaw_reach + 1);
+    std::array<std::array<Neighbour, most>, DirectionGrid::size> lists;
+    std::array<std::uint8_t, DirectionGrid::size> counts{};
+
+    constexpr Neighbours() : lists{} {
+        for (std::size_t bin = 0; bin < DirectionGrid::size; ++bin)
+            for (int rise = -1; rise <= 1; ++rise)
+                for (int turn = -yaw_reach; turn <= yaw_reach; ++turn)
+                    add(bin, rise, turn);
     }
-}
+    [[nodiscard]] std::span<const Neighbour> of(std::size_t bin) const {
+        return std::span(lists[bin]).first(counts[bin]);
+    }
+
+  private:
+    constexpr void add(std::size_t bin, int rise, int turn) {
+        const int elevation = static_cast<int>(bin / grid_yaws) + rise;
+        if (elevation < 0 || elevation >= static_cast<int>(grid_elevations)) return;
+        const int yaw = (static_cast<int>(bin % grid_yaws) + turn + static_cast<int>(grid_yaws)) %
+                        static_cast<int>(grid_yaws);
+        lists[bin][counts[bin]++] = {static_cast<std::uint8_t>(elevation * static_cast<int>(grid_yaws) + yaw),
+                                     static_cast<float>(turn * turn + rise * rise)};
+    }
+};
+constexpr Neighbours neighbours;
 
 }  // namespace
 
@@ -85,15 +103,15 @@ float Programme::best_arrival(std::size_t knot, std::size_t bin) {
                                           : costs_.stretch * square((length - costs_.start_length) / half);
     }
     float least = infinity;
-    for_each_neighbour(bin, [&](std::size_t from, float turned) {
+    for (const auto& [from, turned] : neighbours.of(bin)) {
         const float before = cost_[knot - 1][from];
-        if (before == infinity) return;
+        if (before == infinity) continue;
         const float change = (length - length_[knot - 1][from]) / half;
         const float cost = before + costs_.turn * turned + costs_.stretch * square(change);
-        if (cost >= least) return;
+        if (cost >= least) continue;
         least = cost;
-        parent_[knot][bin] = static_cast<std::uint8_t>(from);
-    });
+        parent_[knot][bin] = from;
+    }
     return least;
 }
 
@@ -137,12 +155,12 @@ std::span<const Programme::Choice> Programme::solve(std::span<const DirectionCos
             }
             return {choices_.data(), count};
         }
-        for_each_neighbour(bin, [&](std::size_t to, float turned) {
-            if (direction_costs[knot + 1][to] >= forbidden || cost_[knot + 1][to] != infinity) return;
+        for (const auto& [to, turned] : neighbours.of(bin)) {
+            if (direction_costs[knot + 1][to] >= forbidden || cost_[knot + 1][to] != infinity) continue;
             arrive(knot + 1, to,
                    cost + costs_.turn * turned + direction_costs[knot + 1][to] + own_[knot + 1][to] +
                        rest_[knot + 1][to]);
-        });
+        }
     }
     return {};
 }

@@ -10,6 +10,7 @@ constexpr float furthest = 1e7F;             // map units: no map reaches there
 constexpr float usual_frame = 1.0F / 60.0F;  // s
 constexpr float shortest_frame = 1e-3F;      // s
 constexpr float longest_frame = 0.25F;       // s
+constexpr std::size_t kept_poses = 48;       // of a history that is full: more than are looked back at
 
 bool seen(const TimedPose& each) {
     return each.present && usable(each.pose);
@@ -66,11 +67,11 @@ std::optional<Pose> pose_at(Window window, double since, double time) {
 }
 
 void RecentPoses::add(double time, const Pose* pose) {
-    if (count_ == poses_.size())
-        std::move(poses_.begin() + 1, poses_.end(), poses_.begin());
-    else
-        ++count_;
-    poses_[count_ - 1] = {time, pose != nullptr ? *pose : Pose{}, pose != nullptr};
+    if (count_ == poses_.size()) {
+        std::move(poses_.end() - kept_poses, poses_.end(), poses_.begin());
+        count_ = kept_poses;
+    }
+    poses_[count_++] = {time, pose != nullptr ? *pose : Pose{}, pose != nullptr};
 }
 
 }  // namespace camdir::camera

@@ -173,8 +173,7 @@ int run(int argc, char** argv) {
     app.add_option("MATCH", options.matches, "VFS,MAP,TRACE or VFS,MAP,TRACE,EVENTS: files of one match")
         ->required();
     app.add_option("--camera", options.cameras, "Only the camera of this name; may be repeated")
-        ->take_all()
-        ->expected(1);
+        ->allow_extra_args(false);
     app.add_option("--output-hz", options.output_hz,
                    "Cameras per second, judged against interpolated poses; default: the trace's frames")
         ->check(CLI::Range(1.0, 1000.0));

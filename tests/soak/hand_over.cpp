@@ -161,7 +161,8 @@ int main(int argc, char** argv) {
     app.add_option("--delay", options.stage.delay_s, "Spectator delay, s")->capture_default_str();
     app.add_option("--seconds", options.seconds, "Measured in each row")->capture_default_str();
     app.add_option("--runs", options.runs, "Of each row")->capture_default_str();
-    app.add_option("--only", options.only, "Rows whose name contains this; may be repeated");
+    app.add_option("--only", options.only, "Rows whose name contains this; may be repeated")
+        ->allow_extra_args(false);
     app.add_option("--max-gap", options.longest_gap_ms, "A longer gap is a fault, ms")->capture_default_str();
     app.add_flag("--logs", options.logs, "Shows the directors' logs");
     return test::run_program(app, argc, argv, [&] { return soak::run(options); });

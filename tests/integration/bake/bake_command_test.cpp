@@ -64,6 +64,13 @@ TEST_F(BakeCommand, BadInputExitsWith1AndLeavesNothing) {
     }
 }
 
+TEST_F(BakeCommand, TheMapMayComeAfterSeeds) {
+    const std::string map = (folder_ / "missing.bsp").string();
+    ChildProcess process(command({"-o", output_, "--seed", "0,0,1", "--seed", "2,0,1", map}));
+    EXPECT_EQ(process.wait(), 1);
+    EXPECT_THAT(process.errors(), HasSubstr(map + ": "));
+}
+
 TEST_F(BakeCommand, RefusesWhatNeedsMoreMemoryThanItMayHaveAndNamesTheD0ThatWouldDo) {
     const std::string map = (folder_ / "field.obj").string();
     ASSERT_TRUE(
