@@ -13,6 +13,8 @@ namespace {
 
 constexpr std::int64_t retained_ns = 1'000'000'000;  // of what has left, for those who look ahead late
 constexpr std::int64_t max_paced_ns = 250'000'000;
+constexpr std::int64_t max_late_ns = 250'000'000;  // of a frame that is not left out for the next one
+constexpr std::int64_t turn_ns = 3'000'000;  // until a frame that waits for its turn is looked for again
 constexpr std::int64_t max_jitter_ns = 100'000'000;  // more is a stall, or a step of the sender's clock
 constexpr std::int64_t max_stall_ns = 10'000'000'000;
 // The clocks of sender and director drift apart by less than a millisecond meanwhile.
@@ -198,7 +200,11 @@ DelayBuffer::Admission DelayBuffer::keep(Item item, std::size_t bytes, std::int6
 DelayBuffer::Released DelayBuffer::release(std::int64_t now, Inbox& inbox) {
     const std::lock_guard lock(mutex_);
     Released released;
-    for (; released_ < entries_.size() && entries_[released_].due <= now; ++released_) {
+    const auto leaves = [&](const Entry& entry) {
+        if (entry.due > now) return false;
+        return std::holds_alternative<Message>(entry.item) || !inbox.has_frame_since(now - max_late_ns);
+    };
+    for (; released_ < entries_.size() && leaves(entries_[released_]); ++released_) {
         Entry& entry = entries_[released_];
         if (const auto* frame = std::get_if<PoseFrame>(&entry.item)) {
             leaving_ = *frame;  // which is kept
@@ -219,7 +225,10 @@ DelayBuffer::Released DelayBuffer::release(std::int64_t now, Inbox& inbox) {
         ++first_;
         --released_;
     }
-    if (released_ < entries_.size()) released.next = entries_[released_].due;
+    if (released_ < entries_.size()) {
+        const std::int64_t due = entries_[released_].due;
+        released.next = due > now ? due : now + turn_ns;
+    }
     if (near_ < end) released.next = std::min(released.next, entries_[near_ - first_].due - lead_ns);
     return released;
 }

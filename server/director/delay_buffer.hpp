@@ -57,7 +57,8 @@ class DelayBuffer {
         bool any = false;           // something has left, or has come within lead_ns of being due
         std::int64_t next = never;  // when there is more
     };
-    // Passes on what is due by `now`; pose frames with the time at which they were due.
+    // Passes on what is due by `now`; pose frames with the time at which they were due, one for each turn:
+    // what is due after one that no turn has taken waits for that, unless this one is more than 0.25 s late.
     Released release(std::int64_t now, Inbox& inbox);
 
     struct Upcoming {

@@ -162,6 +162,11 @@ Counter Inbox::reason_to_replace(const PoseFrame& frame, std::int64_t received_n
     return together ? Counter::drop_burst : Counter::drop_superseded;
 }
 
+bool Inbox::has_frame_since(std::int64_t ns) {
+    const std::lock_guard lock(mutex_);
+    return is_due_ && waiting_.received_ns >= ns;
+}
+
 void Inbox::put(const CameraFrame& shown) {
     const std::lock_guard lock(mutex_);
     waiting_.shown = shown;

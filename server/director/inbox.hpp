@@ -60,6 +60,9 @@ class Inbox {
     // Continuity).
     bool put(PoseFrame& frame, std::int64_t received_ns);
 
+    // Whether a frame waits for a turn that was received at `ns` or later.
+    [[nodiscard]] bool has_frame_since(std::int64_t ns);
+
     // Replaces an earlier one that no turn has taken.
     void put(const CameraFrame& shown);
 

@@ -202,8 +202,8 @@ TEST_F(DelayBufferTest, ABurstLeavesAtThePaceOfTheGame) {
     // No drift: punctual frames catch up.
     for (std::uint32_t number = 6; number < 60; ++number)
         put(number, number * 20 * ms);
-    while (buffer_.release(last, inbox_), buffer_.state().next_due != DelayBuffer::never)
-        last = buffer_.state().next_due;
+    while (release(last), next_due_ != DelayBuffer::never)
+        last = next_due_;
     EXPECT_EQ(last, 59 * 20 * ms + one_s);
 }
 
@@ -223,22 +223,48 @@ TEST_F(DelayBufferTest, NoClockOfAGameHoldsUpItsFrames) {
         }
     }
     EXPECT_TRUE(release(299 * 20 * ms + one_s + 250 * ms).has_frame);
+    while (release(299 * 20 * ms + one_s + 250 * ms).has_frame) {
+    }
     EXPECT_EQ(next_due_, DelayBuffer::never);
 }
 
-TEST_F(DelayBufferTest, AfterAStallOnlyTheNewestFrameIsShown) {
+TEST_F(DelayBufferTest, AfterAStallAllFramesAreShownInTurnThatAreNotLate) {
     buffer_.announce(1, 1.0, 0);
     put(MatchEvent{}, 0);
     for (std::uint32_t number = 0; number < 50; ++number)
         put(number, number * 20 * ms);
     put(MatchEvent{}, 49 * 20 * ms);
-    release(one_s + 30 * 20 * ms);
-    EXPECT_EQ(content_.frame.frame_number, 30U);
+    const std::int64_t now = one_s + 30 * 20 * ms;
+    release(now);
     EXPECT_EQ(content_.messages.size(), 1U);
+    EXPECT_EQ(content_.frame.frame_number, 18U) << "the first that is at most 0.25 s late";
+    for (std::uint32_t number = 19; number <= 30; ++number) {
+        ASSERT_TRUE(release(now).has_frame);
+        EXPECT_EQ(content_.frame.frame_number, number);
+    }
     EXPECT_EQ(next_due_, one_s + 31 * 20 * ms);
+    Statistics statistics;
+    counters_.add_to(statistics);
+    EXPECT_EQ(statistics[Counter::drop_superseded], 18U);
     release(100 * one_s);
     EXPECT_EQ(content_.frame.frame_number, 49U);
     EXPECT_EQ(content_.messages.size(), 1U);
+}
+
+TEST_F(DelayBufferTest, AFrameWaitsUntilTheOneBeforeIsTaken) {
+    buffer_.announce(1, 1.0, 0);
+    put(0, 0);
+    put(1, 20 * ms);
+    put(2, 300 * ms);
+    const std::int64_t now = one_s + 30 * ms;
+    EXPECT_TRUE(buffer_.release(now, inbox_).any);
+    const auto again = buffer_.release(now, inbox_);
+    EXPECT_GT(again.next, now) << "or whoever waits for it would not wait";
+    EXPECT_LE(again.next, now + 5 * ms);
+    inbox_.take(content_);
+    EXPECT_EQ(content_.frame.frame_number, 0U);
+    EXPECT_EQ(release(now).frame.frame_number, 1U);
+    EXPECT_EQ(buffer_.release(now, inbox_).next, one_s + 300 * ms - DelayBuffer::lead_ns);
 }
 
 TEST_F(DelayBufferTest, ADeadGameServerHasItsLastSeconds) {
@@ -285,9 +311,10 @@ TEST_F(DelayBufferTest, AShorterDelayWaitsForTheNextEpoch) {
     EXPECT_FALSE(buffer_.announce(1, 0.0, 300 * ms)) << "of an old epoch";
     EXPECT_FALSE(release(10 * one_s - 1).has_frame);
     EXPECT_EQ(release(10 * one_s).frame.frame_number, 0U);
-    release(10 * one_s + 20 * ms);
+    EXPECT_EQ(release(10 * one_s + 20 * ms).frame.epoch, 1U);
     EXPECT_EQ(content_.messages.size(), 1U) << "the next epoch begins when this one is over";
-    EXPECT_EQ(content_.frame.epoch, 2U);
+    EXPECT_EQ(content_.messages_before_frame, 0U);
+    EXPECT_EQ(release(10 * one_s + 20 * ms).frame.epoch, 2U);
     put(1, 20 * one_s, 2);
     EXPECT_FALSE(release(21 * one_s - 1).has_frame);
     EXPECT_TRUE(release(21 * one_s).has_frame);
