@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::int64_t retained_ns = 1'000'000'000;  // of what has left, for those who look ahead late
 constexpr std::int64_t max_paced_ns = 250'000'000;
-constexpr std::int64_t max_late_ns = 250'000'000;  // of a frame that is not left out for the next one
-constexpr std::int64_t turn_ns = 3'000'000;  // until a frame that waits for its turn is looked for again
+constexpr std::int64_t max_late_ns = 100'000'000;    // of frames that are shown in turn
+constexpr std::int64_t turn_ns = 2'000'000;          // until one that waits for its turn is looked at again
 constexpr std::int64_t max_jitter_ns = 100'000'000;  // more is a stall, or a step of the sender's clock
 constexpr std::int64_t max_stall_ns = 10'000'000'000;
 // The clocks of sender and director drift apart by less than a millisecond meanwhile.
@@ -200,9 +200,13 @@ DelayBuffer::Admission DelayBuffer::keep(Item item, std::size_t bytes, std::int6
 DelayBuffer::Released DelayBuffer::release(std::int64_t now, Inbox& inbox) {
     const std::lock_guard lock(mutex_);
     Released released;
+    // Of what is late the newest leaves: turns that are too slow do not make frames ever later.
+    const std::int64_t next_due = released_ < entries_.size() ? entries_[released_].due : now;
+    const bool any_late = std::min(next_due, inbox.frame_waits_since().value_or(now)) < now - max_late_ns;
     const auto leaves = [&](const Entry& entry) {
         if (entry.due > now) return false;
-        return std::holds_alternative<Message>(entry.item) || !inbox.has_frame_since(now - max_late_ns);
+        if (any_late || std::holds_alternative<Message>(entry.item)) return true;
+        return inbox.frame_waits_since().value_or(entry.due) >= entry.due;
     };
     for (; released_ < entries_.size() && leaves(entries_[released_]); ++released_) {
         Entry& entry = entries_[released_];

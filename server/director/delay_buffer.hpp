@@ -57,8 +57,8 @@ class DelayBuffer {
         bool any = false;           // something has left, or has come within lead_ns of being due
         std::int64_t next = never;  // when there is more
     };
-    // Passes on what is due by `now`; pose frames with the time at which they were due, one for each turn:
-    // what is due after one that no turn has taken waits for that, unless this one is more than 0.25 s late.
+    // Passes on what is due by `now`; pose frames with the time at which they were due. One that is due after
+    // another that no turn has taken waits for that, unless something is more than 0.1 s late.
     Released release(std::int64_t now, Inbox& inbox);
 
     struct Upcoming {
@@ -103,7 +103,7 @@ class DelayBuffer {
         std::size_t bytes = 0;
     };
     [[nodiscard]] State state() const;
-    // Whether anything is kept that is not due yet.
+    // Whether anything is kept that has not left.
     [[nodiscard]] bool waits() const;
 
   private:

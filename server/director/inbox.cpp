@@ -162,9 +162,10 @@ Counter Inbox::reason_to_replace(const PoseFrame& frame, std::int64_t received_n
     return together ? Counter::drop_burst : Counter::drop_superseded;
 }
 
-bool Inbox::has_frame_since(std::int64_t ns) {
+std::optional<std::int64_t> Inbox::frame_waits_since() {
     const std::lock_guard lock(mutex_);
-    return is_due_ && waiting_.received_ns >= ns;
+    if (!is_due_) return std::nullopt;
+    return waiting_.received_ns;
 }
 
 void Inbox::put(const CameraFrame& shown) {

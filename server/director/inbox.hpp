@@ -5,6 +5,7 @@
 #include <future>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -60,8 +61,8 @@ class Inbox {
     // Continuity).
     bool put(PoseFrame& frame, std::int64_t received_ns);
 
-    // Whether a frame waits for a turn that was received at `ns` or later.
-    [[nodiscard]] bool has_frame_since(std::int64_t ns);
+    // When the frame was received, or due, that waits for a turn and that the pace lets be taken.
+    [[nodiscard]] std::optional<std::int64_t> frame_waits_since();
 
     // Replaces an earlier one that no turn has taken.
     void put(const CameraFrame& shown);

@@ -204,7 +204,7 @@ class Match final : public Strand {
     std::vector<Shot*> unprepared_;           // during prepare()
     CameraFrame followed_, followed_before_;  // the last two of the director that leads
     bool is_followed_ = true;                 // the last one has had its effect
-    std::array<CameraFrame, 4> own_frames_;   // the last ones; the next takes the place of the oldest
+    std::array<CameraFrame, 16> own_frames_;  // the last ones; the next takes the place of the oldest
     std::size_t own_frame_count_ = 0;         // since a shot has followed
     std::size_t newest_own_ = 0;
 };

@@ -139,8 +139,8 @@ TEST(PreparedCameras, AreThoseThatWouldBeComputedWhenDue) {
     for (int round = 0; round < 20; ++round) {
         Plan plan;
         std::int64_t time = delay_ns - 100 * ms;
-        while (time < due(60)) {  // a step above 50 ms makes frames superseded
-            time += static_cast<std::int64_t>(random() % (random() % 8 == 0 ? 150 : 20)) * ms;
+        while (time < due(60)) {  // a step above 100 ms makes frames superseded
+            time += static_cast<std::int64_t>(random() % (random() % 16 == 0 ? 300 : 20)) * ms;
             plan.emplace_back(time, std::nullopt);
             if (random() % 8 == 0) plan.back().second = random_message(random);
         }
