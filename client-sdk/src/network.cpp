@@ -80,8 +80,11 @@ std::string network_configuration(const cdir_context_options& options) {
     const std::string discovery = element("ParticipantIndex", "none") +
                                   element("MaxAutoParticipantIndex", "0") + element("SPDPInterval", "1s") +
                                   element("Peers", peer_elements(options.directors));
-    // The end of a writer waits for receivers, which may have stopped, that acknowledge its last samples.
-    const std::string internal = element("MaxSampleSize", "1MB") + element("WriterLingerDuration", "50ms");
+    // Packets to a host that is gone wait for seconds until the kernel has given up looking for its link
+    // address, and nothing is sent to anybody once they fill the buffer. The end of a writer waits for
+    // receivers, which may have stopped, that acknowledge its last samples.
+    const std::string internal = "<SocketSendBufferSize max=\"4MB\"/>" + element("MaxSampleSize", "1MB") +
+                                 element("WriterLingerDuration", "50ms");
     return element("CycloneDDS",
                    element("Domain", element("General", general) + element("Discovery", discovery) +
                                          element("Internal", internal)));

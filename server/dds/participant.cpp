@@ -73,11 +73,13 @@ std::string discovery(const config::Dds& config) {
     return element("Discovery", xml);
 }
 
-// A large receive buffer, because hundreds of clients can announce themselves at once; a limit on samples, of
-// which none comes near 1 MB. The end of a writer does not wait for readers that acknowledge nothing.
+// A large receive buffer, because hundreds of clients can announce themselves at once. A large send buffer,
+// because packets to a host that is gone wait in it for seconds until the kernel has given up looking for its
+// link address: once they fill it, nothing is sent to anybody. A limit on samples, of which none comes near
+// 1 MB. The end of a writer does not wait for readers that acknowledge nothing.
 std::string internals() {
-    return element("Internal", "<SocketReceiveBufferSize max=\"4MB\"/>" + element("MaxSampleSize", "1MB") +
-                                   element("WriterLingerDuration", "0s"));
+    return element("Internal", "<SocketReceiveBufferSize max=\"4MB\"/><SocketSendBufferSize max=\"4MB\"/>" +
+                                   element("MaxSampleSize", "1MB") + element("WriterLingerDuration", "0s"));
 }
 
 Result<void> check_name(const std::string& peer) {

@@ -92,7 +92,8 @@ std::string fault(const HandOver& found, const Row& row, const Options& options)
     if (row.planned && found.lost > 1) return "lost frames";
     if (options.stage.delay_s >= gap_filled_by_s && row.more_gap_ms == 0.0 && found.lost > 0)
         return "lost frames";
-    if (found.gap_ms > options.longest_gap_ms + row.more_gap_ms) return "a long gap";
+    const double more_gap_ms = row.more_gap_ms + (row.fills_delay ? 1e3 * options.stage.delay_s : 0.0);
+    if (found.gap_ms > options.longest_gap_ms + more_gap_ms) return "a long gap";
     return "";
 }
 

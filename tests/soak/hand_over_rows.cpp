@@ -57,6 +57,7 @@ std::vector<Row> network_rows() {
     // Nobody can serve the observer for that long, and when they meet again all must be sent anew.
     const auto blind = [](Row row, milliseconds duration) {
         row.more_gap_ms = std::chrono::duration<double, std::milli>(duration + milliseconds(500)).count();
+        row.fills_delay = true;
         return row;
     };
     return {

@@ -137,6 +137,8 @@ void Hosts::run_on(int host, const std::function<void()>& task) const {
 
 void Hosts::cut(int from, int to) {
     run_on(to, [&] { ip("rule add" + loss_from(from)); });
+    // As after half a minute: meanwhile the kernel believes that the other is where it was.
+    run_on(from, [&] { ip("neigh flush to " + address(to) + " dev " + interface(from)); });
 }
 
 void Hosts::join(int from, int to) {

@@ -29,7 +29,8 @@ class Hosts {
     // Sockets that `task` opens and processes that it starts are of this host.
     void run_on(int host, const std::function<void()>& task) const;
 
-    // Until join(), what `from` sends to `to` is lost, and neither is told. The other way is not affected.
+    // Until join(), what `from` sends to `to` is lost, and neither is told: `from` no longer finds its link
+    // address. The other way is not affected.
     void cut(int from, int to);
     void join(int from, int to);
 

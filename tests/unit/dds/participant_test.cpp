@@ -8,6 +8,7 @@
 #include <sys/socket.h>
 
 #include <array>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@ namespace {
 
 using testing::AllOf;
 using testing::Each;
+using testing::Gt;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
@@ -120,6 +122,37 @@ TEST(Participant, ReceivesFromOtherHostsOnlyWhenItMay) {
     const auto participant = Participant::open(config);
     ASSERT_TRUE(participant) << participant.error().message;
     EXPECT_THAT(devices_received_from(), AllOf(Not(IsEmpty()), Each("")));
+}
+
+// In bytes, of the UDP sockets of this process.
+std::vector<int> send_buffers() {
+    std::vector<int> sizes;
+    for (int file = 0; file < FD_SETSIZE; ++file) {
+        int type = 0;
+        socklen_t size = sizeof type;
+        if (::getsockopt(file, SOL_SOCKET, SO_TYPE, &type, &size) != 0 || type != SOCK_DGRAM) continue;
+        sockaddr_in address{};
+        size = sizeof address;
+        if (::getsockname(file, reinterpret_cast<sockaddr*>(&address), &size) != 0 ||
+            address.sin_family != AF_INET)
+            continue;
+        size = sizeof(int);
+        EXPECT_EQ(::getsockopt(file, SOL_SOCKET, SO_SNDBUF, &sizes.emplace_back(), &size), 0);
+    }
+    return sizes;
+}
+
+// The kernel keeps so many bytes for a host whose link address it looks for.
+TEST(Participant, SendsToOthersWhileAHostIsGone) {
+    int kept_for_a_host = 0;
+    std::ifstream("/proc/sys/net/ipv4/neigh/default/unres_qlen_bytes") >> kept_for_a_host;
+    if (kept_for_a_host == 0) kept_for_a_host = 212'992;  // Linux's default, where the file is not shown
+    const test::TestDomain domain;
+    config::Dds config;
+    config.domain = domain.id();
+    const auto participant = Participant::open(config);
+    ASSERT_TRUE(participant) << participant.error().message;
+    EXPECT_THAT(send_buffers(), AllOf(Not(IsEmpty()), Each(Gt(kept_for_a_host))));
 }
 
 TEST(Participant, NamesThePeerThatCannotBeResolved) {
