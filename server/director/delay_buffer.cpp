@@ -200,13 +200,12 @@ DelayBuffer::Admission DelayBuffer::keep(Item item, std::size_t bytes, std::int6
 DelayBuffer::Released DelayBuffer::release(std::int64_t now, Inbox& inbox) {
     const std::lock_guard lock(mutex_);
     Released released;
-    // Of what is late the newest leaves: turns that are too slow do not make frames ever later.
-    const std::int64_t next_due = released_ < entries_.size() ? entries_[released_].due : now;
-    const bool any_late = std::min(next_due, inbox.frame_waits_since().value_or(now)) < now - max_late_ns;
     const auto leaves = [&](const Entry& entry) {
         if (entry.due > now) return false;
-        if (any_late || std::holds_alternative<Message>(entry.item)) return true;
-        return inbox.frame_waits_since().value_or(entry.due) >= entry.due;
+        if (std::holds_alternative<Message>(entry.item)) return true;
+        const auto waits_since = inbox.frame_waits_since();
+        if (!waits_since || *waits_since >= entry.due) return true;
+        return *waits_since < now - max_late_ns;  // turns that are too slow do not make frames ever later
     };
     for (; released_ < entries_.size() && leaves(entries_[released_]); ++released_) {
         Entry& entry = entries_[released_];

@@ -22,7 +22,7 @@ inline constexpr double max_delay_s = 120.0;
 // longer on its way than the fastest of the last seconds, by its sender's clock, leaves as if it had been as
 // fast: the delay has time to take out what the network and schedulers add, up to 0.1 s, and up to 10 s of a
 // stall in which neither the sender's clock nor the game's has stepped. Pose frames that
-// arrived in a burst leave at most a ninth faster than the game's clock ran between them, and for that at
+// arrived in a burst are due at most a ninth faster than the game's clock ran between them, and for that at
 // most 0.25 s late. The delay is the greater of the match's own and the operator's. It may grow at any time:
 // what waits then waits on. A smaller one takes effect with the next epoch: nothing is shown earlier than was
 // promised when it was recorded. What cannot be delayed is refused and dropped.
@@ -58,7 +58,7 @@ class DelayBuffer {
         std::int64_t next = never;  // when there is more
     };
     // Passes on what is due by `now`; pose frames with the time at which they were due. One that is due after
-    // another that no turn has taken waits for that, unless something is more than 0.1 s late.
+    // another that no turn has taken waits for that, and replaces it once it is more than 0.1 s late.
     Released release(std::int64_t now, Inbox& inbox);
 
     struct Upcoming {

@@ -135,20 +135,19 @@ void Inbox::forget_frame_that_is_not_due() {
 
 bool Inbox::put(PoseFrame& frame, std::int64_t received_ns) {
     const std::lock_guard lock(mutex_);
+    const bool wanted = left_out_ + 1 >= pace_.frames_per_camera();
     if (waiting_.has_frame) {
         if (older(frame, waiting_.frame)) {
             counters_.add(frame.epoch < waiting_.frame.epoch ? Counter::drop_old_epoch
                                                              : Counter::drop_old_frame);
             return false;
         }
-        counters_.add(reason_to_replace(frame, received_ns));
+        counters_.add(is_due_ && wanted ? reason_to_replace(frame, received_ns) : Counter::drop_paced);
         if (waiting_.frame.epoch == frame.epoch) carry_discontinuities(waiting_.frame, frame);
     }
     std::swap(waiting_.frame, frame);
-    if (++left_out_ >= pace_.frames_per_camera()) {
-        left_out_ = 0;
-        is_due_ = true;
-    }
+    left_out_ = wanted ? 0 : left_out_ + 1;
+    is_due_ = is_due_ || wanted;
     waiting_.has_frame = true;
     waiting_.messages_before_frame = waiting_.messages.size();
     waiting_.received_ns = received_ns;
@@ -156,7 +155,6 @@ bool Inbox::put(PoseFrame& frame, std::int64_t received_ns) {
 }
 
 Counter Inbox::reason_to_replace(const PoseFrame& frame, std::int64_t received_ns) const {
-    if (!is_due_) return Counter::drop_paced;
     const bool together = frame.epoch == waiting_.frame.epoch &&
                           came_together(waiting_.frame, waiting_.received_ns, frame, received_ns);
     return together ? Counter::drop_burst : Counter::drop_superseded;

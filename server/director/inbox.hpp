@@ -95,7 +95,7 @@ class Inbox {
     [[nodiscard]] bool merge_end();
     void forget_frame_that_is_not_due();
     void put_first_requests(Content& content);
-    // Why the waiting frame is dropped for this one.
+    // Why the waiting frame is dropped for this one, both of which are due.
     [[nodiscard]] Counter reason_to_replace(const PoseFrame& frame, std::int64_t received_ns) const;
 
     std::mutex mutex_;

@@ -15,12 +15,15 @@ constexpr double most_busy = 0.7;    // share of the workers' time, at the pace 
 void Pace::observe(const Load& load) {
     const auto superseded = static_cast<double>(load.superseded);
     const bool is_late = superseded > late_share * static_cast<double>(load.taken + load.superseded);
+    const double missing = static_cast<double>(load.taken + load.superseded) /
+                           static_cast<double>(std::max<std::uint64_t>(load.taken, 1));
+    missing_ = late_ == 0 ? missing : std::min(missing_, missing);
     late_ = is_late ? late_ + 1 : 0;
     calm_ = is_late ? 0 : calm_ + 1;
     since_speed_up_ = std::min(since_speed_up_ + 1, longest_calm);
     const std::uint32_t frames = frames_per_camera();
-    if (late_ >= 2) {
-        slow_down(load);
+    if (late_ >= 3) {
+        slow_down();
     } else if (frames > 1 && calm_ >= calm_needed_ && load.busy * frames / (frames - 1) < most_busy) {
         speed_up();
     } else if (frames == 1 && calm_ >= longest_calm) {
@@ -28,10 +31,8 @@ void Pace::observe(const Load& load) {
     }
 }
 
-void Pace::slow_down(const Load& load) {
-    const auto taken = static_cast<double>(std::max<std::uint64_t>(load.taken, 1));
-    const double missing = headroom * static_cast<double>(load.taken + load.superseded) / taken;
-    const double wanted = std::ceil(std::min<double>(missing * frames_per_camera(), slowest));
+void Pace::slow_down() {
+    const double wanted = std::ceil(std::min<double>(headroom * missing_ * frames_per_camera(), slowest));
     if (since_speed_up_ <= calm_needed_) calm_needed_ = std::min(2 * calm_needed_, longest_calm);
     frames_.store(static_cast<std::uint32_t>(wanted), std::memory_order_relaxed);
     late_ = 0;

@@ -7,9 +7,9 @@
 namespace camdir::director {
 
 // One pace for all matches, from the load that is observed at regular intervals. It slows down when frames of
-// matches were replaced by newer ones in two intervals in a row: by as much as is missing. It speeds up by
-// one step when the workers would have time to spare even then, after a calm time that doubles when it was
-// too short.
+// matches were replaced by newer ones in three intervals in a row, which is more than a stall reaches into:
+// by the least that was missing in one of them. It speeds up by one step when the workers would have time to
+// spare even then, after a calm time that doubles when it was too short.
 class Pace {
   public:
     static constexpr std::uint32_t slowest = 8;
@@ -31,11 +31,12 @@ class Pace {
     static constexpr std::uint32_t shortest_calm = 5;  // intervals
     static constexpr std::uint32_t longest_calm = 60;
 
-    void slow_down(const Load& load);
+    void slow_down();
     void speed_up();
 
     std::atomic<std::uint32_t> frames_{1};
     std::uint32_t late_ = 0;  // intervals in a row in which frames were superseded
+    double missing_ = 1.0;    // all frames over those taken, the least of these intervals
     std::uint32_t calm_ = 0;  // and in which none was
     std::uint32_t calm_needed_ = shortest_calm;
     std::uint32_t since_speed_up_ = longest_calm;  // intervals

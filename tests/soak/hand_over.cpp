@@ -23,6 +23,7 @@ struct Options {
     int runs = 1;
     std::vector<std::string> only;
     double longest_gap_ms = 250.0;  // the lease, and what a take-over needs
+    std::uint64_t most_lost = 0;    // with a delay
     bool logs = false;
 };
 
@@ -90,7 +91,7 @@ std::string fault(const HandOver& found, const Row& row, const Options& options)
     if (found.unforced > row.forced) return "a cut without a reason";
     if (found.leap > farthest_leap) return "a jump";
     if (row.planned && found.lost > 1) return "lost frames";
-    if (options.stage.delay_s >= gap_filled_by_s && row.more_gap_ms == 0.0 && found.lost > 0)
+    if (options.stage.delay_s >= gap_filled_by_s && row.more_gap_ms == 0.0 && found.lost > options.most_lost)
         return "lost frames";
     const double more_gap_ms = row.more_gap_ms + (row.fills_delay ? 1e3 * options.stage.delay_s : 0.0);
     if (found.gap_ms > options.longest_gap_ms + more_gap_ms) return "a long gap";
@@ -165,6 +166,8 @@ int main(int argc, char** argv) {
     app.add_option("--only", options.only, "Rows whose name contains this; may be repeated")
         ->allow_extra_args(false);
     app.add_option("--max-gap", options.longest_gap_ms, "A longer gap is a fault, ms")->capture_default_str();
+    app.add_option("--max-lost", options.most_lost, "With a delay of 1 s: more lost frames are a fault")
+        ->capture_default_str();
     app.add_flag("--logs", options.logs, "Shows the directors' logs");
     return test::run_program(app, argc, argv, [&] { return soak::run(options); });
 }

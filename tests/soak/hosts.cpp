@@ -137,12 +137,17 @@ void Hosts::run_on(int host, const std::function<void()>& task) const {
 
 void Hosts::cut(int from, int to) {
     run_on(to, [&] { ip("rule add" + loss_from(from)); });
-    // As after half a minute: meanwhile the kernel believes that the other is where it was.
-    run_on(from, [&] { ip("neigh flush to " + address(to) + " dev " + interface(from)); });
+    forget_link_address(from, to);
 }
 
 void Hosts::join(int from, int to) {
     run_on(to, [&] { ip("rule del" + loss_from(from)); });
+    forget_link_address(from, to);
+}
+
+// The kernel believes for half a minute in what it has found, and looks each second for what it has not.
+void Hosts::forget_link_address(int from, int to) const {
+    run_on(from, [&] { ip("neigh flush to " + address(to) + " dev " + interface(from)); });
 }
 
 }  // namespace camdir::soak

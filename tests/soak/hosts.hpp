@@ -29,14 +29,15 @@ class Hosts {
     // Sockets that `task` opens and processes that it starts are of this host.
     void run_on(int host, const std::function<void()>& task) const;
 
-    // Until join(), what `from` sends to `to` is lost, and neither is told: `from` no longer finds its link
-    // address. The other way is not affected.
+    // Until join(), what `from` sends to `to` is lost, and neither is told: `from` looks in vain for its link
+    // address, unless `to` looks for that of `from`. The other way is not affected.
     void cut(int from, int to);
     void join(int from, int to);
 
   private:
     [[nodiscard]] std::string network_of(int host) const;  // file of the namespace
     void connect(int host) const;
+    void forget_link_address(int from, int to) const;
 
     std::vector<int> networks_;  // descriptors of the namespaces, by host
 };

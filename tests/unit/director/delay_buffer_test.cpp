@@ -240,15 +240,18 @@ TEST_F(DelayBufferTest, AfterAShortStallFramesAreShownInTurn) {
     EXPECT_EQ(next_due_, one_s + 6 * 20 * ms);
 }
 
-TEST_F(DelayBufferTest, AfterALongStallOnlyTheNewestFrameIsShown) {
+TEST_F(DelayBufferTest, AfterALongStallFramesThatAreTooLateAreLeftOut) {
     buffer_.announce(1, 1.0, 0);
     put(MatchEvent{}, 0);
     for (std::uint32_t number = 0; number < 50; ++number)
         put(number, number * 20 * ms);
     put(MatchEvent{}, 49 * 20 * ms);
-    release(one_s + 30 * 20 * ms);
-    EXPECT_EQ(content_.frame.frame_number, 30U);
-    EXPECT_EQ(content_.messages.size(), 1U);
+    for (std::uint32_t number = 25; number <= 30; ++number) {
+        ASSERT_TRUE(release(one_s + 30 * 20 * ms).has_frame);
+        EXPECT_EQ(content_.frame.frame_number, number);
+        EXPECT_EQ(content_.messages.size(), number == 25 ? 1U : 0U);
+    }
+    EXPECT_FALSE(release(one_s + 30 * 20 * ms).has_frame);
     EXPECT_EQ(next_due_, one_s + 31 * 20 * ms);
     release(100 * one_s);
     EXPECT_EQ(content_.frame.frame_number, 49U);
@@ -269,6 +272,26 @@ TEST_F(DelayBufferTest, TurnsThatAreTooSlowDoNotMakeFramesEverLater) {
         ++shown;
     }
     EXPECT_EQ(shown, 400);
+}
+
+// Or the pace would take each second with them for a hiccup.
+TEST_F(DelayBufferTest, OfTurnsThatAreALittleTooSlowSomeFramesAreLeftOutInEverySecond) {
+    buffer_.announce(1, 1.0, 0);
+    for (std::uint32_t number = 0; number < 1000; ++number)
+        put(number, number * 20 * ms);
+    Statistics before;
+    for (std::int64_t now = one_s; now < 20 * one_s; now += ms) {
+        buffer_.release(now, inbox_);
+        if (now % (21 * ms) == 0) inbox_.take(content_);
+        if (now % one_s != 0) continue;
+        Statistics sum;
+        counters_.add_to(sum);
+        const auto lost = sum[Counter::drop_superseded] - before[Counter::drop_superseded];
+        if (now > 5 * one_s) {
+            EXPECT_GE(lost, 2U) << now / one_s;
+        }
+        before = sum;
+    }
 }
 
 TEST_F(DelayBufferTest, AFrameWaitsUntilTheOneBeforeIsTaken) {

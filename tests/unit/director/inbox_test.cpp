@@ -135,7 +135,7 @@ TEST_F(InboxTest, ARespawnIsNotLostWithItsFrame) {
 }
 
 TEST_F(InboxTest, AtASlowerPaceSomeFramesAreLeftOutEvenly) {
-    for (int interval = 0; interval < 2; ++interval)
+    for (int interval = 0; interval < 3; ++interval)
         pace_.observe({.taken = 200, .superseded = 200, .busy = 1.0});
     ASSERT_EQ(pace_.frames_per_camera(), 3U);
     std::vector<std::uint32_t> taken;
@@ -156,8 +156,20 @@ TEST_F(InboxTest, AtASlowerPaceSomeFramesAreLeftOutEvenly) {
     EXPECT_EQ(counted(Counter::drop_superseded), 0U);
 }
 
+TEST_F(InboxTest, AtASlowerPaceOnlyWhatWouldHaveBecomeCamerasIsSuperseded) {
+    for (int interval = 0; interval < 3; ++interval)
+        pace_.observe({.taken = 200, .superseded = 200, .busy = 1.0});
+    ASSERT_EQ(pace_.frames_per_camera(), 3U);
+    for (std::uint32_t number = 1; number <= 9; ++number)
+        EXPECT_EQ(put(frame(1, number), 10 * number), number >= 3);
+    inbox_.take(content_);
+    EXPECT_EQ(content_.frame.frame_number, 9U);
+    EXPECT_EQ(counted(Counter::drop_paced), 6U);
+    EXPECT_EQ(counted(Counter::drop_superseded), 2U);
+}
+
 TEST_F(InboxTest, AtASlowerPaceTheLastFrameOfAMatchDoesNotOutlastIt) {
-    for (int interval = 0; interval < 2; ++interval)
+    for (int interval = 0; interval < 3; ++interval)
         pace_.observe({.taken = 200, .superseded = 200, .busy = 1.0});
     ASSERT_EQ(pace_.frames_per_camera(), 3U);
     EXPECT_FALSE(put(frame(10, 1), 10));

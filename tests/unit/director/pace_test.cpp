@@ -32,10 +32,10 @@ int intervals_to_speed_up(Pace& pace, const Pace::Load& load) {
     return intervals;
 }
 
-TEST(PaceTest, OneIntervalIsAHiccup) {
+TEST(PaceTest, TwoIntervalsAreAHiccup) {
     Pace pace;
     for (int i = 0; i < 10; ++i) {
-        observe(pace, {.taken = 50, .superseded = 50, .busy = 1.0}, 1);
+        observe(pace, {.taken = 50, .superseded = 50, .busy = 1.0}, 2);
         observe(pace, calm, 1);
     }
     EXPECT_EQ(pace.frames_per_camera(), 1U);
@@ -45,21 +45,28 @@ TEST(PaceTest, OneIntervalIsAHiccup) {
 
 TEST(PaceTest, ItSlowsDownByWhatIsMissing) {
     Pace pace;
-    observe(pace, {.taken = 450, .superseded = 150, .busy = 1.0}, 2);  // 3 of 4
+    observe(pace, {.taken = 450, .superseded = 150, .busy = 1.0}, 3);  // 3 of 4
     EXPECT_EQ(pace.frames_per_camera(), 2U);
     Pace slower;
-    observe(slower, {.taken = 200, .superseded = 400, .busy = 1.0}, 2);  // 1 of 3
+    observe(slower, {.taken = 200, .superseded = 400, .busy = 1.0}, 3);  // 1 of 3
     EXPECT_EQ(slower.frames_per_camera(), 4U);
-    observe(slower, {.taken = 1, .superseded = 1000, .busy = 1.0}, 2);
+    observe(slower, {.taken = 1, .superseded = 1000, .busy = 1.0}, 3);
     EXPECT_EQ(slower.frames_per_camera(), Pace::slowest);
     Pace stuck;
-    observe(stuck, {.taken = 0, .superseded = 1000, .busy = 1.0}, 2);
+    observe(stuck, {.taken = 0, .superseded = 1000, .busy = 1.0}, 3);
     EXPECT_EQ(stuck.frames_per_camera(), Pace::slowest);
+}
+
+TEST(PaceTest, AStallDoesNotCountForMore) {
+    Pace pace;
+    observe(pace, {.taken = 100, .superseded = 20, .busy = 1.0}, 2);
+    observe(pace, {.taken = 10, .superseded = 110, .busy = 1.0}, 1);
+    EXPECT_EQ(pace.frames_per_camera(), 2U);
 }
 
 TEST(PaceTest, ItSpeedsUpStepByStepWhereThereIsTime) {
     Pace pace;
-    observe(pace, {.taken = 200, .superseded = 400, .busy = 1.0}, 2);
+    observe(pace, {.taken = 200, .superseded = 400, .busy = 1.0}, 3);
     observe(pace, {.taken = 150, .superseded = 0, .busy = 0.6}, 100);  // 0.8 with every third
     EXPECT_EQ(pace.frames_per_camera(), 4U);
     EXPECT_EQ(intervals_to_speed_up(pace, {.taken = 150, .superseded = 0, .busy = 0.3}), 1);
@@ -75,7 +82,7 @@ TEST(PaceTest, ItTriesLessOftenWhatHasFailed) {
     const Pace::Load late{.taken = 450, .superseded = 150, .busy = 1.0};
     int longest = 0;
     for (int i = 0; i < 10; ++i) {
-        observe(pace, late, 2);
+        observe(pace, late, 3);
         ASSERT_EQ(pace.frames_per_camera(), 2U);
         const int intervals = intervals_to_speed_up(pace, calm);
         EXPECT_GE(intervals, longest);
@@ -83,7 +90,7 @@ TEST(PaceTest, ItTriesLessOftenWhatHasFailed) {
     }
     EXPECT_EQ(longest, 60);
     observe(pace, calm, 60);
-    observe(pace, late, 2);
+    observe(pace, late, 3);
     EXPECT_EQ(intervals_to_speed_up(pace, calm), 5) << "after a minute without a late frame";
 }
 
