@@ -129,6 +129,7 @@ void Edit::begin(const PoseFrame& frame, const Setting& setting) {
     newest_ = shown_ = seconds(frame.frame_time) - beat_s;
     shown_beat_ = beat_of(seconds(frame.frame_time));
     end_ = shown_beat_ + catches_up;
+    obstacles_.set_map(&setting.space.map());
 }
 
 void Edit::show(const PoseFrame& frame, const DelayBuffer& delay, const Setting& setting) {
@@ -174,7 +175,7 @@ bool Edit::take(const PoseFrame& frame, const Setting& setting) {
     newest_ = time;
     const auto poses = std::span(frame.poses).first(std::min(frame.poses.size(), setting.max_players));
     const bool known = beats_.empty() ? number < material_.footage().beats() : number <= beats_.back().number;
-    if (!known) begin_beat(number, poses);
+    if (!known) begin_beat(number, frame, poses);
     for (const PlayerPose& pose : poses) {
         const Index place = place_of(pose.player_id);
         if (continuity_.broken(pose) && place != nobody && !beats_.empty())
@@ -183,7 +184,7 @@ bool Edit::take(const PoseFrame& frame, const Setting& setting) {
     return true;
 }
 
-void Edit::begin_beat(direction::Beat number, std::span<const PlayerPose> poses) {
+void Edit::begin_beat(direction::Beat number, const PoseFrame& frame, std::span<const PlayerPose> poses) {
     for (const PlayerPose& pose : poses) {
         if ((pose.flags & pose_spectator) != 0 || places_.contains(pose.player_id)) continue;
         is_full_ = players_.size() == direction::max_players;
@@ -194,7 +195,7 @@ void Edit::begin_beat(direction::Beat number, std::span<const PlayerPose> poses)
         for (PendingBeat& beat : beats_)
             beat.scout.add_player();
     }
-    PendingBeat& beat = beats_.emplace_back(number, fixed_);
+    PendingBeat& beat = beats_.emplace_back(number, seconds(frame.frame_time), frame.movers, fixed_);
     while (beat.scout.players.size() < players_.size())
         beat.scout.add_player();
     for (const PlayerPose& pose : poses) {
@@ -239,18 +240,23 @@ void Edit::look(const Setting& setting) {
         std::ranges::count_if(beats_, [](const PendingBeat& beat) { return !beat.scout.finished(); });
     const double share = static_cast<double>(std::min(waiting, std::ptrdiff_t{catches_up})) / frames_per_beat;
     auto most = static_cast<std::size_t>(std::ceil(share * static_cast<double>(players_.size())));
-    const auto unit = static_cast<float>(unit_of(setting.space.map()));
     for (PendingBeat& beat : beats_)
         for (; most > 0 && !beat.scout.finished(); --most)
-            beat.scout.look(setting.space.map(), unit);
+            look_at_next(beat, setting);
     append_finished();
 }
 
+// One beat after the other: each has the movers of its own frame.
+void Edit::look_at_next(PendingBeat& beat, const Setting& setting) {
+    if (beat.scout.done == 0) obstacles_.add(beat.time, beat.movers);
+    const freespace::Space space(setting.space.map(), &obstacles_.movers());
+    beat.scout.look(space.at(beat.time), static_cast<float>(unit_of(space.map())));
+}
+
 void Edit::finish(const Setting& setting) {
-    const auto unit = static_cast<float>(unit_of(setting.space.map()));
     for (PendingBeat& beat : beats_)
         while (beat.number < end_ && beat.ended && !beat.scout.finished())
-            beat.scout.look(setting.space.map(), unit);
+            look_at_next(beat, setting);
     append_finished();
 }
 
@@ -349,8 +355,9 @@ bool Edit::has_fixed(const Among& among) const {
     return among.all() && material_.footage().beats() != material_.footage().first();
 }
 
-// The material knows no movers: none comes near the camera for as long as a shot lasts at least, as far as
-// the delay lets it be known, and none is between it and whom it would show.
+// The material knows whom movers hide, not whether they come to the camera: none is near it for as long as a
+// shot lasts at least, as far as the delay lets it be known, and none is between it and whom it would show in
+// this very frame.
 bool Edit::may_begin(std::size_t fixed, const Roster& roster, const Setting& setting) const {
     const freespace::Space& now = setting.space;
     if (!now.has_movers()) return true;

@@ -5,8 +5,10 @@
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "config/config.hpp"
@@ -14,6 +16,7 @@
 #include "direction/material.hpp"
 #include "director/continuity.hpp"
 #include "director/delay_buffer.hpp"
+#include "director/match_obstacles.hpp"
 #include "director/messages.hpp"
 #include "director/roster.hpp"
 #include "director/scout.hpp"
@@ -62,7 +65,8 @@ class Edit {
         double delay_s;
         double rate_hz;
     };
-    // What is known when this frame is shown. Every frame, before choose().
+    // What is known when this frame is shown. Every frame, before choose(). The setting's map is needed until
+    // clear().
     void show(const PoseFrame& frame, const DelayBuffer& delay, const Setting& setting);
 
     // Whom an automatic shot may show.
@@ -92,18 +96,23 @@ class Edit {
     static constexpr direction::Beat reasons_every = 10;
 
     struct PendingBeat {
-        explicit PendingBeat(direction::Beat beat, std::size_t fixed) : number(beat), scout(fixed) {}
+        PendingBeat(direction::Beat beat, double seconds, std::shared_ptr<const MatchMovers> obstacles,
+                    std::size_t fixed)
+            : number(beat), time(seconds), movers(std::move(obstacles)), scout(fixed) {}
 
         direction::Beat number;
-        bool ended = false;  // a later frame is known
+        double time;                                // of its first frame
+        std::shared_ptr<const MatchMovers> movers;  // likewise
+        bool ended = false;                         // a later frame is known
         Scout scout;
     };
 
     void begin(const PoseFrame& frame, const Setting& setting);
     bool take(const PoseFrame& frame, const Setting& setting);
-    void begin_beat(direction::Beat number, std::span<const PlayerPose> poses);
+    void begin_beat(direction::Beat number, const PoseFrame& frame, std::span<const PlayerPose> poses);
     [[nodiscard]] direction::PlayerState state_of(const PlayerPose& pose, direction::Index place) const;
     [[nodiscard]] float speed_over_beat(const Vec3f& eye, direction::Index place) const;
+    void look_at_next(PendingBeat& beat, const Setting& setting);
     void append_finished();
     void finish(const Setting& setting);
     void add(const MatchEvent& event);
@@ -141,6 +150,7 @@ class Edit {
     std::uint64_t position_ = 0;              // in the delay buffer, of what is not taken yet
     bool foresees_ = false;                   // frames and events come from there
     std::deque<PendingBeat> beats_;           // that are not appended yet
+    MatchObstacles obstacles_;                // of the beats that are looked at
     Continuity continuity_;
     std::map<std::uint32_t, direction::Index> places_;  // of players in the material
     std::vector<std::uint32_t> players_;                // by place

@@ -236,13 +236,13 @@ void Match::attach_map() {
     check_scale(*entry);
     missing_map_.clear();
     if (freespace_ && entry->generation == map_generation_) return;
+    edit_.clear();  // it has the one before
     freespace_ = entry->freespace;
     map_generation_ = entry->generation;
     obstacles_.set_map(&*freespace_);
     reported_unknown_.clear();  // another map has others
     report_unknown_movers();
     scratch_.clear();
-    edit_.clear();
     requests_.restart_shots();
 }
 
@@ -293,9 +293,9 @@ void Match::wait_for_map(std::string reason) {
 void Match::detach_map(std::string reason) {
     missing_map_ = std::move(reason);
     obstacles_.set_map(nullptr);
+    edit_.clear();
     freespace_.reset();
     scratch_.clear();
-    edit_.clear();
     requests_.restart_shots();
     reconcile_needed_ = true;
 }

@@ -1,4 +1,4 @@
-// The moving obstacles of a match, for its trackers.
+// The moving obstacles of a match, for its trackers and its direction.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +27,7 @@ class MatchObstacles {
     // Time begins anew, without movers.
     void clear();
 
-    // The movers as of a frame that is shown; null: none. A time that is not later than the last one adds
+    // The movers as of a frame; null: none. A time that is not later than the last one adds
     // nothing. Both functions return whether the shapes have changed.
     bool add(double time, const std::shared_ptr<const MatchMovers>& movers);
     // The same of all frames that the timeline has come to know.

@@ -18,6 +18,31 @@ Vec3f centre_below(const Vec3f& eye, float unit) {
     return eye + to_centre * unit * Vec3f::UnitZ();
 }
 
+bool is_in_mover(const freespace::Space& space, const Vec3f& point) {
+    return space.mover_distance(point, 0.0F).mover != freespace::none;
+}
+
+// Who sits in a vehicle sees and is seen as if nothing moved.
+bool movers_hide(const freespace::Space& space, const Vec3f& from, const Vec3f& to) {
+    return !space.mover_sweep(from, to, 0.0F).clear && !is_in_mover(space, from) && !is_in_mover(space, to);
+}
+
+// What is seen from a point.
+class Viewpoint {
+  public:
+    Viewpoint(const freespace::Space& space, const Vec3f& position)
+        : space_(space), position_(position), origin_(space.map(), position, 0.0F) {}
+
+    [[nodiscard]] bool sees(const Vec3f& point) const {
+        return origin_.to(point).clear && !movers_hide(space_, position_, point);
+    }
+
+  private:
+    const freespace::Space& space_;
+    Vec3f position_;
+    freespace::SightOrigin origin_;
+};
+
 // Where the camera looks. Its horizon is level.
 class Picture {
   public:
@@ -49,36 +74,37 @@ void Scout::add_player() {
     players.emplace_back();
 }
 
-void Scout::look(const freespace::Freespace& freespace, float unit) {
+void Scout::look(const freespace::Space& space, float unit) {
     const direction::Index self = present[done++];
     direction::PlayerState& player = players[self];
-    const freespace::SightOrigin from_eye(freespace, player.eye, 0.0F);
+    const Viewpoint eye(space, player.eye);
     for (const direction::Index other : std::span(present).subspan(done)) {
-        if (!from_eye.to(players[other].eye).clear) continue;
+        if (!eye.sees(players[other].eye)) continue;
         player.sees.set(other);
         players[other].sees.set(self);
     }
-    look_from_behind(freespace, unit, self);
-    look_from_fixed(freespace, unit, self);
+    look_from_behind(space, unit, self);
+    look_from_fixed(space, unit, self);
     if (!finished()) return;
     for (direction::Take& take : std::span(takes).first(fixed))
         take.subject = direction::subject_in(take, players);
 }
 
-void Scout::look_from_behind(const freespace::Freespace& freespace, float unit, direction::Index self) {
+void Scout::look_from_behind(const freespace::Space& space, float unit, direction::Index self) {
     const direction::PlayerState& player = players[self];
     direction::Take& take = takes[fixed + self];
     const Vec3f behind = player.eye - distance * unit * player.facing;
-    const float free = freespace::sight(freespace, player.eye, behind, clearance * unit).free_length;
+    const freespace::Space around = is_in_mover(space, player.eye) ? freespace::Space(space.map()) : space;
+    const float free = freespace::sight(around, player.eye, behind, clearance * unit).free_length;
     take.position = player.eye - free * player.facing;
     take.shown.set(self);
     take.framed.set(self);
     const Picture picture(take.position, player.facing);
-    const freespace::SightOrigin from_camera(freespace, take.position, 0.0F);
+    const Viewpoint camera(space, take.position);
     const auto look_at = [&](direction::Index other, const Vec3f& point) {
         if (!picture.has(point)) return;
         take.framed.set(other);
-        if (!take.shown[other] && from_camera.to(point).clear) take.shown.set(other);
+        if (!take.shown[other] && camera.sees(point)) take.shown.set(other);
     };
     for (const direction::Index other : present) {
         if (other == self) continue;
@@ -87,16 +113,17 @@ void Scout::look_from_behind(const freespace::Freespace& freespace, float unit, 
     }
 }
 
-void Scout::look_from_fixed(const freespace::Freespace& freespace, float unit, direction::Index self) {
+void Scout::look_from_fixed(const freespace::Space& space, float unit, direction::Index self) {
     const Vec3f& eye = players[self].eye;
     for (std::size_t i = 0; i < fixed; ++i) {
-        const freespace::FixedShot& shot = freespace.fixed_shots()[i];
+        const freespace::FixedShot& shot = space.map().fixed_shots()[i];
         direction::Take& take = takes[i];
         take.position = shot.position;
         const auto look_at = [&](const Vec3f& point) {
             if (!freespace::frames(shot, point, unit)) return;
             take.framed.set(self);
-            if (!take.shown[self] && freespace::sight(freespace, shot.position, point).clear)
+            if (!take.shown[self] && freespace::sight(space.map(), shot.position, point).clear &&
+                !movers_hide(space, shot.position, point))
                 take.shown.set(self);
         };
         look_at(eye);

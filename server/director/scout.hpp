@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "direction/footage.hpp"
-#include "freespace/freespace.hpp"
+#include "freespace/space.hpp"
 
 namespace camdir::director {
 
@@ -26,12 +26,13 @@ struct Scout {
     void add_player();
     [[nodiscard]] bool finished() const { return done == present.size(); }
     // Of the next one: whom the player sees of those after, what their camera shows, and which of the fixed
-    // cameras show them. Movers hide nobody. `unit`: 0.0254 m in map units. Precondition: not finished.
-    void look(const freespace::Freespace& freespace, float unit);
+    // cameras show them. `space`: at the time of the beat, the same for all. `unit`: 0.0254 m in map units.
+    // Precondition: not finished.
+    void look(const freespace::Space& space, float unit);
 
   private:
-    void look_from_behind(const freespace::Freespace& freespace, float unit, direction::Index self);
-    void look_from_fixed(const freespace::Freespace& freespace, float unit, direction::Index self);
+    void look_from_behind(const freespace::Space& space, float unit, direction::Index self);
+    void look_from_fixed(const freespace::Space& space, float unit, direction::Index self);
 };
 
 }  // namespace camdir::director

@@ -3,10 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <functional>
 #include <numeric>
 #include <random>
 #include <set>
 
+#include "delayed_times.hpp"
 #include "direction/programme.hpp"
 #include "stage.hpp"
 #include "support/freespace_meshes.hpp"
@@ -238,6 +241,88 @@ TEST_F(EditTest, WhatIsForeseenHasTheTeamsOfItsTime) {
     ASSERT_GT(footage.beats(), 40);
     for (direction::Beat beat = 0; beat < footage.beats(); ++beat)
         EXPECT_EQ(footage.player(beat, 0).team, beat < 30 ? 1 : 2) << beat;
+}
+
+// Two players, and a door between them or what else the movers are.
+class EditAmongMoversTest : public EditTest {
+  protected:
+    using Movers = std::shared_ptr<const MatchMovers>;
+
+    [[nodiscard]] static Movers standing(const std::shared_ptr<const MoverInfo>& info,
+                                         const Vec3f& position) {
+        MoverFrame frame;
+        frame.epoch = 1;
+        frame.poses.push_back({7, position, Quatf::Identity()});
+        return std::make_shared<const MatchMovers>(
+            MatchMovers{info, std::make_shared<const MoverFrame>(std::move(frame))});
+    }
+
+    // Of 100 frames, two a beat, whether the players see each other. With a delay 30 are shown, and the rest
+    // is foreseen.
+    template <class MoversOf>
+    [[nodiscard]] std::vector<bool> sights(double delay_s, double rate_hz, const MoversOf& movers_of) const {
+        const auto frame_of = [&](std::uint32_t number) {
+            PoseFrame frame = Stage::poses(number, 1, {1, 2});
+            frame.poses[0].eye = {40.0F, 50.0F, 0.0F};
+            frame.poses[1].eye = {60.0F, 50.0F, 0.0F};
+            frame.movers = movers_of(number);
+            return frame;
+        };
+        DelayBuffer buffer(std::size_t{1} << 20U);
+        buffer.announce(1, delay_s, 0);
+        for (std::uint32_t number = 0; number < 100; ++number)
+            static_cast<void>(buffer.put(frame_of(number), received(number)));
+        Edit::Setting rules = setting(delay_s);
+        rules.rate_hz = rate_hz;
+        Edit edit;
+        for (std::uint32_t number = 0; number < (delay_s > 0.0 ? 30U : 100U); ++number) {
+            edit.show(frame_of(number), buffer, rules);
+            edit.look(rules);
+        }
+        std::vector<bool> sees;
+        const direction::Footage& footage = edit.material().footage();
+        EXPECT_EQ(footage.first(), 0);
+        for (direction::Beat beat = 0; beat < footage.beats(); ++beat)
+            sees.push_back(footage.player(beat, 0).sees[1]);
+        return sees;
+    }
+};
+
+TEST_F(EditAmongMoversTest, AMoverHidesWhoIsBehindItWhileItIsThere) {
+    const auto info = std::make_shared<MoverInfo>();
+    info->epoch = 1;
+    Mover& door = info->movers.emplace_back(Mover{7, {}});
+    door.shape.hulls = {test::box_hull({-2.0F, -30.0F, -30.0F}, {2.0F, 30.0F, 30.0F})};
+    const Movers open = standing(info, {50.0F, 50.0F, -1000.0F});
+    const Movers closed = standing(info, {50.0F, 50.0F, 0.0F});
+    const auto none = std::make_shared<MoverInfo>();
+    none->epoch = 1;
+    const Movers gone = standing(none, {50.0F, 50.0F, 0.0F});
+    const auto movers_of = [&](std::uint32_t number) {
+        if (number < 41) return open;
+        return number < 61 ? closed : gone;
+    };
+    for (const double delay_s : {0.0, 5.0})
+        for (const double rate_hz : {10.0, 60.0}) {
+            const auto sees = sights(delay_s, rate_hz, movers_of);
+            ASSERT_GT(sees.size(), 40U);
+            for (std::size_t beat = 0; beat < sees.size(); ++beat)
+                EXPECT_EQ(sees[beat], beat < 21 || beat > 30) << delay_s << " s, beat " << beat;
+        }
+}
+
+TEST_F(EditAmongMoversTest, WhoSitsInAVehicleSeesAndIsSeen) {
+    const auto info = std::make_shared<MoverInfo>();
+    info->epoch = 1;
+    info->movers.emplace_back(Mover{7, {}}).shape.balls.push_back({Vec3f::Zero(), 5.0F});
+    for (const float x : {40.0F, 60.0F}) {
+        const auto sees =
+            sights(0.0, 20.0, [vehicle = standing(info, {x, 50.0F, 0.0F})](auto) { return vehicle; });
+        ASSERT_FALSE(sees.empty());
+        EXPECT_TRUE(std::ranges::all_of(sees, std::identity())) << x;
+    }
+    const auto sees = sights(0.0, 20.0, [ball = standing(info, {50.0F, 50.0F, 0.0F})](auto) { return ball; });
+    EXPECT_TRUE(std::ranges::none_of(sees, std::identity()));
 }
 
 // A game's clock that jumps makes no cut.
