@@ -236,7 +236,7 @@ void Match::attach_map() {
     check_scale(*entry);
     missing_map_.clear();
     if (freespace_ && entry->generation == map_generation_) return;
-    edit_.clear();  // it has the one before
+    edit_.clear();  // while the map that it refers to is there
     freespace_ = entry->freespace;
     map_generation_ = entry->generation;
     obstacles_.set_map(&*freespace_);

@@ -88,21 +88,36 @@ TEST(Participant, IsNotOpenedWithoutProtection) {
     EXPECT_THAT(participant.error().message, HasSubstr("DDS: /dds/interface: "));
 }
 
-// The devices that the UDP sockets of this process are bound to which receive from any address.
-std::vector<std::string> devices_received_from() {
-    std::vector<std::string> devices;
+struct UdpSocket {
+    int file;
+    in_addr_t address;  // that it is bound to
+};
+
+// Of this process.
+std::vector<UdpSocket> udp_sockets() {
+    std::vector<UdpSocket> sockets;
     for (int file = 0; file < FD_SETSIZE; ++file) {
         sockaddr_in address{};
         socklen_t size = sizeof address;
         int type = 0;
         socklen_t type_size = sizeof type;
         if (::getsockname(file, reinterpret_cast<sockaddr*>(&address), &size) != 0 ||
-            address.sin_family != AF_INET || address.sin_addr.s_addr != INADDR_ANY)
+            address.sin_family != AF_INET)
             continue;
         if (::getsockopt(file, SOL_SOCKET, SO_TYPE, &type, &type_size) != 0 || type != SOCK_DGRAM) continue;
+        sockets.push_back({file, address.sin_addr.s_addr});
+    }
+    return sockets;
+}
+
+// The devices that the sockets are bound to which receive from any address.
+std::vector<std::string> devices_received_from() {
+    std::vector<std::string> devices;
+    for (const UdpSocket& socket : udp_sockets()) {
+        if (socket.address != INADDR_ANY) continue;
         std::array<char, IFNAMSIZ> device{};
-        size = device.size();
-        EXPECT_EQ(::getsockopt(file, SOL_SOCKET, SO_BINDTODEVICE, device.data(), &size), 0);
+        socklen_t size = device.size();
+        EXPECT_EQ(::getsockopt(socket.file, SOL_SOCKET, SO_BINDTODEVICE, device.data(), &size), 0);
         devices.emplace_back(device.data());
     }
     return devices;
@@ -123,31 +138,19 @@ TEST(Participant, ReceivesFromOtherHostsOnlyWhenItMay) {
     EXPECT_THAT(devices_received_from(), AllOf(Not(IsEmpty()), Each("")));
 }
 
-// In bytes, of the UDP sockets of this process.
-std::vector<int> send_buffers() {
-    std::vector<int> sizes;
-    for (int file = 0; file < FD_SETSIZE; ++file) {
-        int type = 0;
-        socklen_t size = sizeof type;
-        if (::getsockopt(file, SOL_SOCKET, SO_TYPE, &type, &size) != 0 || type != SOCK_DGRAM) continue;
-        sockaddr_in address{};
-        size = sizeof address;
-        if (::getsockname(file, reinterpret_cast<sockaddr*>(&address), &size) != 0 ||
-            address.sin_family != AF_INET)
-            continue;
-        size = sizeof(int);
-        EXPECT_EQ(::getsockopt(file, SOL_SOCKET, SO_SNDBUF, &sizes.emplace_back(), &size), 0);
-    }
-    return sizes;
+// In bytes.
+int send_buffer(int file) {
+    int bytes = 0;
+    socklen_t size = sizeof bytes;
+    EXPECT_EQ(::getsockopt(file, SOL_SOCKET, SO_SNDBUF, &bytes, &size), 0);
+    return bytes;
 }
 
-// In bytes, as much as the kernel grants of what is wanted.
+// As much as the kernel grants of what is wanted.
 int granted_send_buffer(int wanted) {
     const int file = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-    int granted = 0;
-    socklen_t size = sizeof granted;
     EXPECT_EQ(::setsockopt(file, SOL_SOCKET, SO_SNDBUF, &wanted, sizeof wanted), 0);
-    EXPECT_EQ(::getsockopt(file, SOL_SOCKET, SO_SNDBUF, &granted, &size), 0);
+    const int granted = send_buffer(file);
     EXPECT_EQ(::close(file), 0);
     return granted;
 }
@@ -158,7 +161,11 @@ TEST(Participant, HasRoomForWhatWaitsForHostsThatAreGone) {
     config.domain = domain.id();
     const auto participant = Participant::open(config);
     ASSERT_TRUE(participant) << participant.error().message;
-    EXPECT_THAT(send_buffers(), AllOf(Not(IsEmpty()), Each(granted_send_buffer(4 << 20))));
+    const std::vector<UdpSocket> sockets = udp_sockets();
+    ASSERT_FALSE(sockets.empty());
+    const int granted = granted_send_buffer(4 << 20);
+    for (const UdpSocket& socket : sockets)
+        EXPECT_EQ(send_buffer(socket.file), granted);
 }
 
 TEST(Participant, NamesThePeerThatCannotBeResolved) {
