@@ -9,6 +9,7 @@ export const levels = [
     {scale: 0.5, smallEvery: 1, edges: true},
     {scale: 0.5, smallEvery: 2, edges: false},
     {scale: 0.35, smallEvery: 2, edges: false},
+    {scale: 0.35, smallEvery: 4, edges: false},
 ];
 
 const processorPixels = 160e3;
@@ -25,8 +26,8 @@ export function levelOfProcessor(pixels) {
     return found < 0 ? levels.length - 1 : found;
 }
 
-const smoothRate = 57;      // pictures a second
-const tolerance = 0.96;     // of the rate that is wanted
+const smoothRate = 59;      // pictures a second
+const tolerance = 0.975;    // of the rate that is wanted
 const windowMs = 1000;      // over which the rate is measured
 const settleMs = 300;       // after a change, which itself takes time
 const firstPatienceMs = 5e3;
@@ -38,29 +39,33 @@ export class Quality {
         this.level = level;
         this.wantedRate = smoothRate;
         this.patienceMs = firstPatienceMs;  // how long it is smooth before a finer level is tried
-        this.onTrial = false;               // this level is finer than the last one was
+        this.onTrial = false;               // this level is finer than the last one was: one slow window ends it
         this.slowWindows = 0;
         this.smoothSince = null;
         this.wasSmooth = hasCard;           // ever: until then a coarser level is found soon
-        this.beginWindow(0);
+        this.beginWindow(-Infinity);
     }
 
-    beginWindow(at) {
-        Object.assign(this, {from: at, last: at, frames: 0, drawn: 0});
+    // At the frame at this time, or at the last one before all has settled.
+    beginWindow(at, untilSettledMs = 0) {
+        Object.assign(this, {from: at, last: at, settledAt: at + untilSettledMs, frames: 0, drawn: 0});
     }
 
     // The browser's next frame, at this time in ms, and whether something is drawn in it.
     frame(at, drew) {
-        if (at - this.last > windowMs) this.beginWindow(at);  // the page was hidden
+        if (at - this.last > windowMs) return this.beginWindow(at);  // the first, or the page was hidden
         this.last = at;
-        if (at < this.from) return;
+        if (at < this.settledAt) {
+            this.from = at;
+            return;
+        }
         ++this.frames;
         if (drew) ++this.drawn;
         if (at - this.from < windowMs) return;
         const rate = this.frames * 1000 / (at - this.from);
         const before = this.level;
         if (this.drawn > this.frames / 2) if (rate < tolerance * this.wantedRate) this.slow(rate); else this.smooth(rate, at);
-        this.beginWindow(this.level === before ? at : at + settleMs);
+        this.beginWindow(at, this.level === before ? 0 : settleMs);
     }
 
     slow(rate) {
@@ -68,7 +73,7 @@ export class Quality {
         const isHalf = rate < this.wantedRate / 2;
         if (this.level === levels.length - 1) {
             this.wantedRate = rate;  // this machine or its display has no more
-        } else if (isHalf || !this.wasSmooth || ++this.slowWindows > 1) {
+        } else if (isHalf || !this.wasSmooth || this.onTrial || ++this.slowWindows > 1) {
             if (this.onTrial) this.patienceMs = Math.min(2 * this.patienceMs, longestPatienceMs);
             this.change(isHalf ? 2 : 1);
             this.onTrial = false;
@@ -80,10 +85,10 @@ export class Quality {
         this.wasSmooth = true;
         this.wantedRate = Math.min(Math.max(this.wantedRate, rate), smoothRate);
         this.smoothSince ??= at;
-        if (at - this.smoothSince < this.patienceMs || this.level === 0) return;
+        if (at - this.smoothSince < this.patienceMs) return;
         if (this.onTrial) this.patienceMs = firstPatienceMs;
-        this.change(-1);
-        this.onTrial = true;
+        this.onTrial = this.level > 0;
+        if (this.onTrial) this.change(-1);
     }
 
     change(by) {

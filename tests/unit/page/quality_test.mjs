@@ -29,16 +29,31 @@ test('a fast machine draws as finely as there is, from wherever it begins', () =
 
 test('a slow machine comes to the finest level that is smooth, and is rarely bothered by trials of a finer one', () => {
     const quality = new Quality(0, true);
-    const costs = [200, 60, 25, 12, 9, 8];
+    const costs = [200, 60, 25, 12, 9, 8, 7];
     const begin = run(quality, 30, level => costs[level]);
     const {seen} = run(quality, 600, level => costs[level], begin);
     assert.ok(seen.every(level => level === 3 || level === 2));
     assert.ok(seen.filter(level => level === 2).length < 40, `${seen}`);
 });
 
+test('a trial of a level that is not smooth ends with its first window', () => {
+    const quality = new Quality(worst, true);
+    const {seen} = run(quality, 60, level => level === worst ? 8 : 18);
+    assert.ok(seen.includes(worst - 1));
+    assert.ok(seen.every((level, i) => level === worst || seen[i + 2] === worst), `${seen}`);
+});
+
+test('a level that has proved to be smooth outlasts a slow window', () => {
+    const quality = new Quality(1, true);
+    const proved = run(quality, 60, () => 5);
+    assert.equal(quality.level, 0);
+    const {seen} = run(quality, 10, (level, at) => at < proved.at + 1000 ? 18 : 5, proved);
+    assert.ok(seen.every(level => level === 0), `${seen}`);
+});
+
 test('where no level is smooth it stays at the last one, or where the same rate is reached', () => {
     const quality = new Quality(0, true);
-    const {seen} = run(quality, 600, level => 140 - 20 * level);
+    const {seen} = run(quality, 600, level => 160 - 20 * level);
     assert.equal(quality.level, worst);
     assert.ok(seen.filter(level => level !== worst).length < 60, `${seen}`);
 });
@@ -52,7 +67,7 @@ test('a display that shows 30 frames a second keeps the finest level', () => {
 
 test('a busy machine is drawn coarsely for, and finely again when it is not busy any more', () => {
     const quality = new Quality(0, true);
-    const busy = run(quality, 30, level => [60, 50, 40, 30, 20, 10][level]);
+    const busy = run(quality, 30, level => 70 - 10 * level);
     assert.equal(quality.level, worst);
     run(quality, 90, () => 5, busy);
     assert.equal(quality.level, 0);
