@@ -38,6 +38,7 @@ struct DirectOptions {
     std::string map;
     std::string trace;
     std::string events;
+    std::string movers;
     std::string config;
     std::string cameras;
     std::string json;
@@ -48,6 +49,7 @@ struct DirectOptions {
 struct Inputs {
     evaluation::Trace trace;
     std::vector<evaluation::TraceEvent> events;
+    std::vector<evaluation::MoverRow> movers;
     SourceMap map;
     direction::Rules rules;
 };
@@ -67,14 +69,21 @@ Result<Inputs> read_inputs(const DirectOptions& options, ProgressLine& line) {
     if (!match->events)
         std::cerr << "camera-director: warning: " << options.trace
                   << " holds no events, so that no kill can be foreseen: name them with --events\n";
+    std::vector<evaluation::MoverRow> movers;
+    if (!options.movers.empty()) {
+        auto rows = evaluation::read_movers(options.movers);
+        if (!rows) return tl::unexpected(rows.error());
+        movers = std::move(*rows);
+    }
     line.show("reading " + options.map, 0, 0);
     auto map = open_map(options.freespace, options.map);
     if (!map) return tl::unexpected(map.error());
     line.clear();
     warn_of_another_source(options.freespace, options.map, *map);
+    warn_of_unknown_movers(options.movers, movers, options.map, options.freespace, *map);
     return Inputs{std::move(match->trace),
-                  std::move(match->events).value_or(std::vector<evaluation::TraceEvent>()), std::move(*map),
-                  std::move(config->direction)};
+                  std::move(match->events).value_or(std::vector<evaluation::TraceEvent>()), std::move(movers),
+                  std::move(*map), std::move(config->direction)};
 }
 
 // The rushes of a match, as the editor sees them through the freespace, and as the judge sees them.
@@ -87,10 +96,10 @@ struct Rushes {
     direction::Footage judged;
 };
 
-Result<Rushes> shoot(const DirectOptions& options, const Inputs& inputs, const ClearLine& exact, double unit,
-                     ProgressLine& line, const std::stop_token& stop) {
+Result<Rushes> shoot(const DirectOptions& options, const Inputs& inputs, const MatchMovers& movers,
+                     const ClearLine& exact, double unit, ProgressLine& line, const std::stop_token& stop) {
     const auto show = [&](std::uint64_t done, std::uint64_t total) { line.show("tracking", done, total); };
-    auto recording = evaluation::record(*inputs.map.freespace, camera::Profile{}, inputs.trace, {},
+    auto recording = evaluation::record(*inputs.map.freespace, camera::Profile{}, inputs.trace, movers.rows(),
                                         inputs.trace, options.delay, show, stop);
     if (!recording) return tl::unexpected(recording.error());
     line.show("looking", 0, 0);
@@ -100,11 +109,11 @@ Result<Rushes> shoot(const DirectOptions& options, const Inputs& inputs, const C
     const auto stored = inputs.map.freespace->fixed_shots();
     std::vector<freespace::FixedShot> fixed;
     if (inputs.rules.grammar.fixed_shots) fixed.assign(stored.begin(), stored.end());
-    auto edited = footage_of(inputs.trace, recording->cameras, fixed, unit, proved, stop);
+    auto edited = footage_of(inputs.trace, movers, recording->cameras, fixed, unit, proved, stop);
     if (!edited) return tl::unexpected(edited.error());
-    auto scouted = scouted_footage_of(inputs.trace, *inputs.map.freespace, fixed.size(), unit, stop);
+    auto scouted = scouted_footage_of(inputs.trace, movers, *inputs.map.freespace, fixed.size(), unit, stop);
     if (!scouted) return tl::unexpected(scouted.error());
-    auto judged = footage_of(inputs.trace, recording->cameras, fixed, unit, exact, stop);
+    auto judged = footage_of(inputs.trace, movers, recording->cameras, fixed, unit, exact, stop);
     if (!judged) return tl::unexpected(judged.error());
     std::vector<evaluation::CameraSample> still;
     for (const freespace::FixedShot& shot : fixed)
@@ -258,13 +267,15 @@ std::string format_programme(const Inputs& inputs, const Rushes& rushes,
 }
 
 std::vector<report::Fact> facts_of(const DirectOptions& options, const Inputs& inputs) {
-    return {
+    std::vector<report::Fact> facts = {
         {"Map", options.map + ", " + inputs.map.scene.kind},
         {"Match", options.trace + ", " + std::to_string(inputs.trace.players.size()) + " players, " +
                       evaluation::format_value(report::duration(inputs.trace), 1) + " s"},
         {"Events", options.events.empty() ? options.trace : options.events},
         {"Delay", options.delay == 0.0 ? "none: live" : evaluation::format_value(options.delay, 1) + " s"},
         {"Baked map", options.freespace}};
+    if (!options.movers.empty()) facts.push_back({"Movers", options.movers});
+    return facts;
 }
 
 Result<void> write_report(const DirectOptions& options, const Inputs& inputs, const Rushes& rushes,
@@ -297,9 +308,9 @@ Result<void> direct(const DirectOptions& options) {
     const service::Interruption interruption;
     const std::stop_token stop = interruption.token();
     std::optional<ExitWhenInterrupted> reading(interruption);
-    if (auto writable =
-            check_outputs({options.cameras, options.json, options.report},
-                          {options.freespace, options.map, options.trace, options.events, options.config});
+    if (auto writable = check_outputs(
+            {options.cameras, options.json, options.report},
+            {options.freespace, options.map, options.trace, options.events, options.movers, options.config});
         !writable)
         return writable;
     ProgressLine line;
@@ -311,7 +322,8 @@ Result<void> direct(const DirectOptions& options) {
     const ClearLine exact = [&](const Vec3d& from, const Vec3d& to) {
         return oracle.segment_clear(from, to);
     };
-    const auto rushes = shoot(options, *inputs, exact, unit, line, stop);
+    const MatchMovers movers(inputs->movers, inputs->map.scene.movers, *inputs->map.freespace, inputs->trace);
+    const auto rushes = shoot(options, *inputs, movers, exact, unit, line, stop);
     if (!rushes) return tl::unexpected(rushes.error());
     line.show("editing", 0, 0);
     const direction::Rules& rules = inputs->rules;
@@ -324,9 +336,9 @@ Result<void> direct(const DirectOptions& options) {
                                            director::Edit::foresight_s(options.delay), stop);
     if (!running) return tl::unexpected(running.error());
     line.show("judging", 0, 0);
-    const auto cameras = cameras_of_programme(inputs->trace, *inputs->map.freespace, rushes->judged,
+    const auto cameras = cameras_of_programme(inputs->trace, movers, *inputs->map.freespace, rushes->judged,
                                               rushes->fixed, *running, options.delay, rushes->cameras, stop);
-    const auto shown = footage_of(inputs->trace, cameras, rushes->fixed, unit, exact, stop);
+    const auto shown = footage_of(inputs->trace, movers, cameras, rushes->fixed, unit, exact, stop);
     if (!shown) return tl::unexpected(shown.error());
     auto moments = direction::find_moments(rushes->judged, events, rules, unit, 0);
     const std::size_t in_reach = direction::kills_in_reach(rushes->judged, events);
@@ -364,6 +376,8 @@ void add_direct(CLI::App& root, Run& run) {
         ->required();
     command->add_option("--events", options->events,
                         "The match's events, CSV or CSV.gz; default: those that TRACE has");
+    command->add_option("--movers", options->movers,
+                        "Where the match's doors and lifts were, CSV or CSV.gz; default: nothing moves");
     command->add_option("--config", options->config,
                         "Configuration that has the rules and lengths of shots; default: those that ship");
     command->add_option("--delay", options->delay, "Seconds that the audience is behind the match; 0: live")

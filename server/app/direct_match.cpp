@@ -79,12 +79,27 @@ Result<direction::Footage> read_beats(const Trace& trace, const std::stop_token&
     return footage;
 }
 
+// Who sees whom in one frame.
+class FrameSight {
+  public:
+    FrameSight(const ClearLine& clear, evaluation::PlacedMovers movers)
+        : clear_(clear), movers_(std::move(movers)) {}
+
+    [[nodiscard]] bool operator()(const Vec3d& from, const Vec3d& to) const {
+        return clear_(from, to) && !movers_.hide(from, to);
+    }
+
+  private:
+    const ClearLine& clear_;
+    evaluation::PlacedMovers movers_;
+};
+
 // One beat, from its frames.
 class BeatReader {
   public:
-    BeatReader(const Trace& trace, const CameraPath& cameras, std::span<const freespace::FixedShot> fixed,
-               double unit, const ClearLine& clear)
-        : trace_(trace), cameras_(cameras), fixed_(fixed), unit_(unit), clear_(clear) {}
+    BeatReader(const Trace& trace, const MatchMovers& movers, const CameraPath& cameras,
+               std::span<const freespace::FixedShot> fixed, double unit, const ClearLine& clear)
+        : trace_(trace), movers_(movers), cameras_(cameras), fixed_(fixed), unit_(unit), clear_(clear) {}
 
     void read(std::span<const TraceFrame> frames, std::vector<PlayerState>& players,
               std::vector<Take>& takes) const {
@@ -102,7 +117,8 @@ class BeatReader {
     void read_frame(const TraceFrame& frame, bool first, std::vector<PlayerState>& players,
                     std::vector<Take>& takes) const {
         const auto poses = trace_.poses_of(frame);
-        if (first) see_each_other(poses, players);
+        const FrameSight sight(clear_, movers_.exact_at(frame.time));
+        if (first) see_each_other(sight, poses, players);
         std::vector<bool> present(players.size());
         for (std::uint32_t i = 0; i < frame.pose_count; ++i) {
             const evaluation::CameraSample& camera = cameras_[frame.first_pose + i];
@@ -111,7 +127,7 @@ class BeatReader {
             present[rush] = true;
             if (first) take.position = camera.position.cast<float>();
             take.cut = take.cut || camera.cut;
-            look(take, first, camera.position, poses,
+            look(take, first, sight, camera.position, poses,
                  [&](const Vec3d& point) { return evaluation::in_picture(camera, point, 1.0); });
         }
         for (std::size_t rush = 0; rush < present.size(); ++rush)
@@ -120,17 +136,18 @@ class BeatReader {
             const freespace::FixedShot& shot = fixed_[i];
             Take& take = takes[present.size() + i];
             take.position = shot.position;
-            look(take, first, shot.position.cast<double>(), poses, [&](const Vec3d& point) {
+            look(take, first, sight, shot.position.cast<double>(), poses, [&](const Vec3d& point) {
                 return freespace::frames(shot, point.cast<float>(), static_cast<float>(unit_));
             });
         }
     }
 
-    void see_each_other(std::span<const TracePose> poses, std::vector<PlayerState>& players) const {
+    void see_each_other(const FrameSight& sight, std::span<const TracePose> poses,
+                        std::vector<PlayerState>& players) const {
         read_players(trace_, poses, players);
         for (std::size_t i = 0; i < poses.size(); ++i)
             for (std::size_t j = i + 1; j < poses.size(); ++j) {
-                if (!clear_(poses[i].eye, poses[j].eye)) continue;
+                if (!sight(poses[i].eye, poses[j].eye)) continue;
                 const Index a = index_of(trace_, poses[i].player);
                 const Index b = index_of(trace_, poses[j].player);
                 players[a].sees.set(b);
@@ -140,8 +157,8 @@ class BeatReader {
 
     // frames(point): it is in the picture.
     template <class Frames>
-    void look(Take& take, bool first, const Vec3d& camera, std::span<const TracePose> poses,
-              const Frames& frames) const {
+    void look(Take& take, bool first, const FrameSight& sight, const Vec3d& camera,
+              std::span<const TracePose> poses, const Frames& frames) const {
         direction::PlayerSet framed;
         direction::PlayerSet shown;
         for (const TracePose& pose : poses) {
@@ -149,7 +166,7 @@ class BeatReader {
             for (const Vec3d& point : {pose.eye, Vec3d(evaluation::player_box(pose, unit_).center())}) {
                 if (!frames(point)) continue;
                 framed.set(player);
-                if (!shown[player] && clear_(camera, point)) shown.set(player);
+                if (!shown[player] && sight(camera, point)) shown.set(player);
             }
         }
         take.shown = first ? shown : take.shown & shown;
@@ -157,6 +174,7 @@ class BeatReader {
     }
 
     const Trace& trace_;
+    const MatchMovers& movers_;
     const CameraPath& cameras_;
     std::span<const freespace::FixedShot> fixed_;
     double unit_;
@@ -166,10 +184,11 @@ class BeatReader {
 // The cameras of a running programme, shot after shot.
 class ProgrammeShooter {
   public:
-    ProgrammeShooter(const Trace& trace, const freespace::Freespace& freespace,
+    ProgrammeShooter(const Trace& trace, const MatchMovers& movers, const freespace::Freespace& freespace,
                      const direction::Footage& footage, std::span<const freespace::FixedShot> fixed,
                      double look_ahead, CameraPath cameras)
         : trace_(trace),
+          movers_(movers),
           freespace_(freespace),
           footage_(footage),
           fixed_(fixed),
@@ -184,8 +203,8 @@ class ProgrammeShooter {
         follow.first = first_frame(shot.begin);
         follow.end = first_frame(shot.end + 1);
         const auto line = before != nullptr ? line_to_keep(*before, shot) : std::nullopt;
-        const auto cameras = evaluation::record(freespace_, camera::Profile{}, trace_, tracks_, look_ahead_,
-                                                follow, line ? &*line : nullptr);
+        const auto cameras = evaluation::record(freespace_, camera::Profile{}, trace_, tracks_,
+                                                movers_.rows(), look_ahead_, follow, line ? &*line : nullptr);
         for (std::size_t i = 0; i < cameras.size(); ++i)
             if (cameras[i])
                 cameras_[evaluation::pose_of(trace_, trace_.frames[follow.first + i], follow.player)] =
@@ -226,6 +245,7 @@ class ProgrammeShooter {
     }
 
     const Trace& trace_;
+    const MatchMovers& movers_;
     const freespace::Freespace& freespace_;
     const direction::Footage& footage_;
     std::span<const freespace::FixedShot> fixed_;
@@ -272,28 +292,32 @@ Result<void> check_length(const Trace& trace) {
     return {};
 }
 
-Result<direction::Footage> footage_of(const Trace& trace, const CameraPath& cameras,
-                                      std::span<const freespace::FixedShot> fixed, double unit,
-                                      const ClearLine& clear, const std::stop_token& stop) {
+Result<direction::Footage> footage_of(const Trace& trace, const MatchMovers& movers,
+                                      const CameraPath& cameras, std::span<const freespace::FixedShot> fixed,
+                                      double unit, const ClearLine& clear, const std::stop_token& stop) {
     assert(cameras.size() == trace.poses.size() && trace.players.size() <= direction::max_players);
-    const BeatReader reader(trace, cameras, fixed, unit, clear);
+    const BeatReader reader(trace, movers, cameras, fixed, unit, clear);
     return read_beats(trace, stop, [&](std::span<const TraceFrame> frames, auto& players, auto& takes) {
         reader.read(frames, players, takes);
     });
 }
 
-Result<direction::Footage> scouted_footage_of(const Trace& trace, const freespace::Freespace& freespace,
-                                              std::size_t fixed_shots, double unit,
-                                              const std::stop_token& stop) {
+Result<direction::Footage> scouted_footage_of(const Trace& trace, const MatchMovers& movers,
+                                              const freespace::Freespace& freespace, std::size_t fixed_shots,
+                                              double unit, const std::stop_token& stop) {
     return read_beats(trace, stop, [&](std::span<const TraceFrame> frames, auto& players, auto& takes) {
         director::Scout scout(fixed_shots);
         while (scout.players.size() < trace.players.size())
             scout.add_player();
-        if (!frames.empty()) read_players(trace, trace.poses_of(frames.front()), scout.players);
+        freespace::Movers now;
+        if (!frames.empty()) {
+            read_players(trace, trace.poses_of(frames.front()), scout.players);
+            now = movers.baked_at(frames.front().time);
+        }
         for (Index player = 0; player < scout.players.size(); ++player)
             if (scout.players[player].present) scout.present.push_back(player);
         while (!scout.finished())
-            scout.look(freespace, static_cast<float>(unit));
+            scout.look({freespace, &now}, static_cast<float>(unit));
         for (const TraceFrame& frame : frames)
             for (const TracePose& pose : trace.poses_of(frame))
                 if (pose.discontinuity) scout.takes[scout.fixed + index_of(trace, pose.player)].cut = true;
@@ -303,12 +327,13 @@ Result<direction::Footage> scouted_footage_of(const Trace& trace, const freespac
     });
 }
 
-evaluation::CameraPath cameras_of_programme(const Trace& trace, const freespace::Freespace& freespace,
+evaluation::CameraPath cameras_of_programme(const Trace& trace, const MatchMovers& movers,
+                                            const freespace::Freespace& freespace,
                                             const direction::Footage& footage,
                                             std::span<const freespace::FixedShot> fixed,
                                             std::span<const direction::Shot> shots, double look_ahead,
                                             CameraPath cameras, const std::stop_token& stop) {
-    ProgrammeShooter shooter(trace, freespace, footage, fixed, look_ahead, std::move(cameras));
+    ProgrammeShooter shooter(trace, movers, freespace, footage, fixed, look_ahead, std::move(cameras));
     for (std::size_t i = 0; i < shots.size() && !stop.stop_requested(); ++i)
         shooter.shoot(shots[i], i > 0 ? &shots[i - 1] : nullptr);
     return std::move(shooter).cameras();

@@ -6,6 +6,7 @@
 #include <stop_token>
 #include <vector>
 
+#include "app/match_movers.hpp"
 #include "base/error.hpp"
 #include "direction/editor.hpp"
 #include "direction/footage.hpp"
@@ -17,7 +18,7 @@
 
 namespace camdir::app {
 
-// The segment between two points meets no obstacle. Called from several threads.
+// The segment between two points meets no obstacle that stands still. Called from several threads.
 using ClearLine = std::function<bool(const Vec3d&, const Vec3d&)>;
 
 // Fails when the match has more than 4,000,000 beats of players (14 h of 8).
@@ -26,9 +27,10 @@ using ClearLine = std::function<bool(const Vec3d&, const Vec3d&)>;
 // Players in the order of `trace.players`; rush r is the camera of player r, after them come those of
 // `fixed`, which show nobody farther away than freespace::fixed_shot_range. A player is shown in a beat when
 // in all of its frames the eye or the centre of their box is in the picture with a clear line from the
-// camera. A beat without a frame repeats the one before, without its cuts. Fails with ErrorCode::interrupted
-// soon after `stop` is requested. Preconditions: one camera a pose, a length that check_length() takes.
-[[nodiscard]] Result<direction::Footage> footage_of(const evaluation::Trace& trace,
+// camera, past `movers` too. A beat without a frame repeats the one before, without its cuts. Fails with
+// ErrorCode::interrupted soon after `stop` is requested. Preconditions: one camera a pose, a length that
+// check_length() takes.
+[[nodiscard]] Result<direction::Footage> footage_of(const evaluation::Trace& trace, const MatchMovers& movers,
                                                     const evaluation::CameraPath& cameras,
                                                     std::span<const freespace::FixedShot> fixed, double unit,
                                                     const ClearLine& clear, const std::stop_token& stop);
@@ -36,6 +38,7 @@ using ClearLine = std::function<bool(const Vec3d&, const Vec3d&)>;
 // The same as the running director knows it: beats of their first frames, seen by the cameras of its scout.
 // With the first `fixed_shots` of the freespace. Likewise.
 [[nodiscard]] Result<direction::Footage> scouted_footage_of(const evaluation::Trace& trace,
+                                                            const MatchMovers& movers,
                                                             const freespace::Freespace& freespace,
                                                             std::size_t fixed_shots, double unit,
                                                             const std::stop_token& stop);
@@ -44,9 +47,10 @@ using ClearLine = std::function<bool(const Vec3d&, const Vec3d&)>;
 // after the beat in which the next shot begins. `cameras`: of cameras that run all the time. Ends early, with
 // some of them, soon after `stop` is requested.
 [[nodiscard]] evaluation::CameraPath cameras_of_programme(
-    const evaluation::Trace& trace, const freespace::Freespace& freespace, const direction::Footage& footage,
-    std::span<const freespace::FixedShot> fixed, std::span<const direction::Shot> shots, double look_ahead,
-    evaluation::CameraPath cameras, const std::stop_token& stop);
+    const evaluation::Trace& trace, const MatchMovers& movers, const freespace::Freespace& freespace,
+    const direction::Footage& footage, std::span<const freespace::FixedShot> fixed,
+    std::span<const direction::Shot> shots, double look_ahead, evaluation::CameraPath cameras,
+    const std::stop_token& stop);
 
 // The events that the direction knows, times from the trace's first frame; events before it are left out.
 [[nodiscard]] std::vector<direction::Event> events_of(const evaluation::Trace& trace,

@@ -35,8 +35,8 @@ void check_usage(const EvaluateOptions& options) {
         throw CLI::ValidationError("--terms", "only the tracker has an objective");
     if (!options.group.empty() && (!options.tracks() || !options.solver.empty()))
         throw CLI::ValidationError("--group", "is a shot of its own: neither --camera, --judge nor --solver");
-    if (!options.group.empty() && !(options.terms + options.report + options.events + options.movers).empty())
-        throw CLI::ValidationError("--group", "has neither --terms, --report, --events nor --movers");
+    if (!options.group.empty() && !(options.terms + options.report + options.events).empty())
+        throw CLI::ValidationError("--group", "has neither --terms, --report nor --events");
     if (!options.group.empty() && (options.group.size() < 2 || options.group.size() > camera::max_members))
         throw CLI::ValidationError("--group", "takes two to four players");
     if (std::set(options.group.begin(), options.group.end()).size() != options.group.size())
@@ -185,7 +185,9 @@ Result<void> evaluate(const EvaluateOptions& options) {
     if (!map) return tl::unexpected(map.error());
     line.clear();
     warn_of_another_source(options.freespace, options.map, *map);
-    warn_of_unknown_movers(options, *match, *map);
+    if (match->movers)
+        warn_of_unknown_movers(options.movers, *match->movers, options.map,
+                               options.tracks() ? options.freespace : "", *map);
     if (!options.group.empty()) {
         reading.reset();
         return evaluate_group(options, *match, *map, line, stop);

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <span>
+#include <utility>
 
 #include "app/evaluate_cameras.hpp"
+#include "app/match_movers.hpp"
 #include "base/file.hpp"
 #include "evaluation/group_figures.hpp"
 #include "evaluation/group_recording.hpp"
@@ -38,14 +41,19 @@ Result<void> evaluate_group(const EvaluateOptions& options, const Match& match, 
     const auto profile = choose_profile(options);
     if (!profile) return tl::unexpected(profile.error());
     line.show("tracking the group", 0, 0);
-    const auto made = evaluation::record_group(*map.freespace, *profile, match.poses, match.frames,
-                                               options.group, options.look_ahead, stop);
+    const MatchMovers movers(
+        match.movers ? std::span(std::as_const(*match.movers)) : std::span<const evaluation::MoverRow>(),
+        map.scene.movers, *map.freespace, match.poses);
+    const auto made = evaluation::record_group(*map.freespace, *profile, match.poses, movers.rows(),
+                                               match.frames, options.group, options.look_ahead, stop);
     if (!made) return tl::unexpected(made.error());
     line.show("judging", 0, 0);
     const oracle::Oracle oracle(map.scene, map.point_radius);
+    evaluation::MoversAt movers_at;
+    if (match.movers) movers_at = [&](std::int64_t time) { return movers.exact_at(time); };
     const auto figures =
         evaluation::judge_group(oracle, map.scene.metres_per_unit, match.frames, options.group, made->cameras,
-                                map.freespace->lookouts().positions(), stop);
+                                map.freespace->lookouts().positions(), movers_at, stop);
     line.clear();
     if (!figures) return tl::unexpected(figures.error());
     std::cerr << evaluation::to_table(*figures) << "cost                 median "

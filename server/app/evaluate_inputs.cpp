@@ -13,14 +13,14 @@
 namespace camdir::app {
 namespace {
 
-void warn_of_models_without(const std::map<std::uint32_t, std::uint32_t>& places, const std::string& file,
-                            const EvaluateOptions& options, std::span<const evaluation::MoverRow> rows) {
+void warn_of_models_without(const std::map<std::uint32_t, std::uint32_t>& places, const std::string& map,
+                            const std::string& file, std::span<const evaluation::MoverRow> rows) {
     std::set<std::uint32_t> unknown;
     for (const evaluation::MoverRow& row : rows)
         if (!places.contains(row.model)) unknown.insert(row.model);
     if (unknown.empty()) return;
-    std::cerr << "camera-director: warning: " << options.movers << ": " << unknown.size()
-              << " of its models are no movers of " << file << " and left out, *" << *unknown.begin()
+    std::cerr << "camera-director: warning: " << file << ": " << unknown.size()
+              << " of its models are no movers of " << map << " and left out, *" << *unknown.begin()
               << " first\n";
 }
 
@@ -64,13 +64,12 @@ Result<SourceMap> open_map(const std::string& freespace, const std::string& map)
     return SourceMap{std::move(*scene), std::move(*opened), d0};
 }
 
-void warn_of_unknown_movers(const EvaluateOptions& options, const Match& match, const SourceMap& map) {
-    if (!match.movers) return;
-    warn_of_models_without(evaluation::places_by_model(std::span(map.scene.movers)), options.map, options,
-                           *match.movers);
-    if (map.freespace && options.tracks())
-        warn_of_models_without(evaluation::places_by_model(map.freespace->movers()), options.freespace,
-                               options, *match.movers);
+void warn_of_unknown_movers(const std::string& file, std::span<const evaluation::MoverRow> rows,
+                            const std::string& map, const std::string& freespace, const SourceMap& opened) {
+    warn_of_models_without(evaluation::places_by_model(std::span(opened.scene.movers)), map, file, rows);
+    if (opened.freespace && !freespace.empty())
+        warn_of_models_without(evaluation::places_by_model(opened.freespace->movers()), freespace, file,
+                               rows);
 }
 
 void warn_of_another_source(const std::string& freespace, const std::string& map, const SourceMap& opened) {

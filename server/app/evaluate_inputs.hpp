@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -58,9 +59,10 @@ struct SourceMap {
 // `freespace` may be empty; a point cloud needs one.
 [[nodiscard]] Result<SourceMap> open_map(const std::string& freespace, const std::string& map);
 
-// Warns on standard error of recorded movers that the map or the baked file, where there is one, does not
-// have.
-void warn_of_unknown_movers(const EvaluateOptions& options, const Match& match, const SourceMap& map);
+// Warns on standard error of recorded movers, the rows of `file`, that the map or, where it has a name, the
+// baked file does not have.
+void warn_of_unknown_movers(const std::string& file, std::span<const evaluation::MoverRow> rows,
+                            const std::string& map, const std::string& freespace, const SourceMap& opened);
 
 // Warns on standard error where these two files of opened maps do not belong together.
 void warn_of_another_source(const std::string& freespace, const std::string& map, const SourceMap& opened);

@@ -83,22 +83,6 @@ constexpr SingleFigure shot_figures[] = {
 
 constexpr const char* kill_in_view = "kill_in_view";
 
-struct CountedFigure {
-    const char* name;
-    const char* unit;
-    std::size_t MoverFigures::*value;
-    const char* meaning;
-};
-
-constexpr CountedFigure mover_figures[] = {
-    {"mover_frames_inside", "frames", &MoverFigures::frames_inside,
-     "Frames in which the camera is in a door, a lift or the like."},
-    {"mover_passages", "steps", &MoverFigures::passages,
-     "Steps without a cut on which the camera and a mover meet."},
-    {"mover_seen_through", "frames", &MoverFigures::seen_through,
-     "Frames in which a mover is between the camera and the eye, and the camera does not call it hidden."},
-};
-
 std::string line(const std::string& name, const std::string& value, const std::string& unit) {
     std::array<char, 160> text{};
     std::snprintf(text.data(), text.size(), "%-16s %s %s\n", name.c_str(), value.c_str(), unit.c_str());
@@ -129,9 +113,9 @@ std::vector<Figure> figures_of(const Metrics& metrics) {
         figures.push_back({kill_in_view, "%", "Kills of the followed players that their camera showed.", 2,
                            Better::more, *metrics.kill_in_view});
     if (metrics.movers)
-        for (const CountedFigure& figure : mover_figures)
+        for (const MoverFigureName& figure : mover_figure_names())
             figures.push_back({figure.name, figure.unit, figure.meaning, 0, Better::less,
-                               static_cast<double>((*metrics.movers).*figure.value)});
+                               static_cast<double>((*metrics.movers).*figure.member)});
     return figures;
 }
 
@@ -172,8 +156,8 @@ std::string to_table(const Metrics& metrics) {
         add(figure);
     if (metrics.kill_in_view) table += line(kill_in_view, format_value(*metrics.kill_in_view, 2), "%");
     if (metrics.movers)
-        for (const CountedFigure& figure : mover_figures)
-            table += line(figure.name, std::to_string((*metrics.movers).*figure.value), figure.unit);
+        for (const MoverFigureName& figure : mover_figure_names())
+            table += line(figure.name, std::to_string((*metrics.movers).*figure.member), figure.unit);
     return table;
 }
 

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <utility>
 #include <vector>
 
 #include "base/parallel.hpp"
@@ -39,30 +40,40 @@ std::vector<Together> counted_frames(const Trace& trace, std::span<const std::ui
     return counted;
 }
 
-bool shows(const oracle::Oracle& oracle, const CameraSample& camera, const Vec3d& eye) {
-    return in_picture(camera, eye, shown_share) && oracle.segment_clear(camera.position, eye);
-}
+// What the map and, in one frame, the movers let be seen.
+class GroupSight {
+  public:
+    GroupSight(const oracle::Oracle& oracle, const MoversAt& movers, std::int64_t time)
+        : oracle_(oracle), movers_(movers ? movers(time) : PlacedMovers()) {}
 
-bool shows_all(const oracle::Oracle& oracle, const CameraSample& camera, const Together& together) {
-    return std::ranges::all_of(together,
-                               [&](const TracePose* pose) { return shows(oracle, camera, pose->eye); });
-}
+    [[nodiscard]] bool shows(const CameraSample& camera, const Vec3d& eye) const {
+        return in_picture(camera, eye, shown_share) && oracle_.segment_clear(camera.position, eye) &&
+               !movers_.hide(camera.position, eye);
+    }
+    [[nodiscard]] bool shows_all(const CameraSample& camera, const Together& together) const {
+        return std::ranges::all_of(together, [&](const TracePose* pose) { return shows(camera, pose->eye); });
+    }
+
+  private:
+    const oracle::Oracle& oracle_;
+    PlacedMovers movers_;
+};
 
 // Whether a camera at the place can show all.
-bool can_show(const oracle::Oracle& oracle, const Vec3f& place, const Together& together) {
+bool can_show(const GroupSight& sight, const Vec3f& place, const Together& together) {
     std::vector<Vec3f> eyes;
     for (const TracePose* pose : together)
         eyes.push_back(pose->eye.cast<float>());
     const auto look = camera::look_at_all(
         place, eyes, camera::PictureShape::of(picture_fov, static_cast<float>(shown_share)));
-    if (!look) return false;
-    return shows_all(oracle, {place.cast<double>(), camera::orientation_of(*look).cast<double>(), false},
-                     together);
+    return look && sight.shows_all(
+                       {place.cast<double>(), camera::orientation_of(*look).cast<double>(), false}, together);
 }
 
 // By frame.
-std::vector<std::uint8_t> possible_frames(const oracle::Oracle& oracle, std::span<const Together> counted,
-                                          std::span<const Vec3f> places, const std::stop_token& stop) {
+std::vector<std::uint8_t> possible_frames(const oracle::Oracle& oracle, const Trace& trace,
+                                          std::span<const Together> counted, std::span<const Vec3f> places,
+                                          const MoversAt& movers, const std::stop_token& stop) {
     std::vector<std::uint8_t> possible(counted.size());
     constexpr std::size_t chunk = 64;  // frames: what showed all in one frame is tried first in the next
     parallel_for(std::size_t{0}, (counted.size() + chunk - 1) / chunk, [&](std::size_t part) {
@@ -70,9 +81,10 @@ std::vector<std::uint8_t> possible_frames(const oracle::Oracle& oracle, std::spa
         const std::size_t end = std::min(counted.size(), (part + 1) * chunk);
         for (std::size_t f = part * chunk; f < end && !stop.stop_requested(); ++f) {
             if (counted[f].empty()) continue;
+            const GroupSight sight(oracle, movers, trace.frames[f].time);
             for (std::size_t i = 0; i < places.size() && possible[f] == 0; ++i) {
                 const std::size_t place = (last + i) % places.size();
-                if (!can_show(oracle, places[place], counted[f])) continue;
+                if (!can_show(sight, places[place], counted[f])) continue;
                 possible[f] = 1;
                 last = place;
             }
@@ -144,6 +156,26 @@ void judge_group_steps(const oracle::Oracle& oracle, const Thresholds& limits, c
     figures.fly_through = percent(through, steps);
 }
 
+MoverFigures judge_group_movers(const oracle::Oracle& oracle, const Trace& trace,
+                                std::span<const Together> counted, std::span<const CameraSample> cameras,
+                                const MoversAt& movers) {
+    MoverFigures figures;
+    PlacedMovers before;
+    for (std::size_t f = 0; f < cameras.size(); ++f) {
+        const Vec3d& position = cameras[f].position;
+        PlacedMovers now = movers(trace.frames[f].time);
+        figures.frames_inside += now.hold(position);
+        if (f > 0 && !cameras[f].cut)
+            figures.passages += PlacedMovers::meet(before, cameras[f - 1].position, now, position);
+        figures.seen_through +=
+            cameras[f].claims_sight && std::ranges::any_of(counted[f], [&](const TracePose* pose) {
+                return oracle.segment_clear(position, pose->eye) && now.hide(position, pose->eye);
+            });
+        before = std::move(now);
+    }
+    return figures;
+}
+
 struct GroupFigure {
     const char* name;
     const char* unit;
@@ -183,10 +215,10 @@ std::string group_line(const char* name, const std::string& value, const char* u
 Result<GroupFigures> judge_group(const oracle::Oracle& oracle, double metres_per_unit, const Trace& trace,
                                  std::span<const std::uint32_t> members,
                                  std::span<const CameraSample> cameras, std::span<const Vec3f> places,
-                                 const std::stop_token& stop) {
+                                 const MoversAt& movers, const std::stop_token& stop) {
     assert(cameras.size() == trace.frames.size());
     const auto counted = counted_frames(trace, members);
-    const auto possible = possible_frames(oracle, counted, places, stop);
+    const auto possible = possible_frames(oracle, trace, counted, places, movers, stop);
     if (stop.stop_requested()) return fail("interrupted", ErrorCode::interrupted);
     GroupFigures figures;
     std::size_t together = 0;
@@ -195,10 +227,11 @@ Result<GroupFigures> judge_group(const oracle::Oracle& oracle, double metres_per
     std::size_t both = 0;
     for (std::size_t f = 0; f < counted.size(); ++f) {
         if (counted[f].empty()) continue;
-        const bool all = shows_all(oracle, cameras[f], counted[f]);
+        const GroupSight sight(oracle, movers, trace.frames[f].time);
+        const bool all = sight.shows_all(cameras[f], counted[f]);
         ++figures.frames;
         together += all;
-        first += shows(oracle, cameras[f], counted[f].front()->eye);
+        first += sight.shows(cameras[f], counted[f].front()->eye);
         possible_count += possible[f];
         both += all && possible[f] != 0;
     }
@@ -207,6 +240,7 @@ Result<GroupFigures> judge_group(const oracle::Oracle& oracle, double metres_per
     figures.possible = percent(possible_count, figures.frames);
     figures.together_of_possible = percent(both, possible_count);
     judge_group_motion(trace, counted, cameras, figures);
+    if (movers) figures.movers = judge_group_movers(oracle, trace, counted, cameras, movers);
     judge_group_steps(oracle, Thresholds(metres_per_unit), trace, counted, cameras, figures);
     return figures;
 }
@@ -220,6 +254,9 @@ std::string to_json(const GroupFigures& figures) {
         const Spread& value = figures.*figure.value;
         json[figure.name] = {{"rms", value.rms}, {"p95", value.p95}, {"p99", value.p99}};
     }
+    if (figures.movers)
+        for (const MoverFigureName& figure : mover_figure_names())
+            json[figure.name] = (*figures.movers).*figure.member;
     return json.dump(2) + "\n";
 }
 
@@ -234,6 +271,9 @@ std::string to_table(const GroupFigures& figures) {
                                 "  p99 " + format_value(value.p99, 0),
                             figure.unit);
     }
+    if (figures.movers)
+        for (const MoverFigureName& figure : mover_figure_names())
+            table += group_line(figure.name, std::to_string((*figures.movers).*figure.member), figure.unit);
     return table;
 }
 

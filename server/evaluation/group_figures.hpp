@@ -1,18 +1,22 @@
 // How good a group shot was, judged against the source map.
 //
 // A counted frame: every member is alive and more than 500 ms after a respawn or teleport. A camera shows a
-// player when the segment to their eye is clear and the eye lies in the central 90 % of the width and of the
-// height of a picture 90 degrees wide, 16:9.
+// player when the segment to their eye is clear, of movers too, and the eye lies in the central 90 % of the
+// width and of the height of a picture 90 degrees wide, 16:9.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <span>
 #include <stop_token>
 #include <string>
 
 #include "evaluation/camera_path.hpp"
 #include "evaluation/metrics.hpp"
+#include "evaluation/mover_figures.hpp"
+#include "evaluation/placed_movers.hpp"
 #include "evaluation/trace.hpp"
 #include "oracle/oracle.hpp"
 
@@ -33,15 +37,21 @@ struct GroupFigures {
     double clearance_lt4 = unmeasured;  // of all frames
     double fly_through = unmeasured;    // of all steps without a cut
     double pops = unmeasured;           // undeclared steps of more than 64 units, a minute
+    std::optional<MoverFigures>
+        movers;  // of all frames and steps; seen through: of counted ones. None: not asked
 };
 
+// The movers at a time of the trace. Called from several threads.
+using MoversAt = std::function<PlacedMovers(std::int64_t)>;
+
 // `cameras`: one for each frame of the trace, of a group of `members`. `places`: what "some place" is. Places
-// are looked at in parallel; the result does not depend on the number of threads. Fails with
-// ErrorCode::interrupted soon after `stop` is requested.
+// are looked at in parallel; the result does not depend on the number of threads. `movers`: empty where
+// nothing moves. Fails with ErrorCode::interrupted soon after `stop` is requested.
 [[nodiscard]] Result<GroupFigures> judge_group(const oracle::Oracle& oracle, double metres_per_unit,
                                                const Trace& trace, std::span<const std::uint32_t> members,
                                                std::span<const CameraSample> cameras,
-                                               std::span<const Vec3f> places, const std::stop_token& stop);
+                                               std::span<const Vec3f> places, const MoversAt& movers,
+                                               const std::stop_token& stop);
 
 // A JSON object with a key for each figure, as to_json of Metrics.
 [[nodiscard]] std::string to_json(const GroupFigures& figures);

@@ -10,7 +10,7 @@
 namespace camdir::evaluation {
 
 Result<GroupRecording> record_group(const freespace::Freespace& freespace, const camera::Profile& profile,
-                                    const Trace& poses, const Trace& trace,
+                                    const Trace& poses, std::span<const MoverRow> movers, const Trace& trace,
                                     std::span<const std::uint32_t> members, double look_ahead,
                                     const std::stop_token& stop) {
     const std::int64_t start = std::min(poses.frames.front().time, trace.frames.front().time);
@@ -21,6 +21,7 @@ Result<GroupRecording> record_group(const freespace::Freespace& freespace, const
     for (const auto& track : tracks)
         known.emplace_back(track, look_ahead);
 
+    KnownMovers known_movers(freespace, movers, poses, start, look_ahead);
     GroupRecording recording;
     camera::GroupState state;
     const auto outlook = std::make_unique<camera::Outlook>();
@@ -30,9 +31,10 @@ Result<GroupRecording> record_group(const freespace::Freespace& freespace, const
         const double time = seconds(frame.time - start);
         for (std::size_t i = 0; i < known.size(); ++i)
             windows[i] = known[i].at(time);
+        const freespace::Space space(freespace, movers.empty() ? nullptr : &known_movers.at(time));
         const double before = cpu_nanoseconds();
         const camera::Camera camera =
-            camera::step(freespace, profile, std::span(windows).first(known.size()), time, state, *outlook);
+            camera::step(space, profile, std::span(windows).first(known.size()), time, state, *outlook);
         recording.step_nanoseconds.push_back(cpu_nanoseconds() - before);
         recording.cameras.push_back(sampled(camera, (camera.flags & camera::cut) != 0));
     }

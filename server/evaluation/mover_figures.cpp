@@ -1,31 +1,23 @@
 #include "evaluation/mover_figures.hpp"
 
 #include <cassert>
-#include <optional>
+#include <utility>
 #include <vector>
 
 #include "base/parallel.hpp"
+#include "evaluation/placed_movers.hpp"
 
 namespace camdir::evaluation {
 namespace {
 
-using Placements = std::vector<std::optional<oracle::Placement>>;  // by mover
-
-Placements placements_at(const MoverTracks& tracks, std::size_t movers, std::int64_t time) {
-    Placements placements(movers);
-    for (std::size_t i = 0; i < movers; ++i)
-        placements[i] = tracks.at(i, time);
-    return placements;
-}
-
-// A mover meets the point that goes from one place to the other meanwhile.
-bool meets(std::span<const scene::Mover> movers, const Placements& before, const Vec3d& from,
-           const Placements& after, const Vec3d& to) {
-    for (std::size_t i = 0; i < movers.size(); ++i)
-        if (before[i] && after[i] && oracle::touches(movers[i], before[i]->local(from), after[i]->local(to)))
-            return true;
-    return false;
-}
+constexpr MoverFigureName mover_names[] = {
+    {"mover_frames_inside", "frames", &MoverFigures::frames_inside,
+     "Frames in which the camera is in a door, a lift or the like."},
+    {"mover_passages", "steps", &MoverFigures::passages,
+     "Steps without a cut on which the camera and a mover meet."},
+    {"mover_seen_through", "frames", &MoverFigures::seen_through,
+     "Frames in which a mover is between the camera and the eye, and the camera does not call it hidden."},
+};
 
 // Judges the cameras of one player.
 MoverFigures judge_player(std::span<const scene::Mover> movers, const MoverTracks& tracks, const Trace& trace,
@@ -33,24 +25,28 @@ MoverFigures judge_player(std::span<const scene::Mover> movers, const MoverTrack
                           std::span<const Judgement> judgements, const std::stop_token& stop) {
     MoverFigures figures;
     const auto track = track_of(trace, player);
-    Placements before;
+    PlacedMovers before;
     for (std::size_t frame = 0; frame < track.size() && !stop.stop_requested(); ++frame) {
         const std::uint32_t pose = track[frame];
         if (pose == absent || !judgements[pose].counted) continue;
         const Vec3d& position = cameras[pose].position;
         const Vec3d& eye = trace.poses[pose].eye;
-        Placements now = placements_at(tracks, movers.size(), trace.frames[frame].time);
-        figures.frames_inside += meets(movers, now, position, now, position);
-        figures.seen_through += (judgements[pose].faults & hidden) == 0 && cameras[pose].claims_sight &&
-                                meets(movers, now, position, now, eye);
+        PlacedMovers now(movers, tracks, trace.frames[frame].time);
+        figures.frames_inside += now.hold(position);
+        figures.seen_through +=
+            (judgements[pose].faults & hidden) == 0 && cameras[pose].claims_sight && now.touch(position, eye);
         if (judgements[pose].judged_step)
-            figures.passages += meets(movers, before, cameras[track[frame - 1]].position, now, position);
+            figures.passages += PlacedMovers::meet(before, cameras[track[frame - 1]].position, now, position);
         before = std::move(now);
     }
     return figures;
 }
 
 }  // namespace
+
+std::span<const MoverFigureName> mover_figure_names() {
+    return mover_names;
+}
 
 MoverFigures& MoverFigures::operator+=(const MoverFigures& other) {
     frames_inside += other.frames_inside;

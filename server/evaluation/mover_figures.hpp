@@ -22,6 +22,15 @@ struct MoverFigures {
     MoverFigures& operator+=(const MoverFigures& other);
 };
 
+// The names by which users know the figures.
+struct MoverFigureName {
+    const char* name;
+    const char* unit;
+    std::size_t MoverFigures::*member;
+    const char* meaning;
+};
+[[nodiscard]] std::span<const MoverFigureName> mover_figure_names();
+
 // judgements[i] is of cameras[i], a camera of trace.poses[i]; `tracks` are of `movers`. Players are judged in
 // parallel. Fails with ErrorCode::interrupted soon after `stop` is requested.
 [[nodiscard]] Result<MoverFigures> judge_movers(std::span<const scene::Mover> movers,

@@ -116,8 +116,8 @@ Result<Recording> record(const freespace::Freespace& freespace, const camera::Pr
 std::vector<std::optional<CameraSample>> record(const freespace::Freespace& freespace,
                                                 const camera::Profile& profile, const Trace& trace,
                                                 std::span<const std::vector<camera::TimedPose>> tracks,
-                                                double look_ahead, const FollowShot& shot,
-                                                const camera::LineOfAction* line) {
+                                                std::span<const MoverRow> movers, double look_ahead,
+                                                const FollowShot& shot, const camera::LineOfAction* line) {
     assert(shot.first <= shot.end && shot.end <= trace.frames.size());
     const std::int64_t start = trace.frames.front().time;
     const auto player = std::ranges::lower_bound(trace.players, shot.player) - trace.players.begin();
@@ -125,14 +125,16 @@ std::vector<std::optional<CameraSample>> record(const freespace::Freespace& free
     const auto scratch = std::make_unique<camera::Scratch>(freespace);
     KnownPoses known(tracks[static_cast<std::size_t>(player)], look_ahead);
     KnownCrowd crowd(trace, tracks, look_ahead);
+    KnownMovers known_movers(freespace, movers, trace, start, look_ahead);
     camera::ShotState state;
     if (line != nullptr) state.line = *line;
     std::vector<std::optional<CameraSample>> cameras(shot.end - shot.first);
     for (std::uint32_t frame = shot.first; frame < shot.end; ++frame) {
         const double time = seconds(trace.frames[frame].time - start);
         if (frame == shot.first) state.time = time - camera::usable_frame(0.0);
-        const camera::Camera camera = camera::step(freespace, profile, known.at(time), time, state, *scratch,
-                                                   crowd.at(time, shot.player));
+        const freespace::Space space(freespace, movers.empty() ? nullptr : &known_movers.at(time));
+        const camera::Camera camera =
+            camera::step(space, profile, known.at(time), time, state, *scratch, crowd.at(time, shot.player));
         const bool cut = frame != shot.first && (camera.flags & camera::cut) != 0;
         if (track[frame] != absent) cameras[frame - shot.first] = sampled(camera, cut);
     }

@@ -47,11 +47,11 @@ struct FollowShot {
 
 // The camera of each of the shot's frames, none where the player has no pose, as a shot begins that is cut to
 // at its first frame; that cut is not in them. `tracks`: timed_poses() of all players from the first frame
-// on. `line`: of action, which it heeds; may be null. Otherwise as above, without movers.
+// on. `line`: of action, which it heeds; may be null. Otherwise as above.
 [[nodiscard]] std::vector<std::optional<CameraSample>> record(
     const freespace::Freespace& freespace, const camera::Profile& profile, const Trace& trace,
-    std::span<const std::vector<camera::TimedPose>> tracks, double look_ahead, const FollowShot& shot,
-    const camera::LineOfAction* line);
+    std::span<const std::vector<camera::TimedPose>> tracks, std::span<const MoverRow> movers,
+    double look_ahead, const FollowShot& shot, const camera::LineOfAction* line);
 
 // CSV with the header t_ms,player,visibility,distance,angle,inertia_distance,inertia_angle,safety,total and a
 // row for each pose of the trace: the objective's terms as they entered the sum.

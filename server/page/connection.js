@@ -40,7 +40,13 @@ export class Connection {
         if (token) protocols.push(`bearer.${encodeURIComponent(token)}`);
         this.on.state('connecting');
         const url = `${scheme}//${location.host}/live/${encodeURIComponent(this.matchId)}`;
-        const socket = new WebSocket(url, protocols);
+        let socket;
+        try {
+            socket = new WebSocket(url, protocols);
+        } catch {  // the token has characters that no subprotocol may have, and so is none
+            ++this.refusals;
+            return this.retry();
+        }
         this.socket = socket;
         socket.binaryType = 'arraybuffer';
         socket.onopen = () => {

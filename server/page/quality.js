@@ -1,7 +1,7 @@
 // How finely the match is drawn: as finely as this machine draws smoothly, 60 pictures a second.
 
-// From the finest. scale: of the screen's resolution; smallEvery: so many pictures bring one of the small ones up to date, 0:
-// each brings all; edges: of the map are drawn.
+// From the finest. scale: of the screen's resolution; mostPixels: of the picture, whatever the scale; smallEvery: so many
+// pictures bring one of the small ones up to date, 0: each brings all; edges: of the map are drawn.
 export const levels = [
     {scale: 1, smallEvery: 0, edges: true},
     {scale: 1, smallEvery: 1, edges: true},
@@ -9,91 +9,153 @@ export const levels = [
     {scale: 0.5, smallEvery: 1, edges: true},
     {scale: 0.5, smallEvery: 2, edges: false},
     {scale: 0.35, smallEvery: 2, edges: false},
-    {scale: 0.35, smallEvery: 4, edges: false},
+    {scale: 0.35, mostPixels: 160e3, smallEvery: 4, edges: false},
 ];
 
+const worst = levels.length - 1;
 const processorPixels = 160e3;
 const fewestPixels = 90e3;  // below which fewer save nothing
 
 // The scale of a level for a screen of so many pixels.
-export function scaleOf({scale}, pixels) {
-    return Math.max(scale, Math.min(Math.sqrt(fewestPixels / pixels), 1));
+export function scaleOf({scale, mostPixels = Infinity}, pixels) {
+    const wanted = Math.min(scale, Math.sqrt(mostPixels / pixels));
+    return Math.max(wanted, Math.min(Math.sqrt(fewestPixels / pixels), 1));
 }
 
 // The level to begin with for a picture of so many pixels where no graphics card draws it.
 export function levelOfProcessor(pixels) {
     const found = levels.findIndex(({scale, smallEvery}) => smallEvery > 0 && scale * scale * pixels <= processorPixels);
-    return found < 0 ? levels.length - 1 : found;
+    return found < 0 ? worst : found;
 }
 
-const smoothRate = 59;      // pictures a second
-const tolerance = 0.975;    // of the rate that is wanted
-const windowMs = 1000;      // over which the rate is measured
-const settleMs = 300;       // after a change, which itself takes time
-const firstPatienceMs = 5e3;
-const longestPatienceMs = 300e3;
+const smoothRate = 60;        // pictures a second
+const missingOfSlow = 2;      // pictures, in a window: what is not smooth
+const gain = 1.05;            // of the rate, by less than which a coarser level is no help
+const windowMs = 1000;        // over which the rate is measured
+const fewestFrames = 4;       // in a window
+const settleMs = 300;         // after a change, which itself takes time
+const provingMs = 5e3;        // for which a level must be smooth
+const firstWaitMs = 5e3;      // until a finer level is tried
+const longestWaitMs = 300e3;
+const firstDoubtMs = 60e3;    // until a display that seems to show no more is asked again
+const longestDoubtMs = 1200e3;
 
 export class Quality {
     // hasCard: a graphics card draws, and is fast as soon as the map is there.
     constructor(level, hasCard) {
         this.level = level;
-        this.wantedRate = smoothRate;
-        this.patienceMs = firstPatienceMs;  // how long it is smooth before a finer level is tried
-        this.onTrial = false;               // this level is finer than the last one was: one slow window ends it
-        this.slowWindows = 0;
-        this.smoothSince = null;
-        this.wasSmooth = hasCard;           // ever: until then a coarser level is found soon
-        this.beginWindow(-Infinity);
+        this.hasCard = hasCard;
+        this.wantedRate = smoothRate;  // less where this machine or its display has no more
+        this.doubtMs = firstDoubtMs;
+        this.doubtedMs = 0;            // since it was asked last
+        this.last = -Infinity;         // time of the last frame
+        this.restart();
     }
 
-    // At the frame at this time, or at the last one before all has settled.
-    beginWindow(at, untilSettledMs = 0) {
-        Object.assign(this, {from: at, last: at, settledAt: at + untilSettledMs, frames: 0, drawn: 0});
+    // Another picture is drawn from now on: what was found out about the levels may not hold.
+    restart() {
+        this.waitsMs = levels.map(() => firstWaitMs);  // how long a coarser level is smooth before this one is tried
+        this.proved = this.hasCard;                    // one slow window says little then
+        this.onTrial = false;                          // this level is finer than the last one, which was smooth
+        this.descent = null;                           // the level and the rate that this one is to improve on
+        this.settle(settleMs);
+    }
+
+    settle(ms) {
+        this.settlingMs = ms;
+        this.smoothMs = 0;
+        this.slowWindows = 0;
+        this.beginWindow();
+    }
+
+    beginWindow() {
+        Object.assign(this, {frames: 0, drawn: 0, elapsedMs: 0, longestMs: 0});
     }
 
     // The browser's next frame, at this time in ms, and whether something is drawn in it.
     frame(at, drew) {
-        if (at - this.last > windowMs) return this.beginWindow(at);  // the first, or the page was hidden
+        const ms = at - this.last;
         this.last = at;
-        if (at < this.settledAt) {
-            this.from = at;
+        if (this.settlingMs > 0) {
+            this.settlingMs -= ms;
             return;
         }
         ++this.frames;
         if (drew) ++this.drawn;
-        if (at - this.from < windowMs) return;
-        const rate = this.frames * 1000 / (at - this.from);
-        const before = this.level;
-        if (this.drawn > this.frames / 2) if (rate < tolerance * this.wantedRate) this.slow(rate); else this.smooth(rate, at);
-        this.beginWindow(at, this.level === before ? 0 : settleMs);
+        this.elapsedMs += ms;
+        this.longestMs = Math.max(this.longestMs, ms);
+        // Without the longest of the intervals, in which the page may have been hidden, or the map was read.
+        const measuredMs = this.elapsedMs - this.longestMs;
+        if (measuredMs < windowMs || this.frames < fewestFrames) return;
+        if (this.drawn > this.frames / 2) this.judge((this.frames - 1) * 1000 / measuredMs, measuredMs);
+        this.beginWindow();
+    }
+
+    judge(rate, ms) {
+        if ((this.wantedRate - rate) * ms / 1000 >= missingOfSlow) this.slow(rate); else this.smooth(rate, ms);
+        if (this.wantedRate < smoothRate) this.doubt(ms);
     }
 
     slow(rate) {
-        this.smoothSince = null;
-        const isHalf = rate < this.wantedRate / 2;
-        if (this.level === levels.length - 1) {
-            this.wantedRate = rate;  // this machine or its display has no more
-        } else if (isHalf || !this.wasSmooth || this.onTrial || ++this.slowWindows > 1) {
-            if (this.onTrial) this.patienceMs = Math.min(2 * this.patienceMs, longestPatienceMs);
-            this.change(isHalf ? 2 : 1);
-            this.onTrial = false;
+        if (this.onTrial) {
+            this.waitsMs[this.level] = Math.min(2 * this.waitsMs[this.level], longestWaitMs);
+            this.change(this.level + 1);
+            this.proved = true;
+        } else if (!this.proved || ++this.slowWindows > 1) {
+            this.descend(rate);
         }
     }
 
-    smooth(rate, at) {
-        this.slowWindows = 0;
-        this.wasSmooth = true;
-        this.wantedRate = Math.min(Math.max(this.wantedRate, rate), smoothRate);
-        this.smoothSince ??= at;
-        if (at - this.smoothSince < this.patienceMs) return;
-        if (this.onTrial) this.patienceMs = firstPatienceMs;
-        this.onTrial = this.level > 0;
-        if (this.onTrial) this.change(-1);
+    // To a coarser level; where that is no help, to the coarsest, and back where that is none either.
+    descend(rate) {
+        const helps = this.descent === null || rate > gain * this.descent.rate;
+        if (this.level < worst) {
+            const further = rate < this.wantedRate / 2 ? 2 : 1;
+            this.descent ??= {level: this.level, rate};
+            this.change(helps ? this.level + further : worst);
+            this.proved = false;
+        } else {
+            this.wantedRate = rate;
+            if (!helps) this.change(this.descent.level);
+            this.descent = null;
+        }
     }
 
-    change(by) {
-        this.level = Math.min(this.level + by, levels.length - 1);
+    smooth(rate, ms) {
         this.slowWindows = 0;
-        this.smoothSince = null;
+        this.descent = null;
+        if (rate > gain * this.wantedRate && this.wantedRate < smoothRate) return this.expectMore();
+        this.smoothMs += ms;
+        if (this.smoothMs < provingMs) return;
+        this.proved = true;
+        if (this.onTrial) this.waitsMs[this.level] = firstWaitMs;
+        this.onTrial = false;
+        if (this.level === 0 || this.smoothMs < this.waitsMs[this.level - 1]) return;
+        this.change(this.level - 1);
+        this.onTrial = true;
+    }
+
+    // Whether the coarsest level is still no help.
+    doubt(ms) {
+        this.doubtedMs += ms;
+        if (this.doubtedMs < this.doubtMs || this.onTrial || this.level === worst) return;
+        this.descent = {level: this.level, rate: this.wantedRate};
+        this.wantedRate = smoothRate;
+        this.doubtMs = Math.min(2 * this.doubtMs, longestDoubtMs);
+        this.doubtedMs = 0;
+        this.proved = false;
+        this.change(worst);
+    }
+
+    expectMore() {
+        this.wantedRate = smoothRate;
+        this.doubtMs = firstDoubtMs;
+        this.doubtedMs = 0;
+    }
+
+    change(level) {
+        this.level = Math.min(level, worst);
+        this.onTrial = false;
+        this.settle(settleMs);
     }
 }

@@ -223,6 +223,7 @@ function setView(name) {
     find('tools').hidden = name === 'camera';
     find('stage').dataset.view = name;
     dirty = true;
+    quality?.restart();
 }
 
 function setPictures(shown) {
@@ -421,9 +422,11 @@ const screenPixels = () => find('stage').clientWidth * find('stage').clientHeigh
 function resize() {
     const {clientWidth, clientHeight} = find('stage');
     const scale = scaleOf(level(), screenPixels());
-    const size = `${clientWidth} ${clientHeight} ${screenRatio()} ${quality.level}`;
-    if (size === resize.last || clientWidth === 0) return;
-    resize.last = size;
+    const size = `${clientWidth} ${clientHeight} ${screenRatio()}`;
+    const drawn = `${size} ${quality.level}`;
+    if (drawn === resize.drawn || clientWidth === 0) return;
+    if (size !== resize.size) quality.restart();
+    Object.assign(resize, {size, drawn});
     stage.resize(clientWidth, clientHeight, screenRatio() * scale);
     stage.map.setEdges(level().edges ? scale : 0);
     find('quality-note').hidden = scale === 1;
@@ -656,7 +659,11 @@ window.cameraDirector = {
 
 try {
     stage = new Stage(find('canvas'));
-    map = new ShownMap(stage, viewpoint, () => { dirty = true; });
+    map = new ShownMap(stage, viewpoint, () => {
+        dirty = true;
+        quality?.restart();
+    });
+    find('canvas').addEventListener('webglcontextrestored', () => { dirty = true; });
     quality = new Quality(stage.hasCard ? 0 : levelOfProcessor(screenPixels()), stage.hasCard);
     attach(find('canvas'), viewpoint, {
         active: () => view !== 'camera' || !shownCamera(),

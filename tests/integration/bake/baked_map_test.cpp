@@ -42,6 +42,9 @@ std::uint32_t big_endian_at(std::string_view bytes, std::size_t offset) {
 // 128.
 class BakedMap : public testing::Test {
   protected:
+    BakedMap() : BakedMap(Box3d(Vec3d(-4.0, -64.0, 0.0), Vec3d(4.0, 64.0, 128.0))) {}
+    explicit BakedMap(const Box3d& door) : door_(door) {}
+
     void SetUp() override {
         map_ = folder_ / "room.bsp";
         baked_ = folder_ / "room.vfs";
@@ -49,7 +52,7 @@ class BakedMap : public testing::Test {
         test::add_box(bsp, Box3d(Vec3d(0.0, 0.0, 0.0), Vec3d(64.0, 64.0, 16.0)), test::water);
         test::add_spawn_point(bsp, Vec3d(256.0, 256.0, 40.0));
         test::add_entity_model(bsp, "func_door", Vec3d(400.0, 256.0, 0.0));
-        test::add_box(bsp, Box3d(Vec3d(-4.0, -64.0, 0.0), Vec3d(4.0, 64.0, 128.0)), test::stone);
+        test::add_box(bsp, door_, test::stone);
         ASSERT_TRUE(write_file(map_, test::encode(bsp)));
         ChildProcess bake({CAMERA_DIRECTOR, "bake", map_, "-o", baked_, "--d0", "32", "--quiet"});
         ASSERT_EQ(bake.wait(), 0) << bake.errors();
@@ -71,9 +74,16 @@ class BakedMap : public testing::Test {
         EXPECT_THAT(process.errors(), HasSubstr(reason));
     }
 
+    const Box3d door_;
     test::TemporaryFolder folder_;
     std::string map_, baked_;
     std::optional<freespace::Freespace> freespace_;
+};
+
+// The door divides the room.
+class DividedMap : public BakedMap {
+  protected:
+    DividedMap() : BakedMap(Box3d(Vec3d(-4.0, -256.0, 0.0), Vec3d(4.0, 256.0, 256.0))) {}
 };
 
 TEST_F(BakedMap, InspectPrintsWhatTheFileHoldsAndWhatTheBakeSkipped) {
@@ -120,6 +130,37 @@ TEST_F(BakedMap, EvaluateJudgesCamerasAgainstMovers) {
         {"evaluate", "--map", map_, "--trace", folder_ / "trace.csv", "--camera", "rigid", "--json", "-"}));
     EXPECT_FALSE(without.contains("mover_passages"));
     EXPECT_EQ(without.at("visible_head"), between.at("visible_head"));
+}
+
+// Player 0 looks along x at player 1 and kills them; the door is between them, or beyond both.
+TEST_F(DividedMap, DirectSeesNobodyThroughAClosedDoor) {
+    std::string trace = "t_ms,player,x,y,z,pitch,yaw,roll,vx,vy,vz,viewheight,team,teleport_bit,alive\n";
+    for (int t = 0; t <= 4000; t += 50)
+        trace += std::to_string(t) + ",0,200,256,40,0,0,0,0,0,0,26,0,0,1\n" + std::to_string(t) +
+                 ",1,420,256,40,0,0,0,0,0,0,26,0,0,1\n";
+    ASSERT_TRUE(write_file(folder_ / "trace.csv", trace));
+    ASSERT_TRUE(write_file(folder_ / "events.csv", "t_ms,event,player,other\n2000,kill,0,1\n"));
+    const std::vector<std::string> command = {"direct",   baked_,
+                                              "--map",    map_,
+                                              "--trace",  folder_ / "trace.csv",
+                                              "--events", folder_ / "events.csv",
+                                              "--delay",  "2",
+                                              "--json",   "-"};
+    const auto figures_with_door_at = [&](const std::string& x) {
+        EXPECT_TRUE(write_file(folder_ / "movers.csv",
+                               "t_ms,mover,x,y,z,pitch,yaw,roll\n0,1," + x + ",256,0,0,0,0\n"));
+        std::vector<std::string> with_movers = command;
+        with_movers.insert(with_movers.end(), {"--movers", folder_ / "movers.csv"});
+        return json::parse(printed(with_movers));
+    };
+    const json without = json::parse(printed(command));
+    EXPECT_EQ(without.at("kills_seen_both"), 1);
+    EXPECT_EQ(figures_with_door_at("500"), without);
+    const json closed = figures_with_door_at("360");
+    EXPECT_EQ(closed.at("kills_seen"), 1);
+    EXPECT_EQ(closed.at("kills_seen_both"), 0);
+    for (const char* other : {"running", "random", "hltv", "quakeworld", "bound"})
+        EXPECT_EQ(closed.at(other).at("kills_seen_both"), 0) << other;
 }
 
 TEST_F(BakedMap, AnotherFileIsRefusedWithTheReason) {

@@ -1,6 +1,8 @@
 // Scenes of axis-parallel solid boxes.
 #pragma once
 
+#include <string>
+
 #include "scene/scene.hpp"
 
 namespace camdir::evaluation {
@@ -43,6 +45,13 @@ inline scene::Scene room(double unit = 1.0) {
     }
     scene.spawn_points.push_back({unit * Vec3d(0, 0, 100), 0.0, "seed"});
     return scene;
+}
+
+// A solid box that moves, in its own frame.
+inline scene::Mover moving_box(const std::string& name, const Vec3d& low, const Vec3d& high) {
+    scene::Scene box;
+    add_box(box, low, high);
+    return {name, "func_door", {{box.planes, box.bounds}}, Vec3d::Zero()};
 }
 
 }  // namespace camdir::evaluation

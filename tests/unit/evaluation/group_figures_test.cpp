@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <vector>
+
 #include "box_scene.hpp"
 #include "tiny_trace.hpp"
 
@@ -34,11 +37,12 @@ Trace parted_players() {
     return trace;
 }
 
-GroupFigures judged(const Trace& trace, std::span<const CameraSample> cameras,
-                    std::span<const Vec3f> places) {
+GroupFigures judged(const Trace& trace, std::span<const CameraSample> cameras, std::span<const Vec3f> places,
+                    const MoversAt& movers = {}) {
     const scene::Scene scene = walled_room();
     const std::uint32_t members[] = {2, 7};
-    return judge_group(oracle::Oracle(scene), scene.metres_per_unit, trace, members, cameras, places, {})
+    return judge_group(oracle::Oracle(scene), scene.metres_per_unit, trace, members, cameras, places, movers,
+                       {})
         .value();
 }
 
@@ -58,6 +62,31 @@ TEST(GroupFigures, SayWhatIsShownAndWhatCouldBe) {
     EXPECT_NEAR(figures.together_of_possible, 100.0 * 2 / 3, 1e-9);
     EXPECT_DOUBLE_EQ(figures.fly_through, 0.0);
     EXPECT_DOUBLE_EQ(figures.cuts, 0.0);
+}
+
+// A door comes between the camera and the second player, and then to the camera.
+TEST(GroupFigures, MoversHideAndAreInTheWay) {
+    const Trace trace = parted_players();
+    const Vec3d stand(-100, 50, 100);
+    CameraSample camera = camera_at(stand, 180);
+    camera.claims_sight = true;
+    const std::vector<CameraSample> cameras(5, camera);
+    const Vec3f places[] = {{-380, 0, 100}};
+    const std::vector<scene::Mover> doors = {moving_box("*1", {-5, -10, 0}, {5, 10, 300})};
+    const MoverRow rows[] = {{0, 1, {Vec3d(300, 300, 0), Eigen::Quaterniond::Identity()}},
+                             {1'000'000'000, 1, {Vec3d(-150, 75, 0), Eigen::Quaterniond::Identity()}},
+                             {1'150'000'000, 1, {Vec3d(-100, 50, 0), Eigen::Quaterniond::Identity()}}};
+    const MoverTracks tracks(rows, doors, trace);
+    const GroupFigures figures =
+        judged(trace, cameras, places, [&](std::int64_t time) { return PlacedMovers(doors, tracks, time); });
+    EXPECT_DOUBLE_EQ(figures.together, 25.0);
+    EXPECT_DOUBLE_EQ(figures.possible, 50.0);
+    ASSERT_TRUE(figures.movers);
+    EXPECT_EQ(figures.movers->seen_through, 1U);
+    EXPECT_EQ(figures.movers->frames_inside, 1U);
+    EXPECT_EQ(figures.movers->passages, 1U);
+    EXPECT_NE(to_json(figures).find("\"mover_passages\": 1"), std::string::npos);
+    EXPECT_FALSE(judged(trace, cameras, places).movers);
 }
 
 TEST(GroupFigures, NothingIsPossibleWhereThePictureCannotHoldAll) {

@@ -22,9 +22,7 @@ using testing::HasSubstr;
 
 // A wall across the middle of the room, in its own frame at y = 0, with the number 4.
 scene::Mover moving_wall() {
-    scene::Scene box;
-    add_box(box, Vec3d(-8.0, -50.0, 0.0), Vec3d(8.0, 50.0, 200.0));
-    return {"*4", "func_door", {{box.planes, box.bounds}}, Vec3d::Zero()};
+    return moving_box("*4", Vec3d(-8.0, -50.0, 0.0), Vec3d(8.0, 50.0, 200.0));
 }
 
 // A frame every 100 ms, 0 .. 1200; the player stands at (100, 0, 100) and looks along x.

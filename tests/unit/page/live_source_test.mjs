@@ -9,7 +9,8 @@ class Socket {
     static OPEN = 1;
     static made = [];
 
-    constructor() {
+    constructor(url, protocols) {
+        if (protocols.some(protocol => /[^\w.%~!'*-]/.test(protocol))) throw new SyntaxError('as browsers do');
         Socket.made.push(this);
         this.readyState = 0;
     }
@@ -35,11 +36,11 @@ const matchOf = (players, {epoch = 1, listed = players.length} = {}) => ({kind: 
     position_step: 0.01, rate_hz: 60, players: players.map((id, slot) => ({slot, id, listed: slot < listed, name: `p${id}`}))});
 
 // `told`: what it has told.
-function stream() {
+function stream(token = () => null) {
     const model = new Model();
     const told = [];
     const tell = what => () => told.push(what);
-    const source = new LiveSource('cup', model, () => null,
+    const source = new LiveSource('cup', model, token,
         {begin: tell('begin'), match: tell('match'), problem: text => told.push(text), change() {}});
     return {model, source, told};
 }
@@ -220,6 +221,24 @@ test('a stream that is silent while its match runs is opened again', () => {
         assert.equal(source.state, 'waiting');
         timers.tick(1e3);
         assert.notEqual(newest(), socket);
+        source.close();
+    } finally {
+        timers.restore();
+    }
+});
+
+test('a token that no stream can be asked for with is asked with again, and a better one then', () => {
+    const timers = new Timers();
+    try {
+        const made = Socket.made.length;
+        let token = 'a(b';
+        const {source} = stream(() => token);
+        assert.equal(source.state, 'waiting');
+        timers.tick(10e3);
+        assert.equal(Socket.made.length, made);
+        token = 'ab';
+        timers.tick(20e3);
+        assert.equal(Socket.made.length, made + 1);
         source.close();
     } finally {
         timers.restore();

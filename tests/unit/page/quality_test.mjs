@@ -4,81 +4,194 @@ import {test} from 'node:test';
 import {Quality, levelOfProcessor, levels, scaleOf} from '../../../server/page/quality.js';
 
 const worst = levels.length - 1;
+const fast = () => 5;
+const second = 1000;
+const minute = 60 * second;
 
-// A display of so many ms a frame; `costMs(level, at)`: what a picture takes. Runs from `at` for so many seconds and returns
-// the time and the levels of each second.
-function run(quality, seconds, costMs, {at = 0, displayMs = 1000 / 60, draws = () => true} = {}) {
-    const seen = [];
-    for (const end = at + seconds * 1000; at < end;) {
-        const drew = draws(at);
-        quality.frame(at, drew);
-        at += Math.max(displayMs, drew ? costMs(quality.level, at) : 0);
-        seen[Math.floor(at / 1000)] = quality.level;
+// What a machine draws from `at` on, and the level of each second. costMs(level, at): what a picture takes; a display of
+// `hz`; changeMs: what a change of the level takes; extraMs(at): by which a frame is late.
+class Machine {
+    constructor(quality) {
+        Object.assign(this, {quality, at: 0, drawnLevel: quality.level, changes: 0});
     }
-    return {at, seen: seen.filter(level => level !== undefined)};
+
+    run(ms, costMs, {hz = 60, draws = true, changeMs = 0, extraMs = () => 0} = {}) {
+        const seen = [];
+        for (const end = this.at + ms; this.at < end;) {
+            this.quality.frame(this.at, draws);
+            const {level} = this.quality;
+            const changed = level !== this.drawnLevel;
+            this.changes += changed;
+            this.drawnLevel = level;
+            this.at += Math.max(second / hz, draws ? costMs(level, this.at) : 0) + (changed ? changeMs : 0) + extraMs(this.at);
+            seen[Math.floor((ms - end + this.at) / second)] = level;
+        }
+        return seen.filter(level => level !== undefined);
+    }
+}
+
+const share = (seen, level) => seen.filter(one => one === level).length / seen.length;
+
+// Lets a frame be lost so many times a second, at random but the same ones in every run.
+function losing(perSecond, hz) {
+    let state = 1;
+    return () => {
+        state = (state * 48271) % 2147483647;
+        return state / 2147483647 < perSecond / hz ? second / hz : 0;
+    };
 }
 
 test('a fast machine draws as finely as there is, from wherever it begins', () => {
     for (const first of [0, 2, worst]) {
-        const quality = new Quality(first, true);
-        const {seen} = run(quality, 60, () => 5);
-        assert.equal(quality.level, 0);
+        const machine = new Machine(new Quality(first, true));
+        const seen = machine.run(minute, fast);
+        assert.equal(machine.quality.level, 0);
         assert.ok(seen.every((level, i) => i === 0 || level <= seen[i - 1]), `${seen}`);
     }
 });
 
 test('a slow machine comes to the finest level that is smooth, and is rarely bothered by trials of a finer one', () => {
-    const quality = new Quality(0, true);
-    const costs = [200, 60, 25, 12, 9, 8, 7];
-    const begin = run(quality, 30, level => costs[level]);
-    const {seen} = run(quality, 600, level => costs[level], begin);
-    assert.ok(seen.every(level => level === 3 || level === 2));
-    assert.ok(seen.filter(level => level === 2).length < 40, `${seen}`);
+    for (const tooSlow of [25, 40]) {  // less, and more, than half too slow
+        const costs = [200, 60, tooSlow, 12, 9, 8, 7];
+        const machine = new Machine(new Quality(0, true));
+        machine.run(minute / 2, level => costs[level]);
+        machine.changes = 0;
+        const seen = machine.run(30 * minute, level => costs[level]);
+        assert.ok(share(seen, 3) > 0.97, `${seen}`);
+        assert.ok(machine.changes < 40, `${machine.changes}`);
+    }
 });
 
 test('a trial of a level that is not smooth ends with its first window', () => {
-    const quality = new Quality(worst, true);
-    const {seen} = run(quality, 60, level => level === worst ? 8 : 18);
+    const machine = new Machine(new Quality(worst, true));
+    const seen = machine.run(minute, level => level === worst ? 8 : 18);
     assert.ok(seen.includes(worst - 1));
     assert.ok(seen.every((level, i) => level === worst || seen[i + 2] === worst), `${seen}`);
 });
 
 test('a level that has proved to be smooth outlasts a slow window', () => {
-    const quality = new Quality(1, true);
-    const proved = run(quality, 60, () => 5);
-    assert.equal(quality.level, 0);
-    const {seen} = run(quality, 10, (level, at) => at < proved.at + 1000 ? 18 : 5, proved);
-    assert.ok(seen.every(level => level === 0), `${seen}`);
+    const machine = new Machine(new Quality(1, true));
+    machine.run(minute, fast);
+    assert.equal(machine.quality.level, 0);
+    const until = machine.at + second;
+    const seen = machine.run(10 * second, (level, at) => at < until ? 18 : 5);
+    assert.equal(share(seen, 0), 1);
+});
+
+test('58 pictures a second are smooth, 57 are not', () => {
+    for (const [hz, smooth] of [[58.3, true], [57, false]]) {
+        const machine = new Machine(new Quality(1, false));
+        machine.run(minute, level => level > 1 ? 5 : second / hz);
+        assert.equal(machine.quality.level, smooth ? 0 : 2, `${hz}`);
+    }
 });
 
 test('where no level is smooth it stays at the last one, or where the same rate is reached', () => {
-    const quality = new Quality(0, true);
-    const {seen} = run(quality, 600, level => 160 - 20 * level);
-    assert.equal(quality.level, worst);
-    assert.ok(seen.filter(level => level !== worst).length < 60, `${seen}`);
+    const machine = new Machine(new Quality(0, true));
+    const seen = machine.run(10 * minute, level => 160 - 20 * level);
+    assert.equal(machine.quality.level, worst);
+    assert.ok(share(seen, worst) > 0.9, `${seen}`);
 });
 
-test('a display that shows 30 frames a second keeps the finest level', () => {
-    const quality = new Quality(0, true);
-    const begin = run(quality, 90, () => 5, {displayMs: 1000 / 30});
-    assert.equal(quality.level, 0);
-    assert.ok(run(quality, 60, () => 5, {...begin, displayMs: 1000 / 30}).seen.every(level => level === 0));
+test('whatever a display shows, it shows the finest level', () => {
+    for (const hz of [24, 30, 48, 50, 57, 59.94, 75, 120, 144]) {
+        const machine = new Machine(new Quality(0, true));
+        machine.run(10 * second, fast, {hz});
+        machine.changes = 0;
+        const seen = machine.run(60 * minute, fast, {hz});
+        assert.ok(share(seen, 0) > 0.995, `${hz}: ${share(seen, 0)}`);
+        assert.ok(machine.changes <= 20, `${hz}: ${machine.changes}`);
+    }
+});
+
+test('frames that are lost now and then do not make a fast machine coarse', () => {
+    for (const [hz, perSecond, least] of [[30, 0.15, 0.95], [50, 0.5, 0.95], [60, 0.9, 0.95], [60, 1.2, 0.7]]) {
+        const machine = new Machine(new Quality(0, true));
+        const seen = machine.run(30 * minute, fast, {hz, extraMs: losing(perSecond, hz)});
+        assert.ok(share(seen, 0) > least, `${hz} ${perSecond}: ${share(seen, 0)}`);
+    }
+});
+
+test('a display that comes to show more is drawn for as smoothly', () => {
+    const costs = [30, 22, 14, 10, 9, 8, 7];
+    const machine = new Machine(new Quality(0, true));
+    machine.run(2 * minute, level => costs[level], {hz: 30});
+    assert.equal(machine.quality.level, 0);
+    machine.run(minute, level => costs[level]);
+    assert.equal(machine.quality.level, 2);
 });
 
 test('a busy machine is drawn coarsely for, and finely again when it is not busy any more', () => {
-    const quality = new Quality(0, true);
-    const busy = run(quality, 30, level => 70 - 10 * level);
-    assert.equal(quality.level, worst);
-    run(quality, 90, () => 5, busy);
-    assert.equal(quality.level, 0);
+    const machine = new Machine(new Quality(0, true));
+    machine.run(minute / 2, level => 80 - 10 * level);
+    assert.equal(machine.quality.level, worst);
+    machine.run(90 * second, fast);
+    assert.equal(machine.quality.level, 0);
+});
+
+test('a machine that was too busy for any level finds the finest smooth one', () => {
+    for (const busy of [minute, 3 * minute, 15 * minute]) {
+        const costs = [50, 45, 40, 30, 14, 10, 9];
+        const machine = new Machine(new Quality(4, false));
+        machine.run(busy, level => Math.max(45, costs[level]));
+        machine.run(25 * minute, level => costs[level]);
+        assert.ok(share(machine.run(5 * minute, level => costs[level]), 4) > 0.95, `${busy}`);
+    }
+});
+
+test('a hiccup now and then does not keep a machine coarse', () => {
+    const machine = new Machine(new Quality(0, true));
+    machine.run(15 * minute, level => 80 - 10 * level);
+    let last = machine.at;
+    const extraMs = at => {
+        if (at - last < 4 * minute) return 0;
+        last = at;
+        return 100;
+    };
+    machine.run(40 * minute, fast, {extraMs});
+    assert.equal(share(machine.run(20 * minute, fast, {extraMs}), 0), 1);
+});
+
+test('one pause costs nothing, however long', () => {
+    for (const pause of [300, 600, 980, 3000, 600e3]) {
+        const machine = new Machine(new Quality(0, true));
+        machine.run(20 * second, fast);
+        const from = machine.at + 300;
+        let paused = false;
+        const seen = machine.run(20 * second + pause, fast, {extraMs: at => {
+            if (paused || at < from) return 0;
+            paused = true;
+            return pause;
+        }});
+        assert.equal(share(seen, 0), 1, `${pause}: ${seen}`);
+    }
 });
 
 test('frames in which nothing is drawn say nothing, nor does the time in which the page is hidden', () => {
-    const quality = new Quality(3, true);
-    const paused = run(quality, 60, () => 5, {draws: () => false});
-    assert.equal(quality.level, 3);
-    run(quality, 2, () => 5, {at: paused.at + 600e3});
-    assert.equal(quality.level, 3);
+    const machine = new Machine(new Quality(3, true));
+    machine.run(2.5 * second, fast);
+    machine.run(minute, fast, {draws: false});
+    assert.equal(machine.quality.level, 3);
+    machine.at += 10 * minute;
+    machine.run(2 * second, fast);
+    assert.equal(machine.quality.level, 3);
+    machine.run(2 * second, fast);
+    assert.equal(machine.quality.level, 2);
+});
+
+test('how long a change takes is not how long a picture takes', () => {
+    const machine = new Machine(new Quality(worst, false));
+    machine.run(2 * minute, () => 10, {changeMs: 700});
+    assert.equal(machine.quality.level, 0);
+});
+
+test('where another picture is drawn all levels are open again', () => {
+    const machine = new Machine(new Quality(2, false));
+    machine.run(20 * minute, level => level < 2 ? 30 : 10);
+    assert.equal(machine.quality.level, 2);
+    machine.quality.restart();
+    machine.run(20 * second, fast);
+    assert.equal(machine.quality.level, 0);
 });
 
 test('without a graphics card it begins coarsely, but on a small screen', () => {
@@ -90,6 +203,8 @@ test('without a graphics card it begins coarsely, but on a small screen', () => 
 test('a small screen is never drawn less finely, a large one as its level says', () => {
     for (const level of levels) {
         assert.equal(scaleOf(level, 360 * 240), 1);
-        assert.equal(scaleOf(level, 4e6), level.scale);
+        assert.equal(scaleOf(level, 1e6), level.scale);
     }
+    assert.equal(scaleOf(levels[0], 4e6), 1);
+    assert.equal(scaleOf(levels[worst], 16e6), 0.1);
 });
