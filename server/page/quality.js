@@ -13,7 +13,7 @@ export const levels = [
 ];
 
 const worst = levels.length - 1;
-const processorPixels = 160e3;
+const processorPixels = 120e3;
 const fewestPixels = 90e3;  // below which fewer save nothing
 
 // The scale of a level for a screen of so many pixels.
@@ -30,12 +30,15 @@ export function levelOfProcessor(pixels) {
 
 const smoothRate = 60;        // pictures a second
 const missingOfSlow = 2;      // pictures, in a window: what is not smooth
+const missingOfTrial = 3;     // likewise, in all of a trial
+const reserveOfTrial = 1.2;   // of the scale: a level is tried with more pixels, lest it be just smooth
 const gain = 1.05;            // of the rate, by less than which a coarser level is no help
 const windowMs = 1000;        // over which the rate is measured
 const fewestFrames = 4;       // in a window
 const settleMs = 300;         // after a change, which itself takes time
 const provingMs = 5e3;        // for which a level must be smooth
 const firstWaitMs = 5e3;      // until a finer level is tried
+const firstWaitOfProcessorMs = 20e3;
 const longestWaitMs = 300e3;
 const firstDoubtMs = 60e3;    // until a display that seems to show no more is asked again
 const longestDoubtMs = 1200e3;
@@ -45,6 +48,7 @@ export class Quality {
     constructor(level, hasCard) {
         this.level = level;
         this.hasCard = hasCard;
+        this.firstWaitMs = hasCard ? firstWaitMs : firstWaitOfProcessorMs;
         this.wantedRate = smoothRate;  // less where this machine or its display has no more
         this.doubtMs = firstDoubtMs;
         this.doubtedMs = 0;            // since it was asked last
@@ -54,7 +58,7 @@ export class Quality {
 
     // Another picture is drawn from now on: what was found out about the levels may not hold.
     restart() {
-        this.waitsMs = levels.map(() => firstWaitMs);  // how long a coarser level is smooth before this one is tried
+        this.waitsMs = levels.map(() => this.firstWaitMs);  // how long a coarser level is smooth before this one is tried
         this.proved = this.hasCard;                    // one slow window says little then
         this.onTrial = false;                          // this level is finer than the last one, which was smooth
         this.descent = null;                           // the level and the rate that this one is to improve on
@@ -65,6 +69,7 @@ export class Quality {
         this.settlingMs = ms;
         this.smoothMs = 0;
         this.slowWindows = 0;
+        this.missing = 0;  // on this level
         this.beginWindow();
     }
 
@@ -91,8 +96,16 @@ export class Quality {
         this.beginWindow();
     }
 
+    // By which the level's scale is larger now.
+    get reserve() {
+        return this.onTrial ? reserveOfTrial : 1;
+    }
+
     judge(rate, ms) {
-        if ((this.wantedRate - rate) * ms / 1000 >= missingOfSlow) this.slow(rate); else this.smooth(rate, ms);
+        const missing = (this.wantedRate - rate) * ms / 1000;
+        this.missing += Math.max(missing, 0);
+        const isSlow = missing >= missingOfSlow || (this.onTrial && this.missing >= missingOfTrial);
+        if (isSlow) this.slow(rate); else this.smooth(rate, ms);
         if (this.wantedRate < smoothRate) this.doubt(ms);
     }
 
@@ -128,7 +141,7 @@ export class Quality {
         this.smoothMs += ms;
         if (this.smoothMs < provingMs) return;
         this.proved = true;
-        if (this.onTrial) this.waitsMs[this.level] = firstWaitMs;
+        if (this.onTrial) this.waitsMs[this.level] = this.firstWaitMs;
         this.onTrial = false;
         if (this.level === 0 || this.smoothMs < this.waitsMs[this.level - 1]) return;
         this.change(this.level - 1);

@@ -423,11 +423,11 @@ function resize() {
     const {clientWidth, clientHeight} = find('stage');
     const scale = scaleOf(level(), screenPixels());
     const size = `${clientWidth} ${clientHeight} ${screenRatio()}`;
-    const drawn = `${size} ${quality.level}`;
+    const drawn = `${size} ${quality.level} ${quality.reserve}`;
     if (drawn === resize.drawn || clientWidth === 0) return;
     if (size !== resize.size) quality.restart();
     Object.assign(resize, {size, drawn});
-    stage.resize(clientWidth, clientHeight, screenRatio() * scale);
+    stage.resize(clientWidth, clientHeight, screenRatio() * scale * quality.reserve);
     stage.map.setEdges(level().edges ? scale : 0);
     find('quality-note').hidden = scale === 1;
     dirty = true;
