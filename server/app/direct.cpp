@@ -96,7 +96,7 @@ struct Rushes {
     direction::Footage judged;
 };
 
-Result<Rushes> shoot(const DirectOptions& options, const Inputs& inputs, const MatchMovers& movers,
+Result<Rushes> shoot(const DirectOptions& options, const Inputs& inputs, const RecordedMovers& movers,
                      const ClearLine& exact, double unit, ProgressLine& line, const std::stop_token& stop) {
     const auto show = [&](std::uint64_t done, std::uint64_t total) { line.show("tracking", done, total); };
     auto recording = evaluation::record(*inputs.map.freespace, camera::Profile{}, inputs.trace, movers.rows(),
@@ -322,7 +322,8 @@ Result<void> direct(const DirectOptions& options) {
     const ClearLine exact = [&](const Vec3d& from, const Vec3d& to) {
         return oracle.segment_clear(from, to);
     };
-    const MatchMovers movers(inputs->movers, inputs->map.scene.movers, *inputs->map.freespace, inputs->trace);
+    const RecordedMovers movers(inputs->movers, inputs->map.scene.movers, *inputs->map.freespace,
+                                inputs->trace);
     const auto rushes = shoot(options, *inputs, movers, exact, unit, line, stop);
     if (!rushes) return tl::unexpected(rushes.error());
     line.show("editing", 0, 0);

@@ -97,7 +97,7 @@ class FrameSight {
 // One beat, from its frames.
 class BeatReader {
   public:
-    BeatReader(const Trace& trace, const MatchMovers& movers, const CameraPath& cameras,
+    BeatReader(const Trace& trace, const RecordedMovers& movers, const CameraPath& cameras,
                std::span<const freespace::FixedShot> fixed, double unit, const ClearLine& clear)
         : trace_(trace), movers_(movers), cameras_(cameras), fixed_(fixed), unit_(unit), clear_(clear) {}
 
@@ -174,7 +174,7 @@ class BeatReader {
     }
 
     const Trace& trace_;
-    const MatchMovers& movers_;
+    const RecordedMovers& movers_;
     const CameraPath& cameras_;
     std::span<const freespace::FixedShot> fixed_;
     double unit_;
@@ -184,7 +184,7 @@ class BeatReader {
 // The cameras of a running programme, shot after shot.
 class ProgrammeShooter {
   public:
-    ProgrammeShooter(const Trace& trace, const MatchMovers& movers, const freespace::Freespace& freespace,
+    ProgrammeShooter(const Trace& trace, const RecordedMovers& movers, const freespace::Freespace& freespace,
                      const direction::Footage& footage, std::span<const freespace::FixedShot> fixed,
                      double look_ahead, CameraPath cameras)
         : trace_(trace),
@@ -245,7 +245,7 @@ class ProgrammeShooter {
     }
 
     const Trace& trace_;
-    const MatchMovers& movers_;
+    const RecordedMovers& movers_;
     const freespace::Freespace& freespace_;
     const direction::Footage& footage_;
     std::span<const freespace::FixedShot> fixed_;
@@ -292,7 +292,7 @@ Result<void> check_length(const Trace& trace) {
     return {};
 }
 
-Result<direction::Footage> footage_of(const Trace& trace, const MatchMovers& movers,
+Result<direction::Footage> footage_of(const Trace& trace, const RecordedMovers& movers,
                                       const CameraPath& cameras, std::span<const freespace::FixedShot> fixed,
                                       double unit, const ClearLine& clear, const std::stop_token& stop) {
     assert(cameras.size() == trace.poses.size() && trace.players.size() <= direction::max_players);
@@ -302,7 +302,7 @@ Result<direction::Footage> footage_of(const Trace& trace, const MatchMovers& mov
     });
 }
 
-Result<direction::Footage> scouted_footage_of(const Trace& trace, const MatchMovers& movers,
+Result<direction::Footage> scouted_footage_of(const Trace& trace, const RecordedMovers& movers,
                                               const freespace::Freespace& freespace, std::size_t fixed_shots,
                                               double unit, const std::stop_token& stop) {
     return read_beats(trace, stop, [&](std::span<const TraceFrame> frames, auto& players, auto& takes) {
@@ -327,7 +327,7 @@ Result<direction::Footage> scouted_footage_of(const Trace& trace, const MatchMov
     });
 }
 
-evaluation::CameraPath cameras_of_programme(const Trace& trace, const MatchMovers& movers,
+evaluation::CameraPath cameras_of_programme(const Trace& trace, const RecordedMovers& movers,
                                             const freespace::Freespace& freespace,
                                             const direction::Footage& footage,
                                             std::span<const freespace::FixedShot> fixed,

@@ -6,7 +6,7 @@
 #include <stop_token>
 #include <vector>
 
-#include "app/match_movers.hpp"
+#include "app/recorded_movers.hpp"
 #include "base/error.hpp"
 #include "direction/editor.hpp"
 #include "direction/footage.hpp"
@@ -30,7 +30,8 @@ using ClearLine = std::function<bool(const Vec3d&, const Vec3d&)>;
 // camera, past `movers` too. A beat without a frame repeats the one before, without its cuts. Fails with
 // ErrorCode::interrupted soon after `stop` is requested. Preconditions: one camera a pose, a length that
 // check_length() takes.
-[[nodiscard]] Result<direction::Footage> footage_of(const evaluation::Trace& trace, const MatchMovers& movers,
+[[nodiscard]] Result<direction::Footage> footage_of(const evaluation::Trace& trace,
+                                                    const RecordedMovers& movers,
                                                     const evaluation::CameraPath& cameras,
                                                     std::span<const freespace::FixedShot> fixed, double unit,
                                                     const ClearLine& clear, const std::stop_token& stop);
@@ -38,7 +39,7 @@ using ClearLine = std::function<bool(const Vec3d&, const Vec3d&)>;
 // The same as the running director knows it: beats of their first frames, seen by the cameras of its scout.
 // With the first `fixed_shots` of the freespace. Likewise.
 [[nodiscard]] Result<direction::Footage> scouted_footage_of(const evaluation::Trace& trace,
-                                                            const MatchMovers& movers,
+                                                            const RecordedMovers& movers,
                                                             const freespace::Freespace& freespace,
                                                             std::size_t fixed_shots, double unit,
                                                             const std::stop_token& stop);
@@ -47,7 +48,7 @@ using ClearLine = std::function<bool(const Vec3d&, const Vec3d&)>;
 // after the beat in which the next shot begins. `cameras`: of cameras that run all the time. Ends early, with
 // some of them, soon after `stop` is requested.
 [[nodiscard]] evaluation::CameraPath cameras_of_programme(
-    const evaluation::Trace& trace, const MatchMovers& movers, const freespace::Freespace& freespace,
+    const evaluation::Trace& trace, const RecordedMovers& movers, const freespace::Freespace& freespace,
     const direction::Footage& footage, std::span<const freespace::FixedShot> fixed,
     std::span<const direction::Shot> shots, double look_ahead, evaluation::CameraPath cameras,
     const std::stop_token& stop);

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "app/evaluate_cameras.hpp"
-#include "app/match_movers.hpp"
+#include "app/recorded_movers.hpp"
 #include "base/file.hpp"
 #include "evaluation/group_figures.hpp"
 #include "evaluation/group_recording.hpp"
@@ -41,7 +41,7 @@ Result<void> evaluate_group(const EvaluateOptions& options, const Match& match, 
     const auto profile = choose_profile(options);
     if (!profile) return tl::unexpected(profile.error());
     line.show("tracking the group", 0, 0);
-    const MatchMovers movers(
+    const RecordedMovers movers(
         match.movers ? std::span(std::as_const(*match.movers)) : std::span<const evaluation::MoverRow>(),
         map.scene.movers, *map.freespace, match.poses);
     const auto made = evaluation::record_group(*map.freespace, *profile, match.poses, movers.rows(),

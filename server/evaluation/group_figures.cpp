@@ -158,10 +158,10 @@ void judge_group_steps(const oracle::Oracle& oracle, const Thresholds& limits, c
 
 MoverFigures judge_group_movers(const oracle::Oracle& oracle, const Trace& trace,
                                 std::span<const Together> counted, std::span<const CameraSample> cameras,
-                                const MoversAt& movers) {
+                                const MoversAt& movers, const std::stop_token& stop) {
     MoverFigures figures;
     PlacedMovers before;
-    for (std::size_t f = 0; f < cameras.size(); ++f) {
+    for (std::size_t f = 0; f < cameras.size() && !stop.stop_requested(); ++f) {
         const Vec3d& position = cameras[f].position;
         PlacedMovers now = movers(trace.frames[f].time);
         figures.frames_inside += now.hold(position);
@@ -169,7 +169,7 @@ MoverFigures judge_group_movers(const oracle::Oracle& oracle, const Trace& trace
             figures.passages += PlacedMovers::meet(before, cameras[f - 1].position, now, position);
         figures.seen_through +=
             cameras[f].claims_sight && std::ranges::any_of(counted[f], [&](const TracePose* pose) {
-                return oracle.segment_clear(position, pose->eye) && now.hide(position, pose->eye);
+                return oracle.segment_clear(position, pose->eye) && now.touch(position, pose->eye);
             });
         before = std::move(now);
     }
@@ -240,8 +240,9 @@ Result<GroupFigures> judge_group(const oracle::Oracle& oracle, double metres_per
     figures.possible = percent(possible_count, figures.frames);
     figures.together_of_possible = percent(both, possible_count);
     judge_group_motion(trace, counted, cameras, figures);
-    if (movers) figures.movers = judge_group_movers(oracle, trace, counted, cameras, movers);
+    if (movers) figures.movers = judge_group_movers(oracle, trace, counted, cameras, movers, stop);
     judge_group_steps(oracle, Thresholds(metres_per_unit), trace, counted, cameras, figures);
+    if (stop.stop_requested()) return fail("interrupted", ErrorCode::interrupted);
     return figures;
 }
 

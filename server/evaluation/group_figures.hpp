@@ -37,8 +37,8 @@ struct GroupFigures {
     double clearance_lt4 = unmeasured;  // of all frames
     double fly_through = unmeasured;    // of all steps without a cut
     double pops = unmeasured;           // undeclared steps of more than 64 units, a minute
-    std::optional<MoverFigures>
-        movers;  // of all frames and steps; seen through: of counted ones. None: not asked
+    // Of all frames and steps; seen through: of counted frames. None: not asked.
+    std::optional<MoverFigures> movers;
 };
 
 // The movers at a time of the trace. Called from several threads.

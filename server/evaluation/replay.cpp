@@ -78,13 +78,31 @@ KnownMovers::KnownMovers(const freespace::Freespace& freespace, std::span<const 
 }
 
 const freespace::Movers& KnownMovers::at(double time) {
+    if (!asked_) skip_to(time - history);
     for (auto next = next_frame(); next && seconds(*next - start_) <= time + look_ahead_ + same_time;
-         next = next_frame())
-        add_frame(*next);
+         next = next_frame()) {
+        read_frame(*next);
+        movers_.add(seconds(*next - start_), poses_);
+    }
     // The step that ends now began at the last call.
-    movers_.forget_before(std::min(asked_, time - history));
+    movers_.forget_before(std::min(asked_.value_or(time), time - history));
     asked_ = time;
     return movers_;
+}
+
+// Of what was before only the last counts, as if it were of one frame.
+void KnownMovers::skip_to(double time) {
+    std::map<std::uint32_t, freespace::MoverPose> newest;
+    std::int64_t last = start_;
+    for (auto next = next_frame(); next && seconds(*next - start_) < time; next = next_frame()) {
+        read_frame(last = *next);
+        for (const freespace::MoverPose& pose : poses_)
+            newest.insert_or_assign(pose.mover, pose);
+    }
+    poses_.clear();
+    for (const auto& [mover, pose] : newest)
+        poses_.push_back(pose);
+    if (!poses_.empty()) movers_.add(seconds(last - start_), poses_);
 }
 
 // Frames without a row count too: in them nothing has moved.
@@ -95,7 +113,8 @@ std::optional<std::int64_t> KnownMovers::next_frame() const {
     return std::min(rows_.front().time, frames_.front().time);
 }
 
-void KnownMovers::add_frame(std::int64_t time) {
+// Into poses_.
+void KnownMovers::read_frame(std::int64_t time) {
     poses_.clear();
     for (; !rows_.empty() && rows_.front().time == time; rows_ = rows_.subspan(1)) {
         const auto place = places_.find(rows_.front().model);
@@ -106,7 +125,6 @@ void KnownMovers::add_frame(std::int64_t time) {
     }
     while (!frames_.empty() && frames_.front().time == time)
         frames_ = frames_.subspan(1);
-    movers_.add(seconds(time - start_), poses_);
 }
 
 CameraSample sampled(const camera::Camera& camera, bool cut) {

@@ -70,8 +70,9 @@ class KnownMovers {
     [[nodiscard]] const freespace::Movers& at(double time);
 
   private:
+    void skip_to(double time);
     [[nodiscard]] std::optional<std::int64_t> next_frame() const;
-    void add_frame(std::int64_t time);
+    void read_frame(std::int64_t time);
 
     freespace::Movers movers_;
     std::map<std::uint32_t, std::uint32_t> places_;  // of models among the shapes
@@ -80,7 +81,7 @@ class KnownMovers {
     std::vector<freespace::MoverPose> poses_;        // of one frame
     std::int64_t start_;
     double look_ahead_;
-    double asked_ = 0.0;  // the time of the last call
+    std::optional<double> asked_;  // the time of the last call
 };
 
 [[nodiscard]] CameraSample sampled(const camera::Camera& camera, bool cut);

@@ -36,9 +36,11 @@ const gain = 1.05;            // of the rate, by less than which a coarser level
 const windowMs = 1000;        // over which the rate is measured
 const fewestFrames = 4;       // in a window
 const settleMs = 300;         // after a change, which itself takes time
+const longestFrameMs = 150;   // while it settles: a longer one is a pause
 const provingMs = 5e3;        // for which a level must be smooth
 const firstWaitMs = 5e3;      // until a finer level is tried
 const firstWaitOfProcessorMs = 20e3;
+const lastingMs = 60e3;       // for which a level must be smooth to be tried as soon again
 const longestWaitMs = 300e3;
 const firstDoubtMs = 60e3;    // until a display that seems to show no more is asked again
 const longestDoubtMs = 1200e3;
@@ -56,20 +58,21 @@ export class Quality {
         this.restart();
     }
 
-    // Another picture is drawn from now on: what was found out about the levels may not hold.
+    // Another picture is drawn from now on: what was found out about the levels may not hold. What the display shows does.
     restart() {
         this.waitsMs = levels.map(() => this.firstWaitMs);  // how long a coarser level is smooth before this one is tried
         this.proved = this.hasCard;                    // one slow window says little then
         this.onTrial = false;                          // this level is finer than the last one, which was smooth
+        this.level = this.descent?.level ?? this.level;
         this.descent = null;                           // the level and the rate that this one is to improve on
         this.settle(settleMs);
     }
 
     settle(ms) {
         this.settlingMs = ms;
-        this.smoothMs = 0;
+        this.smoothMs = this.smoothPictures = 0;  // on this level
+        this.missing = 0;                         // pictures of a trial
         this.slowWindows = 0;
-        this.missing = 0;  // on this level
         this.beginWindow();
     }
 
@@ -82,7 +85,7 @@ export class Quality {
         const ms = at - this.last;
         this.last = at;
         if (this.settlingMs > 0) {
-            this.settlingMs -= ms;
+            this.settlingMs -= Math.min(ms, longestFrameMs);
             return;
         }
         ++this.frames;
@@ -103,20 +106,24 @@ export class Quality {
 
     judge(rate, ms) {
         const missing = (this.wantedRate - rate) * ms / 1000;
-        this.missing += Math.max(missing, 0);
-        const isSlow = missing >= missingOfSlow || (this.onTrial && this.missing >= missingOfTrial);
-        if (isSlow) this.slow(rate); else this.smooth(rate, ms);
+        if (this.onTrial) this.missing += Math.max(0, (this.rateBefore - rate) * ms / 1000);
+        if (missing >= missingOfSlow || this.missing >= missingOfTrial) this.slow(rate); else this.smooth(rate, ms);
         if (this.wantedRate < smoothRate) this.doubt(ms);
     }
 
     slow(rate) {
         if (this.onTrial) {
-            this.waitsMs[this.level] = Math.min(2 * this.waitsMs[this.level], longestWaitMs);
+            this.waitLonger();
             this.change(this.level + 1);
             this.proved = true;
         } else if (!this.proved || ++this.slowWindows > 1) {
+            if (this.proved && this.smoothMs < lastingMs) this.waitLonger();
             this.descend(rate);
         }
+    }
+
+    waitLonger() {
+        this.waitsMs[this.level] = Math.min(2 * this.waitsMs[this.level], longestWaitMs);
     }
 
     // To a coarser level; where that is no help, to the coarsest, and back where that is none either.
@@ -139,11 +146,15 @@ export class Quality {
         this.descent = null;
         if (rate > gain * this.wantedRate && this.wantedRate < smoothRate) return this.expectMore();
         this.smoothMs += ms;
+        this.smoothPictures += rate * ms / 1000;
         if (this.smoothMs < provingMs) return;
+        if (this.onTrial) this.settlingMs = settleMs;  // without the reserve
         this.proved = true;
-        if (this.onTrial) this.waitsMs[this.level] = this.firstWaitMs;
         this.onTrial = false;
+        this.missing = 0;
+        if (this.smoothMs >= lastingMs) this.waitsMs[this.level] = this.firstWaitMs;
         if (this.level === 0 || this.smoothMs < this.waitsMs[this.level - 1]) return;
+        this.rateBefore = Math.min(this.smoothPictures * 1000 / this.smoothMs, this.wantedRate);
         this.change(this.level - 1);
         this.onTrial = true;
     }

@@ -13,6 +13,7 @@
 #include "evaluation/mover_figures.hpp"
 #include "evaluation/mover_tracks.hpp"
 #include "evaluation/recording.hpp"
+#include "evaluation/replay.hpp"
 #include "tiny_trace.hpp"
 
 namespace camdir::evaluation {
@@ -159,12 +160,6 @@ freespace::MoverShape shape_of(const scene::Mover& mover) {
     return shape;
 }
 
-scene::Mover box_mover(const Vec3d& low, const Vec3d& high) {
-    scene::Scene box;
-    add_box(box, low, high);
-    return {"*4", "func_door", {{box.planes, box.bounds}}, Vec3d::Zero()};
-}
-
 // A part of the room, in which a mover is in the way.
 freespace::Freespace baked_room(const scene::Mover& mover) {
     freespace::Contents contents;
@@ -203,7 +198,7 @@ MovingScene moving_scene(scene::Mover mover, const Height& height_at, const X& x
 // The player walks through a door that falls shut behind it, before the camera has followed.
 MovingScene closing_door() {
     return moving_scene(
-        box_mover({-8.0, -400.0, 0.0}, {8.0, 400.0, 250.0}),
+        moving_box("*4", {-8.0, -400.0, 0.0}, {8.0, 400.0, 250.0}),
         [](double time) { return 300.0 * std::clamp((1.9 - time) / 0.3, 0.0, 1.0); },
         [](double time) { return std::min(-200.0 + 150.0 * time, 200.0); });
 }
@@ -211,7 +206,7 @@ MovingScene closing_door() {
 // The player stands beside a lift, over which the camera hangs when it comes.
 MovingScene rising_lift() {
     return moving_scene(
-        box_mover({-400.0, -400.0, -250.0}, {100.0, 400.0, 0.0}),
+        moving_box("*4", {-400.0, -400.0, -250.0}, {100.0, 400.0, 0.0}),
         [](double time) { return 250.0 * std::clamp(time - 1.5, 0.0, 1.0); }, [](double) { return 150.0; });
 }
 
@@ -229,6 +224,24 @@ MoverFigures tracked_figures(const MovingScene& moving, std::span<const MoverRow
     const std::vector<scene::Mover> all = {moving.mover};
     const MoverTracks tracks(moving.rows, all, moving.trace);
     return judge_movers(all, tracks, moving.trace, made.cameras, judgements, {}).value();
+}
+
+TEST(KnownMovers, AreWhereTheyAreAlsoForWhoAsksLate) {
+    MovingScene moving = rising_lift();
+    const freespace::Freespace freespace = baked_room(moving.mover);
+    for (const double look_ahead : {0.0, 1.0}) {
+        KnownMovers always(freespace, moving.rows, moving.trace, 0, look_ahead);
+        KnownMovers late(freespace, moving.rows, moving.trace, 0, look_ahead);
+        for (int i = 0; i < 200; ++i)
+            static_cast<void>(always.at(0.01 * i));
+        const freespace::Movers& expected = always.at(2.0);
+        const freespace::Movers& found = late.at(2.0);
+        for (double time = 1.6; time < 2.2 + look_ahead; time += 0.05)
+            EXPECT_EQ(found.pose_at(0, time)->position, expected.pose_at(0, time)->position) << time;
+    }
+    moving.rows.resize(1);
+    KnownMovers standing(freespace, moving.rows, moving.trace, 0, 0.0);
+    EXPECT_EQ(standing.at(3.0).pose_at(0, 3.0)->position, Vec3f::Zero());
 }
 
 void expect_none(const MoverFigures& figures) {

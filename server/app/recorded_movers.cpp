@@ -1,12 +1,13 @@
-#include "app/match_movers.hpp"
+#include "app/recorded_movers.hpp"
 
 #include <cassert>
 #include <utility>
 
 namespace camdir::app {
 
-MatchMovers::MatchMovers(std::span<const evaluation::MoverRow> rows, std::span<const scene::Mover> movers,
-                         const freespace::Freespace& freespace, const evaluation::Trace& poses)
+RecordedMovers::RecordedMovers(std::span<const evaluation::MoverRow> rows,
+                               std::span<const scene::Mover> movers, const freespace::Freespace& freespace,
+                               const evaluation::Trace& poses)
     : rows_(rows), movers_(movers), tracks_(rows, movers, poses) {
     if (rows.empty()) return;
     auto shapes = freespace::Movers::of(freespace.movers());
@@ -20,12 +21,12 @@ MatchMovers::MatchMovers(std::span<const evaluation::MoverRow> rows, std::span<c
     }
 }
 
-evaluation::PlacedMovers MatchMovers::exact_at(std::int64_t time) const {
+evaluation::PlacedMovers RecordedMovers::exact_at(std::int64_t time) const {
     if (rows_.empty()) return {};
     return {movers_, tracks_, time};
 }
 
-freespace::Movers MatchMovers::baked_at(std::int64_t time) const {
+freespace::Movers RecordedMovers::baked_at(std::int64_t time) const {
     freespace::Movers movers = shapes_;
     std::vector<freespace::MoverPose> poses;
     for (std::uint32_t shape = 0; shape < places_.size(); ++shape)

@@ -15,17 +15,18 @@
 namespace camdir::app {
 
 // Immutable; needs what it is made of for as long as it is asked. Without rows nothing moves.
-class MatchMovers {
+class RecordedMovers {
   public:
     // `rows` were recorded beside `poses`; those of models that the scene or the freespace does not have are
     // left out there.
-    MatchMovers(std::span<const evaluation::MoverRow> rows, std::span<const scene::Mover> movers,
-                const freespace::Freespace& freespace, const evaluation::Trace& poses);
+    RecordedMovers(std::span<const evaluation::MoverRow> rows, std::span<const scene::Mover> movers,
+                   const freespace::Freespace& freespace, const evaluation::Trace& poses);
 
     [[nodiscard]] std::span<const evaluation::MoverRow> rows() const { return rows_; }
     // As the map has them.
     [[nodiscard]] evaluation::PlacedMovers exact_at(std::int64_t time) const;
-    // As a director has them: at all times where they are at `time`.
+    // As a director has them, but for those that the scene does not have: at all times where they are at
+    // `time`.
     [[nodiscard]] freespace::Movers baked_at(std::int64_t time) const;
 
   private:
