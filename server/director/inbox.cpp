@@ -26,12 +26,12 @@ void carry_discontinuities(const PoseFrame& from, PoseFrame& to) {
     }
 }
 
-// Sent at an interval of which less than half was left when they arrived.
-bool came_together(const PoseFrame& first, std::int64_t first_received_ns, const PoseFrame& second,
-                   std::int64_t second_received_ns) {
+// Of one epoch, and sent at an interval of which less than half was left when they arrived.
+bool came_together(const Inbox::Frame& first, const PoseFrame& second, std::int64_t second_received_ns) {
     const double sent_apart =
-        static_cast<double>(second.source_time) - static_cast<double>(first.source_time);
-    return 2.0 * static_cast<double>(second_received_ns - first_received_ns) < sent_apart;
+        static_cast<double>(second.source_time) - static_cast<double>(first.poses.source_time);
+    return second.epoch == first.poses.epoch &&
+           2.0 * static_cast<double>(second_received_ns - first.received_ns) < sent_apart;
 }
 
 template <class Kind>
@@ -82,7 +82,8 @@ Inbox::Place Inbox::first_like(const Message& message) {
 
 void Inbox::forget(Place place) {
     const auto before = static_cast<std::size_t>(place - waiting_.messages.begin());
-    if (before < waiting_.messages_before_frame) --waiting_.messages_before_frame;
+    for (Frame& frame : waiting_.frames())
+        frame.messages_before -= before < frame.messages_before ? 1 : 0;
     waiting_.messages.erase(place);
 }
 
@@ -114,10 +115,11 @@ bool Inbox::merge_end() {
     const auto end = std::ranges::find_if(messages, is<MatchEnded>);
     if (end == messages.end()) return false;
     const auto before = static_cast<std::size_t>(end - messages.begin());
-    if (waiting_.has_frame && waiting_.messages_before_frame > before) {
+    while (waiting_.frame_count > 0 && waiting_.frames().back().messages_before > before) {
         counters_.add(is_due_ ? Counter::drop_superseded : Counter::drop_paced);
-        waiting_.has_frame = is_due_ = false;
+        --waiting_.frame_count;
     }
+    is_due_ = is_due_ && waiting_.frame_count > 0;
     const auto events = static_cast<std::size_t>(std::count_if(end, messages.end(), is<MatchEvent>));
     counters_.add(Counter::drop_events, events);
     events_ -= events;
@@ -127,43 +129,55 @@ bool Inbox::merge_end() {
 
 // Of a match that has ended: frames of the next one may be older than it.
 void Inbox::forget_frame_that_is_not_due() {
-    if (!waiting_.has_frame || is_due_) return;
+    if (waiting_.frame_count == 0 || is_due_) return;
     counters_.add(Counter::drop_paced);
-    waiting_.has_frame = false;
+    --waiting_.frame_count;
     left_out_ = 0;
 }
 
 bool Inbox::put(PoseFrame& frame, std::int64_t received_ns) {
     const std::lock_guard lock(mutex_);
-    const bool wanted = left_out_ + 1 >= pace_.frames_per_camera();
-    if (waiting_.has_frame) {
-        if (older(frame, waiting_.frame)) {
-            counters_.add(frame.epoch < waiting_.frame.epoch ? Counter::drop_old_epoch
-                                                             : Counter::drop_old_frame);
+    const std::uint32_t frames_per_camera = pace_.frames_per_camera();
+    const bool wanted = left_out_ + 1 >= frames_per_camera;
+    if (waiting_.frame_count > 0) {
+        const Frame& last = waiting_.frames().back();
+        if (older(frame, last.poses)) {
+            counters_.add(frame.epoch < last.poses.epoch ? Counter::drop_old_epoch : Counter::drop_old_frame);
             return false;
         }
-        counters_.add(is_due_ && wanted ? reason_to_replace(frame, received_ns) : Counter::drop_paced);
-        if (waiting_.frame.epoch == frame.epoch) carry_discontinuities(waiting_.frame, frame);
+        const bool together = came_together(last, frame, received_ns);
+        const Counter reason = !is_due_ || !wanted ? Counter::drop_paced
+                               : together          ? Counter::drop_burst
+                                                   : Counter::drop_superseded;
+        const bool waits_behind = together && frames_per_camera == 1;
+        if (!waits_behind) {
+            replace(waiting_.frame_count, frame, reason);
+        } else if (waiting_.frame_count == max_frames) {
+            replace(1, waiting_.frame_memory[1].poses, reason);
+        }
     }
-    std::swap(waiting_.frame, frame);
+    Frame& place = waiting_.frame_memory[waiting_.frame_count++];
+    std::swap(place.poses, frame);
+    place.received_ns = received_ns;
+    place.messages_before = waiting_.messages.size();
     left_out_ = wanted ? 0 : left_out_ + 1;
     is_due_ = is_due_ || wanted;
-    waiting_.has_frame = true;
-    waiting_.messages_before_frame = waiting_.messages.size();
-    waiting_.received_ns = received_ns;
     return is_due_;
 }
 
-Counter Inbox::reason_to_replace(const PoseFrame& frame, std::int64_t received_ns) const {
-    const bool together = frame.epoch == waiting_.frame.epoch &&
-                          came_together(waiting_.frame, waiting_.received_ns, frame, received_ns);
-    return together ? Counter::drop_burst : Counter::drop_superseded;
+void Inbox::replace(std::size_t count, PoseFrame& by, Counter reason) {
+    const std::span<Frame> frames = waiting_.frames();
+    for (const Frame& frame : frames.first(count))
+        if (frame.poses.epoch == by.epoch) carry_discontinuities(frame.poses, by);
+    counters_.add(reason, count);
+    std::rotate(frames.begin(), frames.begin() + static_cast<std::ptrdiff_t>(count), frames.end());
+    waiting_.frame_count -= count;
 }
 
 std::optional<std::int64_t> Inbox::frame_waits_since() {
     const std::lock_guard lock(mutex_);
     if (!is_due_) return std::nullopt;
-    return waiting_.received_ns;
+    return waiting_.frames().front().received_ns;
 }
 
 void Inbox::put(const CameraFrame& shown) {
@@ -174,17 +188,15 @@ void Inbox::put(const CameraFrame& shown) {
 
 void Inbox::take(Content& content) {
     content.messages.clear();
-    content.messages_before_frame = 0;
-    content.has_frame = false;
+    content.frame_count = 0;
     content.has_shown = false;
     const std::lock_guard lock(mutex_);
     std::swap(content, waiting_);
     put_first_requests(content);
-    if (content.has_frame && !is_due_) {
-        std::swap(content.frame, waiting_.frame);
-        waiting_.has_frame = std::exchange(content.has_frame, false);
-        waiting_.received_ns = content.received_ns;
-        waiting_.messages_before_frame = 0;
+    if (content.frame_count > 0 && !is_due_) {
+        Frame& left = waiting_.frame_memory[waiting_.frame_count++];
+        std::swap(left, content.frame_memory[--content.frame_count]);
+        left.messages_before = 0;
     }
     is_due_ = false;
     events_ = 0;
@@ -200,7 +212,8 @@ void Inbox::put_first_requests(Content& content) {
         if (news.request) messages.emplace_back(std::move(*news.request));
     }
     content.leaves_requests = !requests_.empty();
-    content.messages_before_frame += messages.size() - static_cast<std::size_t>(others);
+    for (Frame& frame : content.frames())
+        frame.messages_before += messages.size() - static_cast<std::size_t>(others);
     std::rotate(messages.begin(), messages.begin() + others, messages.end());
 }
 

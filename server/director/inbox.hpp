@@ -1,11 +1,13 @@
 // The messages of one match that wait for its turn.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <future>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -41,13 +43,15 @@ using Message =
                  RequestEnded, MapsChanged, DelayChanged, Reconfigured, ViewRequest>;
 
 // Keeps messages in their order of arrival, and only the newest pose frame, which waits until the pace lets
-// one of its match be taken. Whatever others send, what waits is bounded. Of each observer, of an epoch's
-// descriptions with one map, of losses of the game server, and of refusals only the newest waits. Of the
-// match that begins after an end that waits, nothing is left once it ends. Few epochs wait, a bounded number
-// of events and of view requests: drops of these are counted. Each match has its own inbox. Thread-safe.
-// Frames do not allocate once its buffers have grown.
+// one of its match be taken; but a few wait that were held up and came together. Whatever others send, what
+// waits is bounded. Of each observer, of an epoch's descriptions with one map, of losses of the game server,
+// and of refusals only the newest waits. Of the match that begins after an end that waits, nothing is left
+// once it ends. Few epochs wait, a bounded number of events and of view requests: drops of these are counted.
+// Each match has its own inbox. Thread-safe. Frames do not allocate once its buffers have grown.
 class Inbox {
   public:
+    // Frames that came together and all become cameras: what a stall of 60 ms holds up at 60 Hz.
+    static constexpr std::size_t max_frames = 4;
     // Requests of so many observers are taken at once: what they do delays a frame no more than that.
     static constexpr std::size_t max_observers_taken = 32;
 
@@ -56,24 +60,32 @@ class Inbox {
     void put(Message message);
 
     // Takes the frame and leaves other memory to its caller. Returns whether a frame is due, for which a
-    // turn is wanted. Replaces one that no turn has taken. Its discontinuity flags are carried over to the
-    // new frame of the same epoch, so that no respawn is lost: not every game server counts them (see
-    // Continuity).
+    // turn is wanted. Waits behind those that no turn has taken if it was sent at an interval from the last
+    // of them and came together with it, or else replaces all of them. Their discontinuity flags are carried
+    // over to a new frame of the same epoch, so that no respawn is lost: not every game server counts them
+    // (see Continuity).
     bool put(PoseFrame& frame, std::int64_t received_ns);
 
-    // When the frame was received, or due, that waits for a turn and that the pace lets be taken.
+    // When the first frame was received, or due, that waits for a turn and that the pace lets be taken.
     [[nodiscard]] std::optional<std::int64_t> frame_waits_since();
 
     // Replaces an earlier one that no turn has taken.
     void put(const CameraFrame& shown);
 
+    struct Frame {
+        PoseFrame poses;
+        std::int64_t received_ns = 0;  // steady clock; of a delayed frame: when it was due
+        std::size_t messages_before = 0;
+    };
+
     struct Content {
+        // In the order in which they came.
+        [[nodiscard]] std::span<Frame> frames() { return std::span(frame_memory).first(frame_count); }
+
         std::vector<Message> messages;  // those of observers come first
         bool leaves_requests = false;   // for another turn
-        bool has_frame = false;
-        PoseFrame frame;
-        std::size_t messages_before_frame = 0;
-        std::int64_t received_ns = 0;  // steady clock; of a delayed frame: when it was due
+        std::size_t frame_count = 0;
+        std::array<Frame, max_frames> frame_memory;
         bool has_shown = false;
         CameraFrame shown;  // by the director that leads the match
     };
@@ -94,13 +106,13 @@ class Inbox {
     // Makes one of an end and of that which waits. Returns false when none does.
     [[nodiscard]] bool merge_end();
     void forget_frame_that_is_not_due();
+    // The first ones, for a newer frame. Those that are due count for `reason`.
+    void replace(std::size_t count, PoseFrame& by, Counter reason);
     void put_first_requests(Content& content);
-    // Why the waiting frame is dropped for this one, both of which are due.
-    [[nodiscard]] Counter reason_to_replace(const PoseFrame& frame, std::int64_t received_ns) const;
 
     std::mutex mutex_;
     Content waiting_;
-    bool is_due_ = false;            // the waiting frame
+    bool is_due_ = false;            // the frames that wait; of those that are not one waits
     std::uint32_t left_out_ = 0;     // frames since one was due
     std::size_t events_ = 0;         // in waiting_.messages
     std::size_t view_requests_ = 0;  // likewise

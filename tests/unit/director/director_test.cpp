@@ -60,6 +60,27 @@ TEST(Director, AMatchWithoutShotsPublishesNothing) {
     EXPECT_EQ(stage.director.statistics()[Counter::pose_frames], 1U);
 }
 
+TEST(Director, PosesThatWereHeldUpAndComeTogetherAllMoveTheCameras) {
+    Stage stage;
+    stage.start();
+    stage.ask(Stage::request("o"));
+    std::vector<PoseArrival> held_up;
+    for (std::uint32_t number = 1; number <= Inbox::max_frames; ++number) {
+        held_up.push_back({"m", Stage::poses(number)});
+        held_up.back().frame.source_time = 50 * ms * number;
+    }
+    stage.director.receive(held_up);
+    stage.director.flush();
+    const auto frames = stage.publisher.frames();
+    ASSERT_EQ(frames.size(), Inbox::max_frames);
+    for (std::uint32_t i = 0; i < frames.size(); ++i) {
+        EXPECT_EQ(frames[i].frame_number, i);
+        EXPECT_EQ(frames[i].pose_number, i + 1);
+        ASSERT_EQ(frames[i].cameras.size(), 1U);
+    }
+    EXPECT_EQ(stage.director.statistics()[Counter::drop_burst], 0U);
+}
+
 TEST(Director, CountsTheStagesOfItsLatency) {
     Stage stage;
     stage.start();
