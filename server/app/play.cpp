@@ -11,6 +11,7 @@
 #include "http/server.hpp"
 #include "http/status.hpp"
 #include "recording/playback.hpp"
+#include "scene/load.hpp"
 #include "service/viewers.hpp"
 
 namespace camdir::app {
@@ -79,14 +80,27 @@ class PlayedMap {
             std::cerr << "camera-director: warning: the match was played on " << printable(match.map_name)
                       << ", " << options.freespace << " is of " << printable(freespace->metadata().map_name)
                       << ": its walls may not be those of the match\n";
+        if (auto named = name_source(options, match.map_name, freespace->metadata()); !named) return named;
         library_.set_ready(match.map_name, std::move(*freespace));
-        models_.set_source(match.map_name, options.map);
         return {};
     }
 
     [[nodiscard]] live::Models& models() { return models_; }
 
   private:
+    // It is read when a page asks for it: too late to tell whoever named it.
+    Result<void> name_source(const PlayOptions& options, const std::string& map_name,
+                             const freespace::Metadata& baked) {
+        if (options.map.empty()) return {};
+        const auto hash = scene::hash_source(options.map);
+        if (!hash) return tl::unexpected(hash.error());
+        if (*hash != baked.source_hash)
+            std::cerr << "camera-director: warning: " << options.freespace
+                      << " was baked from another file than " << options.map << ": no walls are shown\n";
+        models_.set_source(map_name, options.map);
+        return {};
+    }
+
     director::MapLibrary library_;
     live::Models models_{library_};
 };
@@ -114,7 +128,7 @@ http::Sources sources_of(const recording::Broadcast& broadcast, live::Models& mo
 
 void announce(const PlayOptions& options, const recording::Playback& playback, const std::string& link) {
     const auto seconds = static_cast<long>(std::ceil(playback.length_s()));
-    std::fprintf(stderr, "camera-director: %s: match %s on %s, %ld:%02ld: watch it at %s, until Ctrl-C\n",
+    std::fprintf(stderr, "camera-director: %s: match %s on %s, %ld:%02ld: watch it, until Ctrl-C, at %s\n",
                  options.recording.c_str(), printable(playback.match().match_id).c_str(),
                  printable(playback.match().map_name).c_str(), seconds / 60, seconds % 60, link.c_str());
     if (options.freespace.empty())
@@ -162,7 +176,7 @@ Result<void> play(const PlayOptions& options) {
     recording::Broadcast broadcast;
     if (auto shown = show_first(options, *playback, broadcast); !shown) return shown;
     const auto server = http::Server::start(*http, sources_of(broadcast, map.models()));
-    if (!server) return tl::unexpected(server.error());
+    if (!server) return fail(server.error().message + "; --http names another address or port");
     announce(options, *playback, link_to(http->address, (*server)->port()));
     serve(options, *playback, broadcast, signals);
     return {};

@@ -23,6 +23,9 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 using recording::Reader;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
 
 constexpr std::int64_t fragment_ns = 100'000'000;
 constexpr std::uint32_t fragments = 8;
@@ -45,19 +48,21 @@ class PlayTest : public testing::Test {
         std::vector<std::string> command = {CAMERA_DIRECTOR, "play", folder_ / "r", "--http", "127.0.0.1:0"};
         command.insert(command.end(), options.begin(), options.end());
         process_.emplace(command);
-        static const std::string before = "match cup/1 on hall, 0:01: watch it at http://127.0.0.1:";
+        static const std::string before =
+            "match cup/1 on hall, 0:01: watch it, until Ctrl-C, at http://127.0.0.1:";
         ASSERT_TRUE(eventually([&] {
-            return process_->errors().find(", until Ctrl-C") != std::string::npos;
+            return process_->errors().find("/\n", process_->errors().find(before)) != std::string::npos;
         })) << process_->errors();
-        const std::string said = process_->errors();
-        ASSERT_THAT(said, testing::HasSubstr(before));
-        port_ = std::stoi(said.substr(said.find(before) + before.size()));
+        said_ = process_->errors();
+        ASSERT_THAT(said_, HasSubstr(before));
+        port_ = std::stoi(said_.substr(said_.find(before) + before.size()));
     }
     [[nodiscard]] HttpAnswer get(const std::string& path) const { return HttpClient(port_).ask("GET", path); }
     [[nodiscard]] json sync() const { return json::parse(get("/broadcast/cup%2F1/sync").body); }
 
     const Folder folder_;
     std::optional<ChildProcess> process_;
+    std::string said_;  // when it began
     int port_ = 0;
 };
 
@@ -134,7 +139,29 @@ TEST_F(PlayTest, ShowsTheMapThatItIsGiven) {
     for (const char* path : {"/map/hall/mesh.glb", "/map/hall/obstacles.glb"})
         EXPECT_EQ(get(path).header.at("content-type"), "model/gltf-binary") << path;
     EXPECT_EQ(get("/map/room/mesh.glb").status, 404) << "the recording's name counts";
+    EXPECT_THAT(said_, Not(HasSubstr("was baked from another")));
     EXPECT_EQ(run_director({"play", folder_ / "r", folder_ / "none.vfs"}).exit_code, 1);
+}
+
+TEST_F(PlayTest, TellsAtOnceOfAMapThatIsNotTheRight) {
+    auto contents = square_contents();
+    contents.metadata.source_hash = 1;
+    const std::string vfs = folder_ / "room.vfs";
+    ASSERT_TRUE(write_file(vfs, freespace::encode(contents)));
+    ASSERT_TRUE(write_file(folder_ / "other.obj", "v 0 0 0\nv 9 0 0\nv 0 9 0\nf 1 3 2\n"));
+    play({vfs, "--map", folder_ / "other.obj"});
+    const std::string other = folder_ / "other.obj";
+    EXPECT_THAT(said_, HasSubstr(vfs + " was baked from another file than " + other));
+    const Ran ran = run_director({"play", folder_ / "r", vfs, "--map", folder_ / "none.obj"});
+    EXPECT_EQ(ran.exit_code, 1);
+    EXPECT_THAT(ran.errors, HasSubstr("none.obj"));
+}
+
+TEST_F(PlayTest, TellsHowToUseAnotherPort) {
+    play({});
+    const Ran ran = run_director({"play", folder_ / "r", "--http", "127.0.0.1:" + std::to_string(port_)});
+    EXPECT_EQ(ran.exit_code, 1);
+    EXPECT_THAT(ran.errors, AllOf(HasSubstr("cannot listen"), HasSubstr("--http names another")));
 }
 
 TEST_F(PlayTest, HasNothingToWatchLive) {
@@ -152,8 +179,6 @@ TEST_F(PlayTest, HasNothingToWatchLive) {
 
 TEST_F(PlayTest, RefusesWhatIsNoRecordingAndNoAddress) {
     const std::string recording = folder_ / "r";
-    using testing::AllOf;
-    using testing::HasSubstr;
     const auto errors_of = [&](const std::string& folder) {
         const Ran ran = run_director({"play", folder});
         EXPECT_EQ(ran.exit_code, 1) << folder;
@@ -170,10 +195,10 @@ TEST_F(PlayTest, RefusesWhatIsNoRecordingAndNoAddress) {
     for (const char* address : {"localhost", "127.0.0.1:x", "127.0.0.1:70000", "127.0.0.1:"}) {
         const Ran ran = run_director({"play", recording, "--http", address});
         EXPECT_EQ(ran.exit_code, 1) << address;
-        EXPECT_THAT(ran.errors, testing::HasSubstr("expected ADDRESS:PORT")) << address;
+        EXPECT_THAT(ran.errors, HasSubstr("expected ADDRESS:PORT")) << address;
     }
     EXPECT_THAT(run_director({"play", recording, "--http", "0.0.0.0:0"}).errors,
-                testing::HasSubstr("is not a loopback address"));
+                HasSubstr("is not a loopback address"));
 }
 
 }  // namespace

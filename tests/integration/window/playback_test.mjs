@@ -24,7 +24,7 @@ function play(path, ...options) {
     return programs.start('camera-director', 'play', path, '--http', `127.0.0.1:${port}`, ...options);
 }
 
-const ready = child => eventually('the link', () => child.log.includes(`watch it at ${url}/, until Ctrl-C`));
+const ready = child => eventually('the link', () => child.log.includes(`watch it, until Ctrl-C, at ${url}/`));
 
 // What the server has of the recording, in frames and cuts.
 async function fetchAll() {
