@@ -168,6 +168,7 @@ Result<void> play(const PlayOptions& options) {
     service::Signals signals;
     const auto http = listening(options);
     if (!http) return tl::unexpected(http.error());
+    if (auto usable = http::Server::check(*http); !usable) return usable;
     auto playback = recording::Playback::open(options.recording);
     if (!playback) return tl::unexpected(playback.error());
     PlayedMap map;
@@ -176,7 +177,7 @@ Result<void> play(const PlayOptions& options) {
     recording::Broadcast broadcast;
     if (auto shown = show_first(options, *playback, broadcast); !shown) return shown;
     const auto server = http::Server::start(*http, sources_of(broadcast, map.models()));
-    if (!server) return fail(server.error().message + "; --http names another address or port");
+    if (!server) return fail(server.error().message + "; --http takes another address or port");
     announce(options, *playback, link_to(http->address, (*server)->port()));
     serve(options, *playback, broadcast, signals);
     return {};

@@ -23,6 +23,8 @@ constexpr float greatest_urgency = 1e6F;
 constexpr float at_rest = 1.0F;     // units/s
 constexpr float at_the_eye = 1.0F;  // units: nearer, there is no line of sight to look along
 constexpr float quarter_turn = std::numbers::pi_v<float> / 2.0F;
+// Of a dead player, in rad/s: bodies fly past the camera, and what happened is where they come from.
+constexpr float turn_limit_after_death = quarter_turn;
 
 // One step of one shot.
 class Step {
@@ -122,8 +124,9 @@ class Step {
         return hold(searching);
     }
 
-    // A dead player: the camera glides on ever slower, then holds.
+    // A dead player: the camera glides on ever slower, then holds, and looks after them without haste.
     Camera come_to_rest() {
+        turn_limit_ = std::min(turn_limit_, turn_limit_after_death);
         const Vec3f velocity = state_.velocity * std::exp(-dt_ / profile_.motion_smoothing);
         if (velocity.norm() > at_rest * profile_.unit) {
             const Vec3f wanted = within_reach(state_.position + velocity * dt_);
@@ -243,7 +246,7 @@ class Step {
     void turn() {
         const float share =
             profile_.look_smoothing > 0.0F ? 1.0F - std::exp(-dt_ / profile_.look_smoothing) : 1.0F;
-        state_.look = turned(state_.look, wanted_look(), share, profile_.turn_limit * dt_);
+        state_.look = turned(state_.look, wanted_look(), share, turn_limit_ * dt_);
     }
 
     // The eye is in no slab, and so far from the last free point on its way that this is no substitute.
@@ -268,6 +271,7 @@ class Step {
     const Window window_;
     const Crowd& crowd_;
     const double time_;
+    float turn_limit_ = profile_.turn_limit;
 };
 
 }  // namespace

@@ -57,7 +57,7 @@ class Scratch {
 //
 //   no pose, or not a number   holds its place; target_absent | held
 //   first pose, discontinuity  cut to the best spot
-//   dead player                glides to a stop, keeps looking; held once it stands
+//   dead player                glides to a stop, keeps looking, calmly; held once it stands
 //   eye in no slab             follows the last free point on the way to the eye
 //   not seen                   searches along the roadmap, after profile.search_time_limit a cut
 //

@@ -417,7 +417,7 @@ void Subscriber::hand_on_poses() {
 }
 
 // Between what may take long, many matches that begin or much else that is ready: else the frames that wait
-// meanwhile would come out together, and all but the newest be lost.
+// meanwhile would come out together, late, and all but the newest few be lost.
 void Subscriber::take_waiting_poses() {
     constexpr std::chrono::milliseconds interval(4);
     if (Clock::now() - poses_taken_ < interval) return;

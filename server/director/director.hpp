@@ -15,10 +15,10 @@
 namespace camdir::director {
 
 // Takes messages in, delays what game servers send (delay_buffer.hpp), runs the trackers on a pool of workers
-// (one strand per match, the newest pose frame wins; delayed frames have a turn each while they are less
-// than 0.1 s late, prepared shortly before they are due) and passes results to the publisher, and what
-// observers may know to the audiences. All members are thread-safe. The Ingress calls never wait for a
-// tracker. `maps`, `publisher` and the audiences must outlive the director.
+// (one strand per match, the newest pose frame wins, of a burst the newest few in turn; delayed frames have a
+// turn each while they are less than 0.1 s late, prepared shortly before they are due) and passes results to
+// the publisher, and what observers may know to the audiences. All members are thread-safe. The Ingress calls
+// never wait for a tracker. `maps`, `publisher` and the audiences must outlive the director.
 class Director final : public Ingress {
   public:
     Director(const config::Config& config, const MapLibrary& maps, Publisher& publisher,

@@ -1,6 +1,7 @@
 #include "director/inbox.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "director/roster.hpp"
@@ -24,14 +25,6 @@ void carry_discontinuities(const PoseFrame& from, PoseFrame& to) {
         for (PlayerPose& later : to.poses)
             if (later.player_id == pose.player_id) later.flags |= pose_discontinuity;
     }
-}
-
-// Of one epoch, and sent at an interval of which less than half was left when they arrived.
-bool came_together(const Inbox::Frame& first, const PoseFrame& second, std::int64_t second_received_ns) {
-    const double sent_apart =
-        static_cast<double>(second.source_time) - static_cast<double>(first.poses.source_time);
-    return second.epoch == first.poses.epoch &&
-           2.0 * static_cast<double>(second_received_ns - first.received_ns) < sent_apart;
 }
 
 template <class Kind>
@@ -66,42 +59,41 @@ void Inbox::put(Message message) {
     if (is<MatchEnded>(message) && merge_end()) return;
     if (is<MatchEnded>(message)) forget_frame_that_is_not_due();
     const auto same = first_like(message);
-    if (is_reminder(message) && same != waiting_.messages.end()) return;
-    if (is_interruption(message) && same != waiting_.messages.end()) forget(same);
+    if (is_reminder(message) && same != messages_.end()) return;
+    if (is_interruption(message) && same != messages_.end()) forget(same);
     if (event && events_ >= max_events) return counters_.add(Counter::drop_events);
     if (view && view_requests_ >= max_view_requests) return counters_.add(Counter::drop_messages);
     events_ += event ? 1 : 0;
     view_requests_ += view ? 1 : 0;
-    waiting_.messages.push_back(std::move(message));
+    messages_.push_back(std::move(message));
 }
 
 Inbox::Place Inbox::first_like(const Message& message) {
-    return std::ranges::find_if(waiting_.messages,
+    return std::ranges::find_if(messages_,
                                 [&](const Message& waiting) { return waiting.index() == message.index(); });
 }
 
 void Inbox::forget(Place place) {
-    const auto before = static_cast<std::size_t>(place - waiting_.messages.begin());
-    for (Frame& frame : waiting_.frames())
-        frame.messages_before -= before < frame.messages_before ? 1 : 0;
-    waiting_.messages.erase(place);
+    const auto before = static_cast<std::size_t>(place - messages_.begin());
+    for (Frame& frame : frames())
+        if (before < frame.messages_before) --frame.messages_before;
+    messages_.erase(place);
 }
 
 // Nothing would be seen of epochs that pass so fast that many wait.
 bool Inbox::merge(MatchInfo& info) {
-    std::vector<Message>& messages = waiting_.messages;
-    const auto last = std::find_if(messages.rbegin(), messages.rend(), [](const Message& message) {
+    const auto last = std::find_if(messages_.rbegin(), messages_.rend(), [](const Message& message) {
         return is<MatchInfo>(message) || is<MatchEnded>(message);
     });
-    if (last == messages.rend() || is<MatchEnded>(*last)) return false;
+    if (last == messages_.rend() || is<MatchEnded>(*last)) return false;
     auto& waiting = std::get<MatchInfo>(*last);
     if (info.epoch < waiting.epoch) {
         counters_.add(Counter::drop_old_epoch);
         return true;
     }
     const bool begins = info.epoch > waiting.epoch || info.map_name != waiting.map_name;
-    if (begins && std::ranges::count_if(messages, is<MatchInfo>) < max_infos) return false;
-    if (std::any_of(messages.rbegin(), last, is_interruption)) {
+    if (begins && std::ranges::count_if(messages_, is<MatchInfo>) < max_infos) return false;
+    if (std::any_of(messages_.rbegin(), last, is_interruption)) {
         forget(std::prev(last.base()));
         return false;
     }
@@ -111,96 +103,121 @@ bool Inbox::merge(MatchInfo& info) {
 
 // Nothing would be seen of a match that begins and ends while an end waits.
 bool Inbox::merge_end() {
-    std::vector<Message>& messages = waiting_.messages;
-    const auto end = std::ranges::find_if(messages, is<MatchEnded>);
-    if (end == messages.end()) return false;
-    const auto before = static_cast<std::size_t>(end - messages.begin());
-    while (waiting_.frame_count > 0 && waiting_.frames().back().messages_before > before) {
-        counters_.add(is_due_ ? Counter::drop_superseded : Counter::drop_paced);
-        --waiting_.frame_count;
-    }
-    is_due_ = is_due_ && waiting_.frame_count > 0;
-    const auto events = static_cast<std::size_t>(std::count_if(end, messages.end(), is<MatchEvent>));
+    const auto end = std::ranges::find_if(messages_, is<MatchEnded>);
+    if (end == messages_.end()) return false;
+    const auto before = static_cast<std::size_t>(end - messages_.begin());
+    const auto after = static_cast<std::size_t>(
+        std::ranges::count_if(frames(), [&](const Frame& frame) { return frame.messages_before > before; }));
+    count_dropped(after, is_due_ ? Counter::drop_superseded : Counter::drop_paced);
+    frame_count_ -= after;
+    is_due_ = is_due_ && frame_count_ > 0;
+    const auto events = static_cast<std::size_t>(std::count_if(end, messages_.end(), is<MatchEvent>));
     counters_.add(Counter::drop_events, events);
     events_ -= events;
-    messages.erase(std::remove_if(end, messages.end(), is_of_server), messages.end());
+    messages_.erase(std::remove_if(end, messages_.end(), is_of_server), messages_.end());
     return true;
 }
 
 // Of a match that has ended: frames of the next one may be older than it.
 void Inbox::forget_frame_that_is_not_due() {
-    if (waiting_.frame_count == 0 || is_due_) return;
+    if (frame_count_ == 0 || is_due_) return;
     counters_.add(Counter::drop_paced);
-    --waiting_.frame_count;
+    frame_count_ = 0;
     left_out_ = 0;
 }
 
 bool Inbox::put(PoseFrame& frame, std::int64_t received_ns) {
     const std::lock_guard lock(mutex_);
+    if (frame_count_ > 0 && older(frame, frames().back().poses)) {
+        counters_.add(frame.epoch < frames().back().poses.epoch ? Counter::drop_old_epoch
+                                                                : Counter::drop_old_frame);
+        return false;
+    }
     const std::uint32_t frames_per_camera = pace_.frames_per_camera();
     const bool wanted = left_out_ + 1 >= frames_per_camera;
-    if (waiting_.frame_count > 0) {
-        const Frame& last = waiting_.frames().back();
-        if (older(frame, last.poses)) {
-            counters_.add(frame.epoch < last.poses.epoch ? Counter::drop_old_epoch : Counter::drop_old_frame);
-            return false;
-        }
-        const bool together = came_together(last, frame, received_ns);
-        const Counter reason = !is_due_ || !wanted ? Counter::drop_paced
-                               : together          ? Counter::drop_burst
-                                                   : Counter::drop_superseded;
-        const bool waits_behind = together && frames_per_camera == 1;
-        if (!waits_behind) {
-            replace(waiting_.frame_count, frame, reason);
-        } else if (waiting_.frame_count == max_frames) {
-            replace(1, waiting_.frame_memory[1].poses, reason);
-        }
+    const bool in_burst = burst_.goes_on_with(frame, received_ns);
+    if (!in_burst || frames_per_camera > 1) {
+        replace(frame_count_, frame,
+                !is_due_ || !wanted ? Counter::drop_paced
+                : in_burst          ? Counter::drop_burst
+                                    : Counter::drop_superseded);
+    } else if (frame_count_ == max_frames) {
+        replace(1, frames()[1].poses, Counter::drop_burst);
     }
-    Frame& place = waiting_.frame_memory[waiting_.frame_count++];
+    Frame& place = frame_memory_[frame_count_++];
     std::swap(place.poses, frame);
     place.received_ns = received_ns;
-    place.messages_before = waiting_.messages.size();
+    place.messages_before = messages_.size();
     left_out_ = wanted ? 0 : left_out_ + 1;
     is_due_ = is_due_ || wanted;
     return is_due_;
 }
 
 void Inbox::replace(std::size_t count, PoseFrame& by, Counter reason) {
-    const std::span<Frame> frames = waiting_.frames();
-    for (const Frame& frame : frames.first(count))
+    for (const Frame& frame : frames().first(count))
         if (frame.poses.epoch == by.epoch) carry_discontinuities(frame.poses, by);
-    counters_.add(reason, count);
-    std::rotate(frames.begin(), frames.begin() + static_cast<std::ptrdiff_t>(count), frames.end());
-    waiting_.frame_count -= count;
+    count_dropped(count, reason);
+    forget_oldest(count);
+}
+
+// That a burst came is not the workers' fault: one frame of it counts as theirs.
+void Inbox::count_dropped(std::size_t count, Counter reason) {
+    const bool of_burst = reason == Counter::drop_superseded && count > 1;
+    counters_.add(reason, of_burst ? 1 : count);
+    if (of_burst) counters_.add(Counter::drop_burst, count - 1);
+}
+
+void Inbox::forget_oldest(std::size_t count) {
+    const auto waiting = frames();
+    std::rotate(waiting.begin(), waiting.begin() + static_cast<std::ptrdiff_t>(count), waiting.end());
+    frame_count_ -= count;
 }
 
 std::optional<std::int64_t> Inbox::frame_waits_since() {
     const std::lock_guard lock(mutex_);
     if (!is_due_) return std::nullopt;
-    return waiting_.frames().front().received_ns;
+    return frames().front().received_ns;
 }
 
 void Inbox::put(const CameraFrame& shown) {
     const std::lock_guard lock(mutex_);
-    waiting_.shown = shown;
-    waiting_.has_shown = true;
+    shown_ = shown;
+    has_shown_ = true;
 }
 
 void Inbox::take(Content& content) {
-    content.messages.clear();
-    content.frame_count = 0;
-    content.has_shown = false;
     const std::lock_guard lock(mutex_);
-    std::swap(content, waiting_);
+    take_messages(content);
+    take_frame(content);
     put_first_requests(content);
-    if (content.frame_count > 0 && !is_due_) {
-        Frame& left = waiting_.frame_memory[waiting_.frame_count++];
-        std::swap(left, content.frame_memory[--content.frame_count]);
-        left.messages_before = 0;
-    }
-    is_due_ = false;
-    events_ = 0;
-    view_requests_ = 0;
+    content.leaves_more = is_due_ || !requests_.empty();
+    content.has_shown = std::exchange(has_shown_, false);
+    if (content.has_shown) std::swap(content.shown, shown_);
+}
+
+// Those before the second frame.
+void Inbox::take_messages(Content& content) {
+    content.messages.clear();
+    const std::size_t count = frame_count_ > 1 ? frames()[1].messages_before : messages_.size();
+    const auto end = messages_.begin() + static_cast<std::ptrdiff_t>(count);
+    content.messages.assign(std::make_move_iterator(messages_.begin()), std::make_move_iterator(end));
+    messages_.erase(messages_.begin(), end);
+    content.messages_before_frame = 0;
+    if (frame_count_ > 0) content.messages_before_frame = std::exchange(frames()[0].messages_before, 0);
+    for (Frame& frame : frames().subspan(std::min<std::size_t>(frame_count_, 1)))
+        frame.messages_before -= count;
+    events_ = static_cast<std::size_t>(std::ranges::count_if(messages_, is<MatchEvent>));
+    view_requests_ = static_cast<std::size_t>(std::ranges::count_if(messages_, is<ViewRequest>));
+}
+
+void Inbox::take_frame(Content& content) {
+    content.has_frame = is_due_;
+    if (!is_due_) return;
+    Frame& first = frames().front();
+    std::swap(content.frame, first.poses);
+    content.received_ns = first.received_ns;
+    forget_oldest(1);
+    is_due_ = frame_count_ > 0;
 }
 
 void Inbox::put_first_requests(Content& content) {
@@ -211,9 +228,7 @@ void Inbox::put_first_requests(Content& content) {
         if (news.ended) messages.emplace_back(RequestEnded{std::move(news.observer_id)});
         if (news.request) messages.emplace_back(std::move(*news.request));
     }
-    content.leaves_requests = !requests_.empty();
-    for (Frame& frame : content.frames())
-        frame.messages_before += messages.size() - static_cast<std::size_t>(others);
+    content.messages_before_frame += messages.size() - static_cast<std::size_t>(others);
     std::rotate(messages.begin(), messages.begin() + others, messages.end());
 }
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "config/config.hpp"
+#include "director/burst.hpp"
 #include "director/counters.hpp"
 #include "director/messages.hpp"
 #include "director/pace.hpp"
@@ -43,14 +44,14 @@ using Message =
                  RequestEnded, MapsChanged, DelayChanged, Reconfigured, ViewRequest>;
 
 // Keeps messages in their order of arrival, and only the newest pose frame, which waits until the pace lets
-// one of its match be taken; but a few wait that were held up and came together. Whatever others send, what
-// waits is bounded. Of each observer, of an epoch's descriptions with one map, of losses of the game server,
-// and of refusals only the newest waits. Of the match that begins after an end that waits, nothing is left
-// once it ends. Few epochs wait, a bounded number of events and of view requests: drops of these are counted.
-// Each match has its own inbox. Thread-safe. Frames do not allocate once its buffers have grown.
+// one of its match be taken; of a burst the newest few. Whatever others send, what waits is bounded. Of each
+// observer, of an epoch's descriptions with one map, of losses of the game server, and of refusals only the
+// newest waits. Of the match that begins after an end that waits, nothing is left once it ends. Few epochs
+// wait, a bounded number of events and of view requests: drops of these are counted. Each match has its own
+// inbox. Thread-safe. Frames do not allocate once its buffers have grown.
 class Inbox {
   public:
-    // Frames that came together and all become cameras: what a stall of 60 ms holds up at 60 Hz.
+    // Frames of a burst that wait: what a stall of 60 ms holds up at 60 Hz.
     static constexpr std::size_t max_frames = 4;
     // Requests of so many observers are taken at once: what they do delays a frame no more than that.
     static constexpr std::size_t max_observers_taken = 32;
@@ -60,10 +61,9 @@ class Inbox {
     void put(Message message);
 
     // Takes the frame and leaves other memory to its caller. Returns whether a frame is due, for which a
-    // turn is wanted. Waits behind those that no turn has taken if it was sent at an interval from the last
-    // of them and came together with it, or else replaces all of them. Their discontinuity flags are carried
-    // over to a new frame of the same epoch, so that no respawn is lost: not every game server counts them
-    // (see Continuity).
+    // turn is wanted. In a burst it waits behind those that no turn has taken; else it replaces all of them.
+    // Their discontinuity flags are carried over to a new frame of the same epoch, so that no respawn is
+    // lost: not every game server counts them (see Continuity).
     bool put(PoseFrame& frame, std::int64_t received_ns);
 
     // When the first frame was received, or due, that waits for a turn and that the pace lets be taken.
@@ -72,30 +72,28 @@ class Inbox {
     // Replaces an earlier one that no turn has taken.
     void put(const CameraFrame& shown);
 
-    struct Frame {
-        PoseFrame poses;
-        std::int64_t received_ns = 0;  // steady clock; of a delayed frame: when it was due
-        std::size_t messages_before = 0;
-    };
-
     struct Content {
-        // In the order in which they came.
-        [[nodiscard]] std::span<Frame> frames() { return std::span(frame_memory).first(frame_count); }
-
         std::vector<Message> messages;  // those of observers come first
-        bool leaves_requests = false;   // for another turn
-        std::size_t frame_count = 0;
-        std::array<Frame, max_frames> frame_memory;
+        bool leaves_more = false;       // for another turn
+        bool has_frame = false;
+        PoseFrame frame;
+        std::size_t messages_before_frame = 0;
+        std::int64_t received_ns = 0;  // steady clock; of a delayed frame: when it was due
         bool has_shown = false;
         CameraFrame shown;  // by the director that leads the match
     };
 
-    // Moves what waits into `content`, whose memory is reused; not a frame that is not due, and not the
-    // requests of more observers than max_observers_taken.
+    // Moves what waits into `content`, whose memory is reused; not a frame that is not due, of a burst one
+    // frame with the messages around it, and not the requests of more observers than max_observers_taken.
     void take(Content& content);
 
   private:
     using Place = std::vector<Message>::iterator;
+    struct Frame {
+        PoseFrame poses;
+        std::int64_t received_ns = 0;
+        std::size_t messages_before = 0;
+    };
 
     // The first of the same kind that waits.
     [[nodiscard]] Place first_like(const Message& message);
@@ -106,16 +104,27 @@ class Inbox {
     // Makes one of an end and of that which waits. Returns false when none does.
     [[nodiscard]] bool merge_end();
     void forget_frame_that_is_not_due();
-    // The first ones, for a newer frame. Those that are due count for `reason`.
+    // The frames that wait, the oldest first.
+    [[nodiscard]] std::span<Frame> frames() { return std::span(frame_memory_).first(frame_count_); }
+    // The oldest ones, for a newer frame.
     void replace(std::size_t count, PoseFrame& by, Counter reason);
+    void count_dropped(std::size_t count, Counter reason);
+    void forget_oldest(std::size_t count);
+    void take_messages(Content& content);
+    void take_frame(Content& content);
     void put_first_requests(Content& content);
 
     std::mutex mutex_;
-    Content waiting_;
+    std::vector<Message> messages_;
+    std::array<Frame, max_frames> frame_memory_;
+    std::size_t frame_count_ = 0;
     bool is_due_ = false;            // the frames that wait; of those that are not one waits
     std::uint32_t left_out_ = 0;     // frames since one was due
-    std::size_t events_ = 0;         // in waiting_.messages
+    std::size_t events_ = 0;         // in messages_
     std::size_t view_requests_ = 0;  // likewise
+    Burst burst_;
+    bool has_shown_ = false;
+    CameraFrame shown_;
     RequestQueue requests_;
     const Pace& pace_;
     MatchCounters& counters_;

@@ -69,14 +69,14 @@ Match::Match(std::string match_id, std::shared_ptr<const config::Config> config,
 void Match::turn(Turn& turn) noexcept {  // NOLINT(bugprone-exception-escape)
     inbox_.take(content_);
     const std::span messages(content_.messages);
-    std::size_t handled = 0;
-    for (Inbox::Frame& frame : content_.frames()) {
-        handle_all(messages.subspan(handled, frame.messages_before - handled));
-        process(frame.poses, frame.received_ns, turn);
-        handled = frame.messages_before;
+    if (content_.has_frame) {
+        handle_all(messages.first(content_.messages_before_frame));
+        process(content_.frame, content_.received_ns, turn);
+        handle_all(messages.subspan(content_.messages_before_frame));
+    } else {
+        handle_all(messages);
     }
-    handle_all(messages.subspan(handled));
-    if (content_.leaves_requests) turn.again();
+    if (content_.leaves_more) turn.again();
     follow();
     prepare(turn);
     // A lookout that is asked for the first time takes milliseconds.

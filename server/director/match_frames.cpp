@@ -212,7 +212,7 @@ void Match::prepare(Turn& turn) {
     if (pace_.frames_per_camera() > 1) return;  // it may not be due
     const auto next = delay_.upcoming();
     if (!next || next->epoch != info_->epoch || next->after != last_time_) return;
-    if (content_.frame_count > 0) return turn.again();  // frames of other matches that are due go first
+    if (content_.has_frame) return turn.again();  // frames of other matches that are due go first
     extend_timeline(next->epoch, next->frame_time);
     const double time = timeline_.seconds(next->frame_time);
     if (!timeline_.covers(next->frame_time) || time <= timeline_.shown()) return;

@@ -19,6 +19,9 @@ constexpr std::size_t most_aims = 512;
 constexpr std::size_t yaws = 16;
 constexpr std::array pitches{-0.5F, -0.2F};  // rad: from above
 constexpr std::size_t worth_a_shot = 100;    // a share of what there is to see
+// Shots that overlook much are chosen, farther than their pictures show players well, units of 0.0254 m: by
+// what is near alone, more of them show less.
+constexpr float overlooked = 1500.0F;
 
 using Aims = std::bitset<most_aims>;
 
@@ -40,6 +43,16 @@ Movers resting(std::span<const MoverShape> shapes) {
         rest.push_back({static_cast<std::uint32_t>(rest.size()), shape.rest, Quatf::Identity()});
     movers->add(0.0, rest);
     return std::move(*movers);
+}
+
+bool in_picture(const FixedShot& shot, const Vec3f& point) {
+    const Vec3f forward(std::cos(shot.yaw) * std::cos(shot.pitch), std::sin(shot.yaw) * std::cos(shot.pitch),
+                        std::sin(shot.pitch));
+    const Vec3f right(std::sin(shot.yaw), -std::cos(shot.yaw), 0.0F);
+    const Vec3f way = point - shot.position;
+    const float depth = way.dot(forward);
+    return depth > 0.0F && std::abs(way.dot(right)) <= fixed_shot_tan_across * depth &&
+           std::abs(way.dot(right.cross(forward))) <= fixed_shot_tan_up * depth;
 }
 
 struct View {
@@ -85,7 +98,7 @@ class Search {
         const SightOrigin origin(freespace_, place, 0.0F);
         std::vector<std::size_t> seen;
         for (std::size_t i = 0; i < aims_.size(); ++i)
-            if ((aims_[i] - place).norm() <= fixed_shot_range * unit_ && origin.to(aims_[i]).clear)
+            if ((aims_[i] - place).norm() <= overlooked * unit_ && origin.to(aims_[i]).clear)
                 seen.push_back(i);
         for (std::size_t turn = 0; turn < yaws; ++turn)
             for (const float pitch : pitches) {
@@ -93,7 +106,7 @@ class Search {
                     2.0F * std::numbers::pi_v<float> * static_cast<float>(turn) / static_cast<float>(yaws);
                 View& view = views_.emplace_back(View{{place, yaw, pitch, none}, {}});
                 for (const std::size_t aim : seen)
-                    view.seen.set(aim, frames(view.shot, aims_[aim], unit_));
+                    view.seen.set(aim, in_picture(view.shot, aims_[aim]));
             }
     }
 
@@ -119,14 +132,7 @@ class Search {
 }  // namespace
 
 bool frames(const FixedShot& shot, const Vec3f& point, float unit) {
-    const Vec3f forward(std::cos(shot.yaw) * std::cos(shot.pitch), std::sin(shot.yaw) * std::cos(shot.pitch),
-                        std::sin(shot.pitch));
-    const Vec3f right(std::sin(shot.yaw), -std::cos(shot.yaw), 0.0F);
-    const Vec3f way = point - shot.position;
-    const float depth = way.dot(forward);
-    return depth > 0.0F && way.norm() <= fixed_shot_range * unit &&
-           std::abs(way.dot(right)) <= fixed_shot_tan_across * depth &&
-           std::abs(way.dot(right.cross(forward))) <= fixed_shot_tan_up * depth;
+    return (point - shot.position).norm() <= fixed_shot_range * unit && in_picture(shot, point);
 }
 
 std::vector<FixedShot> find_fixed_shots(const Freespace& freespace) {

@@ -11,8 +11,8 @@ namespace camdir::freespace {
 inline constexpr float fixed_shot_tan_across = 1.0F;
 inline constexpr float fixed_shot_tan_up = 9.0F / 16.0F;
 inline constexpr float fixed_shot_fov = 1.0247789F;  // rad, vertical: 2 atan(9/16)
-// What is farther away is too small in the picture to count, units of 0.0254 m.
-inline constexpr float fixed_shot_range = 1500.0F;
+// A player who is farther away is too small in the picture to count, units of 0.0254 m.
+inline constexpr float fixed_shot_range = 900.0F;
 // That movers leave a fixed shot, units of 0.0254 m.
 inline constexpr float fixed_shot_room = 8.0F;
 

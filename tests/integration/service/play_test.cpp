@@ -161,7 +161,7 @@ TEST_F(PlayTest, TellsHowToUseAnotherPort) {
     play({});
     const Ran ran = run_director({"play", folder_ / "r", "--http", "127.0.0.1:" + std::to_string(port_)});
     EXPECT_EQ(ran.exit_code, 1);
-    EXPECT_THAT(ran.errors, AllOf(HasSubstr("cannot listen"), HasSubstr("--http names another")));
+    EXPECT_THAT(ran.errors, AllOf(HasSubstr("cannot listen"), HasSubstr("--http takes another")));
 }
 
 TEST_F(PlayTest, HasNothingToWatchLive) {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "freespace/distance.hpp"
 #include "walk.hpp"
@@ -96,6 +97,26 @@ TEST(Situations, ADeadPlayerIsWatchedFromWhereTheCameraComesToRest) {
     EXPECT_EQ(camera.position, rest);
     EXPECT_TRUE(has(camera, held));
     EXPECT_LT(angle_between(camera.orientation * Vec3f::UnitX(), dead.eye - rest), 1e-2F);
+}
+
+// A rocket throws the body past the camera: who fired it stays in the picture for a while.
+TEST(Situations, TheCameraDoesNotSpinAfterABodyThatFliesPast) {
+    const test::Plan plan = test::box_room();
+    CheckedShot shot(plan);
+    const Vec3f eye = plan.eye(3, 4);
+    Vec3f before;
+    for (int i = 0; i < 30; ++i)
+        before = shot.step(pose_at(eye, 0.0F)).orientation * Vec3f::UnitX();
+    Pose body = pose_at(eye, 0.0F);
+    body.alive = false;
+    Vec3f looked = before;
+    for (int i = 0; i < 30; ++i) {
+        body.eye.x() -= 10.0F;  // 600 units/s
+        const Vec3f looks = shot.step(body).orientation * Vec3f::UnitX();
+        EXPECT_LT(angle_between(looks, looked), 1.01F * (std::numbers::pi_v<float> / 2.0F) / 60.0F) << i;
+        looked = looks;
+    }
+    EXPECT_GT(angle_between(looked, before), 0.3F) << "but it looks after them";
 }
 
 TEST(Situations, AMissingPlayerHoldsTheCamera) {

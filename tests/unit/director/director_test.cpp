@@ -10,6 +10,7 @@
 #include <limits>
 #include <numeric>
 #include <set>
+#include <thread>
 
 #include "camera/camera.hpp"
 #include "camera/view.hpp"
@@ -60,25 +61,28 @@ TEST(Director, AMatchWithoutShotsPublishesNothing) {
     EXPECT_EQ(stage.director.statistics()[Counter::pose_frames], 1U);
 }
 
-TEST(Director, PosesThatWereHeldUpAndComeTogetherAllMoveTheCameras) {
+TEST(Director, PosesThatWereHeldUpAllMoveTheCameras) {
     Stage stage;
     stage.start();
     stage.ask(Stage::request("o"));
+    constexpr std::int64_t interval = 200 * ms;
     std::vector<PoseArrival> held_up;
-    for (std::uint32_t number = 1; number <= Inbox::max_frames; ++number) {
-        held_up.push_back({"m", Stage::poses(number)});
-        held_up.back().frame.source_time = 50 * ms * number;
+    for (std::uint32_t number = 0; number <= Inbox::max_frames; ++number) {
+        held_up.push_back({"m", Stage::poses(number + 1)});
+        held_up.back().frame.source_time = 1000 * ms + interval * number;
     }
-    stage.director.receive(held_up);
+    stage.director.receive(std::span(held_up).first(1));  // punctually
+    stage.director.flush();
+    std::this_thread::sleep_for(std::chrono::nanoseconds(interval * Inbox::max_frames));
+    stage.director.receive(std::span(held_up).subspan(1));
     stage.director.flush();
     const auto frames = stage.publisher.frames();
-    ASSERT_EQ(frames.size(), Inbox::max_frames);
+    ASSERT_EQ(frames.size(), held_up.size());
     for (std::uint32_t i = 0; i < frames.size(); ++i) {
         EXPECT_EQ(frames[i].frame_number, i);
         EXPECT_EQ(frames[i].pose_number, i + 1);
         ASSERT_EQ(frames[i].cameras.size(), 1U);
     }
-    EXPECT_EQ(stage.director.statistics()[Counter::drop_burst], 0U);
 }
 
 TEST(Director, CountsTheStagesOfItsLatency) {
