@@ -8,8 +8,9 @@
 
 namespace camdir::director {
 
-// Judged by the sender's clock: frames that were sent at intervals and came together, later than the last one
-// that was punctual lets expect. The second condition is what a clock that runs too fast does not fulfil.
+// Judged by the sender's clock: frames that were sent at intervals and came together, and no earlier than the
+// most punctual one before lets expect, which those of a clock that runs too fast do. Once they are longer on
+// their way than that one, by a longer delay for example, a fast clock may make them look like a burst.
 class Burst {
   public:
     // To be asked of every frame of a match, in the order in which they come: whether it is of one burst with

@@ -136,14 +136,18 @@ bool Inbox::put(PoseFrame& frame, std::int64_t received_ns) {
     const std::uint32_t frames_per_camera = pace_.frames_per_camera();
     const bool wanted = left_out_ + 1 >= frames_per_camera;
     const bool in_burst = burst_.goes_on_with(frame, received_ns);
+    const bool is_late = !in_burst && frame_count_ > 0;
+    const bool stalled = in_burst || (waits_in_burst_ && !was_late_);
     if (!in_burst || frames_per_camera > 1) {
         replace(frame_count_, frame,
                 !is_due_ || !wanted ? Counter::drop_paced
-                : in_burst          ? Counter::drop_burst
+                : stalled           ? Counter::drop_burst
                                     : Counter::drop_superseded);
     } else if (frame_count_ == max_frames) {
         replace(1, frames()[1].poses, Counter::drop_burst);
     }
+    waits_in_burst_ = in_burst;
+    if (!in_burst) was_late_ = is_late;
     Frame& place = frame_memory_[frame_count_++];
     std::swap(place.poses, frame);
     place.received_ns = received_ns;
@@ -160,7 +164,7 @@ void Inbox::replace(std::size_t count, PoseFrame& by, Counter reason) {
     forget_oldest(count);
 }
 
-// That a burst came is not the workers' fault: one frame of it counts as theirs.
+// Of a burst that the workers did not get to, one frame counts as their fault.
 void Inbox::count_dropped(std::size_t count, Counter reason) {
     const bool of_burst = reason == Counter::drop_superseded && count > 1;
     counters_.add(reason, of_burst ? 1 : count);
@@ -169,6 +173,8 @@ void Inbox::count_dropped(std::size_t count, Counter reason) {
 
 void Inbox::forget_oldest(std::size_t count) {
     const auto waiting = frames();
+    for (Frame& frame : waiting.first(count))
+        frame.poses.movers.reset();
     std::rotate(waiting.begin(), waiting.begin() + static_cast<std::ptrdiff_t>(count), waiting.end());
     frame_count_ -= count;
 }
@@ -197,7 +203,6 @@ void Inbox::take(Content& content) {
 
 // Those before the second frame.
 void Inbox::take_messages(Content& content) {
-    content.messages.clear();
     const std::size_t count = frame_count_ > 1 ? frames()[1].messages_before : messages_.size();
     const auto end = messages_.begin() + static_cast<std::ptrdiff_t>(count);
     content.messages.assign(std::make_move_iterator(messages_.begin()), std::make_move_iterator(end));

@@ -118,7 +118,9 @@ class Inbox {
     std::vector<Message> messages_;
     std::array<Frame, max_frames> frame_memory_;
     std::size_t frame_count_ = 0;
-    bool is_due_ = false;            // the frames that wait; of those that are not one waits
+    bool is_due_ = false;            // the frames that wait: one or more; of those that are not, one at most
+    bool waits_in_burst_ = false;    // the newest frame was of one
+    bool was_late_ = false;          // the last frame in no burst found one that waited
     std::uint32_t left_out_ = 0;     // frames since one was due
     std::size_t events_ = 0;         // in messages_
     std::size_t view_requests_ = 0;  // likewise

@@ -28,8 +28,8 @@ enum class Counter : std::size_t {
     drop_early_epoch,  // of an epoch whose MatchInfo has not arrived yet
     drop_old_frame,    // frame number not greater than the previous one
     drop_superseded,   // a newer pose frame arrived before a worker was free
-    drop_burst,        // of pose frames that something on the way had held up: too many came together, or the
-                       // next one came before they had a turn
+    drop_burst,        // of pose frames that something on the way had held up: too many came together, the
+                       // next one came before they had a turn, or the pace is slower
     drop_paced,        // pose frames that were left out evenly: see Pace
     drop_waiting,      // pose frames of a match without a map
     drop_players,      // poses beyond limits.players, duplicate players

@@ -19,8 +19,8 @@ constexpr std::size_t most_aims = 512;
 constexpr std::size_t yaws = 16;
 constexpr std::array pitches{-0.5F, -0.2F};  // rad: from above
 constexpr std::size_t worth_a_shot = 100;    // a share of what there is to see
-// Shots that overlook much are chosen, farther than their pictures show players well, units of 0.0254 m: by
-// what is near alone, more of them show less.
+// Shots that overlook much are chosen, farther than their pictures show players well, units of 0.0254 m. By
+// what is near alone fewer kills are seen (oa_rpg3dm2 at 60 Hz with 10 s of delay: 66 instead of 72).
 constexpr float overlooked = 1500.0F;
 
 using Aims = std::bitset<most_aims>;

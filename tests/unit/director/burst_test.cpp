@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <limits>
-#include <vector>
 
 #include "stage.hpp"
 
@@ -36,6 +35,38 @@ TEST_F(BurstTest, IsWhatWasHeldUp) {
     for (std::int64_t number = 21; number <= 23; ++number)
         EXPECT_TRUE(put(number, 23 * interval + number)) << number;
     EXPECT_FALSE(put(24, 24 * interval));
+}
+
+TEST_F(BurstTest, IsToldByTheMostPunctualFrame) {
+    put(0, 60 * ms);  // the others are faster
+    for (std::int64_t number = 1; number < 20; ++number)
+        put(number, number * interval);
+    put(20, 21 * interval + 1);
+    EXPECT_TRUE(put(21, 21 * interval + 2));
+}
+
+TEST_F(BurstTest, MayEndWithAFrameThatIsALittleFaster) {
+    for (std::int64_t number = 0; number < 20; ++number)
+        put(number, number * interval);
+    put(20, 21 * interval - 2 * ms);
+    EXPECT_TRUE(put(21, 21 * interval - 2 * ms));
+}
+
+TEST_F(BurstTest, IsToldThoughClocksDrift) {
+    for (const double drift : {1e-4, -1e-4}) {
+        burst_ = {};
+        std::int64_t number = 0;
+        const auto sent = [&] {
+            const auto ideal = static_cast<double>(number * interval);
+            return first_ + static_cast<std::int64_t>(ideal * (1.0 + drift));
+        };
+        for (; number < 40'000; ++number)  // 10 minutes
+            EXPECT_FALSE(put_sent(sent(), number * interval));
+        const std::int64_t stalled_until = (number + 2) * interval;
+        EXPECT_FALSE(put_sent(sent(), stalled_until));
+        ++number;
+        EXPECT_TRUE(put_sent(sent(), stalled_until)) << drift;
+    }
 }
 
 TEST_F(BurstTest, IsNotWhatIsAlwaysLate) {
