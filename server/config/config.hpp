@@ -103,6 +103,7 @@ struct Limits {
     std::int64_t participant_observers = 0;  // a match; 0 = half of `observers`
     std::int64_t shots = 256;                // a match
     std::int64_t delay_mib = 64;             // a match
+    std::int64_t pose_rate_hz = 150;         // pose frames of a match that are looked at, a second
     std::int64_t workers = 0;                // threads; 0 = one per core
 };
 

@@ -15,4 +15,13 @@ bool Continuity::broken(const PlayerPose& pose) {
     return std::exchange(last->second, count) != count || declared;
 }
 
+void carry_discontinuities(const PoseFrame& from, PoseFrame& to) {
+    if (from.epoch != to.epoch) return;
+    for (const PlayerPose& pose : from.poses) {
+        if ((pose.flags & pose_discontinuity) == 0) continue;
+        for (PlayerPose& later : to.poses)
+            if (later.player_id == pose.player_id) later.flags |= pose_discontinuity;
+    }
+}
+
 }  // namespace camdir::director

@@ -26,4 +26,8 @@ class Continuity {
     std::unordered_map<std::uint32_t, std::uint32_t> counts_;  // by player
 };
 
+// For a frame that is left out: a later one of the same epoch declares what it declares. Not every game
+// server counts discontinuities.
+void carry_discontinuities(const PoseFrame& from, PoseFrame& to);
+
 }  // namespace camdir::director

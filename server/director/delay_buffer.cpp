@@ -13,13 +13,9 @@ namespace {
 
 constexpr std::int64_t retained_ns = 1'000'000'000;  // of what has left, for those who look ahead late
 constexpr std::int64_t max_paced_ns = 250'000'000;
-constexpr std::int64_t max_late_ns = 100'000'000;    // of frames that are shown in turn
-constexpr std::int64_t turn_ns = 2'000'000;          // until one that waits for its turn is looked at again
-constexpr std::int64_t max_jitter_ns = 100'000'000;  // more is a stall, or a step of the sender's clock
-constexpr std::int64_t max_stall_ns = 10'000'000'000;
-// The clocks of sender and director drift apart by less than a millisecond meanwhile.
-constexpr std::int64_t stretch_ns = 5'000'000'000;
-constexpr double longest_pace_s = 0.25;  // a longer step of the game's clock is a pause or a jump
+constexpr std::int64_t max_late_ns = 100'000'000;  // of frames that are shown in turn
+constexpr std::int64_t turn_ns = 2'000'000;        // until one that waits for its turn is looked at again
+constexpr double longest_pace_s = 0.25;            // a longer step of the game's clock is a pause or a jump
 constexpr double pace = 0.9;
 constexpr std::size_t bytes_of_name = 96;  // a player's name and class
 
@@ -48,11 +44,6 @@ std::size_t bytes_of(const PoseFrame& frame, const MatchMovers* movers_before) {
     if (frame.movers && (movers_before == nullptr || frame.movers->info != movers_before->info))
         bytes += bytes_of(*frame.movers->info);
     return bytes;
-}
-
-// Clocks are arbitrary: modulo 2^64.
-std::int64_t difference(std::int64_t a, std::int64_t b) {
-    return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) - static_cast<std::uint64_t>(b));
 }
 
 std::string seconds_text(double seconds) {
@@ -130,11 +121,10 @@ DelayBuffer::Admission DelayBuffer::put(Message& message, std::int64_t now) {
     return keep(std::move(message), bytes, now + delay_ns_, now);
 }
 
-DelayBuffer::Admission DelayBuffer::put(const PoseFrame& frame, std::int64_t now) {
+DelayBuffer::Admission DelayBuffer::put(const PoseFrame& frame, std::int64_t received) {
     const std::lock_guard lock(mutex_);
     if (!refusal_.empty()) return Admission::refused;
     if (passes()) return Admission::undelayed;
-    const std::int64_t received = punctual_receipt(frame, now);
     const Admission admission =
         keep(frame, bytes_of(frame, last_movers_.get()), due_of(frame, received), received);
     last_movers_ = frame.movers;
@@ -142,33 +132,6 @@ DelayBuffer::Admission DelayBuffer::put(const PoseFrame& frame, std::int64_t now
     last_frame_epoch_ = frame.epoch;
     last_frame_time_ = frame.frame_time;
     return admission;
-}
-
-// Whether the game has gone on, and the sender's clock with it since the stretch began.
-bool DelayBuffer::goes_on(const PoseFrame& frame) const {
-    if (!clock_offset_ || frame.epoch != last_frame_epoch_) return false;
-    const std::int64_t apart = difference(difference(frame.source_time, frame.frame_time), *clock_offset_);
-    return difference(frame.frame_time, last_frame_time_) > 0 && apart <= max_jitter_ns &&
-           apart >= -max_jitter_ns;
-}
-
-// When it would have been received if it had been as fast as the fastest.
-std::int64_t DelayBuffer::punctual_receipt(const PoseFrame& frame, std::int64_t now) {
-    if (frame.source_time == 0) return now;
-    const std::int64_t on_its_way = difference(now, frame.source_time);
-    const bool continues = goes_on(frame);
-    if (!continues || now >= stretch_ends_) clock_offset_ = difference(frame.source_time, frame.frame_time);
-    if (now >= stretch_ends_) {
-        fastest_before_ = now < stretch_ends_ + stretch_ns ? fastest_ : never;
-        fastest_ = never;
-        stretch_ends_ = now + stretch_ns;
-    }
-    const std::int64_t fastest = std::min(fastest_, fastest_before_);
-    const std::int64_t longer = fastest == never ? 0 : difference(on_its_way, fastest);
-    const std::int64_t most = continues ? max_stall_ns : max_jitter_ns;
-    if (longer > most || longer < -max_jitter_ns) fastest_ = fastest_before_ = never;
-    fastest_ = std::min(fastest_, on_its_way);
-    return now - (longer <= most ? std::max<std::int64_t>(longer, 0) : 0);
 }
 
 std::int64_t DelayBuffer::due_of(const PoseFrame& frame, std::int64_t received) const {

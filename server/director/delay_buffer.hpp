@@ -18,14 +18,13 @@ namespace camdir::director {
 
 inline constexpr double max_delay_s = 120.0;
 
-// Everything leaves in the order of its receipt, at least the delay after its receipt. A pose frame that was
-// longer on its way than the fastest of the last seconds, by its sender's clock, leaves as if it had been as
-// fast: the delay has time to take out what the network and schedulers add, up to 0.1 s, and up to 10 s of a
-// stall in which neither the sender's clock nor the game's has stepped. Pose frames that
-// arrived in a burst are due at most a ninth faster than the game's clock ran between them, and for that at
-// most 0.25 s late. The delay is the greater of the match's own and the operator's. It may grow at any time:
-// what waits then waits on. A smaller one takes effect with the next epoch: nothing is shown earlier than was
-// promised when it was recorded. What cannot be delayed is refused and dropped.
+// Everything leaves in the order of its receipt, at least the delay after its receipt. Pose frames are given
+// as if none had been slow on its way (Receipt::punctual): the delay has time to take out what the network
+// and schedulers add. Those that are closer together all the same are due at most a ninth faster than the
+// game's clock ran between them, and for that at most 0.25 s late. The delay is the greater of the match's
+// own and the operator's. It may grow at any time: what waits then waits on. A smaller one takes effect with
+// the next epoch: nothing is shown earlier than was promised when it was recorded. What cannot be delayed is
+// refused and dropped.
 //
 // Times are the steady clock's in ns; the buffer reads no clock. Thread-safe.
 class DelayBuffer {
@@ -51,7 +50,7 @@ class DelayBuffer {
     // Of what the game server sends: MatchInfo (after announce()), MatchEvent, ServerLost, MatchEnded. The
     // end of a refused match is not delayed.
     [[nodiscard]] Admission put(Message& message, std::int64_t now);
-    [[nodiscard]] Admission put(const PoseFrame& frame, std::int64_t now);
+    [[nodiscard]] Admission put(const PoseFrame& frame, std::int64_t received);
 
     struct Released {
         bool any = false;           // something has left, or has come within lead_ns of being due
@@ -109,7 +108,7 @@ class DelayBuffer {
   private:
     using Item = std::variant<PoseFrame, Message>;
     struct Entry {
-        std::int64_t received;  // or as if it had been fast
+        std::int64_t received;
         std::int64_t due;
         std::size_t bytes;
         Item item;
@@ -121,8 +120,6 @@ class DelayBuffer {
     void hold_back(std::int64_t now);
     Admission keep(Item item, std::size_t bytes, std::int64_t due, std::int64_t received);
     [[nodiscard]] bool passes() const { return delay_ns_ == 0 && released_ == entries_.size(); }
-    [[nodiscard]] bool goes_on(const PoseFrame& frame) const;
-    [[nodiscard]] std::int64_t punctual_receipt(const PoseFrame& frame, std::int64_t now);
     [[nodiscard]] std::int64_t due_of(const PoseFrame& frame, std::int64_t received) const;
     [[nodiscard]] double wanted_s() const { return std::max(announced_s_, minimum_s_); }
 
@@ -143,12 +140,7 @@ class DelayBuffer {
     std::size_t released_ = 0;  // entries before this one have left; kept for a second
     std::uint64_t near_ = 0;    // position of the first that is not within lead_ns of being due
     std::size_t bytes_ = 0;
-    // Times on the way from the sender, by two clocks: of this stretch of time and the one before.
-    std::int64_t fastest_ = never;
-    std::int64_t fastest_before_ = never;
-    std::int64_t stretch_ends_ = 0;
-    std::optional<std::int64_t> clock_offset_;  // of the sender's clock from the game's, as the stretch began
-    std::int64_t last_left_ = 0;                // frame_time
+    std::int64_t last_left_ = 0;  // frame_time
     std::int64_t last_due_ = 0;
     std::int64_t last_frame_due_ = 0;  // 0: no frame yet
     std::uint64_t last_frame_epoch_ = 0;

@@ -54,7 +54,8 @@ struct Director::Impl {
     void post(Match& match, Message message);
     // Of the game server: through the match's delay.
     void deliver(Match& match, Message message);
-    void deliver(Match& match, PoseFrame& frame, BriefTurns& turns);
+    void deliver(const std::string& match_id, Match& match, PoseFrame& frame, BriefTurns& turns);
+    void leave_out(const std::string& match_id, Match& match);
     // Whether it passes the delay at once; `counts` where it is refused.
     bool passes(Match& match, DelayBuffer::Admission admission, bool counts);
     std::size_t count(bool has_server) const;
@@ -89,7 +90,7 @@ struct Director::Impl {
     std::uint64_t superseded = 0;
     std::chrono::nanoseconds busy{0};
     MatchCounters unmatched;  // of messages without a match
-    LogLimit refusals;
+    LogLimit refusals, floods;
 
     // Held exclusively to add and remove matches and to change the configuration, otherwise shared. Guards
     // the members below.
@@ -131,10 +132,20 @@ void Director::Impl::deliver(Match& match, Message message) {
     if (passes(match, match.delay().put(message, now_ns()), counts)) post(match, std::move(message));
 }
 
-void Director::Impl::deliver(Match& match, PoseFrame& frame, BriefTurns& turns) {
-    const std::int64_t now = now_ns();
-    if (!passes(match, match.delay().put(frame, now), true)) return;
-    if (match.inbox().put(frame, now)) turns.schedule(match);
+void Director::Impl::deliver(const std::string& match_id, Match& match, PoseFrame& frame, BriefTurns& turns) {
+    const auto receipt = match.arrivals().judge(frame, now_ns());
+    if (!receipt) return leave_out(match_id, match);
+    if (!passes(match, match.delay().put(frame, receipt->punctual), true)) return;
+    if (match.inbox().put(frame, receipt->received, receipt->in_burst)) turns.schedule(match);
+}
+
+void Director::Impl::leave_out(const std::string& match_id, Match& match) {
+    match.counters().add(Counter::drop_rate);
+    if (const auto times = floods.due())
+        spdlog::warn(
+            "match {}: its game server sends more than limits.pose_rate_hz = {} pose frames a second: the "
+            "rest is left out ({} since the last such line)",
+            match_id, config->limits.pose_rate_hz, *times);
 }
 
 bool Director::Impl::passes(Match& match, DelayBuffer::Admission admission, bool counts) {
@@ -338,7 +349,7 @@ void Director::receive(std::span<PoseArrival> arrivals) {
     const std::shared_lock lock(impl_->mutex);
     for (auto& [match_id, frame] : arrivals) {
         if (Match* match = impl_->find(match_id))
-            impl_->deliver(*match, frame, turns);
+            impl_->deliver(match_id, *match, frame, turns);
         else
             impl_->unmatched.add(Counter::drop_unknown_match);
     }

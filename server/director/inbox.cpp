@@ -4,7 +4,7 @@
 #include <iterator>
 #include <utility>
 
-#include "director/roster.hpp"
+#include "director/continuity.hpp"
 
 namespace camdir::director {
 namespace {
@@ -17,14 +17,6 @@ constexpr std::ptrdiff_t max_infos = 8;  // of different epochs
 bool older(const PoseFrame& a, const PoseFrame& b) {
     if (a.epoch != b.epoch) return a.epoch < b.epoch;
     return static_cast<std::int32_t>(a.frame_number - b.frame_number) <= 0;
-}
-
-void carry_discontinuities(const PoseFrame& from, PoseFrame& to) {
-    for (const PlayerPose& pose : from.poses) {
-        if ((pose.flags & pose_discontinuity) == 0) continue;
-        for (PlayerPose& later : to.poses)
-            if (later.player_id == pose.player_id) later.flags |= pose_discontinuity;
-    }
 }
 
 template <class Kind>
@@ -108,9 +100,8 @@ bool Inbox::merge_end() {
     const auto before = static_cast<std::size_t>(end - messages_.begin());
     const auto after = static_cast<std::size_t>(
         std::ranges::count_if(frames(), [&](const Frame& frame) { return frame.messages_before > before; }));
-    count_dropped(after, is_due_ ? Counter::drop_superseded : Counter::drop_paced);
+    count_dropped(after, is_due() ? Counter::drop_superseded : Counter::drop_paced);
     frame_count_ -= after;
-    is_due_ = is_due_ && frame_count_ > 0;
     const auto events = static_cast<std::size_t>(std::count_if(end, messages_.end(), is<MatchEvent>));
     counters_.add(Counter::drop_events, events);
     events_ -= events;
@@ -120,13 +111,13 @@ bool Inbox::merge_end() {
 
 // Of a match that has ended: frames of the next one may be older than it.
 void Inbox::forget_frame_that_is_not_due() {
-    if (frame_count_ == 0 || is_due_) return;
+    if (frame_count_ == 0 || is_due()) return;
     counters_.add(Counter::drop_paced);
     frame_count_ = 0;
     left_out_ = 0;
 }
 
-bool Inbox::put(PoseFrame& frame, std::int64_t received_ns) {
+bool Inbox::put(PoseFrame& frame, std::int64_t received_ns, bool in_burst) {
     const std::lock_guard lock(mutex_);
     if (frame_count_ > 0 && older(frame, frames().back().poses)) {
         counters_.add(frame.epoch < frames().back().poses.epoch ? Counter::drop_old_epoch
@@ -135,31 +126,30 @@ bool Inbox::put(PoseFrame& frame, std::int64_t received_ns) {
     }
     const std::uint32_t frames_per_camera = pace_.frames_per_camera();
     const bool wanted = left_out_ + 1 >= frames_per_camera;
-    const bool in_burst = burst_.goes_on_with(frame, received_ns);
-    const bool is_late = !in_burst && frame_count_ > 0;
-    const bool stalled = in_burst || (waits_in_burst_ && !was_late_);
+    const bool was_due = is_due();
+    const bool stalled = in_burst || (frame_count_ > 0 && frames().back().in_burst && !was_late_);
+    if (!in_burst) was_late_ = frame_count_ > 0;
     if (!in_burst || frames_per_camera > 1) {
         replace(frame_count_, frame,
-                !is_due_ || !wanted ? Counter::drop_paced
+                !was_due || !wanted ? Counter::drop_paced
                 : stalled           ? Counter::drop_burst
                                     : Counter::drop_superseded);
     } else if (frame_count_ == max_frames) {
         replace(1, frames()[1].poses, Counter::drop_burst);
     }
-    waits_in_burst_ = in_burst;
-    if (!in_burst) was_late_ = is_late;
+    left_out_ = wanted ? 0 : left_out_ + 1;
     Frame& place = frame_memory_[frame_count_++];
     std::swap(place.poses, frame);
     place.received_ns = received_ns;
     place.messages_before = messages_.size();
-    left_out_ = wanted ? 0 : left_out_ + 1;
-    is_due_ = is_due_ || wanted;
-    return is_due_;
+    place.in_burst = in_burst;
+    place.is_due = wanted || was_due;
+    return place.is_due;
 }
 
 void Inbox::replace(std::size_t count, PoseFrame& by, Counter reason) {
     for (const Frame& frame : frames().first(count))
-        if (frame.poses.epoch == by.epoch) carry_discontinuities(frame.poses, by);
+        carry_discontinuities(frame.poses, by);
     count_dropped(count, reason);
     forget_oldest(count);
 }
@@ -181,7 +171,7 @@ void Inbox::forget_oldest(std::size_t count) {
 
 std::optional<std::int64_t> Inbox::frame_waits_since() {
     const std::lock_guard lock(mutex_);
-    if (!is_due_) return std::nullopt;
+    if (!is_due()) return std::nullopt;
     return frames().front().received_ns;
 }
 
@@ -196,7 +186,7 @@ void Inbox::take(Content& content) {
     take_messages(content);
     take_frame(content);
     put_first_requests(content);
-    content.leaves_more = is_due_ || !requests_.empty();
+    content.leaves_more = is_due() || !requests_.empty();
     content.has_shown = std::exchange(has_shown_, false);
     if (content.has_shown) std::swap(content.shown, shown_);
 }
@@ -216,13 +206,12 @@ void Inbox::take_messages(Content& content) {
 }
 
 void Inbox::take_frame(Content& content) {
-    content.has_frame = is_due_;
-    if (!is_due_) return;
+    content.has_frame = is_due();
+    if (!content.has_frame) return;
     Frame& first = frames().front();
     std::swap(content.frame, first.poses);
     content.received_ns = first.received_ns;
     forget_oldest(1);
-    is_due_ = frame_count_ > 0;
 }
 
 void Inbox::put_first_requests(Content& content) {

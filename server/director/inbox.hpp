@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "config/config.hpp"
-#include "director/burst.hpp"
 #include "director/counters.hpp"
 #include "director/messages.hpp"
 #include "director/pace.hpp"
@@ -61,10 +60,9 @@ class Inbox {
     void put(Message message);
 
     // Takes the frame and leaves other memory to its caller. Returns whether a frame is due, for which a
-    // turn is wanted. In a burst it waits behind those that no turn has taken; else it replaces all of them.
-    // Their discontinuity flags are carried over to a new frame of the same epoch, so that no respawn is
-    // lost: not every game server counts them (see Continuity).
-    bool put(PoseFrame& frame, std::int64_t received_ns);
+    // turn is wanted. In a burst it waits behind those that no turn has taken; else it replaces all of them,
+    // and their discontinuities are carried over to it.
+    bool put(PoseFrame& frame, std::int64_t received_ns, bool in_burst = false);
 
     // When the first frame was received, or due, that waits for a turn and that the pace lets be taken.
     [[nodiscard]] std::optional<std::int64_t> frame_waits_since();
@@ -93,6 +91,8 @@ class Inbox {
         PoseFrame poses;
         std::int64_t received_ns = 0;
         std::size_t messages_before = 0;
+        bool in_burst = false;
+        bool is_due = false;  // when several wait, all are
     };
 
     // The first of the same kind that waits.
@@ -106,6 +106,7 @@ class Inbox {
     void forget_frame_that_is_not_due();
     // The frames that wait, the oldest first.
     [[nodiscard]] std::span<Frame> frames() { return std::span(frame_memory_).first(frame_count_); }
+    [[nodiscard]] bool is_due() const { return frame_count_ > 0 && frame_memory_.front().is_due; }
     // The oldest ones, for a newer frame.
     void replace(std::size_t count, PoseFrame& by, Counter reason);
     void count_dropped(std::size_t count, Counter reason);
@@ -118,13 +119,10 @@ class Inbox {
     std::vector<Message> messages_;
     std::array<Frame, max_frames> frame_memory_;
     std::size_t frame_count_ = 0;
-    bool is_due_ = false;            // the frames that wait: one or more; of those that are not, one at most
-    bool waits_in_burst_ = false;    // the newest frame was of one
     bool was_late_ = false;          // the last frame in no burst found one that waited
     std::uint32_t left_out_ = 0;     // frames since one was due
     std::size_t events_ = 0;         // in messages_
     std::size_t view_requests_ = 0;  // likewise
-    Burst burst_;
     bool has_shown_ = false;
     CameraFrame shown_;
     RequestQueue requests_;

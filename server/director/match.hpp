@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "director/arrivals.hpp"
 #include "director/continuity.hpp"
 #include "director/delay_buffer.hpp"
 #include "director/edit.hpp"
@@ -35,6 +36,8 @@ class Match final : public Strand {
     Match(std::string match_id, std::shared_ptr<const config::Config> config, const MapLibrary& maps,
           const Pace& pace, Publisher& publisher, const Audiences& audiences);
 
+    // Judges what the game server sends.
+    [[nodiscard]] Arrivals& arrivals() { return arrivals_; }
     [[nodiscard]] Inbox& inbox() { return inbox_; }
     // Of what the game server sends; it leaves to the inbox.
     [[nodiscard]] DelayBuffer& delay() { return delay_; }
@@ -153,6 +156,7 @@ class Match final : public Strand {
     Publisher& publisher_;
     const Audiences& audiences_;
     MatchCounters counters_;
+    Arrivals arrivals_;
     Inbox inbox_;
     DelayBuffer delay_;
 

@@ -31,6 +31,7 @@ enum class Counter : std::size_t {
     drop_burst,        // of pose frames that something on the way had held up: too many came together, the
                        // next one came before they had a turn, or the pace is slower
     drop_paced,        // pose frames that were left out evenly: see Pace
+    drop_rate,         // pose frames beyond limits.pose_rate_hz
     drop_waiting,      // pose frames of a match without a map
     drop_players,      // poses beyond limits.players, duplicate players
     drop_events,       // the match's queue of events was full

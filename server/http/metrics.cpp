@@ -68,6 +68,7 @@ MetricFamily drops(const Statistics& statistics) {
         {Counter::drop_superseded, "superseded"},
         {Counter::drop_burst, "burst"},
         {Counter::drop_paced, "paced"},
+        {Counter::drop_rate, "rate"},
         {Counter::drop_waiting, "no_map"},
         {Counter::drop_players, "players"},
         {Counter::drop_events, "events"},

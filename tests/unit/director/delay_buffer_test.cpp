@@ -30,6 +30,10 @@ class DelayBufferTest : public testing::Test {
     Admission put(std::uint32_t number, std::int64_t now, std::uint64_t epoch = 1) {
         return buffer_.put(frame_at(number, number * 20 * ms, epoch), now);
     }
+    // As punctual as its sender's clock says.
+    Admission put_judged(PoseFrame& frame, std::int64_t now) {
+        return buffer_.put(frame, arrivals_.judge(frame, now).value().punctual);
+    }
     Admission put(Message message, std::int64_t now) { return buffer_.put(message, now); }
 
     // What leaves at this time; `next_due_` is set.
@@ -42,6 +46,7 @@ class DelayBufferTest : public testing::Test {
 
     MatchCounters counters_;
     Pace pace_;
+    Arrivals arrivals_{1000};
     Inbox inbox_{pace_, counters_};
     Inbox::Content content_;
     std::int64_t next_due_ = 0;
@@ -96,7 +101,7 @@ TEST_F(DelayBufferTest, TheDelayTakesOutWhatTheWayAdds) {
             std::max(received, sent + fastest + (number % 100 < 95 && number > 0 ? jitter(random) : 0));
         PoseFrame frame = frame_at(number, sent);
         frame.source_time = other_clock + sent;
-        ASSERT_EQ(buffer_.put(frame, received), Admission::delayed);
+        ASSERT_EQ(put_judged(frame, received), Admission::delayed);
         const std::int64_t due = sent + fastest + 2 * one_s;
         EXPECT_FALSE(release(due - 1).has_frame) << number;
         ASSERT_TRUE(release(due).has_frame) << number;
@@ -113,7 +118,7 @@ TEST_F(DelayBufferTest, WhatWaitedInAStallLeavesAsItWasSent) {
         const bool stalled = sent >= one_s && sent < 3 * one_s;
         PoseFrame frame = frame_at(number, sent);
         frame.source_time = sent;
-        ASSERT_EQ(buffer_.put(frame, stalled ? 3 * one_s : sent), Admission::delayed);
+        ASSERT_EQ(put_judged(frame, stalled ? 3 * one_s : sent), Admission::delayed);
     }
     for (std::uint32_t number = 1; number < 400; ++number) {
         const std::int64_t due = number * 20 * ms + 4 * one_s;
@@ -131,7 +136,7 @@ TEST_F(DelayBufferTest, AClockThatCreepsBackMakesNothingEarlierThanJitterMay) {
         const std::int64_t now = number * 20 * ms;
         PoseFrame frame = frame_at(static_cast<std::uint32_t>(number), now);
         frame.source_time = 1000 * one_s + now - number * 90 * ms;
-        ASSERT_EQ(buffer_.put(frame, now), Admission::delayed);
+        ASSERT_EQ(put_judged(frame, now), Admission::delayed);
         if (!release(now).has_frame) continue;
         ++left;
         EXPECT_LE(content_.frame.frame_number * 20 * ms, now - 4 * one_s + 100 * ms);
@@ -162,7 +167,7 @@ TEST_F(DelayBufferTest, NoClockOfASenderMakesFramesEarly) {
         PoseFrame frame = frame_at(number, now);
         frame.source_time =
             static_cast<std::int64_t>(static_cast<std::uint64_t>(now) + static_cast<std::uint64_t>(offset));
-        ASSERT_EQ(buffer_.put(frame, now), Admission::delayed);
+        ASSERT_EQ(put_judged(frame, now), Admission::delayed);
         const std::int64_t due = now + 2 * one_s;
         EXPECT_FALSE(release(due - 1).has_frame) << number;
         ASSERT_TRUE(release(due).has_frame) << number;

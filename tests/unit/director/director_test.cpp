@@ -69,6 +69,7 @@ TEST(Director, PosesThatWereHeldUpAllMoveTheCameras) {
     std::vector<PoseArrival> held_up;
     for (std::uint32_t number = 0; number <= Inbox::max_frames; ++number) {
         held_up.push_back({"m", Stage::poses(number + 1)});
+        held_up.back().frame.frame_time = interval * number;
         held_up.back().frame.source_time = 1000 * ms + interval * number;
     }
     stage.director.receive(std::span(held_up).first(1));  // punctually

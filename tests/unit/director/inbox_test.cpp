@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "director/arrivals.hpp"
 #include "director/roster.hpp"
 #include "stage.hpp"
 
@@ -42,8 +43,15 @@ class InboxTest : public testing::Test {
     void put_sent_at(std::uint32_t number, std::int64_t sent_ns, std::int64_t received_ns,
                      std::uint32_t flags = 0) {
         PoseFrame sent = frame(1, number, flags);
-        sent.source_time = 1000 * ms + sent_ns;
-        put(std::move(sent), received_ns);
+        put_sent_at(std::move(sent), sent_ns, received_ns);
+    }
+
+    void put_sent_at(PoseFrame frame, std::int64_t sent_ns, std::int64_t received_ns) {
+        frame.frame_time = sent_ns;
+        frame.source_time = 1000 * ms + sent_ns;
+        const auto receipt = arrivals_.judge(frame, received_ns);
+        ASSERT_TRUE(receipt);
+        inbox_.put(frame, receipt->received, receipt->in_burst);
     }
 
     // A frame that tells how long they are on their way.
@@ -62,6 +70,7 @@ class InboxTest : public testing::Test {
 
     MatchCounters counters_;
     Pace pace_;
+    Arrivals arrivals_{1000};
     Inbox inbox_{pace_, counters_};
     Inbox::Content content_;
 };
@@ -206,9 +215,7 @@ TEST_F(InboxTest, ANewEpochReplacesABurst) {
     begin_punctually();
     put_sent_at(1, 33 * ms, 200 * ms, pose_discontinuity);
     put_sent_at(2, 66 * ms, 200 * ms);
-    PoseFrame next = frame(2, 1);
-    next.source_time = (1000 + 99) * ms;
-    inbox_.put(next, 200 * ms);
+    put_sent_at(frame(2, 1), 99 * ms, 200 * ms);
     inbox_.take(content_);
     ASSERT_TRUE(content_.has_frame);
     EXPECT_EQ(content_.frame.epoch, 2U);
