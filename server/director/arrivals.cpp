@@ -30,7 +30,7 @@ std::optional<Receipt> Arrivals::judge(PoseFrame& frame, std::int64_t now) {
     const Receipt receipt = receive(frame, now);
     last_ = Sent{frame.epoch, frame.source_time, frame.frame_time, now};
     carry_discontinuities(left_out_, frame);
-    if (has_room(now)) {
+    if (has_room(receipt.punctual)) {
         left_out_.poses.clear();
         return receipt;
     }
@@ -71,15 +71,16 @@ bool Arrivals::came_together(const PoseFrame& frame, std::int64_t now) const {
 
 void Arrivals::age(std::int64_t now) {
     if (now < stretch_ends_) return;
-    fastest_before_ = now < stretch_ends_ + stretch_ns ? fastest_ : never;
+    fastest_before_ = last_ && now - last_->received <= max_stall_ns ? fastest_ : never;
     fastest_ = never;
     stretch_ends_ = now + stretch_ns;
 }
 
-// A bucket of the tokens of max_stall_ns.
-bool Arrivals::has_room(std::int64_t now) {
-    if (full_at_ - now > max_stall_ns) return false;
-    full_at_ = std::max(full_at_, now) + interval_;
+// A bucket of the tokens of a second. By the time at which a frame would have been punctual, so that a stall
+// costs nothing; it is never later than now, whatever the sender's clock says.
+bool Arrivals::has_room(std::int64_t punctual) {
+    if (full_at_ - punctual > second_ns) return false;
+    full_at_ = std::max(full_at_, punctual) + interval_;
     return true;
 }
 

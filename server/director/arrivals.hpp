@@ -29,9 +29,9 @@ class Arrivals {
     explicit Arrivals(std::int64_t max_per_second);  // >= 1
 
     // To be asked of every frame, in the order in which they come; any clock of its sender is possible, 0 is
-    // none. Nothing for a frame that is to be left out: with it the match has sent more than max_per_second
-    // for longer than a stall may hold up. Those that are not are even. The discontinuity flags of the others
-    // are carried over to them; for that their memory is kept, as the frame's is where it is left out.
+    // none. Nothing for a frame that is to be left out, so that those that are not are even: max_per_second,
+    // as many at once, and whatever a stall has held up. The discontinuities of the others are carried over
+    // to them. A frame that is left out has other memory afterwards.
     [[nodiscard]] std::optional<Receipt> judge(PoseFrame& frame, std::int64_t now);
 
   private:
@@ -48,7 +48,7 @@ class Arrivals {
     [[nodiscard]] bool goes_on(const PoseFrame& frame) const;
     [[nodiscard]] bool came_together(const PoseFrame& frame, std::int64_t now) const;
     void age(std::int64_t now);
-    [[nodiscard]] bool has_room(std::int64_t now);
+    [[nodiscard]] bool has_room(std::int64_t punctual);
 
     std::mutex mutex_;
     const std::int64_t interval_;  // in which one frame is let in

@@ -158,7 +158,6 @@ TEST(DelayedMatch, AReloadedMinimumHoldsTheMatchBack) {
 TEST(DelayedMatch, IsShownAgainWhenAReloadEndsItsRefusal) {
     config::Config config = with_minimum(100.0);
     config.limits.delay_mib = 1;
-    config.limits.pose_rate_hz = 1000;
     Stage stage(config);
     stage.start();
     stage.ask(Stage::request("a"));

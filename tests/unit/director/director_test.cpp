@@ -86,6 +86,20 @@ TEST(Director, PosesThatWereHeldUpAllMoveTheCameras) {
     }
 }
 
+TEST(Director, AGameServerThatSendsTooFastHasNoMoreCamerasThanOthersMay) {
+    config::Config config = Stage::default_config();
+    config.limits.pose_rate_hz = 2;
+    Stage stage(config);
+    stage.start();
+    stage.ask(Stage::request("o"));
+    std::uint32_t number = 0;
+    const auto dropped = [&] { return stage.director.statistics()[Counter::drop_rate]; };
+    while (dropped() < 10 && number < 10'000)
+        stage.send(Stage::poses(++number));
+    EXPECT_EQ(dropped(), 10U);
+    EXPECT_EQ(stage.publisher.frames().size() + dropped(), number);
+}
+
 TEST(Director, CountsTheStagesOfItsLatency) {
     Stage stage;
     stage.start();

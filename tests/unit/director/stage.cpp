@@ -90,6 +90,7 @@ config::Config Stage::default_config() {
     config::Config config;
     config.profiles["default"];
     config.limits.workers = 2;
+    config.limits.pose_rate_hz = 1'000'000;  // frames of many seconds come in one
     config.matches.silence_frames = 100000;
     return config;
 }
