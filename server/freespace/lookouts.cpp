@@ -55,7 +55,7 @@ Lookouts::Lookouts(const Freespace& freespace) {
 }
 
 Lookouts::Nearest Lookouts::nearest(const Freespace& freespace, const Vec3f& point) const {
-    constexpr std::size_t looked_at = 8;
+    constexpr std::size_t looked_at = 24;
     struct Near {
         float distance2;
         std::uint32_t lookout;

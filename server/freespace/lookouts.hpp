@@ -21,7 +21,7 @@ class Lookouts {
     using Set = std::bitset<limit>;
     // The nearest of a point that it sees; fewer where there are not so many within `reach()`.
     struct Nearest {
-        std::array<std::uint32_t, 3> lookouts;
+        std::array<std::uint32_t, 12> lookouts;
         std::uint32_t count = 0;
 
         [[nodiscard]] std::span<const std::uint32_t> span() const& { return {lookouts.data(), count}; }

@@ -82,6 +82,20 @@ std::optional<Look> look_at_all(const Vec3f& position, std::span<const Vec3f> po
     return look;
 }
 
+bool fits_one_picture(const Vec3f& position, std::span<const Vec3f> points, const PictureShape& shape) {
+    // From corner to corner: of the angle 2 atan(d) the cosine.
+    const float diagonal2 = shape.half_width * shape.half_width + shape.half_height * shape.half_height;
+    const float widest_cosine = (1.0F - diagonal2) / (1.0F + diagonal2);
+    for (std::size_t i = 0; i < points.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j) {
+            const Vec3f one = points[i] - position;
+            const Vec3f other = points[j] - position;
+            if (one.dot(other) < widest_cosine * std::sqrt(one.squaredNorm() * other.squaredNorm()))
+                return false;
+        }
+    return look_at_all(position, points, shape).has_value();
+}
+
 Look look_within(const Vec3f& position, const Look& look, std::span<const Vec3f> points,
                  const PictureShape& shape) {
     if (points.empty()) return look;

@@ -16,6 +16,8 @@ struct PictureShape {
 
     // Of the format 16:9; `share` of it, 0 .. 1. `vertical_fov` in radians.
     [[nodiscard]] static PictureShape of(float vertical_fov, float share);
+
+    bool operator==(const PictureShape&) const = default;
 };
 
 // The smallest rectangle of the picture that has all points, as tangents from its middle.
@@ -32,6 +34,10 @@ struct PictureExtent {
 // The look that has the points in the middle, begun at `look`; none when the picture cannot hold them.
 [[nodiscard]] std::optional<Look> look_at_all(const Vec3f& position, std::span<const Vec3f> points,
                                               const PictureShape& shape);
+
+// Whether there is one.
+[[nodiscard]] bool fits_one_picture(const Vec3f& position, std::span<const Vec3f> points,
+                                    const PictureShape& shape);
 
 // The dead zone: `look` while it has the points within `shape`, else turned by as little as brings them back
 // there, or to the middle when they need more room. Points behind the camera are looked for.

@@ -8,6 +8,7 @@
 #include "camera/cut.hpp"
 #include "camera/evade.hpp"
 #include "camera/group/framing.hpp"
+#include "camera/group/glide.hpp"
 #include "camera/group/viewpoint.hpp"
 
 namespace camdir::camera {
@@ -15,17 +16,17 @@ namespace {
 
 constexpr float choice_interval = 0.1F;           // s
 constexpr float hurried_choice_interval = 0.03F;  // s: while somebody is not shown
+constexpr float share_by_a_recording = 0.5F;      // of these: each of its instants is looked at once
 constexpr std::uint32_t phases = 8;
 constexpr float worth_a_move = 0.01F;  // s more that everyone is shown
 constexpr float patience = 0.6F;       // s that somebody is hidden before a cut to others than everyone
 constexpr float shortest_partial_shot = 2.5F;  // s: likewise
 
-constexpr float glide_rate = 3.0F;       // 1/s: of the critically damped motion
-constexpr float fastest_glide = 350.0F;  // units/s
-constexpr float zone_share = 0.55F;      // of the picture: the dead zone
-constexpr float kept_ahead = 0.4F;       // s, for which they are kept in it
-constexpr float pan_time = 0.09F;        // s, at the least: time constant of the rotation
-constexpr float pan_lag = 0.2F;          // s: of the rotation
+constexpr float zone_share = 0.55F;         // of the picture: the dead zone
+constexpr float kept_ahead = 0.4F;          // s, for which they are kept in it
+constexpr float pan_time = 0.09F;           // s, at the least: time constant of the rotation
+constexpr float fastest_correction = 2.8F;  // rad/s: of the look, where somebody would leave the picture
+constexpr float pan_lag = 0.2F;             // s: of the rotation
 
 // Without the member who matters least; `set` is not empty.
 MemberSet without_the_last(MemberSet set) {
@@ -98,7 +99,8 @@ class GroupStep {
     bool choose() {
         const MemberSet all = members_.soon_living();
         const bool complete = shown_ == members_.now().living;
-        state_.until_choice = complete ? choice_interval : hurried_choice_interval;
+        state_.until_choice = (complete ? choice_interval : hurried_choice_interval) *
+                              (members_.is_recorded ? share_by_a_recording : 1.0F);
         const Standpoint from = standpoint();
         const ViewpointSearch search(space_, profile_, members_, all, from, outlook_);
         const float staying = search.worth_of_staying(state_.goal, from.cut_in);
@@ -131,7 +133,8 @@ class GroupStep {
     }
 
     [[nodiscard]] Standpoint standpoint() const {
-        return {state_.position, state_.side, std::max(shortest_group_shot - state_.since_cut, 0.0F)};
+        return {state_.position, state_.side, std::max(shortest_group_shot - state_.since_cut, 0.0F),
+                state_.velocity};
     }
 
     void begin() {
@@ -192,19 +195,17 @@ class GroupStep {
         state_.framed = viewpoint.shown;
     }
 
-    // Critically damped, no faster than fastest_glide; each step free, by itself or on the straight way.
+    // Each step is free, by itself or on the straight way.
     void glide() {
-        const Vec3f way = state_.goal - state_.position;
-        if (way.norm() < 0.01F * profile_.unit && state_.velocity.norm() < profile_.unit) {
+        const Glide glide{state_.position, state_.velocity, state_.goal};
+        if (glide.rests(profile_.unit)) {
             state_.velocity.setZero();
             return;
         }
-        const float pull = 2.0F * fastest_glide * profile_.unit / glide_rate;
-        const Vec3f pulled = way.norm() > pull ? Vec3f(way * (pull / way.norm())) : way;
-        const Vec3f acceleration = glide_rate * glide_rate * pulled - 2.0F * glide_rate * state_.velocity;
-        const Vec3f velocity = state_.velocity + acceleration * dt_;
+        const Vec3f velocity = glide.velocity_after(dt_, profile_.unit);
         if (move_by(velocity)) return;
-        const Vec3f straight = way.normalized() * std::max(velocity.dot(way.normalized()), 0.0F);
+        const Vec3f way = (state_.goal - state_.position).normalized();
+        const Vec3f straight = way * std::max(velocity.dot(way), 0.0F);
         if (move_by(straight)) return;
         state_.velocity.setZero();
         state_.goal = state_.position;
@@ -233,7 +234,7 @@ class GroupStep {
     }
 
     // Towards the look that keeps them in the dead zone soon, above all when it will be reached; critically
-    // damped.
+    // damped, but as fast as keeps them in the picture now.
     void turn() {
         const MemberSet wanted = wanted_in_picture();
         Look look = state_.look;
@@ -253,7 +254,10 @@ class GroupStep {
         accelerate(state_.look_rate.pitch, look.pitch - state_.look.pitch);
         const Look next{state_.look.yaw + state_.look_rate.yaw * dt_,
                         state_.look.pitch + state_.look_rate.pitch * dt_};
-        state_.look = turned(state_.look, next, 1.0F, profile_.turn_limit * dt_);
+        const Look kept =
+            look_within(state_.position, next, Eyes(members_.now(), wanted).span(), safe_area(profile_));
+        const Look corrected = turned(next, kept, 1.0F, fastest_correction * dt_);
+        state_.look = turned(state_.look, corrected, 1.0F, profile_.turn_limit * dt_);
     }
 
     [[nodiscard]] float gliding_clearance() const { return 0.5F * profile_.minimum_clearance; }

@@ -1,7 +1,6 @@
 #include "camera/group/outlook.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include "freespace/visibility.hpp"
@@ -9,26 +8,25 @@
 namespace camdir::camera {
 namespace {
 
-constexpr float widest_cosine = 0.17F;  // of the angle between two members that a picture can hold
-constexpr float tallest_sine = 0.75F;   // likewise, of the difference of their elevations
-
 using Set = freespace::Lookouts::Set;
 
-Set look(const freespace::Freespace& freespace, std::span<const Vec3f> eyes) {
+Set look(const freespace::Freespace& freespace, const PictureShape& picture, std::span<const Vec3f> eyes) {
     const freespace::Lookouts& lookouts = freespace.lookouts();
     Set probable;
     probable.set();
-    std::array<std::optional<freespace::SightOrigin>, max_members> origins;
-    for (std::size_t i = 0; i < eyes.size(); ++i) {
-        probable &= lookouts.seeing(freespace, eyes[i]);
-        origins[i].emplace(freespace, eyes[i], 0.0F);
-    }
+    std::array<freespace::RecentBalls, max_members> balls;
+    for (const Vec3f& eye : eyes)
+        probable &= lookouts.seeing(freespace, eye);
+    const auto sees_all = [&](const Vec3f& position) {
+        for (std::size_t i = 0; i < eyes.size(); ++i)
+            if (!freespace::sight(freespace, eyes[i], position, 0.0F, balls[i]).clear) return false;
+        return true;
+    };
     Set showing;
     for (std::uint32_t i = 0; i < lookouts.positions().size(); ++i) {
         const Vec3f& position = lookouts.positions()[i];
-        if (probable.test(i) && fits_one_picture(position, eyes) &&
-            std::ranges::all_of(std::span(origins).first(eyes.size()),
-                                [&](const auto& origin) { return origin->to(position).clear; }))
+        if (probable.test(i) && (eyes.empty() || fits_one_picture(position, eyes, picture)) &&
+            sees_all(position))
             showing.set(i);
     }
     return showing;
@@ -36,29 +34,19 @@ Set look(const freespace::Freespace& freespace, std::span<const Vec3f> eyes) {
 
 }  // namespace
 
-bool fits_one_picture(const Vec3f& position, std::span<const Vec3f> eyes) {
-    std::array<Vec3f, max_members> directions;
-    for (std::size_t i = 0; i < eyes.size(); ++i) {
-        directions[i] = (eyes[i] - position).normalized();
-        for (std::size_t j = 0; j < i; ++j)
-            if (directions[i].dot(directions[j]) < widest_cosine ||
-                std::abs(directions[i].z() - directions[j].z()) > tallest_sine)
-                return false;
-    }
-    return true;
+bool Outlook::Answer::is_of(const PictureShape& asked_for, std::span<const Vec3f> asked) const {
+    return picture == asked_for && count == asked.size() &&
+           std::ranges::equal(asked, std::span(eyes).first(count));
 }
 
-bool Outlook::Answer::is_of(std::span<const Vec3f> asked) const {
-    return count == asked.size() && std::ranges::equal(asked, std::span(eyes).first(count));
-}
-
-const Set& Outlook::showing(const freespace::Freespace& freespace, std::span<const Vec3f> eyes,
-                            std::size_t number) {
+const Set& Outlook::showing(const freespace::Freespace& freespace, const PictureShape& picture,
+                            std::span<const Vec3f> eyes, std::size_t number) {
     Answer& answer = answers_[number % remembered];
-    if (answer.is_of(eyes)) return answer.showing;
+    if (answer.is_of(picture, eyes)) return answer.showing;
     answer.count = eyes.size();
+    answer.picture = picture;
     std::ranges::copy(eyes, answer.eyes.begin());
-    answer.showing = look(freespace, eyes);
+    answer.showing = look(freespace, picture, eyes);
     return answer.showing;
 }
 

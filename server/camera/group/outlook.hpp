@@ -7,14 +7,12 @@
 #include <span>
 
 #include "base/geometry.hpp"
+#include "camera/group/framing.hpp"
 #include "camera/group/members.hpp"
 #include "freespace/freespace.hpp"
 #include "freespace/lookouts.hpp"
 
 namespace camdir::camera {
-
-// Whether a picture from `position` can hold the eyes: the directions to them are near enough to each other.
-[[nodiscard]] bool fits_one_picture(const Vec3f& position, std::span<const Vec3f> eyes);
 
 // What it answers is the same whatever it remembers. One thread at a time. 40 kB.
 class Outlook {
@@ -24,6 +22,7 @@ class Outlook {
     // about in turn have consecutive numbers, of which the last 128 are remembered. Valid until the next
     // call; always of the same freespace.
     [[nodiscard]] const freespace::Lookouts::Set& showing(const freespace::Freespace& freespace,
+                                                          const PictureShape& picture,
                                                           std::span<const Vec3f> eyes, std::size_t number);
 
   private:
@@ -32,7 +31,9 @@ class Outlook {
         std::size_t count = max_members + 1;  // of the eyes: there is no answer yet
         freespace::Lookouts::Set showing;
 
-        [[nodiscard]] bool is_of(std::span<const Vec3f> asked) const;
+        PictureShape picture;
+
+        [[nodiscard]] bool is_of(const PictureShape& asked_for, std::span<const Vec3f> asked) const;
     };
     static constexpr std::size_t remembered = 128;
 

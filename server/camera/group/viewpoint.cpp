@@ -6,26 +6,27 @@
 namespace camdir::camera {
 namespace {
 
-constexpr float safe_share = 0.86F;            // of the picture
+constexpr float safe_share = 0.895F;           // of the picture
 constexpr std::size_t most_looked_at = 100;    // lookouts that are confirmed for now
 constexpr std::size_t most_timed_sights = 32;  // lookouts that are confirmed for all instants
 constexpr float longest_glide = 500.0F;        // units
 constexpr float time_after_the_known = 0.6F;   // s
 constexpr float far_enough_of_some = 0.6F;     // s
+constexpr float worth_of_the_others = 0.3F;    // while a member is dead
 constexpr std::size_t numbers_of_a_set = 7;    // spreads sets over what an outlook remembers
 
 constexpr Shows within_a_moment = 7;  // 0.1 to 0.2 s
 
 // Costs, s.
-constexpr float cost_of_a_cut = 0.05F;
+constexpr float cost_of_a_cut = 0.01F;
 constexpr float far_away = 350.0F;  // units: farther members are small in the picture
-constexpr float cost_of_twice_as_far = 0.06F;
+constexpr float cost_of_twice_as_far = 0.03F;
 constexpr float too_near = 90.0F;  // nearer members fill the picture and turn the camera
-constexpr float cost_of_touching = 0.3F;
+constexpr float cost_of_touching = 0.15F;
 constexpr float steep_slope = 0.6F;  // sine: steeper views from above or below
-constexpr float cost_of_steepness = 0.3F;
+constexpr float cost_of_steepness = 0.15F;
 constexpr float cost_of_crossing = 0.1F;  // of a cut over the line of action
-constexpr float cost_of_jump = 0.08F;     // of a cut to nearly the same picture
+constexpr float cost_of_jump = 0.02F;     // of a cut to nearly the same picture
 constexpr float same_place = 120.0F;      // units
 constexpr float cost_of_longest_glide = 0.2F;
 
@@ -58,12 +59,14 @@ ViewpointSearch::ViewpointSearch(const freespace::Space& space, const MapProfile
                                  Outlook& outlook)
     : space_(space),
       profile_(profile),
+      picture_(safe_area(profile)),
       members_(members),
       set_(set),
       from_(from),
       known_(set == members.soon_living() ? members.known : members.until(far_enough_of_some)) {
     for (std::size_t i = 0; i < known_; ++i)
-        weight_[i] = (i + 1 < known_ ? members.ahead[i + 1] - members.ahead[i] : time_after_the_known);
+        weight_[i] = (i + 1 < known_ ? members.ahead[i + 1] - members.ahead[i] : time_after_the_known) *
+                     ((members.at[i].living & set) == set ? 1.0F : worth_of_the_others);
     ask(outlook);
     if (candidate_count_ > 0)
         plan_cuts(std::span(candidates_).first(candidate_count_), std::span(members.ahead).first(known_),
@@ -77,7 +80,7 @@ void ViewpointSearch::ask(Outlook& outlook) {
     for (std::size_t i = now_as_soon ? 1 : 0; i < known_; ++i) {
         const Eyes eyes(members_.at[i], set_);
         const std::size_t number = members_.is_recorded ? static_cast<std::size_t>(members_.first) + i : i;
-        showing_[i] = outlook.showing(space_.map(), eyes.span(), set_ * numbers_of_a_set + number);
+        showing_[i] = outlook.showing(space_.map(), picture_, eyes.span(), set_ * numbers_of_a_set + number);
         any |= showing_[i];
     }
     if (now_as_soon) showing_[0] = showing_[1];
@@ -95,16 +98,19 @@ Shows ViewpointSearch::shows_from(std::uint32_t lookout) const {
     return shows;
 }
 
-Shows ViewpointSearch::shows_from(const Vec3f& position) const {
+Shows ViewpointSearch::shows_along(Glide glide) const {
     Shows shows = 0;
-    for (std::size_t i = 0; i < known_; ++i)
-        if (shows_at(position, i)) shows |= 1U << i;
+    for (std::size_t i = 0; i < known_; ++i) {
+        if (i > 0) glide = after(glide, members_.ahead[i] - members_.ahead[i - 1], profile_.unit);
+        if (shows_at(glide.position, i)) shows |= 1U << i;
+    }
     return shows;
 }
 
 bool ViewpointSearch::shows_at(const Vec3f& position, std::size_t instant) const {
     const MemberSet wanted = set_ & members_.at[instant].living;
-    return fits_one_picture(position, Eyes(members_.at[instant], set_).span()) &&
+    const Eyes eyes(members_.at[instant], set_);
+    return (wanted == 0 || fits_one_picture(position, eyes.span(), picture_)) &&
            (seen_from(at_instant(instant), position, members_.at[instant]) & wanted) == wanted;
 }
 
@@ -126,8 +132,8 @@ float ViewpointSearch::time_with_a_cut(Shows shows, float cut_in) const {
     return most;
 }
 
-float ViewpointSearch::worth_of_staying(const Vec3f& position, float cut_in) const {
-    return time_with_a_cut(shows_from(position), cut_in) - picture_cost(position);
+float ViewpointSearch::worth_of_staying(const Vec3f& goal, float cut_in) const {
+    return time_with_a_cut(shows_along(way_to(Approach::glide, goal)), cut_in) - picture_cost(goal);
 }
 
 std::optional<Viewpoint> ViewpointSearch::cut() const {
@@ -151,8 +157,9 @@ std::optional<Viewpoint> ViewpointSearch::find(Approach approach) const {
         const std::size_t first = first_shown(position, begins);
         if (first == known_ || (approach == Approach::glide && !can_glide(position))) continue;
         ++timed;
-        const auto look = look_at_all(position, Eyes(members_.at[first], set_).span(), safe_area(profile_));
-        const float worth = time_with_a_cut(shows_from(position), shortest_stay(approach)) - hope.cost;
+        const auto look = look_at_all(position, Eyes(members_.at[first], set_).span(), picture_);
+        const Shows shows = shows_along(way_to(approach, position));
+        const float worth = time_with_a_cut(shows, shortest_stay(approach)) - hope.cost;
         if (look && (!best || worth > best->worth)) best = Viewpoint{position, *look, set_, worth};
     }
     return best;
@@ -193,11 +200,14 @@ std::size_t ViewpointSearch::first_shown(const Vec3f& position, Shows instants) 
     return known_;
 }
 
+Glide ViewpointSearch::way_to(Approach approach, const Vec3f& position) const {
+    if (approach == Approach::cut) return {position, Vec3f::Zero(), position};
+    return {from_.position, from_.velocity, position};
+}
+
 bool ViewpointSearch::can_glide(const Vec3f& position) const {
     const float radius = profile_.minimum_clearance;
-    if (!freespace::sight(space_, from_.position, position, radius).clear) return false;
-    const Vec3f middle = (from_.position + position) / 2.0F;
-    return (seen_from(space_, middle, members_.now()) & set_) == set_;
+    return freespace::sight(space_, from_.position, position, radius).clear;
 }
 
 float ViewpointSearch::picture_cost(const Vec3f& position) const {

@@ -6,6 +6,7 @@
 
 #include "camera/group/cut_plan.hpp"
 #include "camera/group/framing.hpp"
+#include "camera/group/glide.hpp"
 #include "camera/group/members.hpp"
 #include "camera/group/outlook.hpp"
 #include "camera/profile.hpp"
@@ -26,6 +27,7 @@ struct Standpoint {
     Vec3f position = Vec3f::Zero();
     float side = 0.0F;    // of the line of action: see side_of(); 0: any
     float cut_in = 0.0F;  // s: until it may cut
+    Vec3f velocity = Vec3f::Zero();
 };
 
 // No shot between two cuts is shorter, s.
@@ -46,22 +48,23 @@ inline constexpr float shortest_group_shot = 0.8F;
 // The search for viewpoints of some of the members, among the lookouts.
 //
 // The worth of a decision is the time, s, for which all of the set are shown: from the place that it leads
-// to, and, from the instant on at which the camera may and should cut away from there, by the best sequence
-// of cuts. What is not known yet counts as if it went on a little as it is. A cut, and what makes a picture
-// worse (members far or very near, steep views, a crossed line of action), costs a part of a second each. Of
-// less than all members only the next 0.6 s count: it is asked for where there is no better.
+// to and on the way, and, from the instant on at which the camera may and should cut away from there, by the
+// best sequence of cuts. What is not known yet counts as if it went on a little as it is. A cut, and what
+// makes a picture worse (members far or very near, steep views, a crossed line of action), costs a part of a
+// second each. While a member of the set is dead, the others count for less. Of less than all members only
+// the next 0.6 s count: it is asked for where there is no better.
 class ViewpointSearch {
   public:
     ViewpointSearch(const freespace::Space& space, const MapProfile& profile, const Members& members,
                     MemberSet set, const Standpoint& from, Outlook& outlook);
 
-    // Of staying at `position`.
-    [[nodiscard]] float worth_of_staying(const Vec3f& position, float cut_in) const;
+    // Of going on to `goal`, where the camera may be.
+    [[nodiscard]] float worth_of_staying(const Vec3f& goal, float cut_in) const;
 
     // The best lookout to cut to.
     [[nodiscard]] std::optional<Viewpoint> cut() const;
 
-    // The best lookout to glide to: on a straight way that is free, from the middle of which the set is seen.
+    // The best lookout to glide to, on a straight way that is free.
     [[nodiscard]] std::optional<Viewpoint> glide() const;
 
   private:
@@ -78,7 +81,7 @@ class ViewpointSearch {
 
     void ask(Outlook& outlook);
     [[nodiscard]] Shows shows_from(std::uint32_t lookout) const;
-    [[nodiscard]] Shows shows_from(const Vec3f& position) const;
+    [[nodiscard]] Shows shows_along(Glide glide) const;
     [[nodiscard]] bool shows_at(const Vec3f& position, std::size_t instant) const;
     [[nodiscard]] freespace::Space at_instant(std::size_t instant) const;
     [[nodiscard]] float time_of(Shows shows, std::size_t first, std::size_t end) const;
@@ -90,10 +93,12 @@ class ViewpointSearch {
     [[nodiscard]] float shortest_stay(Approach approach) const;
     std::size_t collect(Approach approach, Shows begins, Hopes& hopes) const;
     [[nodiscard]] std::size_t first_shown(const Vec3f& position, Shows instants) const;
+    [[nodiscard]] Glide way_to(Approach approach, const Vec3f& position) const;
     [[nodiscard]] bool can_glide(const Vec3f& position) const;
 
     const freespace::Space space_;
     const MapProfile& profile_;
+    const PictureShape picture_;  // the part in which members count as shown
     const Members& members_;
     MemberSet set_;
     Standpoint from_;

@@ -1,13 +1,18 @@
-// A recorded match on a real map: what every camera of both solvers must keep, by exact geometry.
+// A recorded match on a real map: what every camera of both solvers, and group shots, must keep, by exact
+// geometry.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <filesystem>
 #include <optional>
 
 #include "bake/bake.hpp"
+#include "evaluation/group_figures.hpp"
+#include "evaluation/group_recording.hpp"
 #include "evaluation/metrics.hpp"
 #include "evaluation/recording.hpp"
 #include "freespace/freespace.hpp"
+#include "freespace/lookouts.hpp"
 #include "oracle/oracle.hpp"
 #include "scene/load.hpp"
 
@@ -88,6 +93,25 @@ TEST_F(RealMatch, BothSolversKeepThePromisesAndThePlannerIsBetter) {
     EXPECT_LT(causal.acc.p95, paper.acc.p95);
     EXPECT_LT(ahead.acc.p95, causal.acc.p95);
     EXPECT_LT(ahead.ang_speed.p95, causal.ang_speed.p95);
+}
+
+TEST_F(RealMatch, AGroupIsShownTogetherNearlyWhereverAPlaceAllowsIt) {
+    const auto places = freespace_->lookouts().positions();
+    double possible = 0.0, together = 0.0;
+    for (const auto& members : {std::array{0U, 2U}, {0U, 3U}, {1U, 2U}, {2U, 3U}}) {
+        const auto made = record_group(*freespace_, {}, trace_, {}, trace_, members, 3.0, {});
+        ASSERT_TRUE(made);
+        const auto figures =
+            judge_group(*oracle_, scene_->metres_per_unit, trace_, members, made->cameras, places, {}, {});
+        ASSERT_TRUE(figures);
+        EXPECT_EQ(figures->fly_through, 0.0);
+        EXPECT_EQ(figures->pops, 0.0);
+        const double frames = static_cast<double>(figures->frames) * figures->possible / 100.0;
+        possible += frames;
+        together += frames * figures->together_of_possible / 100.0;
+    }
+    EXPECT_GT(possible, 500.0);
+    EXPECT_GE(together, 0.88 * possible);
 }
 
 }  // namespace

@@ -1,0 +1,47 @@
+#include "camera/group/framing.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <vector>
+
+namespace camdir::camera {
+namespace {
+
+TEST(Framing, APictureHoldsPointsThatAreNotTooFarApart) {
+    const PictureShape shape = PictureShape::of(1.0F, 0.9F);
+    const auto holds = [&](const std::vector<Vec3f>& points) {
+        return fits_one_picture(Vec3f::Zero(), points, shape);
+    };
+    EXPECT_TRUE(holds({{100.0F, 0.0F, 0.0F}, {60.0F, 60.0F, 20.0F}}));
+    EXPECT_FALSE(holds({{100.0F, 0.0F, 0.0F}, {0.0F, 100.0F, 0.0F}}));
+    EXPECT_FALSE(holds({{100.0F, 0.0F, 0.0F}, {20.0F, 0.0F, 100.0F}}));
+    EXPECT_TRUE(holds({{100.0F, 0.0F, 0.0F}}));
+}
+
+// Looking from the point between two random directions on, in all directions nearby.
+TEST(Framing, APictureHoldsWhatSomeLookHolds) {
+    const PictureShape shape = PictureShape::of(1.0F, 0.9F);
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> any(-1.0F, 1.0F);
+    int held = 0, wrong = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const Look look{3.0F * any(random), 0.9F * any(random)};
+        const Vec3f forward = direction_of(look);
+        const Vec3f right(std::sin(look.yaw), -std::cos(look.yaw), 0.0F);
+        std::vector<Vec3f> points;
+        for (int p = 0; p < 2 + i % 3; ++p) {
+            const float x = 0.97F * shape.half_width * any(random);
+            const float y = 0.97F * shape.half_height * any(random);
+            points.emplace_back(300.0F * (1.1F + any(random)) *
+                                (forward + x * right + y * right.cross(forward)));
+        }
+        ASSERT_TRUE(extent_of(Vec3f::Zero(), look, points)->within(shape));
+        ++held;
+        wrong += fits_one_picture(Vec3f::Zero(), points, shape) ? 0 : 1;
+    }
+    EXPECT_LE(wrong, held / 20) << "pictures whose middle is not the points' middle";
+}
+
+}  // namespace
+}  // namespace camdir::camera
