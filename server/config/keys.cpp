@@ -504,11 +504,12 @@ void add_limits(std::vector<Key>& table) {
     table.push_back({section, "delay_mib", slot(&Limits::delay_mib),
                      "Memory for the delay of a match. A match that needs more is refused.", "MiB", 1,
                      65536});
-    table.push_back({section, "pose_rate_hz", slot(&Limits::pose_rate_hz),
-                     "Pose frames of a match that become cameras in a second. Of a game server that sends "
-                     "more, for longer than a stall holds frames up, some are left out evenly: other matches "
-                     "do not suffer from it.",
-                     "Hz", 1, 1000});
+    table.push_back(
+        {section, "pose_rate_hz", slot(&Limits::pose_rate_hz),
+         "Pose frames of a match that are looked at in a second, on average. Of a game server "
+         "that sends more for seconds, some are left out evenly: other matches do not suffer from "
+         "it.",
+         "Hz", 20, 1000});
     table.push_back({section, "workers", slot(&Limits::workers),
                      "Threads that compute cameras; 0: one per core.", "", 0, 1024});
 }

@@ -17,9 +17,10 @@ struct Receipt {
     // sender's clock: up to 0.1 s earlier, and up to 10 s after a stall in which neither the sender's clock
     // nor the game's has stepped.
     std::int64_t punctual = 0;
-    // Something on the way held it up and let it go together with the one before: they were sent at intervals
-    // and came together, and no earlier than the fastest one lets expect, which those of a clock that runs
-    // too fast do.
+    // Something on the way held it up and let it go together with the one before: by the sender's clock they
+    // were sent at intervals, and came together no earlier than the fastest one lets expect, which those of a
+    // clock that runs too fast do. Once all are longer on their way than that one, by a longer delay for
+    // example, a fast clock may make them look like a burst.
     bool in_burst = false;
 };
 
@@ -29,9 +30,10 @@ class Arrivals {
     explicit Arrivals(std::int64_t max_per_second);  // >= 1
 
     // To be asked of every frame, in the order in which they come; any clock of its sender is possible, 0 is
-    // none. Nothing for a frame that is to be left out, so that those that are not are even: max_per_second,
-    // as many at once, and whatever a stall has held up. The discontinuities of the others are carried over
-    // to them. A frame that is left out has other memory afterwards.
+    // none. Nothing for a frame that is to be left out, so that those that are not are even: on average
+    // max_per_second, those of 4 s at once, and whatever a stall has held up, where the sender's clock tells.
+    // The discontinuities of the others are carried over to them. A frame that is left out has other memory
+    // afterwards.
     [[nodiscard]] std::optional<Receipt> judge(PoseFrame& frame, std::int64_t now);
 
   private:
@@ -44,15 +46,17 @@ class Arrivals {
         std::int64_t received;
     };
 
-    [[nodiscard]] Receipt receive(const PoseFrame& frame, std::int64_t now);
+    [[nodiscard]] std::int64_t punctual_receipt(const PoseFrame& frame, std::int64_t now);
     [[nodiscard]] bool goes_on(const PoseFrame& frame) const;
-    [[nodiscard]] bool came_together(const PoseFrame& frame, std::int64_t now) const;
     void age(std::int64_t now);
-    [[nodiscard]] bool has_room(std::int64_t punctual);
+    [[nodiscard]] bool is_in_burst(const PoseFrame& frame, std::int64_t now);
+    [[nodiscard]] bool has_room(const Receipt& receipt);
 
     std::mutex mutex_;
     const std::int64_t interval_;  // in which one frame is let in
-    std::int64_t full_at_ = 0;     // when as many are let in at once as ever
+    // When as many are let in at once as ever, by the times of receipt and by the punctual ones.
+    std::int64_t full_at_ = 0;
+    std::int64_t full_at_by_sender_ = 0;
     PoseFrame left_out_;
 
     std::optional<Sent> last_;
@@ -61,6 +65,7 @@ class Arrivals {
     std::int64_t fastest_before_ = never;
     std::int64_t stretch_ends_ = 0;
     std::optional<std::int64_t> clock_offset_;  // of the sender's clock from the game's, as the stretch began
+    std::int64_t fastest_of_all_ = never;       // since the epoch began, or the sender's clock went back
 };
 
 }  // namespace camdir::director

@@ -121,12 +121,12 @@ DelayBuffer::Admission DelayBuffer::put(Message& message, std::int64_t now) {
     return keep(std::move(message), bytes, now + delay_ns_, now);
 }
 
-DelayBuffer::Admission DelayBuffer::put(const PoseFrame& frame, std::int64_t received) {
+DelayBuffer::Admission DelayBuffer::put(const PoseFrame& frame, std::int64_t punctual) {
     const std::lock_guard lock(mutex_);
     if (!refusal_.empty()) return Admission::refused;
     if (passes()) return Admission::undelayed;
     const Admission admission =
-        keep(frame, bytes_of(frame, last_movers_.get()), due_of(frame, received), received);
+        keep(frame, bytes_of(frame, last_movers_.get()), due_of(frame, punctual), punctual);
     last_movers_ = frame.movers;
     last_frame_due_ = last_due_;
     last_frame_epoch_ = frame.epoch;

@@ -50,7 +50,7 @@ class DelayBuffer {
     // Of what the game server sends: MatchInfo (after announce()), MatchEvent, ServerLost, MatchEnded. The
     // end of a refused match is not delayed.
     [[nodiscard]] Admission put(Message& message, std::int64_t now);
-    [[nodiscard]] Admission put(const PoseFrame& frame, std::int64_t received);
+    [[nodiscard]] Admission put(const PoseFrame& frame, std::int64_t punctual);
 
     struct Released {
         bool any = false;           // something has left, or has come within lead_ns of being due

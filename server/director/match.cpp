@@ -104,11 +104,16 @@ void Match::handle(MatchInfo& info) {
     attach_map();
 }
 
+float Match::camera_rate_hz() const {
+    return std::min(info_->rate_hz, static_cast<float>(config_->limits.pose_rate_hz)) /
+           static_cast<float>(frames_per_camera_);
+}
+
 // With the rate of its cameras.
 void Match::publish_info() {
     frames_per_camera_ = pace_.frames_per_camera();
     MatchInfo shown = *info_;
-    shown.rate_hz /= static_cast<float>(frames_per_camera_);
+    shown.rate_hz = camera_rate_hz();
     publisher_.publish(shown);
     for (Audience* audience : audiences_)
         audience->show(shown);
@@ -373,7 +378,7 @@ void Match::handle(const ViewRequest& wanted) {
         view.epoch = info_->epoch;
         view.map_name = info_->map_name;
         view.rate_hz = info_->rate_hz;
-        view.camera_rate_hz = info_->rate_hz / static_cast<float>(frames_per_camera_);
+        view.camera_rate_hz = camera_rate_hz();
         view.players = info_->players;
         view.last_event = last_event_;
     }

@@ -31,11 +31,11 @@ struct PictureExtent {
 [[nodiscard]] std::optional<PictureExtent> extent_of(const Vec3f& position, const Look& look,
                                                      std::span<const Vec3f> points);
 
-// The look that has the points in the middle, begun at `look`; none when the picture cannot hold them.
+// The look that has the points in the middle; none when the picture cannot hold them so.
 [[nodiscard]] std::optional<Look> look_at_all(const Vec3f& position, std::span<const Vec3f> points,
                                               const PictureShape& shape);
 
-// Whether there is one.
+// Whether look_at_all() finds one; faster where it does not.
 [[nodiscard]] bool fits_one_picture(const Vec3f& position, std::span<const Vec3f> points,
                                     const PictureShape& shape);
 

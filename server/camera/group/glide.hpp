@@ -5,7 +5,7 @@
 
 namespace camdir::camera {
 
-// Critically damped, no faster than 350 units of 0.0254 m a second.
+// Critically damped, and no faster than 350 units of 0.0254 m a second unless it begins so.
 struct Glide {
     Vec3f position;
     Vec3f velocity;  // map units/s

@@ -25,6 +25,7 @@ constexpr float shortest_partial_shot = 2.5F;  // s: likewise
 constexpr float zone_share = 0.55F;         // of the picture: the dead zone
 constexpr float kept_ahead = 0.4F;          // s, for which they are kept in it
 constexpr float pan_time = 0.09F;           // s, at the least: time constant of the rotation
+constexpr float kept_share = 0.89F;         // likewise: within what counts as shown, in spite of rounding
 constexpr float fastest_correction = 2.8F;  // rad/s: of the look, where somebody would leave the picture
 constexpr float pan_lag = 0.2F;             // s: of the rotation
 
@@ -103,7 +104,7 @@ class GroupStep {
                               (members_.is_recorded ? share_by_a_recording : 1.0F);
         const Standpoint from = standpoint();
         const ViewpointSearch search(space_, profile_, members_, all, from, outlook_);
-        const float staying = search.worth_of_staying(state_.goal, from.cut_in);
+        const float staying = search.worth_of_going_on(state_.goal, from.cut_in);
         const auto near = search.glide();
         const bool glides = near && near->worth > staying + worth_a_move;
         if (from.cut_in <= 0.0F) {
@@ -115,7 +116,7 @@ class GroupStep {
         }
         if (glides) glide_to(*near);
         if (complete || glides) return false;
-        const bool loses = search.worth_of_staying(state_.goal, shortest_group_shot) < staying;
+        const bool loses = search.worth_of_going_on(state_.goal, shortest_group_shot) < staying;
         return !loses && show_those_who_matter_more();
     }
 
@@ -254,8 +255,8 @@ class GroupStep {
         accelerate(state_.look_rate.pitch, look.pitch - state_.look.pitch);
         const Look next{state_.look.yaw + state_.look_rate.yaw * dt_,
                         state_.look.pitch + state_.look_rate.pitch * dt_};
-        const Look kept =
-            look_within(state_.position, next, Eyes(members_.now(), wanted).span(), safe_area(profile_));
+        const PictureShape kept_area = PictureShape::of(profile_.vertical_fov, kept_share);
+        const Look kept = look_within(state_.position, next, Eyes(members_.now(), wanted).span(), kept_area);
         const Look corrected = turned(next, kept, 1.0F, fastest_correction * dt_);
         state_.look = turned(state_.look, corrected, 1.0F, profile_.turn_limit * dt_);
     }

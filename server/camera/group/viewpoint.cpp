@@ -132,7 +132,7 @@ float ViewpointSearch::time_with_a_cut(Shows shows, float cut_in) const {
     return most;
 }
 
-float ViewpointSearch::worth_of_staying(const Vec3f& goal, float cut_in) const {
+float ViewpointSearch::worth_of_going_on(const Vec3f& goal, float cut_in) const {
     return time_with_a_cut(shows_along(way_to(Approach::glide, goal)), cut_in) - picture_cost(goal);
 }
 

@@ -58,8 +58,8 @@ class ViewpointSearch {
     ViewpointSearch(const freespace::Space& space, const MapProfile& profile, const Members& members,
                     MemberSet set, const Standpoint& from, Outlook& outlook);
 
-    // Of going on to `goal`, where the camera may be.
-    [[nodiscard]] float worth_of_staying(const Vec3f& goal, float cut_in) const;
+    // Of going on to `goal`, where the camera may be already.
+    [[nodiscard]] float worth_of_going_on(const Vec3f& goal, float cut_in) const;
 
     // The best lookout to cut to.
     [[nodiscard]] std::optional<Viewpoint> cut() const;
@@ -81,6 +81,7 @@ class ViewpointSearch {
 
     void ask(Outlook& outlook);
     [[nodiscard]] Shows shows_from(std::uint32_t lookout) const;
+    // As if nothing were in its way.
     [[nodiscard]] Shows shows_along(Glide glide) const;
     [[nodiscard]] bool shows_at(const Vec3f& position, std::size_t instant) const;
     [[nodiscard]] freespace::Space at_instant(std::size_t instant) const;
