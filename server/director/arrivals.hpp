@@ -31,9 +31,9 @@ class Arrivals {
 
     // To be asked of every frame, in the order in which they come; any clock of its sender is possible, 0 is
     // none. Nothing for a frame that is to be left out, so that those that are not are even: on average
-    // max_per_second, those of 4 s at once, and whatever a stall has held up, where the sender's clock tells.
-    // The discontinuities of the others are carried over to them. A frame that is left out has other memory
-    // afterwards.
+    // max_per_second and 2 % more, those of 4 s at once, and whatever a stall has held up, where the sender's
+    // clock tells. The discontinuities of the others are carried over to them. A frame that is left out has
+    // other memory afterwards.
     [[nodiscard]] std::optional<Receipt> judge(PoseFrame& frame, std::int64_t now);
 
   private:

@@ -462,7 +462,7 @@ View Director::view(std::chrono::milliseconds timeout) const {
 
 std::chrono::nanoseconds Director::silence_limit(const MatchInfo& info) const {
     const std::shared_lock lock(impl_->mutex);
-    return std::chrono::nanoseconds(silence_limit_ns(info, impl_->config->matches));
+    return std::chrono::nanoseconds(silence_limit_ns(info, *impl_->config));
 }
 
 bool Director::responsive(std::chrono::milliseconds limit) const {

@@ -44,10 +44,11 @@ std::time_t utc_second_after(std::int64_t ns) {
 
 }  // namespace
 
-std::int64_t silence_limit_ns(const MatchInfo& info, const config::Matches& rules) {
-    const double rate = std::isfinite(info.rate_hz) && info.rate_hz > 0.0F ? info.rate_hz : default_rate_hz;
-    return static_cast<std::int64_t>(std::min(static_cast<double>(rules.silence_frames) / rate, 86400.0) *
-                                     1e9);
+std::int64_t silence_limit_ns(const MatchInfo& info, const config::Config& config) {
+    const double stated = std::isfinite(info.rate_hz) && info.rate_hz > 0.0F ? info.rate_hz : default_rate_hz;
+    const double rate = std::min(stated, static_cast<double>(config.limits.pose_rate_hz));
+    const auto frames = static_cast<double>(config.matches.silence_frames);
+    return static_cast<std::int64_t>(std::min(frames / rate, 86400.0) * 1e9);
 }
 
 Match::Match(std::string match_id, std::shared_ptr<const config::Config> config, const MapLibrary& maps,
@@ -95,7 +96,6 @@ void Match::handle(MatchInfo& info) {
     if (info_ && info.epoch < info_->epoch) return counters_.add(Counter::drop_old_epoch);
     const bool new_epoch = !info_ || info.epoch != info_->epoch || info.map_name != info_->map_name;
     info_ = std::move(info);
-    silence_limit_ns_ = silence_limit_ns(*info_, config_->matches);
     if (new_epoch) begin_epoch();
     if (liveness_ == Liveness::lost) liveness_ = Liveness::silent;
     roster_.set_listed(info_->players);
@@ -112,6 +112,7 @@ float Match::camera_rate_hz() const {
 // With the rate of its cameras.
 void Match::publish_info() {
     frames_per_camera_ = pace_.frames_per_camera();
+    silence_limit_ns_ = silence_limit_ns(*info_, *config_) * frames_per_camera_;
     MatchInfo shown = *info_;
     shown.rate_hz = camera_rate_hz();
     publisher_.publish(shown);
@@ -223,7 +224,7 @@ void Match::handle(const DelayChanged& /*changed*/) {
 void Match::handle(const Reconfigured& changed) {
     config_ = changed.config;
     edit_.forget_moments();
-    if (info_) silence_limit_ns_ = silence_limit_ns(*info_, config_->matches);
+    if (info_) silence_limit_ns_ = silence_limit_ns(*info_, *config_) * frames_per_camera_;
     requests_.resolve_again(*config_);
     reconcile_needed_ = true;
 }

@@ -27,8 +27,9 @@
 
 namespace camdir::director {
 
-// The time without poses after which a match is silent: matches.silence_frames at its rate, at most a day.
-[[nodiscard]] std::int64_t silence_limit_ns(const MatchInfo& info, const config::Matches& rules);
+// The time without poses after which a match is silent: matches.silence_frames at its rate, at most a day. At
+// limits.pose_rate_hz, where it says that it sends more.
+[[nodiscard]] std::int64_t silence_limit_ns(const MatchInfo& info, const config::Config& config);
 
 // Public members may be called from any thread.
 class Match final : public Strand {

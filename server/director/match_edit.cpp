@@ -25,7 +25,7 @@ std::string text_of(const AutomaticShot& shot) {
 
 Edit::Setting Match::edit_setting() const {
     return {space_shown(), config_->direction, static_cast<std::size_t>(config_->limits.players),
-            delay_.state().delay_s, static_cast<double>(info_->rate_hz)};
+            delay_.state().delay_s, static_cast<double>(camera_rate_hz())};
 }
 
 void Match::choose_targets(const PoseFrame& frame, CameraFrame& cameras) {

@@ -114,9 +114,9 @@ struct MatchView {
     std::string state;     // "running", "waiting for map", "filling the delay", "silent", "game server lost",
                            // "no game server"
     float rate_hz = 0.0F;  // of the game server
-    float camera_rate_hz = 0.0F;           // of the cameras: a share of it, see Pace
-    double delay_s = 0.0;                  // in force: the greater of the match's own and the operator's
-    std::vector<Player> players;           // as the game server lists them
+    float camera_rate_hz = 0.0F;  // of the cameras: at most limits.pose_rate_hz, and a share, see Pace
+    double delay_s = 0.0;         // in force: the greater of the match's own and the operator's
+    std::vector<Player> players;  // as the game server lists them
     std::optional<MatchEvent> last_event;  // of this epoch
     std::uint32_t last_pose_number = 0;
     std::size_t movers = 0;                   // that are obstacles

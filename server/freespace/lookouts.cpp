@@ -26,7 +26,7 @@ std::vector<std::uint32_t> roomy_vertices(const Freespace& freespace, float clea
     return roomy;
 }
 
-// Fewer than `limit` or, where there would be more, none.
+// At most `limit` or, where there would be more, none.
 std::vector<Vec3d> spread(const Freespace& freespace, std::span<const std::uint32_t> vertices, float spacing,
                           std::size_t limit) {
     PointGrid grid(2.0 * spacing);

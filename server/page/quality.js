@@ -65,11 +65,11 @@ export class Quality {
         this.onTrial = false;                          // this level is finer than the last one, which was smooth
         this.level = this.descent?.level ?? this.level;
         this.descent = null;                           // the level and the rate that this one is to improve on
-        this.settle(settleMs);
+        this.settle();
     }
 
-    settle(ms) {
-        this.settlingMs = ms;
+    settle() {
+        this.settlingMs = settleMs;
         this.smoothMs = this.smoothPictures = 0;  // on this level
         this.missing = 0;                         // pictures of a trial
         this.slowWindows = 0;
@@ -180,6 +180,6 @@ export class Quality {
     change(level) {
         this.level = Math.min(level, worst);
         this.onTrial = false;
-        this.settle(settleMs);
+        this.settle();
     }
 }

@@ -35,7 +35,7 @@ struct PictureExtent {
 [[nodiscard]] std::optional<Look> look_at_all(const Vec3f& position, std::span<const Vec3f> points,
                                               const PictureShape& shape);
 
-// Whether look_at_all() finds one; faster where it does not.
+// Whether look_at_all() finds one; faster where it does not. False without points.
 [[nodiscard]] bool fits_one_picture(const Vec3f& position, std::span<const Vec3f> points,
                                     const PictureShape& shape);
 

@@ -43,5 +43,23 @@ TEST(Framing, APictureHoldsWhatSomeLookHolds) {
     EXPECT_LE(refused, 100) << "pictures whose middle is not the points' middle";
 }
 
+TEST(Framing, WhatFitsIsWhatCanBeLookedAt) {
+    std::mt19937 random(7);
+    std::normal_distribution<float> any(0.0F, 100.0F);
+    int fitting = 0;
+    for (int i = 0; i < 4000; ++i) {
+        const PictureShape shape = PictureShape::of(0.4F + 0.5F * static_cast<float>(i % 5), 0.9F);
+        std::vector<Vec3f> points;
+        for (int p = 0; p < 1 + i % 4; ++p)
+            points.emplace_back(any(random) + 100.0F, any(random), any(random));
+        const bool fits = fits_one_picture(Vec3f::Zero(), points, shape);
+        EXPECT_EQ(fits, look_at_all(Vec3f::Zero(), points, shape).has_value()) << i;
+        fitting += fits ? 1 : 0;
+    }
+    EXPECT_GT(fitting, 500);
+    EXPECT_LT(fitting, 3500);
+    EXPECT_FALSE(fits_one_picture(Vec3f::Zero(), {}, PictureShape::of(1.0F, 0.9F)));
+}
+
 }  // namespace
 }  // namespace camdir::camera

@@ -148,8 +148,9 @@ TEST(Arrivals, OfAGameServerThatSendsTooFastSomeFramesAreLetInEvenly) {
         if (number > 20'000) gap = std::max(gap, now - last_let_in);
         last_let_in = now;
     }
-    EXPECT_EQ(gap, 10 * ms);
-    EXPECT_NEAR(static_cast<double>(let_in), 30.0 * most + 4.0 * most, 1.0);
+    EXPECT_LE(gap, 10 * ms);
+    EXPECT_GE(gap, 9 * ms);
+    EXPECT_NEAR(static_cast<double>(let_in), 1.02 * 30.0 * most + 1.02 * 4.0 * most, 2.0);
 }
 
 TEST(Arrivals, WhatAStallHasHeldUpIsLetIn) {
@@ -195,6 +196,17 @@ TEST(Arrivals, NoClockMakesAnHonestMatchWait) {
     }
 }
 
+TEST(Arrivals, AtTheVeryLimitNothingIsLeftOut) {
+    std::mt19937 random(3);
+    Arrivals arrivals(150);
+    for (std::int64_t number = 0; number < 1'000'000; ++number) {
+        const double sent = static_cast<double>(number) * 1e9 / 150.0 * 0.9999;
+        const auto now = static_cast<std::int64_t>(sent) + static_cast<std::int64_t>(random() % 2'000'000);
+        PoseFrame frame = frame_sent(first + static_cast<std::int64_t>(sent));
+        ASSERT_TRUE(arrivals.judge(frame, now)) << number;
+    }
+}
+
 TEST(Arrivals, NoClockLetsMoreIn) {
     std::mt19937 random(3);
     for (int run = 0; run < 50; ++run) {
@@ -208,8 +220,8 @@ TEST(Arrivals, NoClockLetsMoreIn) {
             sent += static_cast<std::int64_t>(random() % 3) * ms;
             game += static_cast<std::int64_t>(random() % 3) * ms;
         }
-        EXPECT_LE(let_in, 2400);
-        EXPECT_GE(let_in, 2390);
+        EXPECT_LE(let_in, 2450);
+        EXPECT_GE(let_in, 2440);
     }
 }
 
