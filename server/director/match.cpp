@@ -109,10 +109,15 @@ float Match::camera_rate_hz() const {
            static_cast<float>(frames_per_camera_);
 }
 
+// Of the frames that are let in, some are left out at a slower pace.
+void Match::limit_silence() {
+    silence_limit_ns_ = silence_limit_ns(*info_, *config_) * frames_per_camera_;
+}
+
 // With the rate of its cameras.
 void Match::publish_info() {
     frames_per_camera_ = pace_.frames_per_camera();
-    silence_limit_ns_ = silence_limit_ns(*info_, *config_) * frames_per_camera_;
+    limit_silence();
     MatchInfo shown = *info_;
     shown.rate_hz = camera_rate_hz();
     publisher_.publish(shown);
@@ -224,7 +229,7 @@ void Match::handle(const DelayChanged& /*changed*/) {
 void Match::handle(const Reconfigured& changed) {
     config_ = changed.config;
     edit_.forget_moments();
-    if (info_) silence_limit_ns_ = silence_limit_ns(*info_, *config_) * frames_per_camera_;
+    if (info_) limit_silence();
     requests_.resolve_again(*config_);
     reconcile_needed_ = true;
 }

@@ -79,8 +79,8 @@ class Match final : public Strand {
     void handle(const Reconfigured& changed);
     void handle(const ViewRequest& wanted);
 
-    // Of the cameras.
     [[nodiscard]] float camera_rate_hz() const;
+    void limit_silence();
     void publish_info();
     void begin_epoch();
     void fall_silent(Liveness liveness);

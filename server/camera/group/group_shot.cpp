@@ -22,12 +22,12 @@ constexpr float worth_a_move = 0.01F;  // s more that everyone is shown
 constexpr float patience = 0.6F;       // s that somebody is hidden before a cut to others than everyone
 constexpr float shortest_partial_shot = 2.5F;  // s: likewise
 
-constexpr float zone_share = 0.55F;         // of the picture: the dead zone
-constexpr float kept_ahead = 0.4F;          // s, for which they are kept in it
-constexpr float pan_time = 0.09F;           // s, at the least: time constant of the rotation
-constexpr float kept_share = 0.89F;         // likewise: within what counts as shown, in spite of rounding
-constexpr float fastest_correction = 2.8F;  // rad/s: of the look, where somebody would leave the picture
-constexpr float pan_lag = 0.2F;             // s: of the rotation
+constexpr float zone_share = 0.55F;  // of the picture: the dead zone
+constexpr float kept_ahead = 0.4F;   // s, for which they are kept in it
+constexpr float pan_time = 0.09F;    // s, at the least: time constant of the rotation
+constexpr float pan_lag = 0.2F;      // s: of the rotation
+constexpr float kept_share = 0.89F;  // of the picture: within what counts as shown, in spite of rounding
+constexpr float fastest_correction = 2.8F;  // rad/s: of the look, where somebody would leave that
 
 // Without the member who matters least; `set` is not empty.
 MemberSet without_the_last(MemberSet set) {
