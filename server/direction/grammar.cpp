@@ -2,17 +2,46 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace camdir::direction {
 namespace {
 
 constexpr Beat idle_after = 20;
 constexpr Beat shortest_piece = 15;
+// Sine: a camera that moves and is foreseen to be no farther off the line of action may come to be on its
+// other side.
+constexpr float uncertain_side = 0.5F;
 
+// Of the line through both, seen from above: the sine of the angle at `from`; its sign tells the side.
 float side_of(const Vec3f& from, const Vec3f& to, const Vec3f& point) {
-    const Vec3f line = to - from;
-    const Vec3f offset = point - from;
-    return line.x() * offset.y() - line.y() * offset.x();
+    const Eigen::Vector2f line = (to - from).head<2>();
+    const Eigen::Vector2f offset = (point - from).head<2>();
+    const float lengths = std::sqrt(line.squaredNorm() * offset.squaredNorm());
+    return lengths > 0.0F ? (line.x() * offset.y() - line.y() * offset.x()) / lengths : 0.0F;
+}
+
+// Between the subjects of two rushes, and where their cameras are.
+struct LineOfAction {
+    bool in_sight;
+    float side_before, side_after;
+};
+
+// None but between two living enemies.
+std::optional<LineOfAction> line_between(const Footage& footage, Beat beat, std::size_t from,
+                                         std::size_t to) {
+    const auto takes = footage.takes_at(beat);
+    const Take& before = takes[from];
+    const Take& after = takes[to];
+    const Index a = before.subject;
+    const Index b = after.subject;
+    if (a == nobody || b == nobody || a == b) return {};
+    const auto players = footage.players_at(beat);
+    const PlayerState& one = players[a];
+    const PlayerState& other = players[b];
+    if (!one.alive || !other.alive || !enemies(one, other)) return {};
+    return LineOfAction{one.sees[b], side_of(one.eye, other.eye, before.position),
+                        side_of(one.eye, other.eye, after.position)};
 }
 
 bool sees_an_enemy(const Footage& footage, Beat beat, std::size_t player) {
@@ -67,24 +96,16 @@ bool may_be_jump_cut(const Footage& footage, const Grammar& grammar, Beat beat, 
 }
 
 bool crosses_line(const Footage& footage, Beat beat, std::size_t from, std::size_t to) {
-    const Index subject = footage.take(beat, to).subject;
-    const Index before = footage.take(beat, from).subject;
-    return subject != nobody && before != nobody && footage.player(beat, before).sees[subject] &&
-           may_cross_line(footage, beat, from, to);
+    const auto line = line_between(footage, beat, from, to);
+    return line && line->in_sight && line->side_before * line->side_after < 0.0F;
 }
 
 bool may_cross_line(const Footage& footage, Beat beat, std::size_t from, std::size_t to) {
-    const auto takes = footage.takes_at(beat);
-    const Take& before = takes[from];
-    const Take& after = takes[to];
-    const Index a = before.subject;
-    const Index b = after.subject;
-    if (a == nobody || b == nobody || a == b) return false;
-    const auto players = footage.players_at(beat);
-    const PlayerState& one = players[a];
-    const PlayerState& other = players[b];
-    if (!one.alive || !other.alive || !enemies(one, other)) return false;
-    return side_of(one.eye, other.eye, before.position) * side_of(one.eye, other.eye, after.position) < 0.0F;
+    const auto line = line_between(footage, beat, from, to);
+    if (!line) return false;
+    const bool gives_way = !footage.is_fixed(to) || footage.is_fixed(from);
+    if (!gives_way && std::abs(line->side_before) < uncertain_side) return true;
+    return line->side_before * line->side_after < 0.0F;
 }
 
 bool jumped_just_before(const Footage& footage, Beat beat, std::size_t rush) {

@@ -23,7 +23,9 @@ namespace camdir::direction {
 // on different sides of the line through them, seen from above. Likewise.
 [[nodiscard]] bool crosses_line(const Footage& footage, Beat beat, std::size_t from, std::size_t to);
 
-// Or would if the two saw each other. Likewise.
+// Or would if the two saw each other; or the cut is to a fixed camera, which cannot give way, while the
+// moving one before is so near to the line, within 30 degrees, that it may come to be on its other side.
+// Likewise.
 [[nodiscard]] bool may_cross_line(const Footage& footage, Beat beat, std::size_t from, std::size_t to);
 
 // A cut at `beat` leaves a piece of less than 1.5 s between itself and a jump of either camera: the one

@@ -84,6 +84,27 @@ TEST(Grammar, TheLineOfActionJoinsEnemiesInSight) {
     EXPECT_FALSE(may_cross_line(script.footage(), 0, 0, 1));
 }
 
+TEST(Grammar, NearTheLineACutToAFixedCameraMayCrossIt) {
+    Script script(2, 1, 1);
+    script.take(0, 2).subject = 1;
+    script.take(0, 2).position = {50.0F, 300.0F, 0.0F};
+    script.meet(0, 0, 1);
+    const auto from = [&](double degrees) {
+        const double angle = degrees * radians_of_a_degree<double>;
+        script.take(0, 0).position =
+            script.player(0, 0).eye +
+            100.0F * Vec3f(-static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)), 0.0F);
+    };
+    from(29);
+    EXPECT_TRUE(may_cross_line(script.footage(), 0, 0, 2));
+    EXPECT_FALSE(crosses_line(script.footage(), 0, 0, 2));
+    EXPECT_FALSE(may_cross_line(script.footage(), 0, 2, 0));  // that camera can give way
+    from(31);
+    EXPECT_FALSE(may_cross_line(script.footage(), 0, 0, 2));
+    from(-31);
+    EXPECT_TRUE(crosses_line(script.footage(), 0, 0, 2));
+}
+
 TEST(Grammar, ACutNextToAJumpOfACameraLeavesAFragment) {
     Script script(2, 60);
     script.take(20, 0).cut = true;
