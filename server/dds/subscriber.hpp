@@ -215,6 +215,7 @@ class Subscriber {
     Shards shards_;
     AdmissionRate rate_;
     WaitingMatches waiting_;    // for room
+    WaitingMatches moving_;     // for room, from a shard that leaves them: as many as were elsewhere
     WaitingMatches elsewhere_;  // of other shards
     EndpointRemoval removal_;
     std::unordered_map<std::string, std::unique_ptr<Match>> matches_;

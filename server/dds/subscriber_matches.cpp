@@ -1,6 +1,7 @@
 // Subscriber: which matches there are, and whose.
 #include <spdlog/spdlog.h>
 
+#include <array>
 #include <utility>
 
 #include "dds/decode.hpp"
@@ -26,7 +27,7 @@ void Subscriber::match_info_found(const camera_director_MatchInfo& sample, const
 bool Subscriber::described(Ownership::Claim claim) {
     const std::string match_id = claim.info.match_id;
     WaitingMatches* const queue = queue_for(claim);
-    for (WaitingMatches* other : {&waiting_, &elsewhere_})
+    for (WaitingMatches* other : {&waiting_, &moving_, &elsewhere_})
         if (other != queue) other->remove(match_id, claim.writer);  // an older description
     if (queue != nullptr) {
         keep_waiting(*queue, std::move(claim));
@@ -53,7 +54,8 @@ bool Subscriber::described(Ownership::Claim claim) {
 WaitingMatches* Subscriber::queue_for(const Ownership::Claim& claim) {
     if (matches_.contains(claim.info.match_id)) return nullptr;
     if (!shards_.serves(claim.info.match_id)) return &elsewhere_;
-    return admit(claim) ? nullptr : &waiting_;
+    if (admit(claim)) return nullptr;
+    return moving_.has(claim.info.match_id, claim.writer) ? &moving_ : &waiting_;
 }
 
 void Subscriber::keep_waiting(WaitingMatches& waiting, Ownership::Claim claim) {
@@ -76,7 +78,7 @@ bool Subscriber::admit(const Ownership::Claim& claim) {
     return true;
 }
 
-// No more at once than leave the matches that run their beat.
+// No more at once than leave the matches that run their beat; those that run elsewhere first.
 void Subscriber::admit_waiting() {
     const auto is_wanted = [this](const Ownership::Claim& claim) {
         return may_own_another(claim.sender) && rate_.allows(claim.sender, Clock::now()) &&
@@ -84,7 +86,8 @@ void Subscriber::admit_waiting() {
     };
     const auto end = Clock::now() + longest_turn();
     while (Clock::now() < end && ingress_->has_room()) {
-        std::optional<Ownership::Claim> claim = waiting_.take(is_wanted);
+        std::optional<Ownership::Claim> claim = moving_.take(is_wanted);
+        if (!claim) claim = waiting_.take(is_wanted);
         if (!claim || !described(std::move(*claim))) return;
     }
 }
@@ -101,8 +104,8 @@ bool Subscriber::may_own_another(const SenderId& sender) const {
 
 void Subscriber::match_info_lost(const camera_director_MatchInfo& key, const dds_sample_info_t& info) {
     if (info.instance_state == DDS_NOT_ALIVE_DISPOSED_INSTANCE_STATE) {
-        waiting_.remove(key.match_id, info.publication_handle);
-        elsewhere_.remove(key.match_id, info.publication_handle);
+        for (WaitingMatches* waiting : {&waiting_, &moving_, &elsewhere_})
+            waiting->remove(key.match_id, info.publication_handle);
     }
     const auto known = matches_.find(key.match_id);
     if (known == matches_.end()) return;
@@ -116,8 +119,8 @@ void Subscriber::match_info_lost(const camera_director_MatchInfo& key, const dds
 // A game server that is gone is not told of where another describes its match too.
 void Subscriber::notice_unmatched() {
     const std::vector<WriterHandle> matched = matched_writers(match_info_reader_);
-    waiting_.retain(matched);
-    elsewhere_.retain(matched);
+    for (WaitingMatches* waiting : {&waiting_, &moving_, &elsewhere_})
+        waiting->retain(matched);
     std::vector<std::string> match_ids;
     for (const auto& [match_id, match] : matches_)
         match_ids.push_back(match_id);
@@ -251,9 +254,10 @@ void Subscriber::put_new_shards_into_effect() {
         match->is_of_shard = shards_.serves(match_id);
         match->endpoints->set_shards(shards_.own(), shards_.home_of(match_id));
     }
-    WaitingMatches all = std::exchange(elsewhere_, none_elsewhere());
-    while (auto claim = all.take([](const Ownership::Claim&) { return true; }))
-        keep_waiting(shards_.serves(claim->info.match_id) ? waiting_ : elsewhere_, std::move(*claim));
+    for (WaitingMatches& all :
+         std::array{std::exchange(moving_, {}), std::exchange(elsewhere_, none_elsewhere())})
+        while (auto claim = all.take([](const Ownership::Claim&) { return true; }))
+            keep_waiting(shards_.serves(claim->info.match_id) ? moving_ : elsewhere_, std::move(*claim));
 }
 
 void Subscriber::leave_matches() {

@@ -2,10 +2,18 @@
 
 namespace camdir::dds {
 
+namespace {
+
+auto is_of(const std::string& match_id, WriterHandle writer) {
+    return [&match_id, writer](const Ownership::Claim& claim) {
+        return claim.info.match_id == match_id && claim.writer == writer;
+    };
+}
+
+}  // namespace
+
 bool WaitingMatches::keep(Ownership::Claim claim) {
-    const auto known = std::ranges::find_if(claims_, [&](const Ownership::Claim& waiting) {
-        return waiting.info.match_id == claim.info.match_id && waiting.writer == claim.writer;
-    });
+    const auto known = std::ranges::find_if(claims_, is_of(claim.info.match_id, claim.writer));
     if (known != claims_.end()) {
         *known = std::move(claim);
         return true;
@@ -17,10 +25,12 @@ bool WaitingMatches::keep(Ownership::Claim claim) {
     return true;
 }
 
+bool WaitingMatches::has(const std::string& match_id, WriterHandle writer) const {
+    return std::ranges::any_of(claims_, is_of(match_id, writer));
+}
+
 void WaitingMatches::remove(const std::string& match_id, WriterHandle writer) {
-    std::erase_if(claims_, [&](const Ownership::Claim& claim) {
-        return claim.info.match_id == match_id && claim.writer == writer;
-    });
+    std::erase_if(claims_, is_of(match_id, writer));
 }
 
 void WaitingMatches::retain(std::span<const WriterHandle> matched) {

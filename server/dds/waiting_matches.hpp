@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <list>
 #include <optional>
 #include <span>
@@ -16,12 +17,15 @@ namespace camdir::dds {
 // Keeps their newest descriptions, in the order of arrival. One thread at a time.
 class WaitingMatches {
   public:
+    // Without bounds: of what others bound.
+    WaitingMatches() = default;
     // At most so many, and so many of one participant.
     WaitingMatches(std::size_t most, std::size_t most_of_sender)
         : most_(most), most_of_sender_(most_of_sender) {}
 
     // False where there is no room for it.
     [[nodiscard]] bool keep(Ownership::Claim claim);
+    [[nodiscard]] bool has(const std::string& match_id, WriterHandle writer) const;
     // This writer has withdrawn its description.
     void remove(const std::string& match_id, WriterHandle writer);
     // Those whose writers are not among these (ascending) are gone.
@@ -38,7 +42,8 @@ class WaitingMatches {
     [[nodiscard]] bool empty() const { return claims_.empty(); }
 
   private:
-    std::size_t most_, most_of_sender_;
+    std::size_t most_ = std::numeric_limits<std::size_t>::max();
+    std::size_t most_of_sender_ = most_;
     std::list<Ownership::Claim> claims_;
 };
 

@@ -437,6 +437,43 @@ TEST_F(RateTest, AParticipantThatBeginsMatchesTooFastWaits) {
     EXPECT_TRUE(eventually([&] { return recorder_.has("info c 1"); })) << "it has waited";
 }
 
+class ReshardTest : public GatewayTest {
+  protected:
+    ReshardTest() {
+        limits_.matches = limits_.participant_matches = 8;  // two of a participant may wait
+        config_.shards = {"a", "b"};
+        config_.shard = "b";
+    }
+};
+
+TEST_F(ReshardTest, EveryMatchOfAParticipantMovesToTheShardThatIsLeft) {
+    const Shards a("a", config_.shards);
+    std::vector<std::string> moving, partitions;
+    std::string staying;
+    for (int i = 0; moving.size() < 6 || staying.empty(); ++i) {
+        const std::string match_id = "match " + std::to_string(i);
+        if (!a.serves(match_id))
+            staying = match_id;
+        else if (moving.size() < 6)
+            moving.push_back(match_id);
+    }
+    for (const std::string& match_id : moving)
+        partitions.push_back(match_partition(match_id));
+    partitions.push_back(match_partition(staying));
+    RawPeer& host = peer(staying, partitions);
+    for (const std::string& match_id : moving)
+        host.write(test::raw_match_info(match_id, 1));
+    host.write(test::raw_match_info(staying, 1));
+    ASSERT_TRUE(eventually([&] { return recorder_.has("info " + staying + " 1"); }));
+    EXPECT_EQ(gateway_->counters().matches, 1U);
+
+    config_.shards = {"b"};
+    gateway_->reshard(config_);
+    for (const std::string& match_id : moving)
+        ASSERT_TRUE(eventually([&] { return recorder_.has("info " + match_id + " 1"); })) << match_id;
+    EXPECT_EQ(dropped(Topic::match_info, ValidationError::waiting_limit), 0U);
+}
+
 TEST(WaitingMatches, KeepsTheNewestDescriptionOfEachWithinItsBoundsUntilItIsGone) {
     WaitingMatches waiting(4, 2);
     const auto claim = [](unsigned char sender, const std::string& match_id, std::uint64_t epoch = 1) {
