@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <set>
+#include <vector>
 
 #include "failure.hpp"
 #include "idl/security.hpp"
@@ -26,7 +28,6 @@ bool has_control_character(const std::string& text) {
 }
 
 void check_player(const cdir_player& player) {
-    require(player.id != CDIR_NO_PLAYER, "a player's id is CDIR_NO_PLAYER");
     require(std::all_of(std::begin(player.reserved), std::end(player.reserved),
                         [](auto byte) { return byte == 0; }),
             "a player's reserved bytes are not 0");
@@ -92,11 +93,21 @@ void check(const cdir_match_info& info, std::span<const cdir_player> players) {
     require(std::isfinite(info.rate_hz) && info.rate_hz > 0.0F, "rate_hz must be greater than 0");
     require(std::isfinite(info.spectator_delay_s) && info.spectator_delay_s >= 0.0F,
             "spectator_delay_s must be 0 or greater");
-    std::set<std::uint32_t> ids;
+    std::vector<std::uint32_t> ids;
     for (const cdir_player& player : players) {
         check_player(player);
-        require(ids.insert(player.id).second, "two players have the same id");
+        ids.push_back(player.id);
     }
+    check_player_ids(ids);
+}
+
+void check_player_ids(std::span<const std::uint32_t> ids) {
+    require(std::all_of(ids.begin(), ids.end(), [](std::uint32_t id) { return id < CDIR_SHOW_GROUP; }),
+            "a player's id is CDIR_SHOW_GROUP or CDIR_NO_PLAYER");
+    // As most give them: nothing is allocated for a frame.
+    if (std::adjacent_find(ids.begin(), ids.end(), std::greater_equal()) == ids.end()) return;
+    const std::set<std::uint32_t> different(ids.begin(), ids.end());
+    require(different.size() == ids.size(), "two players have the same id");
 }
 
 bool all_finite(const float* values, std::size_t count) {
@@ -128,7 +139,7 @@ bool is_valid(const camera_director_ShownMatch& info, const std::string& match_i
     const std::uint32_t n = info.player_id._length;
     return info.match_id == match_id && n <= CDIR_MAX_PLAYERS && info.map_name != nullptr &&
            std::strlen(info.map_name) < sizeof cdir_match_info::map_name &&
-           std::isfinite(info.metres_per_unit) && info.metres_per_unit > 0.0F &&
+           std::isfinite(info.metres_per_unit) && info.metres_per_unit >= 0.0F &&
            std::isfinite(info.rate_hz) && std::isfinite(info.spectator_delay_s) &&
            is_parallel(info.player_name, n) && is_parallel(info.player_class, n) &&
            is_parallel(info.player_team, n);

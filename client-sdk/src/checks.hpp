@@ -24,6 +24,8 @@ void check_frame_time(std::int64_t frame_time);
 // The folder of an identity for DDS Security, with all its files.
 void check_identity(const std::string& folder);
 void check(const cdir_match_info& info, std::span<const cdir_player> players);
+// Each is a player's, of another.
+void check_player_ids(std::span<const std::uint32_t> ids);
 void check(const cdir_match_event& event);
 
 // `count` numbers, and `count` quaternions of length 1 within 1e-3.

@@ -12,6 +12,7 @@ void PoseArrays::gather(const cdir_pose_frame& frame) {
     has_velocity_ = count_ > 0 && frame.velocity != nullptr;
     if (count_ == 0) return;
     gather_array<1>("player_id", frame.player_id, frame.player_id_stride, count_, player_id_.data());
+    check_player_ids(std::span(player_id_).first(count_));
     gather_array<3>("eye", frame.eye, frame.eye_stride, count_, eye_.data());
     gather_array<4>("orientation", frame.orientation, frame.orientation_stride, count_, orientation_.data());
     gather_array<1>("flags", frame.flags, frame.flags_stride, count_, flags_.data());

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -41,7 +42,20 @@ Vec3f vector(std::span<const float> values, std::size_t index) {
 }
 
 Quatf quaternion(std::span<const float> values, std::size_t index) {
-    return Quatf(&values[4 * index]);
+    return Quatf(&values[4 * index]).normalized();
+}
+
+bool distinct(std::span<const std::uint32_t> ids) {
+    if (std::ranges::adjacent_find(ids, std::greater_equal()) == ids.end()) return true;  // as most write them
+    std::vector<std::uint32_t> sorted(ids.begin(), ids.end());
+    std::ranges::sort(sorted);
+    return std::ranges::adjacent_find(sorted) == sorted.end();
+}
+
+std::optional<ValidationError> check_player_ids(std::span<const std::uint32_t> ids) {
+    if (!std::ranges::all_of(ids, director::is_player_id)) return ValidationError::out_of_range;
+    if (!distinct(ids)) return ValidationError::duplicate;
+    return std::nullopt;
 }
 
 std::optional<ValidationError> check(const camera_director_PoseFrame& sample) {
@@ -58,7 +72,7 @@ std::optional<ValidationError> check(const camera_director_PoseFrame& sample) {
         return ValidationError::not_finite;
     }
     if (!unit_length(elements(sample.orientation))) return ValidationError::not_unit;
-    return std::nullopt;
+    return check_player_ids(elements(sample.player_id));
 }
 
 std::optional<ValidationError> check(const camera_director_MatchInfo& sample) {
@@ -77,7 +91,7 @@ std::optional<ValidationError> check(const camera_director_MatchInfo& sample) {
     if (std::any_of(std::begin(numbers), std::end(numbers), [](float number) { return number < 0.0F; })) {
         return ValidationError::out_of_range;
     }
-    return std::nullopt;
+    return check_player_ids(elements(sample.player_id));
 }
 
 std::optional<ValidationError> check(const camera_director_CameraFrame& sample) {
@@ -95,12 +109,6 @@ std::optional<ValidationError> check(const camera_director_CameraFrame& sample) 
     }
     if (!unit_length(elements(sample.orientation))) return ValidationError::not_unit;
     return std::nullopt;
-}
-
-bool distinct(std::span<const std::uint32_t> ids) {
-    std::vector<std::uint32_t> sorted(ids.begin(), ids.end());
-    std::ranges::sort(sorted);
-    return std::ranges::adjacent_find(sorted) == sorted.end();
 }
 
 std::optional<ValidationError> check(const camera_director_MoverFrame& sample) {
@@ -283,7 +291,7 @@ std::optional<ValidationError> decode(const camera_director_MoverFrame& sample,
     message.poses.resize(sample.mover_id._length);
     for (std::uint32_t i = 0; i < sample.mover_id._length; ++i)
         message.poses[i] = {sample.mover_id._buffer[i], vector(elements(sample.position), i),
-                            quaternion(elements(sample.orientation), i).normalized()};
+                            quaternion(elements(sample.orientation), i)};
     return std::nullopt;
 }
 

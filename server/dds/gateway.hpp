@@ -64,6 +64,7 @@ class Gateway final : public director::Publisher {
     bool publish(const director::ObserverStatus& status) override;
     void withdraw(const std::string& match_id, const std::string& observer_id) override;
     void forget(const std::string& match_id) override { subscriber_.forget(match_id); }
+    void give_up(const std::string& match_id) override { subscriber_.give_up(match_id); }
 
     // Distinguishes this director's cameras from those of others.
     [[nodiscard]] std::uint64_t director_id() const { return director_id_; }

@@ -96,6 +96,14 @@ void Subscriber::forget(const std::string& match_id) {
     ready_.wake();
 }
 
+void Subscriber::give_up(const std::string& match_id) {
+    {
+        const std::lock_guard lock(mutex_);
+        given_up_.push_back(match_id);
+    }
+    ready_.wake();
+}
+
 void Subscriber::reshard(Shards shards) {
     {
         const std::lock_guard lock(mutex_);
@@ -119,6 +127,7 @@ void Subscriber::run() noexcept {
         notice_absence();
         take_ready(ready);
         bound_movers();
+        mark_given_up();
         remove_forgotten();
         put_new_shards_into_effect();
         take_signs_of_new_matches();  // an assertion decides too
@@ -271,7 +280,8 @@ bool Subscriber::is_valid(const Match& match, Topic topic, const Sample& sample,
 
 bool Subscriber::accept(Match& match, Topic topic) {
     ++counters_.of(topic).accepted;
-    return reintroduce(match);
+    const bool waits = match.service == Service::given_up && topic == Topic::observer_request;
+    return match.service == Service::served || waits || introduce(match);
 }
 
 bool Subscriber::is_of_owner(Match& match, const dds_sample_info_t& info) {

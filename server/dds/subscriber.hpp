@@ -63,6 +63,8 @@ class Subscriber {
     void stop();
     // The following are thread-safe and return at once. The director has forgotten the match.
     void forget(const std::string& match_id);
+    // The director has ended the match, but not forgotten it.
+    void give_up(const std::string& match_id);
     // Matches of other shards go on here until they do there.
     void reshard(Shards shards);
 
@@ -79,6 +81,9 @@ class Subscriber {
         Match& match;
         void (Subscriber::*take)(Match&);
     };
+    // By the director. What is forgotten is introduced again when a sample arrives; what is given up, and has
+    // observers still, when one of its game server does.
+    enum class Service { served, given_up, forgotten };
     struct Match {
         explicit Match(std::size_t participant_observers) : request_owners(participant_observers) {}
         [[nodiscard]] const std::string& id() const { return endpoints->match_id(); }
@@ -86,7 +91,7 @@ class Subscriber {
         MatchTable::Endpoints endpoints;
         Ownership ownership;
         RequestOwners request_owners;
-        bool forgotten = false;  // by the director; reintroduced when a sample arrives
+        Service service = Service::served;
         bool is_of_shard = true;
         SenderLookup pose_senders, event_senders, mover_info_senders, mover_frame_senders;
         SentMovers movers;
@@ -131,7 +136,7 @@ class Subscriber {
     // Validates and decodes a sample of the match. Returns false when the sample was dropped and counted.
     template <class Sample, class Message>
     [[nodiscard]] bool is_valid(const Match& match, Topic topic, const Sample& sample, Message& message);
-    // The sample counts, and wakes a forgotten match: false when that was refused.
+    // The sample counts, and may introduce the match again: false when that was refused.
     [[nodiscard]] bool accept(Match& match, Topic topic);
     // A valid pose frame of the participant that owns the match, or may take it now.
     [[nodiscard]] bool is_of_owner(Match& match, const dds_sample_info_t& info);
@@ -184,13 +189,15 @@ class Subscriber {
     void unwatch(Match& match);
     void remove_match(const std::string& match_id);
     void remove_forgotten();
+    void mark_given_up();
     void put_new_shards_into_effect();
     // Hands over matches of other shards, and leaves those that a director of theirs leads.
     void leave_matches();
     void leave(const std::string& match_id);
     [[nodiscard]] WaitingMatches none_elsewhere() const;
+    // Returns false when the director refuses the match.
+    bool introduce(Match& match);
     void cancel_forget(const std::string& match_id);
-    [[nodiscard]] bool reintroduce(Match& match);
 
     const Participant& participant_;
     const Options options_;
@@ -205,8 +212,9 @@ class Subscriber {
     Entity match_info_subscriber_;
     dds_entity_t match_info_reader_ = 0;
     std::atomic<bool> stopping_{false};
-    std::mutex mutex_;  // guards the next two
+    std::mutex mutex_;  // guards the next three
     std::vector<std::string> forgotten_;
+    std::vector<std::string> given_up_;
     std::optional<Shards> new_shards_;
     std::atomic<Clock::time_point> next_assertion_{Clock::time_point::max()};  // max: the thread does not run
     std::thread thread_;

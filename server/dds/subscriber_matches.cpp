@@ -45,8 +45,7 @@ bool Subscriber::described(Ownership::Claim claim) {
     if (standing == Ownership::Standing::successor) {
         begin_anew(match);
     } else {
-        match.forgotten = !ingress_->receive(match.ownership.info());
-        if (!match.forgotten) cancel_forget(match_id);
+        introduce(match);
     }
     return true;
 }
@@ -132,7 +131,7 @@ void Subscriber::put_into_effect(Ownership::Change change, const std::string& ma
     Match& match = *matches_[match_id];
     if (change == Ownership::Change::none) return;
     if (change == Ownership::Change::succeeded) return begin_anew(match);
-    if (match.forgotten) return remove_match(match_id);
+    if (match.service == Service::forgotten) return remove_match(match_id);
     if (change == Ownership::Change::ended)
         ingress_->match_ended(match_id);
     else
@@ -144,8 +143,19 @@ void Subscriber::begin_anew(Match& match) {
     hand_on_poses();
     spdlog::warn("match {}: another game server continues it", match.id());
     ingress_->match_ended(match.id());
-    match.forgotten = !ingress_->receive(match.ownership.info());
-    if (!match.forgotten) cancel_forget(match.id());
+    introduce(match);
+}
+
+bool Subscriber::introduce(Match& match) {
+    if (!ingress_->receive(match.ownership.info())) {
+        if (match.service == Service::served) match.service = Service::forgotten;
+        return false;
+    }
+    match.service = Service::served;
+    cancel_forget(match.id());
+    const std::lock_guard lock(mutex_);
+    std::erase(given_up_, match.id());
+    return true;
 }
 
 // The director knows the match again: an earlier forget() must not remove it.
@@ -220,6 +230,13 @@ void Subscriber::remove_match(const std::string& match_id) {
     counters_.matches = static_cast<std::uint32_t>(matches_.size());
 }
 
+void Subscriber::mark_given_up() {
+    const std::lock_guard lock(mutex_);
+    for (const std::string& match_id : std::exchange(given_up_, {}))
+        if (const auto known = matches_.find(match_id); known != matches_.end())
+            known->second->service = Service::given_up;
+}
+
 void Subscriber::remove_forgotten() {
     std::vector<std::string> forgotten;
     {
@@ -231,7 +248,7 @@ void Subscriber::remove_forgotten() {
         if (known == matches_.end()) continue;
         // A paused game server may send poses again without another MatchInfo.
         if (known->second->ownership.has_live_owner()) {
-            known->second->forgotten = true;
+            known->second->service = Service::forgotten;
         } else {
             remove_match(match_id);
         }
@@ -285,12 +302,6 @@ void Subscriber::leave(const std::string& match_id) {
     ingress_->match_ended(match_id);
     match.endpoints->resign();  // nobody waits for it
     remove_match(match_id);
-}
-
-// Announces a match again that the director has forgotten. Returns false when it was refused.
-bool Subscriber::reintroduce(Match& match) {
-    if (match.forgotten) match.forgotten = !ingress_->receive(match.ownership.info());
-    return !match.forgotten;
 }
 
 }  // namespace camdir::dds

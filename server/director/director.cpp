@@ -284,7 +284,10 @@ void Director::Impl::retire(const std::vector<std::string>& match_ids) {
         const auto found = matches.find(match_id);
         if (found == matches.end()) continue;
         Entry& entry = found->second;
-        if (entry.has_server && entry.match->server_lost_for(forget_ns, now_ns())) end(entry);
+        if (entry.has_server && entry.match->server_lost_for(forget_ns, now_ns())) {
+            end(entry);
+            publisher.give_up(match_id);
+        }
         if (!entry.has_server && remove_abandoned(match_id, *entry.match)) matches.erase(found);
     }
 }

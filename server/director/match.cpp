@@ -100,8 +100,8 @@ void Match::handle(MatchInfo& info) {
     if (liveness_ == Liveness::lost) liveness_ = Liveness::silent;
     roster_.set_listed(info_->players);
     edit_.set_players(info_->players);
-    publish_info();
     attach_map();
+    publish_info();
 }
 
 float Match::camera_rate_hz() const {
@@ -114,12 +114,14 @@ void Match::limit_silence() {
     silence_limit_ns_ = silence_limit_ns(*info_, *config_) * frames_per_camera_;
 }
 
-// With the rate of its cameras.
+// With the rate of its cameras, and the map's scale where the game server does not know it.
 void Match::publish_info() {
     frames_per_camera_ = pace_.frames_per_camera();
     limit_silence();
     MatchInfo shown = *info_;
     shown.rate_hz = camera_rate_hz();
+    if (shown.metres_per_unit == 0.0F && freespace_)
+        shown.metres_per_unit = freespace_->metadata().metres_per_unit;
     publisher_.publish(shown);
     for (Audience* audience : audiences_)
         audience->show(shown);
@@ -211,7 +213,9 @@ void Match::handle(const RequestEnded& ended) {
 }
 
 void Match::handle(const MapsChanged& /*changed*/) {
-    if (info_) attach_map();
+    if (!info_) return;
+    attach_map();
+    if (info_->metres_per_unit == 0.0F) publish_info();
 }
 
 void Match::handle(const DelayChanged& /*changed*/) {

@@ -18,6 +18,10 @@ namespace camdir::director {
 
 inline constexpr std::uint32_t no_player = 0xffffffffU;    // as a target: the director chooses
 inline constexpr std::uint32_t whole_group = 0xfffffffeU;  // as a target: the players of the group together
+// Those two are nobody's.
+[[nodiscard]] constexpr bool is_player_id(std::uint32_t id) {
+    return id < whole_group;
+}
 inline constexpr std::size_t max_players = 256;
 inline constexpr std::size_t max_cameras = 256;
 // Of all movers of a match together: enough for its vehicles, and checked in milliseconds.

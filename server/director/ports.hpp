@@ -64,6 +64,9 @@ class Publisher {
     // published for it until its MatchInfo is received again; an Ingress::receive of that MatchInfo which
     // returns after this call takes precedence. Must not wait for such a call: it waits for this one.
     virtual void forget(const std::string& match_id) = 0;
+    // The game server has been gone for too long: the match has ended for its observers, who wait on. Its
+    // MatchInfo is to be received again when that game server sends again. Must not wait, likewise.
+    virtual void give_up(const std::string& match_id) = 0;
 };
 
 // Sees of every match what its observers may know, and nothing earlier: game servers' messages after the

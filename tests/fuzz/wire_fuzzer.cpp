@@ -46,6 +46,7 @@ class Encoder final : public director::Publisher {
     }
     void withdraw(const std::string& /*match_id*/, const std::string& /*observer_id*/) override {}
     void forget(const std::string& /*match_id*/) override {}
+    void give_up(const std::string& /*match_id*/) override {}
 };
 
 config::Config configuration() {

@@ -267,7 +267,7 @@ CDIR_API cdir_status cdir_orientation_to_angles(const float* orientation, float*
 /* What a director passes on to observers, and shows to its operator. */
 typedef struct cdir_player {
     uint32_t struct_size;
-    uint32_t id;  /* any value but CDIR_NO_PLAYER; unique within the match */
+    uint32_t id;  /* less than CDIR_SHOW_GROUP; unique within the match */
     uint8_t team; /* 0 = of none: everybody's enemy. Automatic shots go by it. */
     uint8_t reserved[7];
     char name[64];
@@ -280,7 +280,8 @@ CDIR_DEFAULTS(cdir_player)
 typedef struct cdir_match_info {
     uint32_t struct_size;
     /* > 0: length of one map unit in metres. For observers, who convert with cdir_position_to_engine();
-     * directors go by the map that they have baked, and warn in their log when its length differs. */
+     * directors go by the map that they have baked, and warn in their log when its length differs. They tell
+     * 0 where neither a game server without this SDK nor a map that they have loaded says it. */
     float metres_per_unit;
     /* > 0: pose frames per second that the game server intends to publish. For observers: camera frames per
      * second, which are fewer while a director's machine is too small. */
@@ -340,7 +341,7 @@ typedef struct cdir_pose_frame {
     uint32_t player_count; /* n <= CDIR_MAX_PLAYERS; for 0 the arrays may be null */
     int64_t frame_time;    /* not less than that of the epoch's previous frame */
     int64_t source_time;   /* when the poses were sampled, since 1970-01-01 00:00 UTC; 0 = now */
-    CDIR_POINTER(const uint32_t*, player_id); /* n, distinct */
+    CDIR_POINTER(const uint32_t*, player_id); /* n, distinct, each less than CDIR_SHOW_GROUP */
     CDIR_POINTER(const float*, eye);          /* n times 3: positions of the eyes, map units, finite */
     CDIR_POINTER(const float*, orientation);  /* n times 4: view quaternions, of length 1 within 1e-3 */
     CDIR_POINTER(const float*, velocity);     /* n times 3: map units per second, finite; null = unknown */

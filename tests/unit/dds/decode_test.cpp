@@ -59,8 +59,8 @@ RC_GTEST_PROP(DecodePoseFrame, KeepsEveryNumberOfAValidFrame, (std::uint32_t see
         RC_ASSERT(pose.eye == Vec3f(&frame.eye[3 * i]));
         RC_ASSERT(pose.velocity ==
                   (frame.velocity.empty() ? Vec3f(Vec3f::Zero()) : Vec3f(&frame.velocity[3 * i])));
-        RC_ASSERT(pose.orientation.x() == frame.orientation[4 * i]);
-        RC_ASSERT(pose.orientation.w() == frame.orientation[4 * i + 3]);
+        const Eigen::Vector4f sent = Eigen::Vector4f::Map(&frame.orientation[4 * i]);
+        RC_ASSERT((pose.orientation.coeffs() - sent).norm() < 1e-6F);
     }
 }
 
@@ -120,7 +120,9 @@ TEST(DecodePoseFrame, AcceptsQuaternionsUpToAThousandthOffUnitLength) {
         RawPoseFrame frame("m", 1, 1, 2);
         frame.orientation[7] = length;
         director::PoseFrame message;
-        return decode(frame.sample(), message);
+        const auto error = decode(frame.sample(), message);
+        EXPECT_TRUE(error || std::abs(message.poses[1].orientation.norm() - 1.0F) < 1e-6F);
+        return error;
     };
     EXPECT_EQ(verdict(1.0009F), std::nullopt);
     EXPECT_EQ(verdict(0.9991F), std::nullopt);
@@ -128,6 +130,24 @@ TEST(DecodePoseFrame, AcceptsQuaternionsUpToAThousandthOffUnitLength) {
     EXPECT_EQ(verdict(0.9989F), ValidationError::not_unit);
     EXPECT_EQ(verdict(0.0F), ValidationError::not_unit);
     EXPECT_EQ(verdict(3e38F), ValidationError::not_unit) << "its length overflows";
+}
+
+TEST(DecodePlayers, TheirIdsAreDistinctAndNotReserved) {
+    const auto verdict = [](std::uint32_t first, std::uint32_t second) {
+        RawPoseFrame frame("m", 1, 1, 2);
+        frame.player_id = {first, second};
+        director::PoseFrame poses;
+        const auto error = decode(frame.sample(), poses);
+        camera_director_MatchInfo info = test::raw_match_info("m", 1);
+        info.player_id = {2, 2, frame.player_id.data(), false};
+        director::MatchInfo described;
+        EXPECT_EQ(decode(info, described), error);
+        return error;
+    };
+    EXPECT_EQ(verdict(0xfffffffdU, 0), std::nullopt);
+    EXPECT_EQ(verdict(7, 7), ValidationError::duplicate);
+    EXPECT_EQ(verdict(7, director::no_player), ValidationError::out_of_range);
+    EXPECT_EQ(verdict(director::whole_group, 7), ValidationError::out_of_range);
 }
 
 TEST(DecodeMatchInfo, TakesPlayersWithAndWithoutNamesAndClasses) {

@@ -430,6 +430,27 @@ TEST_F(GatewayTest, AForgottenMatchWithAPausedServerReturnsWithItsPoses) {
     EXPECT_TRUE(arrives(raw, frame, "pose cup 7"));
 }
 
+TEST_F(GatewayTest, AMatchThatWasGivenUpKeepsItsEndpointsAndReturnsWithItsPoses) {
+    RawPeer& raw = game("cup");
+    gateway_->give_up("cup");
+    RawPoseFrame frame("cup", 1, 7, 1);
+    ASSERT_TRUE(eventually([&] {
+        raw.write(frame.sample());
+        return recorder_.count("info cup 1") == 2;
+    }));
+    EXPECT_TRUE(arrives(raw, frame, "pose cup 7"));
+
+    recorder_.accepts = false;
+    gateway_->give_up("cup");
+    ASSERT_TRUE(eventually([&] {
+        raw.write(frame.sample());
+        return recorder_.count("info cup 1") > 2;
+    }));
+    raw.dispose(test::raw_match_info("cup", 1));
+    EXPECT_TRUE(eventually([&] { return recorder_.has("over cup"); }));
+    EXPECT_EQ(raw.directors(), 1U) << "for observers that wait";
+}
+
 TEST_F(GatewayTest, ARefusedMatchGetsNoEndpointsUntilThereIsRoom) {
     recorder_.accepts = false;
     RawPeer& raw = peer("cup");

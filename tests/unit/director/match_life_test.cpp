@@ -213,6 +213,23 @@ TEST(MatchLife, ALostServersMatchIsForgottenAfterATime) {
     EXPECT_TRUE(eventually([&] { return stage.publisher.forgotten("m"); }));
 }
 
+TEST(MatchLife, ALostServersMatchThatHasObserversIsGivenUpAndGoesOnWhenItIsDescribedAgain) {
+    config::Config config = Stage::default_config();
+    config.matches.forget_s = 0.05;
+    Stage stage(config);
+    stage.start();
+    stage.ask(Stage::request("a"));
+    stage.send(Stage::poses(1));
+    stage.director.server_lost("m");
+    EXPECT_TRUE(eventually([&] { return stage.publisher.given_up("m"); }));
+    stage.director.flush();
+    EXPECT_FALSE(stage.publisher.forgotten("m"));
+    EXPECT_FALSE(stage.publisher.shown());
+    stage.start();
+    stage.send(Stage::poses(2));
+    EXPECT_EQ(stage.publisher.frames().size(), 2U);
+}
+
 TEST(MatchLife, AnotherMapFileIsReportedOrRefused) {
     freespace::Contents contents = test::square_contents();
     contents.metadata.source_hash = 7;
@@ -250,6 +267,25 @@ TEST(MatchLife, AnotherLengthOfAUnitIsReportedOnce) {
     EXPECT_EQ(mismatches(), 1U);
     stage.ask(Stage::request("a"));
     EXPECT_EQ(stage.publisher.status("a").state, RequestState::accepted);
+}
+
+TEST(MatchLife, ObserversAreToldTheMapsScaleWhereTheGameServerDoesNotKnowIt) {
+    Stage stage;
+    MatchInfo info = Stage::info();
+    const float baked = stage.maps.find(info.map_name)->freespace->metadata().metres_per_unit;
+    info.metres_per_unit = 0.0F;
+    info.map_name = "hall";
+    stage.start(info);
+    EXPECT_EQ(stage.publisher.shown()->metres_per_unit, 0.0F) << "no such map";
+    stage.maps.add("hall", false);
+    stage.maps.set_ready("hall", Stage::square());
+    stage.director.maps_changed();
+    stage.director.flush();
+    EXPECT_EQ(stage.publisher.shown()->metres_per_unit, baked);
+    info.map_name = Stage::info().map_name;
+    ++info.epoch;
+    stage.start(info);
+    EXPECT_EQ(stage.publisher.shown()->metres_per_unit, baked);
 }
 
 TEST(MatchLife, TheViewHasThePlayersAndTheLastEventOfTheEpoch) {

@@ -40,6 +40,11 @@ void MemoryPublisher::forget(const std::string& match_id) {
     forgotten_.insert(match_id);
 }
 
+void MemoryPublisher::give_up(const std::string& match_id) {
+    const std::lock_guard lock(mutex_);
+    given_up_.insert(match_id);
+}
+
 std::optional<MatchInfo> MemoryPublisher::shown(const std::string& match_id) const {
     const std::lock_guard lock(mutex_);
     const auto found = shown_.find(match_id);
@@ -73,6 +78,11 @@ bool MemoryPublisher::has_status(const std::string& observer_id, const std::stri
 bool MemoryPublisher::forgotten(const std::string& match_id) const {
     const std::lock_guard lock(mutex_);
     return forgotten_.contains(match_id);
+}
+
+bool MemoryPublisher::given_up(const std::string& match_id) const {
+    const std::lock_guard lock(mutex_);
+    return given_up_.contains(match_id);
 }
 
 void receive(Director& director, const std::string& match_id, const PoseFrame& frame) {

@@ -24,6 +24,7 @@ class MemoryPublisher : public Publisher {
     bool publish(const ObserverStatus& status) override;
     void withdraw(const std::string& match_id, const std::string& observer_id) override;
     void forget(const std::string& match_id) override;
+    void give_up(const std::string& match_id) override;
 
     // The newest description; none before the first and after the end.
     [[nodiscard]] std::optional<MatchInfo> shown(const std::string& match_id = "m") const;
@@ -34,6 +35,7 @@ class MemoryPublisher : public Publisher {
     [[nodiscard]] std::size_t statuses_published() const;
     [[nodiscard]] bool has_status(const std::string& observer_id, const std::string& match_id = "m") const;
     [[nodiscard]] bool forgotten(const std::string& match_id) const;
+    [[nodiscard]] bool given_up(const std::string& match_id) const;
 
   private:
     mutable std::mutex mutex_;
@@ -42,6 +44,7 @@ class MemoryPublisher : public Publisher {
     std::map<std::pair<std::string, std::string>, ObserverStatus> statuses_;
     std::size_t statuses_published_ = 0;
     std::set<std::string> forgotten_;
+    std::set<std::string> given_up_;
 };
 
 // The director receives this frame alone.

@@ -71,8 +71,10 @@ TEST(Checks, PlayersAreDistinctAndNamed) {
     EXPECT_NO_THROW(check(valid_info(), players));
     players[1].id = 3;
     EXPECT_THROW(check(valid_info(), players), Failure);
-    players[1].id = CDIR_NO_PLAYER;
-    EXPECT_THROW(check(valid_info(), players), Failure);
+    for (const std::uint32_t reserved : {CDIR_NO_PLAYER, CDIR_SHOW_GROUP}) {
+        players[1].id = reserved;
+        EXPECT_THROW(check(valid_info(), players), Failure);
+    }
     players[1].id = 4;
     std::fill(std::begin(players[1].player_class), std::end(players[1].player_class), 'x');
     EXPECT_THROW(check(valid_info(), players), Failure);

@@ -61,6 +61,18 @@ TEST_F(TwoPlayers, NumbersAreFiniteAndOrientationsUnit) {
     EXPECT_EQ(refusal(frame_), "an orientation is not of length 1");
 }
 
+TEST_F(TwoPlayers, HaveIdsOfTheirOwn) {
+    const auto refused = [this](std::uint32_t first, std::uint32_t second) {
+        ids_[0] = first;
+        ids_[1] = second;
+        return refusal(frame_);
+    };
+    EXPECT_EQ(refused(CDIR_SHOW_GROUP - 1, 0), "");
+    EXPECT_EQ(refused(7, 7), "two players have the same id");
+    for (const std::uint32_t reserved : {CDIR_SHOW_GROUP, CDIR_NO_PLAYER})
+        EXPECT_EQ(refused(reserved, 1), "a player's id is CDIR_SHOW_GROUP or CDIR_NO_PLAYER");
+}
+
 TEST_F(TwoPlayers, OnlyTheVelocityMayBeMissing) {
     cdir_pose_frame frame = frame_;
     frame.velocity = nullptr;

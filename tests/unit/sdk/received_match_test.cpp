@@ -66,12 +66,12 @@ class ReceivedMatchTest : public testing::Test {
     }
 
     // By a director.
-    void describe(std::uint64_t epoch) {
+    void describe(std::uint64_t epoch, float metres_per_unit = 1.0F) {
         camera_director_ShownMatch info{};
         std::string("cup").copy(info.match_id, 63);
         std::string map = "oa_dm1";
         info.map_name = map.data();
-        info.metres_per_unit = 1.0F;
+        info.metres_per_unit = metres_per_unit;
         info.epoch = epoch;
         match_.accept(info);
     }
@@ -439,6 +439,15 @@ TEST_F(ReceivedMatchTest, NoFrameLeavesAnInvalidCamera) {
     }
     EXPECT_GT(match_.counters().invalid, 1000U) << "seed " << seed;
     EXPECT_GT(match_.counters().frames, 1000U) << "seed " << seed;
+}
+
+TEST_F(ReceivedMatchTest, TheLengthOfAUnitMayBeUnknown) {
+    describe(3, 0.0F);
+    describe(2);
+    EXPECT_EQ(match_.counters().invalid, 0U);
+    EXPECT_EQ(match_.counters().stale_epoch, 1U) << "the one before counts";
+    describe(4, -1.0F);
+    EXPECT_EQ(match_.counters().invalid, 1U);
 }
 
 TEST_F(ReceivedMatchTest, UnknownStateIsInvalid) {
