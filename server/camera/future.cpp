@@ -7,7 +7,6 @@
 namespace camdir::camera {
 namespace {
 
-constexpr float fastest_player = 1e4F;   // units/s: more is a jump
 constexpr double velocity_span = 0.048;  // s over which the velocity is taken
 constexpr double turn_span = 0.016;      // s over which the turning is taken
 // s that are predicted after the recorded poses: more for cameras that move more smoothly, whose path would
@@ -96,15 +95,9 @@ float persistence(float rate, float rate_before) {
     return turn_constant + share * (turn_begin - turn_constant);
 }
 
-Vec3f limited(const Vec3f& velocity, float unit) {
-    const float speed = velocity.stableNorm();
-    const float limit = fastest_player * unit;
-    return speed > limit ? Vec3f(velocity * (limit / speed)) : velocity;
-}
-
 // `unit`: in map units.
 Rates rates_at(const Stretch& stretch, double time, float yaw, float unit) {
-    Rates rates{limited(stretch.window[stretch.last].pose.velocity, unit), 0.0F, 0.0F, turn_constant};
+    Rates rates{plausible(stretch.window[stretch.last].pose.velocity, unit), 0.0F, 0.0F, turn_constant};
     if (stretch.first == stretch.last) return rates;
     const auto span_from = [&](double wanted) {
         return std::max(stretch.begin(), std::min(time - wanted, stretch.window[stretch.last - 1].time));
@@ -113,7 +106,7 @@ Rates rates_at(const Stretch& stretch, double time, float yaw, float unit) {
     const auto sample = [&](double at) { return Reader(stretch, yaw).at(at); };
     const Future::Sample now = sample(time);
     rates.velocity =
-        limited((now.eye - sample(moved_since).eye) / static_cast<float>(time - moved_since), unit);
+        plausible((now.eye - sample(moved_since).eye) / static_cast<float>(time - moved_since), unit);
     const double once = std::max(turn_span, time - stretch.window[stretch.last - 1].time);
     if (time - once < stretch.begin() - 1e-9) return rates;
     const Look before = sample(time - once).view;

@@ -5,11 +5,11 @@
 #include <limits>
 
 #include "camera/view.hpp"
+#include "camera/window.hpp"
 
 namespace camdir::camera {
 namespace {
 
-constexpr float fastest = 1e4F;                 // map units/s: more is a jump
 constexpr float velocity_smoothing = 0.03F;     // s: two frames of 60 Hz
 constexpr float horizontal_persistence = 0.5F;  // s: how long players keep running
 constexpr float vertical_persistence = 0.15F;   // s: how long they keep rising or falling
@@ -18,12 +18,6 @@ constexpr float inside_surface = 0.9F;          // share of a ball's radius that
 
 Vec3f view_direction(const Pose& pose) {
     return pose.orientation.normalized() * Vec3f::UnitX();
-}
-
-Vec3f limited(const Vec3f& velocity) {
-    const float speed = velocity.norm();
-    if (!std::isfinite(speed)) return Vec3f::Zero();
-    return speed > fastest ? Vec3f(velocity * (fastest / speed)) : velocity;
 }
 
 float smoothing_share(float dt, float time_constant) {
@@ -60,11 +54,10 @@ void settle(const freespace::Space& space, const Vec3f& anchor, PlayerTrack& tra
 }
 
 // Out of the mover that is over the anchor, if there is room beside it.
-void leave_mover(const freespace::Space& space, PlayerTrack& track) {
+void leave_mover(const freespace::Space& space, const MapProfile& profile, PlayerTrack& track) {
     const freespace::MoverDistance over = space.mover_distance(track.anchor, 0.0F);
     if (over.mover == freespace::none) return;
-    const MapProfile usual(Profile{}, space.map().metadata().metres_per_unit);
-    settle(space, track.anchor + (usual.minimum_clearance - over.value) * over.way_out, track);
+    settle(space, track.anchor + (profile.minimum_clearance - over.value) * over.way_out, track);
 }
 
 // The point of the representation's balls at its vertices that is nearest to `point`; `point` itself when
@@ -88,23 +81,23 @@ Vec3f nearest_free_point(const freespace::Space& space, const Vec3f& point) {
 
 }  // namespace
 
-void restart(const freespace::Space& space, const Pose& pose, PlayerTrack& track) {
+void restart(const freespace::Space& space, const MapProfile& profile, const Pose& pose, PlayerTrack& track) {
     track = PlayerTrack();
     track.eye = pose.eye;
     track.anchor = pose.eye;
-    track.velocity = limited(pose.velocity);
+    track.velocity = plausible(pose.velocity, profile.unit);
     track.heading = view_direction(pose);
     track.view = track.heading;
     settle(space, pose.eye, track);
     track.covered = track.slab != freespace::none;
     if (!track.covered) settle(space, nearest_free_point(space, pose.eye), track);
-    if (track.slab == freespace::none) leave_mover(space, track);
+    if (track.slab == freespace::none) leave_mover(space, profile, track);
 }
 
 void follow(const freespace::Space& space, const MapProfile& profile, const Pose& pose, float dt,
             PlayerTrack& track) {
     const Vec3f before = track.anchor;
-    const Vec3f velocity = limited((pose.eye - track.eye) / dt);
+    const Vec3f velocity = plausible((pose.eye - track.eye) / dt, profile.unit);
     track.velocity += smoothing_share(dt, velocity_smoothing) * (velocity - track.velocity);
     track.eye = pose.eye;
     const Vec3f view = view_direction(pose);
@@ -123,7 +116,7 @@ void follow(const freespace::Space& space, const MapProfile& profile, const Pose
         const freespace::Sight way = freespace::sight(space, track.anchor, pose.eye);
         const Vec3f direction = (pose.eye - track.anchor).normalized();
         settle(space, track.anchor + inside_surface * way.free_length * direction, track);
-        if (way.free_length == 0.0F) leave_mover(space, track);
+        if (way.free_length == 0.0F) leave_mover(space, profile, track);
     }
     track.move = track.anchor - before;
 }

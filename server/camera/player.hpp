@@ -23,7 +23,7 @@ struct PlayerTrack {
 
 // Begins anew at `pose`: after a cut in the player's motion. An eye in no slab is sought at the nearest free
 // point of the representation.
-void restart(const freespace::Space& space, const Pose& pose, PlayerTrack& track);
+void restart(const freespace::Space& space, const MapProfile& profile, const Pose& pose, PlayerTrack& track);
 
 // Follows the player to `pose`, `dt` seconds later.
 void follow(const freespace::Space& space, const MapProfile& profile, const Pose& pose, float dt,

@@ -44,7 +44,7 @@ class Step {
 
     Camera with_pose(const Pose& pose) {
         if (!state_.started || pose.discontinuity) {
-            restart(space_, pose, player_);
+            restart(space_, profile_, pose, player_);
             return cut_to_player();
         }
         follow(space_, profile_, pose, dt_, player_);
@@ -200,7 +200,7 @@ class Step {
         const freespace::SpawnPoint& spawn = space_.map().spawn_points().front();
         Pose pose;
         pose.eye = spawn.eye;
-        restart(space_, pose, player_);
+        restart(space_, profile_, pose, player_);
         state_.position = player_.anchor;
         state_.slab = player_.slab;
         state_.look = {spawn.yaw, 0.0F};

@@ -7,6 +7,7 @@ namespace camdir::camera {
 namespace {
 
 constexpr float furthest = 1e7F;             // map units: no map reaches there
+constexpr float fastest_player = 1e4F;       // units/s
 constexpr float usual_frame = 1.0F / 60.0F;  // s
 constexpr float shortest_frame = 1e-3F;      // s
 constexpr float longest_frame = 0.25F;       // s
@@ -26,6 +27,13 @@ Pose interpolated(const TimedPose& a, const TimedPose& b, double time) {
 }
 
 }  // namespace
+
+Vec3f plausible(const Vec3f& velocity, float unit) {
+    const float speed = velocity.stableNorm();
+    if (!std::isfinite(speed)) return Vec3f::Zero();
+    const float limit = fastest_player * unit;
+    return speed > limit ? Vec3f(velocity * (limit / speed)) : velocity;
+}
 
 bool usable(const Pose& pose) {
     const float norm = pose.orientation.norm();

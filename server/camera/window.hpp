@@ -22,6 +22,10 @@ using Window = std::span<const TimedPose>;
 // pose.
 [[nodiscard]] bool usable(const Pose& pose);
 
+// No faster than players move, 10,000 units of 0.0254 m a second, each `unit` map units: more is a jump. Zero
+// where the speed is not finite.
+[[nodiscard]] Vec3f plausible(const Vec3f& velocity, float unit);
+
 // The time since a shot's last step, s: one frame of 60 Hz where it is <= 0 or not finite, and limited to
 // 1 ms .. 250 ms.
 [[nodiscard]] float usable_frame(double dt);

@@ -46,7 +46,8 @@ Quatf quaternion(std::span<const float> values, std::size_t index) {
 }
 
 bool distinct(std::span<const std::uint32_t> ids) {
-    if (std::ranges::adjacent_find(ids, std::greater_equal()) == ids.end()) return true;  // as most write them
+    if (std::ranges::adjacent_find(ids, std::greater_equal()) == ids.end())
+        return true;  // as most write them
     std::vector<std::uint32_t> sorted(ids.begin(), ids.end());
     std::ranges::sort(sorted);
     return std::ranges::adjacent_find(sorted) == sorted.end();

@@ -18,7 +18,7 @@ constexpr float length_tolerance = 1e-3F;  // of what should have length 1
 constexpr double longest_frame = 0.25;
 // While both move, a way is looked at in parts of at most this time, s, but not in more than so many.
 constexpr double part_time = 0.025;
-constexpr int most_parts = 10;
+constexpr double most_parts = 10.0;
 
 bool is_coordinate(const Vec3f& point) {
     return point.allFinite() && point.cwiseAbs().maxCoeff() <= coordinate_limit;
@@ -355,7 +355,7 @@ MoverSweep Movers::sweep(const Vec3f& from, double since, const Vec3f& to, doubl
     Box3f box(from.cwiseMin(to), from.cwiseMax(to));
     box.min().array() -= radius;
     box.max().array() += radius;
-    const int parts = std::clamp(static_cast<int>(std::ceil((time - since) / part_time)), 1, most_parts);
+    const int parts = static_cast<int>(std::clamp(std::ceil((time - since) / part_time), 1.0, most_parts));
     double least = infinite;
     for_each_near(box, [&](std::uint32_t mover) {
         auto before = placement_at(mover, since);

@@ -8,9 +8,10 @@
 namespace camdir::service {
 namespace {
 
-constexpr dds::Topic received_topics[] = {dds::Topic::match_info,  dds::Topic::pose_frame,
-                                          dds::Topic::match_event, dds::Topic::mover_info,
-                                          dds::Topic::mover_frame, dds::Topic::observer_request};
+constexpr dds::Topic received_topics[] = {dds::Topic::match_info,   dds::Topic::pose_frame,
+                                          dds::Topic::match_event,  dds::Topic::mover_info,
+                                          dds::Topic::mover_frame,  dds::Topic::observer_request,
+                                          dds::Topic::camera_frame, dds::Topic::director_sign};
 
 prometheus::MetricFamily counter(const std::string& name, const std::string& help,
                                  const dds::WireCounter& value) {
@@ -41,7 +42,7 @@ double expiry(const std::optional<dds::Identity>& identity) {
 
 std::vector<prometheus::MetricFamily> wire_metrics(const dds::WireCounters& counters, std::int64_t strength,
                                                    const std::optional<dds::Identity>& identity) {
-    auto accepted = http::counter_family("wire_received_total", "Samples passed to the director, by topic.");
+    auto accepted = http::counter_family("wire_received_total", "Valid samples received, by topic.");
     auto dropped = http::counter_family("wire_dropped_total",
                                         "Samples dropped on receipt, by topic and validation error.");
     for (const dds::Topic topic : received_topics) {
@@ -68,9 +69,11 @@ std::vector<prometheus::MetricFamily> wire_metrics(const dds::WireCounters& coun
         counter("wire_write_failures_total", "Samples that DDS did not accept.", counters.write_failures),
         counter("wire_endpoint_failures_total", "Matches whose endpoints could not be created.",
                 counters.endpoint_failures),
-        counter("wire_liveliness_withheld_total",
-                "Signs of life omitted because a worker was busy for longer than dds.lease_ms.",
-                counters.liveliness_withheld),
+        counter(
+            "wire_liveliness_withheld_total",
+            "Signs of life omitted because a worker or the housekeeping had been busy with one turn, or no "
+            "worker free for one, for 3/4 of dds.lease_ms.",
+            counters.liveliness_withheld),
         gauge("matches_led", "Matches that this director leads; for the others it stands by.",
               counters.matches_led),
         gauge("strength", "Of directors that begin a match together, the strongest leads it.",

@@ -160,7 +160,7 @@ class GroupStep {
         Pose pose;
         pose.eye = point;
         PlayerTrack track;
-        restart(space_, pose, track);
+        restart(space_, profile_, pose, track);
         return landing(space_, profile_, track).position;
     }
 

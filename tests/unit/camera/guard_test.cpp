@@ -23,7 +23,7 @@ TEST(Guard, NeverLeavesTheFreespaceNorGoesThroughAnything) {
         for (std::uint32_t seed = 1; seed <= 6; ++seed) {
             Runner runner(plan, plan.eye('s'), seed);
             PlayerTrack track;
-            restart(freespace, runner.next(1.0F / 60.0F), track);
+            restart(freespace, profile, runner.next(1.0F / 60.0F), track);
             for (int i = 0; i < 300; ++i) {
                 follow(freespace, profile, runner.next(1.0F / 60.0F), 1.0F / 60.0F, track);
                 const Vec3f from = track.anchor + offset();

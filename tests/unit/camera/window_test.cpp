@@ -50,6 +50,13 @@ TEST(Window, ReportsAJumpOnceEvenIfItsPoseWasSkipped) {
     EXPECT_FALSE(pose_at(poses, 3.5, 3.75)->discontinuity);
 }
 
+TEST(Window, AVelocityIsLimitedByThePlayersSizeNotByTheMapsUnit) {
+    EXPECT_EQ(plausible({300.0F, 0.0F, -400.0F}, 1.0F), Vec3f(300.0F, 0.0F, -400.0F));
+    EXPECT_TRUE(plausible({0.0F, 3e4F, 4e4F}, 1.0F).isApprox(Vec3f(0.0F, 6e3F, 8e3F)));
+    EXPECT_TRUE(plausible({0.0F, 300.0F, 400.0F}, 0.0254F).isApprox(Vec3f(0.0F, 152.4F, 203.2F))) << "metres";
+    EXPECT_EQ(plausible(Vec3f::Constant(3e38F), 1.0F), Vec3f(Vec3f::Zero()));
+}
+
 TEST(Window, RecentPosesKeepTheLastOnes) {
     RecentPoses recent;
     EXPECT_TRUE(recent.window().empty());

@@ -131,7 +131,7 @@ TEST_F(DoorTest, NoGroupShotLooksThroughIt) {
     request.group = {1, 2};
     stage_.ask(request);
     play_door();
-    (void)shown_from(0, {Vec3f::Zero(), Vec3f(0.0F, 80.0F, 0.0F)});
+    EXPECT_GT(shown_from(0, {Vec3f::Zero(), Vec3f(0.0F, 80.0F, 0.0F)}), first_closing);
 }
 
 TEST_F(DoorTest, ANewEpochForgetsIt) {

@@ -54,6 +54,7 @@ TEST(Movers, WithoutAPoseThereIsNothing) {
     EXPECT_TRUE(movers.sweep({-50, 0, 50}, {50, 0, 50}, 5.0F, 0.9).clear) << "before its first pose";
     EXPECT_FALSE(movers.sweep({-50, 0, 50}, {50, 0, 50}, 5.0F, 1.0).clear);
     EXPECT_FALSE(movers.sweep({-50, 0, 50}, {50, 0, 50}, 5.0F, 100.0).clear) << "it stands";
+    EXPECT_FALSE(movers.sweep({-50, 0, 50}, 1.0, {50, 0, 50}, 1e12, 5.0F).clear) << "the clock has leapt";
 }
 
 TEST(Movers, ADoorIsInTheWayWhereItIs) {
