@@ -57,11 +57,13 @@ CONFIG
 
 # What the director is asked for goes to asked.log.
 write_nginx_config() {
-    sed -e "s|/var/cache/nginx|$PWD/cache|; s|listen 80;|listen 127.0.0.1:$cache_port;|; s|127.0.0.1:9464|127.0.0.1:$director_port|" \
-        "$here/../../deploy/broadcast/nginx.conf" >site.conf
+    local site=$here/../../deploy/broadcast/nginx.conf cache folder
+    cache=$(sed -n 's/^proxy_cache_path \([^ ]*\).*/\1/p' "$site")
+    [ -d "${cache%/*}" ] || fail "deploy/broadcast/nginx.conf: nginx makes the last folder of $cache, not ${cache%/*}, which is missing here"
+    sed -e "s|$cache|$PWD/cache|; s|listen 80 default_server;|listen 127.0.0.1:$cache_port;|; s|127.0.0.1:9464|127.0.0.1:$director_port|" \
+        "$site" >site.conf
     grep -q "listen 127.0.0.1:$cache_port;" site.conf && grep -q "server 127.0.0.1:$director_port;" site.conf ||
         fail "deploy/broadcast/nginx.conf has other addresses than this script replaces"
-    local folder
     cat >nginx.conf <<CONFIG
 daemon off;
 pid $PWD/nginx.pid;
