@@ -19,8 +19,11 @@ sdk=$(echo build/package/camera-director-client-sdk_*.deb)
 deploy/install-packages.sh package
 
 work=$(mktemp -d)
-at_exit() { rm -rf --one-file-system "$work"; }
 root=$work/root
+at_exit() {
+    umount "$root/proc" 2>/dev/null || true
+    rm -rf --one-file-system "$work"
+}
 config=$root/etc/camera-director/camera-director.json
 unit=$root/usr/lib/systemd/system/camera-director.service
 
@@ -54,7 +57,6 @@ serve() {
     local i port
     # shellcheck disable=SC2046  # words of a command
     as_service $(of_unit ExecStartPre) || fail "the unit's ExecStartPre fails"
-    inside install -d -o "$(of_unit User)" "/var/lib/$(of_unit StateDirectory)"
     # shellcheck disable=SC2046  # words of a command
     run "$1" chroot --userspec="$(of_unit User)" "$root" $(of_unit ExecStart)
     for ((i = 0; i < 600; ++i)); do
@@ -80,6 +82,10 @@ step "An empty Debian"
 lock_domain
 foreground debootstrap --variant=minbase bookworm "$root" >"$work/debootstrap.log" 2>&1 ||
     { tail -n 5 "$work/debootstrap.log" >&2; fail "debootstrap failed"; }
+# debootstrap leaves an empty folder, in containers a link; the server finds its page's folder by /proc.
+rm -d "$root/proc"
+mkdir "$root/proc"
+mount -t proc proc "$root/proc"
 
 step "Install"
 install_package "$server" systemd-standalone-sysusers
@@ -88,10 +94,15 @@ inside qtv-publisher --version
 expect "$(stat -c %U:%a "$config")" = root:644
 # shellcheck disable=SC2046  # words of a command
 as_service $(of_unit ExecStartPre) || fail "the configuration of the package is not valid"
+folder=/var/lib/$(of_unit StateDirectory)
+expect "$(inside stat -c %U:%G:%a "$folder")" = "$(of_unit User):$(of_unit User):$(of_unit StateDirectoryMode | sed 's/^0//')"
 
-step "Configure and start"
+step "Configure, bake before the first start, and start"
 write_room >"$root/srv/room.obj"
 write_config >"$config"
+inside runuser -u "$(of_unit User)" -- camera-director bake --quiet \
+    --config /etc/camera-director/camera-director.json || fail "no bake before the first start"
+rm "$root$folder/room.vfs"  # the service bakes, too
 serve "$work/first.log"
 grep -q 'map room: baked' "$work/first.log" || fail "the map was not baked"
 
@@ -110,17 +121,17 @@ serve "$work/second.log"
 step "Client SDK"
 install_package "$sdk"
 inside ldconfig -p >"$work/libraries"
-grep -q 'libcamera-director-client.so.1 ' "$work/libraries" || fail "the client library is not found"
+grep -q 'libcamera-director-client\.so\.[0-9]* ' "$work/libraries" || fail "the client library is not found"
 
 step "Remove and purge"
 inside apt-get remove -y -q camera-director >/dev/null 2>&1
 expect ! -e "$root/usr/bin/camera-director"
 expect ! -e "$root/usr/bin/qtv-publisher"
 expect -s "$config"
-expect -s "$root/var/lib/camera-director/room.vfs"
+expect -s "$root$folder/room.vfs"
 inside apt-get purge -y -q camera-director camera-director-client-sdk >/dev/null 2>&1
 expect ! -e "$root/etc/camera-director"
-expect ! -e "$root/var/lib/camera-director"
+expect ! -e "$root$folder"
 [ -z "$(find "$root/usr" -name '*camera-director*')" ] || fail "left behind: $(find "$root/usr" -name '*camera-director*')"
 
 step "All passed"
