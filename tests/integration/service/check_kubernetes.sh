@@ -18,7 +18,7 @@ shards=$(basename -a "$example"/shards/*/)
 "$deploy/security/authority.sh" create "$work/authority" 2>/dev/null
 for shard in $shards; do
     "$deploy/security/authority.sh" issue "$work/authority" "shard-$shard" director '*' 2>/dev/null
-    cp -r "$work/authority/identities/shard-$shard" "$example/shards/$shard/identity"
+    cp -rT "$work/authority/identities/shard-$shard" "$example/shards/$shard/identity"
 done
 
 kubectl kustomize "$example" >"$work/built.yaml"
