@@ -155,9 +155,11 @@ void add_http(std::vector<Key>& table) {
                      "Matches that have metrics of their own, with the label `match`: as many of those that "
                      "began first. 0: none.",
                      "", 0, 4096});
-    table.push_back({section, "viewers", slot(&Http::viewers),
-                     "Viewers of the page at `/`, at most; one more is told to come back later.", "", 0,
-                     4096});
+    table.push_back(
+        {section, "viewers", slot(&Http::viewers),
+         "Viewers of the page at `/`, at most. One more sees the match's broadcast where it is recorded, "
+         "else the page tries again.",
+         "", 0, 4096});
     table.push_back(
         {section, "page", slot(&Http::page),
          "Folder of the page's files; empty: `../share/camera-director/page` from the program's folder. "
@@ -617,10 +619,11 @@ const std::vector<Section>& sections() {
          "of them; a rule of another name is a new one and needs a `trigger`. A `worth` and `worth_both` of "
          "0 switch a rule off. Reloaded by SIGHUP."},
         {"/limits",
-         "Whatever exceeds a limit is refused. Matches beyond `matches`, `participant_matches` and "
-         "`participant_match_rate`, and observers beyond `observers`, wait for room in the order in which "
-         "they came, as many of them as may be served, and of one participant's matches a quarter of that. "
-         "By default a participant has at most half of the places, so that no stranger alone takes all of "
+         "Matches beyond `matches`, `participant_matches` and `participant_match_rate`, and observers beyond "
+         "`observers`, wait for room, first come, first served: as many as may be served, and of one "
+         "participant's matches a quarter of that. Pose frames beyond `pose_rate_hz` are left out evenly. "
+         "Whatever else exceeds a limit is refused. By default a participant has at most half of the places, "
+         "so that no stranger alone takes all of "
          "them; not less, because one process may host all matches of a small host, or hold most observers "
          "of a match. Takes effect at a restart."},
         {"/log", "Written to standard error. `level` is reloaded by SIGHUP."}};
