@@ -6,7 +6,7 @@
 #include <string>
 
 #include "base/file.hpp"
-#include "service/signals.hpp"
+#include "base/signals.hpp"
 #include "session.hpp"
 
 namespace camdir::qtv {
@@ -70,7 +70,7 @@ Result<Subscription> subscription_of(const Options& options) {
 Result<void> run(Options options) {
     const auto subscription = subscription_of(options);
     if (!subscription) return tl::unexpected(subscription.error());
-    const service::Interruption interruption;
+    const Interruption interruption;
     const StopEvent stop(interruption.token());
     if (!options.security.empty()) options.context.security = options.security;
     const auto context = camera_director::Context::open(options.context);

@@ -8,6 +8,7 @@
 #include "app/progress.hpp"
 #include "bake/bake.hpp"
 #include "base/file.hpp"
+#include "base/signals.hpp"
 #include "config/config.hpp"
 #include "config/json_text.hpp"
 #include "freespace/freespace.hpp"
@@ -16,7 +17,6 @@
 #include "maps/report.hpp"
 #include "maps/source.hpp"
 #include "scene/load.hpp"
-#include "service/signals.hpp"
 
 namespace camdir::app {
 namespace {
@@ -99,7 +99,7 @@ Result<bake::Baked> bake_shown(const scene::Scene& scene, const BakeOptions& opt
 }
 
 Result<void> bake_to_file(const BakeOptions& options) {
-    const service::Interruption interruption;
+    const Interruption interruption;
     if (auto writable = check_outputs({options.output, options.report}, {options.map}); !writable)
         return writable;
 

@@ -12,11 +12,11 @@
 #include "app/commands.hpp"
 #include "app/progress.hpp"
 #include "base/file.hpp"
+#include "base/signals.hpp"
 #include "config/json_text.hpp"
 #include "maps/batch.hpp"
 #include "maps/memory.hpp"
 #include "maps/progress.hpp"
-#include "service/signals.hpp"
 
 namespace camdir::app {
 namespace {
@@ -147,7 +147,7 @@ int batch_exit_code(const std::vector<maps::BakeOutcome>& outcomes) {
 }
 
 Result<int> run(const BakeConfigOptions& options) {
-    const service::Interruption interruption;
+    const Interruption interruption;
     if (auto writable = check_outputs({options.report}, {options.config}); !writable)
         return tl::unexpected(writable.error());
     auto config = config::load(options.config);

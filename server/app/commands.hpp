@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "base/error.hpp"
-#include "service/signals.hpp"
+#include "base/signals.hpp"
 
 namespace camdir::app {
 
@@ -17,7 +17,6 @@ namespace camdir::app {
 inline constexpr int exit_done = 0;
 inline constexpr int exit_failed = 1;
 inline constexpr int exit_usage = 2;
-using service::exit_interrupted;  // 130
 
 // Each adds its subcommand to `root`; when the user chose it, `run` is set to what does the work and
 // returns the exit code.
@@ -42,8 +41,7 @@ void add_render(CLI::App& root, Run& run);
 // that takes no stop token and leaves nothing behind.
 class ExitWhenInterrupted {
   public:
-    explicit ExitWhenInterrupted(const service::Interruption& interruption)
-        : callback_(interruption.token(), leave) {}
+    explicit ExitWhenInterrupted(const Interruption& interruption) : callback_(interruption.token(), leave) {}
 
   private:
     static void leave();

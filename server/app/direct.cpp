@@ -16,6 +16,7 @@
 #include "app/progress.hpp"
 #include "app/recorded_match.hpp"
 #include "base/file.hpp"
+#include "base/signals.hpp"
 #include "camera/view.hpp"
 #include "config/config.hpp"
 #include "direction/baselines.hpp"
@@ -28,7 +29,6 @@
 #include "freespace/visibility.hpp"
 #include "oracle/oracle.hpp"
 #include "report/programme_page.hpp"
-#include "service/signals.hpp"
 
 namespace camdir::app {
 namespace {
@@ -305,7 +305,7 @@ Result<void> write_report(const DirectOptions& options, const Inputs& inputs, co
 }
 
 Result<void> direct(const DirectOptions& options) {
-    const service::Interruption interruption;
+    const Interruption interruption;
     const std::stop_token stop = interruption.token();
     std::optional<ExitWhenInterrupted> reading(interruption);
     if (auto writable = check_outputs(

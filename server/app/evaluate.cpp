@@ -11,6 +11,7 @@
 #include "app/evaluate_inputs.hpp"
 #include "app/progress.hpp"
 #include "base/file.hpp"
+#include "base/signals.hpp"
 #include "camera/group/members.hpp"
 #include "evaluation/figures.hpp"
 #include "evaluation/judgement.hpp"
@@ -19,7 +20,6 @@
 #include "evaluation/statistics.hpp"
 #include "oracle/oracle.hpp"
 #include "report/page.hpp"
-#include "service/signals.hpp"
 
 namespace camdir::app {
 namespace {
@@ -169,7 +169,7 @@ Result<void> write_report(const EvaluateOptions& options, const Match& match, co
 }
 
 Result<void> evaluate(const EvaluateOptions& options) {
-    const service::Interruption interruption;
+    const Interruption interruption;
     const std::stop_token stop = interruption.token();
     std::optional<ExitWhenInterrupted> reading(interruption);
     if (auto writable = check_outputs({options.cameras, options.terms, options.json, options.report},

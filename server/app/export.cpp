@@ -4,10 +4,10 @@
 
 #include "app/commands.hpp"
 #include "base/file.hpp"
+#include "base/signals.hpp"
 #include "export/glb.hpp"
 #include "export/ply.hpp"
 #include "freespace/freespace.hpp"
-#include "service/signals.hpp"
 
 namespace camdir::app {
 namespace {
@@ -25,7 +25,7 @@ struct Files {
     Bytes ply, glb;  // empty where not wanted
 };
 
-Result<Files> make_files(const ExportOptions& options, const service::Interruption& interruption) {
+Result<Files> make_files(const ExportOptions& options, const Interruption& interruption) {
     const ExitWhenInterrupted exits(interruption);
     const auto freespace = freespace::Freespace::open(options.file);
     if (!freespace) return tl::unexpected(freespace.error());
@@ -39,7 +39,7 @@ Result<Files> make_files(const ExportOptions& options, const service::Interrupti
 }
 
 Result<void> export_mesh(const ExportOptions& options) {
-    const service::Interruption interruption;
+    const Interruption interruption;
     if (auto writable = check_outputs({options.ply, options.glb}, {options.file}); !writable) return writable;
     const auto files = make_files(options, interruption);
     if (!files) return tl::unexpected(files.error());

@@ -8,9 +8,9 @@
 
 #include "app/commands.hpp"
 #include "base/file.hpp"
+#include "base/signals.hpp"
 #include "config/json_text.hpp"
 #include "freespace/freespace.hpp"
-#include "service/signals.hpp"
 
 namespace camdir::app {
 namespace {
@@ -140,13 +140,13 @@ ordered_json to_json(const Freespace& freespace) {
             {"counts", counts}};
 }
 
-Result<Freespace> open_interruptibly(const std::string& file, const service::Interruption& interruption) {
+Result<Freespace> open_interruptibly(const std::string& file, const Interruption& interruption) {
     const ExitWhenInterrupted exits(interruption);
     return Freespace::open(file);
 }
 
 int inspect(const std::string& file, const std::string& json) {
-    const service::Interruption interruption;
+    const Interruption interruption;
     const auto freespace = open_interruptibly(file, interruption);
     if (!freespace) return report(freespace.error());
     print_table(*freespace);

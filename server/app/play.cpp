@@ -156,16 +156,16 @@ Result<void> show_first(const PlayOptions& options, recording::Playback& playbac
 
 // Until the user stops it.
 void serve(const PlayOptions& options, recording::Playback& playback, recording::Broadcast& broadcast,
-           service::Signals& signals) {
+           Signals& signals) {
     const auto begin = std::chrono::steady_clock::now();
-    while (signals.wait(step) != service::Signal::stop) {
+    while (signals.wait(step) != Signal::stop) {
         const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
         if (options.live) show(elapsed.count(), playback, broadcast);
     }
 }
 
 Result<void> play(const PlayOptions& options) {
-    service::Signals signals;
+    Signals signals;
     const auto http = listening(options);
     if (!http) return tl::unexpected(http.error());
     if (auto usable = http::Server::check(*http); !usable) return usable;

@@ -9,13 +9,13 @@
 #include "app/commands.hpp"
 #include "app/progress.hpp"
 #include "base/file.hpp"
+#include "base/signals.hpp"
 #include "config/json_text.hpp"
 #include "export/picture_layers.hpp"
 #include "maps/source.hpp"
 #include "render/draw.hpp"
 #include "render/page.hpp"
 #include "scene/load.hpp"
-#include "service/signals.hpp"
 
 namespace camdir::app {
 namespace {
@@ -152,7 +152,7 @@ std::string to_json(const Composition& made, const Freespace& freespace, bool sa
 }
 
 Result<void> render_file(const RenderOptions& options) {
-    const service::Interruption interruption;
+    const Interruption interruption;
     if (auto writable = check_outputs({options.output, options.json}, {options.file, options.map}); !writable)
         return writable;
     const auto freespace = Freespace::open(options.file);

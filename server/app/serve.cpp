@@ -56,7 +56,7 @@ int serve(const ServeOptions& options) {
     if (options.check) return check(*config, options.config);
 
     service::keep_heap_compact();
-    service::Signals signals;
+    Signals signals;
     service::start_logging(config->log);
     auto opened = service::Service::open(options.config, options.shard, std::move(*config));
     if (!opened) {

@@ -11,12 +11,12 @@
 #include "app/commands.hpp"
 #include "app/progress.hpp"
 #include "base/file.hpp"
+#include "base/signals.hpp"
 #include "config/json_text.hpp"
 #include "evaluation/verification.hpp"
 #include "freespace/freespace.hpp"
 #include "maps/source.hpp"
 #include "oracle/oracle.hpp"
-#include "service/signals.hpp"
 
 namespace camdir::app {
 namespace {
@@ -150,7 +150,7 @@ Result<Subject> read_subject(const VerifyOptions& options) {
 }
 
 Result<int> verify(const VerifyOptions& options) {
-    const service::Interruption interruption;
+    const Interruption interruption;
     std::optional<ExitWhenInterrupted> reading(interruption);
     if (auto writable = check_outputs({options.json}, {options.file, options.map}); !writable)
         return tl::unexpected(writable.error());

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/signals.hpp"
 #include "config/config.hpp"
 #include "dds/gateway.hpp"
 #include "director/director.hpp"
@@ -16,7 +17,6 @@
 #include "live/relay.hpp"
 #include "maps/loader.hpp"
 #include "recording/recorder.hpp"
-#include "service/signals.hpp"
 
 namespace camdir::service {
 

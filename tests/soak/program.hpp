@@ -1,7 +1,7 @@
 // A program that SIGINT and SIGTERM end in good order.
 #pragma once
 
-#include "service/signals.hpp"
+#include "base/signals.hpp"
 #include "support/program.hpp"
 
 namespace camdir::soak {
@@ -11,7 +11,7 @@ namespace camdir::soak {
 template <class Run>
 int run_until_interrupted(CLI::App& app, int argc, char** argv, const Run& run) {
     return test::run_program(app, argc, argv, [&] {
-        const service::Interruption interruption;
+        const Interruption interruption;
         return run(interruption.token());
     });
 }

@@ -1,11 +1,11 @@
-#include "service/signals.hpp"
+#include "base/signals.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include "support/eventually.hpp"
 
-namespace camdir::service {
+namespace camdir {
 namespace {
 
 TEST(Interruption, RequestsAStopOnSigintAndSigterm) {
@@ -38,4 +38,4 @@ TEST(Signals, AreQueuedForWait) {
 }
 
 }  // namespace
-}  // namespace camdir::service
+}  // namespace camdir

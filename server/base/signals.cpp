@@ -1,4 +1,4 @@
-#include "service/signals.hpp"
+#include "base/signals.hpp"
 
 #include <pthread.h>
 #include <unistd.h>
@@ -6,7 +6,7 @@
 #include <ctime>
 #include <initializer_list>
 
-namespace camdir::service {
+namespace camdir {
 namespace {
 
 // Blocks them for this thread and those that it starts; returns the mask before.
@@ -66,4 +66,4 @@ Signal Signals::wait(std::chrono::milliseconds timeout) {
     }
 }
 
-}  // namespace camdir::service
+}  // namespace camdir

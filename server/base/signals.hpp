@@ -7,7 +7,7 @@
 #include <stop_token>
 #include <thread>
 
-namespace camdir::service {
+namespace camdir {
 
 // Exit code of an interrupted program: 128 + SIGINT, as a shell reports it.
 inline constexpr int exit_interrupted = 130;
@@ -48,4 +48,4 @@ class Signals {
     sigset_t mask_before_{};
 };
 
-}  // namespace camdir::service
+}  // namespace camdir
