@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds, and runs every test that a change must pass: formatting, the release build with
+# Installs what is missing, builds, and runs every test that a change must pass: formatting, layers, the release build with
 # integration tests (matches on OpenArena's own server and client among them), a short soak and unit tests, and unit
 # tests under the address and undefined-behaviour sanitizers; each unit test but those of benchmarks in one of the two.
 #     test.sh [--all]
@@ -61,9 +61,10 @@ $all && groups+=(lint)
 deploy/install-packages.sh "${groups[@]}"
 ! $all || deploy/i386-packages.sh build/i386-root
 
-step "Formatting"
+step "Formatting, layers"
 find client-sdk server tests -name '*.[ch]pp' -print0 -o -name '*.[ch]' -print0 |
     xargs -0 clang-format-14 --dry-run --Werror
+deploy/layers.sh
 
 # What reads the bytes of others, and what has threads, is tested under the sanitizers alone; the rest as it runs: MAP.vfs
 # and queries, cameras and the baker, whose results are those of the optimised build.
