@@ -1,6 +1,7 @@
 #include "director/timeline.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "director/clock.hpp"
 #include "director/roster.hpp"
@@ -14,6 +15,13 @@ constexpr std::ptrdiff_t worth_moving = 32;  // poses
 
 camera::Pose camera_pose(const PlayerPose& pose, bool discontinuity) {
     return {pose.eye, pose.orientation, pose.velocity, (pose.flags & pose_alive) != 0, discontinuity};
+}
+
+// Of a second. Cameras decide at tenths: a standby that comes later at the same ones as its leader.
+std::int64_t last_tenth(std::int64_t time) {
+    constexpr std::int64_t tenth = 100'000'000;
+    const std::int64_t since = (time % tenth + tenth) % tenth;
+    return time >= std::numeric_limits<std::int64_t>::min() + since ? time - since : time;
 }
 
 }  // namespace
@@ -31,7 +39,7 @@ double Timeline::seconds(std::int64_t frame_time) const {
 }
 
 bool Timeline::add(const PoseFrame& frame, std::span<const PlayerPose> poses) {
-    if (empty_) start_ = frame.frame_time;
+    if (empty_) start_ = last_tenth(frame.frame_time);
     const double time = seconds(frame.frame_time);
     if (!empty_ && time < newest_ - max_step_back_s) return false;
     if (!empty_ && time <= newest_) return true;

@@ -19,7 +19,8 @@ struct TimedMovers {
     std::shared_ptr<const MatchMovers> movers;
 };
 
-// Times are seconds of the game's clock since the first frame. One thread at a time.
+// Times are seconds of the game's clock since the last whole tenth of one before the first frame. One thread
+// at a time.
 class Timeline {
   public:
     void clear();

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+
 #include "director/roster.hpp"
 #include "stage.hpp"
 
@@ -42,6 +45,23 @@ TEST_F(TimelineTest, HoldsThePosesInTime) {
     EXPECT_DOUBLE_EQ(window.back().time, 2.5);
     EXPECT_EQ(window.back().pose.eye.x(), 7500.0F);
     EXPECT_TRUE(timeline_.window(2).empty());
+}
+
+// Cameras decide at tenths of a second: a standby that comes later at those of its leader.
+TEST_F(TimelineTest, TenthsOfASecondAreTheSameWhereverItBegins) {
+    for (const std::int64_t begin : {-1337, -1300, 0, 1250, 4999}) {
+        timeline_.clear();
+        add(begin);
+        for (const std::int64_t tenth : {-2000, 0, 7300})
+            EXPECT_NEAR(std::remainder(timeline_.seconds(tenth * ms), 0.1), 0.0, 1e-9) << begin;
+        EXPECT_GE(timeline_.seconds(begin * ms), 0.0);
+        EXPECT_LT(timeline_.seconds(begin * ms), 0.1);
+    }
+    timeline_.clear();
+    PoseFrame earliest;
+    earliest.frame_time = std::numeric_limits<std::int64_t>::min();
+    EXPECT_TRUE(timeline_.add(earliest, {}));
+    EXPECT_EQ(timeline_.seconds(earliest.frame_time), 0.0);
 }
 
 TEST_F(TimelineTest, ForgetsWhatIsOver) {
