@@ -22,7 +22,7 @@ static struct {
     struct match_state match;
     bool match_sent;
     struct game_clock clock;
-    double settings_read_at, frame_due_at; /* s of game time; less than 0: not yet in this map */
+    double settings_read_at, frame_due_at; /* s of game time; less than 0: at once */
     struct server_frame frame;             /* collects the events of the next frame */
     uint64_t dropped_frames, dropped_events;
 } game;
@@ -59,6 +59,11 @@ static void read_settings(double now) {
     if (memcmp(&settings, &game.match.settings, sizeof settings) == 0) return;
     game.match.settings = settings;
     game.match_sent = false;
+    game.frame_due_at = -1.0;
+}
+
+static bool is_published(void) {
+    return game.match.settings.enabled && game.match.settings.error[0] == '\0';
 }
 
 static void send_match(void) {
@@ -86,7 +91,7 @@ void game_run_frame(void) {
     const double now = game_clock_advance(&game.clock, engine_time(), engine_frame_time());
     read_settings(now);
     send_match();
-    if (!game.match.settings.enabled || !game.match_sent) return;
+    if (!is_published() || !game.match_sent) return;
     players_damage(&game.entities, game_add_event);
     if (!frame_is_due(now)) return;
     game.frame.frame_time = (int64_t)(now * 1e9);
@@ -111,7 +116,7 @@ uint32_t game_player_id(const struct entity* entity) {
 }
 
 void game_add_event(const struct game_event* event) {
-    if (!game.in_map || !game.match.settings.enabled) return;
+    if (!game.in_map || !is_published()) return;
     if (game.frame.event_count == max_events) {
         ++game.dropped_events;
         return;

@@ -286,6 +286,42 @@ TEST_F(HalfLife, ASettingThatDoesNotFitIsInTheStatusAndNothingIsPublished) {
     expect_end();
 }
 
+// A rate that is no number, and one of a frame in 1000 s.
+TEST_F(HalfLife, TheMatchIsPublishedAgainOnceItsRateIsRightAgain) {
+    start({"map",
+           "crossfire",
+           "join",
+           "1",
+           "anna",
+           "0",
+           "expect",
+           "director directors: 1\n",
+           "set",
+           "director_max_rate",
+           "fast",
+           "expect",
+           "director state: director_max_rate must be 1 to 1000",
+           "set",
+           "director_max_rate",
+           "0.001",
+           "run",
+           "200",
+           "wait",
+           file("ended"),
+           "set",
+           "director_max_rate",
+           "20",
+           "wait",
+           file("seen")});
+    const auto before = next_info();
+    ASSERT_TRUE(before);
+    EXPECT_TRUE(eventually([&] { return director_->info_has_ended(); })) << "nothing is published";
+    create("ended");
+    EXPECT_TRUE(next_poses([&](const ReceivedPoses& poses) { return poses.epoch > before->epoch; }));
+    create("seen");
+    expect_end();
+}
+
 TEST_F(HalfLife, TheMatchIsAnnouncedAnewWhenTheDirectorIsLost) {
     start({"map", "crossfire", "join", "1", "anna", "0", "expect", "director directors: 1\n", "create",
            file("met"), "expect", "director directors: 0\n", "create", file("missed"), "wait", file("seen")});
