@@ -8,6 +8,8 @@
 #include <camera_director/camera_director.h>
 #include <stdint.h>
 
+#include "game/message_ring.h"
+
 enum { max_players = 32, max_events = 64 };
 
 struct settings { /* without padding: compared as bytes */
@@ -50,6 +52,14 @@ struct server_frame {
     uint32_t player_count, event_count;
     struct player_pose players[max_players];
     struct game_event events[max_events]; /* since the previous frame */
+};
+
+struct message {
+    struct message_header header;
+    union {
+        struct match_state match;
+        struct server_frame frame;
+    };
 };
 
 #endif

@@ -4,7 +4,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "exchange.h"
 #include "game/thread.h"
 #include "game_clock.h"
 #include "messages.h"
@@ -12,11 +11,12 @@
 #include "settings.h"
 #include "worker.h"
 
+enum { message_capacity = 64 };
 static const double settings_interval = 1.0; /* s of game time; server.cfg is read after a map has begun */
 
 static struct {
     struct worker* worker; /* null: no thread could be started */
-    struct ring* exchange;
+    struct ring* messages;
     bool in_map;
     struct entity_list entities;
     struct match_state match;
@@ -31,8 +31,8 @@ static struct {
  */
 static void start_worker(void) {
     if (game.worker != NULL) return;
-    if (game.exchange == NULL) game.exchange = exchange_create();
-    if (game.exchange != NULL) game.worker = worker_start(game.exchange);
+    if (game.messages == NULL) game.messages = ring_create(message_capacity, sizeof(struct message));
+    if (game.messages != NULL) game.worker = worker_start(game.messages);
     if (game.worker == NULL) engine_print("director: no thread could be started\n");
 }
 
@@ -73,7 +73,8 @@ static void send_match(void) {
         memcpy(game.match.players, players, sizeof players);
         game.match_sent = false;
     }
-    if (!game.match_sent) game.match_sent = exchange_send_match(game.exchange, &game.match);
+    if (!game.match_sent)
+        game.match_sent = message_ring_send(game.messages, message_match, &game.match, sizeof game.match);
 }
 
 /* Whether the greatest rate allows a frame now. */
@@ -97,7 +98,7 @@ void game_run_frame(void) {
     game.frame.frame_time = (int64_t)(now * 1e9);
     game.frame.source_time = clock_ns(CLOCK_REALTIME);
     players_sample(&game.entities, now, &game.frame);
-    if (exchange_send_frame(game.exchange, &game.frame)) {
+    if (message_ring_send(game.messages, message_frame, &game.frame, sizeof game.frame)) {
         game.frame.event_count = 0;
     } else {
         ++game.dropped_frames; /* its events go with the next frame */
@@ -108,7 +109,7 @@ void game_run_frame(void) {
 void game_end_map(void) {
     game.in_map = false;
     game.entities = (struct entity_list){NULL, 0, 0};
-    if (game.exchange != NULL) exchange_send_end(game.exchange);
+    if (game.messages != NULL) (void)message_ring_send(game.messages, message_end, NULL, 0);
 }
 
 uint32_t game_player_id(const struct entity* entity) {
@@ -156,7 +157,7 @@ void game_print_status(void) {
 void game_close(void) {
     game.in_map = false;
     if (game.worker != NULL) worker_stop(game.worker);
-    ring_destroy(game.exchange);
+    ring_destroy(game.messages);
     game.worker = NULL;
-    game.exchange = NULL;
+    game.messages = NULL;
 }

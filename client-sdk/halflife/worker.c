@@ -6,6 +6,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "frame.h"
 #include "game/published_match.h"
 #include "game/thread.h"
 
@@ -16,7 +17,7 @@ static const int64_t director_interval = 500000000;     /* ns between looks at t
 static const int64_t change_of_map_limit = 60000000000; /* ns without a map after which the match ends */
 
 struct worker {
-    struct ring* exchange;
+    struct ring* messages;
     pthread_t thread;
     atomic_bool stopping;
 
@@ -157,7 +158,7 @@ static void publish_poses(struct worker* worker, const struct server_frame* from
 }
 
 static void handle(struct worker* worker, const struct message* message) {
-    switch (message->kind) {
+    switch (message->header.kind) {
         case message_match:
             worker->in_map = true;
             worker->wanted = message->match;
@@ -204,10 +205,10 @@ static void look_after_match(struct worker* worker) {
 static void* run(void* argument) {
     struct worker* worker = argument;
     while (!atomic_load(&worker->stopping)) {
-        const struct message* message = exchange_next(worker->exchange);
+        const struct message* message = ring_oldest(worker->messages);
         if (message != NULL) {
             handle(worker, message);
-            ring_release(worker->exchange);
+            ring_release(worker->messages);
         } else {
             const bool live = worker->in_map && worker->wanted.settings.enabled;
             const struct timespec pause = {0, live ? live_sleep : idle_sleep};
@@ -219,10 +220,10 @@ static void* run(void* argument) {
     return NULL;
 }
 
-struct worker* worker_start(struct ring* exchange) {
+struct worker* worker_start(struct ring* messages) {
     struct worker* worker = calloc(1, sizeof *worker);
     if (worker == NULL) return NULL;
-    worker->exchange = exchange;
+    worker->messages = messages;
     pthread_mutex_init(&worker->status_mutex, NULL);
     if (thread_start(&worker->thread, run, worker)) {
         static bool registered;

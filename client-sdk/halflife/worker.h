@@ -5,7 +5,10 @@
 #ifndef CAMERA_DIRECTOR_HALFLIFE_WORKER_H
 #define CAMERA_DIRECTOR_HALFLIFE_WORKER_H
 
-#include "exchange.h"
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "game/ring.h"
 
 struct worker;
 
@@ -16,8 +19,9 @@ struct worker_status {
     char error[192]; /* why nothing is published; "" = all is well */
 };
 
-/* `exchange` must outlive the worker. Null when there is no memory or no thread. */
-struct worker* worker_start(struct ring* exchange);
+/* `messages` must outlive the worker, of which there is one at a time. Null when there is no memory or no
+ * thread. */
+struct worker* worker_start(struct ring* messages);
 /* Ends the match and the thread, which takes some milliseconds. A process that exits ends them itself, before
  * the client library leaves the network; the worker must be stopped nevertheless. */
 void worker_stop(struct worker* worker);

@@ -26,15 +26,12 @@ void exchange_destroy(struct exchange* exchange) {
 }
 
 bool exchange_send_match(struct exchange* exchange, const struct match_state* match) {
-    struct message* message = message_ring_free_place(exchange->messages, message_match);
-    if (message == NULL) return false;
-    message->match = *match;
-    ring_send(exchange->messages);
-    return true;
+    return message_ring_send(exchange->messages, message_match, match, sizeof *match);
 }
 
+/* Copies only the events and movers that there are. */
 bool exchange_send_frame(struct exchange* exchange, const struct server_frame* frame) {
-    struct message* message = message_ring_free_place(exchange->messages, message_frame);
+    struct message* message = (struct message*)message_ring_free_place(exchange->messages, message_frame);
     if (message == NULL) return false;
     memcpy(&message->frame, frame, offsetof(struct server_frame, events));
     memcpy(message->frame.events, frame->events, frame->event_count * sizeof *frame->events);
@@ -44,9 +41,7 @@ bool exchange_send_frame(struct exchange* exchange, const struct server_frame* f
 }
 
 bool exchange_send_end(struct exchange* exchange) {
-    if (message_ring_free_place(exchange->messages, message_end) == NULL) return false;
-    ring_send(exchange->messages);
-    return true;
+    return message_ring_send(exchange->messages, message_end, NULL, 0);
 }
 
 const struct director_report* exchange_newest_report(struct exchange* exchange) {

@@ -24,7 +24,7 @@ struct match_state {
 };
 
 struct message {
-    enum message_kind kind;
+    struct message_header header;
     union {
         struct match_state match;
         struct server_frame frame;

@@ -208,7 +208,7 @@ static void record_published(void) {
 }
 
 static void take_message(const struct message* message) {
-    switch (message->kind) {
+    switch (message->header.kind) {
         case message_match:
             take_match(&message->match);
             break;

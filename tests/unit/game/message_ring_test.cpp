@@ -2,27 +2,29 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <memory>
 
 namespace camdir::game {
 namespace {
 
 struct Message {
-    message_kind kind;
-    int body;
+    message_header header;
+    union {
+        std::int64_t number;
+        char text[100];
+    };
 };
 
 class MessageRing : public testing::Test {
   protected:
-    bool send(message_kind kind) {
-        if (message_ring_free_place(ring_.get(), kind) == nullptr) return false;
-        ring_send(ring_.get());
-        return true;
+    bool send(message_kind kind, std::int64_t number = 0) {
+        return message_ring_send(ring_.get(), kind, &number, kind == message_end ? 0 : sizeof number);
     }
-    message_kind take() {
-        const message_kind kind = static_cast<const Message*>(ring_oldest(ring_.get()))->kind;
+    Message take() {
+        const Message message = *static_cast<const Message*>(ring_oldest(ring_.get()));
         ring_release(ring_.get());
-        return kind;
+        return message;
     }
     int send_all(message_kind kind) {
         int sent = 0;
@@ -39,13 +41,16 @@ class MessageRing : public testing::Test {
                                                          &ring_destroy};
 };
 
-TEST_F(MessageRing, MessagesArriveWithTheirKind) {
-    ASSERT_TRUE(send(message_match));
-    ASSERT_TRUE(send(message_frame));
+TEST_F(MessageRing, MessagesArriveInOrderWithTheirKindAndBody) {
+    ASSERT_TRUE(send(message_match, 7));
+    ASSERT_TRUE(send(message_frame, 11));
     ASSERT_TRUE(send(message_end));
-    EXPECT_EQ(take(), message_match);
-    EXPECT_EQ(take(), message_frame);
-    EXPECT_EQ(take(), message_end);
+    const Message match = take(), frame = take(), end = take();
+    EXPECT_EQ(match.header.kind, message_match);
+    EXPECT_EQ(match.number, 7);
+    EXPECT_EQ(frame.header.kind, message_frame);
+    EXPECT_EQ(frame.number, 11);
+    EXPECT_EQ(end.header.kind, message_end);
 }
 
 // The end of a life and the next match must not be lost behind frames that nobody takes.

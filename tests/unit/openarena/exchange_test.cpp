@@ -32,12 +32,12 @@ TEST(OpenArenaExchange, MessagesArriveInOrderWithTheirKind) {
     ASSERT_TRUE(exchange_send_frame(rings.get(), frame.get()));
     ASSERT_TRUE(exchange_send_end(rings.get()));
     ASSERT_EQ(exchange_backlog(rings.get()), 3U);
-    EXPECT_EQ(exchange_next_message(rings.get())->kind, message_match);
+    EXPECT_EQ(exchange_next_message(rings.get())->header.kind, message_match);
     EXPECT_EQ(exchange_next_message(rings.get())->match.life, 7U);
     exchange_release_message(rings.get());
     EXPECT_EQ(exchange_next_message(rings.get())->frame.events[0].subject, 2);
     exchange_release_message(rings.get());
-    EXPECT_EQ(exchange_next_message(rings.get())->kind, message_end);
+    EXPECT_EQ(exchange_next_message(rings.get())->header.kind, message_end);
     exchange_release_message(rings.get());
     EXPECT_EQ(exchange_next_message(rings.get()), nullptr);
 }
