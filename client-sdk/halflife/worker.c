@@ -1,6 +1,6 @@
 #include "worker.h"
 
-#include <stdatomic.h>
+#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,8 +18,6 @@ static const int64_t change_of_map_limit = 60000000000; /* ns without a map afte
 
 struct worker {
     struct ring* messages;
-    pthread_t thread;
-    atomic_bool stopping;
 
     /* The worker's thread only. */
     struct published_match match;
@@ -81,29 +79,11 @@ static bool announce(struct worker* worker) {
     return published_match_announce(&worker->match, &options, wanted->life, &info, players, player_count);
 }
 
-static struct worker* running; /* by the game's thread; null between worker_stop() and worker_start() */
-
-static void end(struct worker* worker) {
-    if (!atomic_exchange(&worker->stopping, true)) pthread_join(worker->thread, NULL);
-}
-
-static void end_at_exit(void) {
-    if (running != NULL) end(running);
-}
-
-/* Exit handlers run last to first: this one is registered after the client library's, so that the thread has
- * ended before that closes all contexts. */
-static void end_before_contexts(void) {
-    static bool registered;
-    if (!registered) (void)atexit(end_at_exit);
-    registered = true;
-}
-
 /* Returns why nothing can be published; "" when the match is announced. */
 static const char* announced_or_why_not(struct worker* worker) {
     if (worker->wanted.settings.error[0] != '\0') return worker->wanted.settings.error;
     if (!announce(worker)) return cdir_last_error();
-    end_before_contexts();
+    worker_thread_stop_before_contexts();
     return "";
 }
 
@@ -202,9 +182,9 @@ static void look_after_match(struct worker* worker) {
     }
 }
 
-static void* run(void* argument) {
+static void run(void* argument) {
     struct worker* worker = argument;
-    while (!atomic_load(&worker->stopping)) {
+    while (!worker_thread_must_stop()) {
         const struct message* message = ring_oldest(worker->messages);
         if (message != NULL) {
             handle(worker, message);
@@ -217,7 +197,6 @@ static void* run(void* argument) {
         look_after_match(worker);
     }
     close_match(worker);
-    return NULL;
 }
 
 struct worker* worker_start(struct ring* messages) {
@@ -225,21 +204,14 @@ struct worker* worker_start(struct ring* messages) {
     if (worker == NULL) return NULL;
     worker->messages = messages;
     pthread_mutex_init(&worker->status_mutex, NULL);
-    if (thread_start(&worker->thread, run, worker)) {
-        static bool registered;
-        if (!registered) (void)atexit(end_at_exit); /* for a worker that never reached the network */
-        registered = true;
-        running = worker;
-        return worker;
-    }
+    if (worker_thread_start(run, worker)) return worker;
     pthread_mutex_destroy(&worker->status_mutex);
     free(worker);
     return NULL;
 }
 
 void worker_stop(struct worker* worker) {
-    end(worker);
-    running = NULL;
+    worker_thread_stop();
     pthread_mutex_destroy(&worker->status_mutex);
     free(worker);
 }

@@ -2,7 +2,6 @@
 #define _POSIX_C_SOURCE 200809L
 #include "worker.h"
 
-#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -23,10 +22,7 @@ static const int64_t linger_ns = 60000000000; /* after a life's end, until the m
 enum { max_backlog = 8 /* frames; the poses of older ones are not worth sending */ };
 
 static struct {
-    pthread_t thread;
-    atomic_bool stop;
     struct exchange* exchange;
-
     bool has_match; /* `match` is of a life that runs */
     struct match_state match;
     struct publisher publisher;
@@ -70,16 +66,6 @@ static void set_error(char error[error_size], const char* text) {
 
 /* ------------------------------------------------------------------------------------------ the match */
 
-static void end_worker(void);
-
-/* Exit handlers run last to first: this one is registered after the client library's, so that the thread has
- * ended before that closes all contexts. */
-static void end_before_contexts(void) {
-    static bool registered;
-    if (!registered) (void)atexit(end_worker);
-    registered = true;
-}
-
 static void disconnect(void) {
     shots_close(&worker.shots);
     published_match_close(&worker.publisher.match);
@@ -115,7 +101,7 @@ static void announce(void) {
         return;
     }
     if (worker.publisher.match.context.id != context) shots_close(&worker.shots);
-    end_before_contexts();
+    worker_thread_stop_before_contexts();
     worker.report.epoch = worker.publisher.match.epoch;
     worker.retry_time = 0;
     set_error(worker.report.error, "");
@@ -226,7 +212,7 @@ static void take_message(const struct message* message) {
 }
 
 static void take_messages(void) {
-    while (!atomic_load(&worker.stop)) {
+    while (!worker_thread_must_stop()) {
         const uint32_t published = worker.unrecorded != NULL ? 1 : 0;
         if (exchange_backlog(worker.exchange) == published) return;
         record_published();
@@ -306,9 +292,9 @@ static void wait_for_work(void) {
     if (status != CDIR_OK && status != CDIR_TIMEOUT) sleep_ns(duration);
 }
 
-static void* run(void* unused) {
+static void run(void* unused) {
     (void)unused;
-    while (!atomic_load(&worker.stop)) {
+    while (!worker_thread_must_stop()) {
         worker.now = clock_ns(CLOCK_MONOTONIC);
         take_messages();
         look_at_shots();
@@ -319,11 +305,6 @@ static void* run(void* unused) {
     record_published();
     close_recording();
     disconnect();
-    return NULL;
-}
-
-static void end_worker(void) {
-    if (!atomic_exchange(&worker.stop, true)) pthread_join(worker.thread, NULL);
 }
 
 bool worker_start(struct exchange* exchange) {
@@ -332,7 +313,5 @@ bool worker_start(struct exchange* exchange) {
     for (int slot = 0; slot < max_slots; ++slot) {
         worker.report.shots[slot].state = CDIR_SHOT_NOT_REQUESTED;
     }
-    const bool started = thread_start(&worker.thread, run, NULL);
-    if (started) (void)atexit(end_worker); /* for a worker that never reached the network */
-    return started;
+    return worker_thread_start(run, NULL);
 }
