@@ -8,30 +8,10 @@
 #include <camera_director/camera_director.h>
 #include <stdint.h>
 
+#include "game/match_state.h"
 #include "game/message_ring.h"
 
 enum { max_players = 32, max_events = 64 };
-
-struct settings { /* without padding: compared as bytes */
-    uint32_t enabled;
-    uint32_t domain; /* UINT32_MAX when that is no number */
-    float max_rate_hz;
-    char match[64], network_interface[64], directors[256];
-    char error[128]; /* what is wrong with them; "" = nothing */
-};
-
-struct player_identity {
-    uint8_t present, team;
-    char name[64];
-};
-
-/* Of one life of the game, which is one map: sent before its first frame, and whenever something changes. */
-struct match_state {
-    uint32_t life; /* counts the maps that were begun, from 1 */
-    char map[64];
-    struct settings settings;
-    struct player_identity players[max_players]; /* the player of id i in place i - 1 */
-};
 
 struct player_pose {
     uint32_t id, flags; /* CDIR_POSE_ values */

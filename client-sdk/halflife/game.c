@@ -55,7 +55,7 @@ void game_begin_map(struct entity* entities, int count, int max_clients,
 static void read_settings(double now) {
     if (game.settings_read_at >= 0.0 && now < game.settings_read_at + settings_interval) return;
     game.settings_read_at = now;
-    const struct settings settings = settings_read();
+    const struct match_settings settings = settings_read();
     if (memcmp(&settings, &game.match.settings, sizeof settings) == 0) return;
     game.match.settings = settings;
     game.match_sent = false;
@@ -67,7 +67,7 @@ static bool is_published(void) {
 }
 
 static void send_match(void) {
-    struct player_identity players[max_players];
+    struct match_player players[match_max_players];
     players_identify(&game.entities, players);
     if (memcmp(players, game.match.players, sizeof players) != 0) {
         memcpy(game.match.players, players, sizeof players);
@@ -81,7 +81,7 @@ static void send_match(void) {
 static bool frame_is_due(double now) {
     const double tolerance = 0.0005; /* of a server whose frames come at exactly this rate */
     if (now < game.frame_due_at - tolerance) return false;
-    const double interval = 1.0 / (double)game.match.settings.max_rate_hz;
+    const double interval = 1.0 / (double)game.match.settings.rate_hz;
     const double next = game.frame_due_at + interval;
     game.frame_due_at = next > now ? next : now + interval;
     return true;
@@ -140,7 +140,7 @@ static void print_number(const char* name, uint64_t value) {
 void game_print_status(void) {
     struct worker_status status = {0};
     if (game.worker != NULL) status = worker_read_status(game.worker);
-    print_line("match", game.match.settings.match);
+    print_line("match", game.match.settings.match_id);
     print_line("map", game.in_map ? game.match.map : "none");
     print_line("state", game.worker == NULL            ? "no thread could be started"
                         : !game.match.settings.enabled ? "disabled"

@@ -55,15 +55,15 @@ uint32_t players_id(const struct entity_list* list, const struct entity* entity)
     return index <= (uintptr_t)player_limit(list) ? (uint32_t)index : CDIR_NO_PLAYER;
 }
 
-void players_identify(const struct entity_list* list, struct player_identity identities[max_players]) {
-    memset(identities, 0, max_players * sizeof *identities);
+void players_identify(const struct entity_list* list, struct match_player players[match_max_players]) {
+    memset(players, 0, match_max_players * sizeof *players);
     for (int id = 1; id <= player_limit(list); ++id) {
-        const struct entity_variables* player = find_player(list, id);
-        if (player == NULL) continue;
-        struct player_identity* identity = &identities[id - 1];
-        identity->present = 1;
-        identity->team = (uint8_t)player->team;
-        strncpy(identity->name, engine_text(player->player_name), sizeof identity->name - 1);
+        const struct entity_variables* found = find_player(list, id);
+        if (found == NULL) continue;
+        struct match_player* player = &players[id];
+        player->in_use = 1;
+        player->team = (uint8_t)found->team;
+        strncpy(player->name, engine_text(found->player_name), sizeof player->name - 1);
     }
 }
 

@@ -21,8 +21,8 @@ uint32_t players_id(const struct entity_list* list, const struct entity* entity)
 void players_forget_poses(void);
 void players_reset(void);
 
-/* Writes who is in the game, by id less 1. */
-void players_identify(const struct entity_list* list, struct player_identity identities[max_players]);
+/* Writes who is in the game, by id. */
+void players_identify(const struct entity_list* list, struct match_player players[match_max_players]);
 
 /* Writes the poses of all players who are in the game. `time` is the engine's, in seconds. A pose has a
  * discontinuity when the player was not in the previous frame, has respawned, had the view set by the game,

@@ -35,25 +35,25 @@ static const char* value_of(enum cvar_number number) {
     return text != NULL ? text : "";
 }
 
-static void read_text(struct settings* settings, enum cvar_number number, char* text, size_t size) {
+static void read_text(struct match_settings* settings, enum cvar_number number, char* text, size_t size) {
     setting_text(text, size, cvars[number].name, value_of(number), settings->error, sizeof settings->error);
 }
 
-struct settings settings_read(void) {
-    struct settings settings;
+struct match_settings settings_read(void) {
+    struct match_settings settings;
     memset(&settings, 0, sizeof settings);
     settings.enabled = registered[enable]->value != 0.0f ? 1u : 0u;
     settings.domain =
         setting_domain(cvars[domain].name, value_of(domain), settings.error, sizeof settings.error);
-    settings.max_rate_hz = registered[max_rate]->value;
-    if (!(settings.max_rate_hz >= 1.0f && settings.max_rate_hz <= 1000.0f))
+    settings.rate_hz = registered[max_rate]->value;
+    if (!(settings.rate_hz >= 1.0f && settings.rate_hz <= 1000.0f))
         snprintf(settings.error, sizeof settings.error, "director_max_rate must be 1 to 1000");
-    read_text(&settings, match, settings.match, sizeof settings.match);
+    read_text(&settings, match, settings.match_id, sizeof settings.match_id);
     read_text(&settings, interface, settings.network_interface, sizeof settings.network_interface);
     read_text(&settings, directors, settings.directors, sizeof settings.directors);
-    if (settings.match[0] == '\0') {
+    if (settings.match_id[0] == '\0') {
         const char* port = server_port != NULL && server_port->text != NULL ? server_port->text : "0";
-        snprintf(settings.match, sizeof settings.match, "halflife-%s", port);
+        snprintf(settings.match_id, sizeof settings.match_id, "halflife-%s", port);
     }
     return settings;
 }

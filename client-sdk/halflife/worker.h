@@ -16,7 +16,7 @@ struct worker_status {
     bool open; /* a match is announced */
     uint32_t directors;
     uint64_t published_frames, published_events, dropped_events;
-    char error[192]; /* why nothing is published; "" = all is well */
+    char error[160]; /* why nothing is published; "" = all is well */
 };
 
 /* `messages` must outlive the worker, of which there is one at a time. Null when there is no memory or no

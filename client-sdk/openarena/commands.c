@@ -57,11 +57,12 @@ static void describe_viewer(int to, int slot, const struct viewer_status* viewer
 static void describe_match(void) {
     const struct settings* const settings = module_settings();
     const struct director_report* const report = module_report();
-    if (settings->error[0] == '\0')
+    if (settings->match.error[0] == '\0')
         engine_print_line(on_console, "match %s, DDS domain %" PRIu32 ", interface %s, directors at %s",
-                          settings->match, settings->domain, settings->interface, settings->directors);
+                          settings->match.match_id, settings->match.domain, settings->match.network_interface,
+                          settings->match.directors);
     engine_print_line(on_console, "map %s, life %" PRIu32, module_map(), module_life());
-    if (!settings->enable)
+    if (!settings->match.enabled)
         engine_print_line(on_console, "director_enable is 0: nothing is published");
     else if (!settings->spectate)
         engine_print_line(on_console, "director_spectate is 0: spectators see the game's own views");
@@ -77,7 +78,7 @@ static void describe_match(void) {
         engine_print_line(on_console,
                           "no director: is one running in DDS domain %" PRIu32
                           ", at one of these addresses, and do its settings let this interface in?",
-                          settings->domain);
+                          settings->match.domain);
     engine_print_line(
         on_console,
         "published %" PRIu64 " frames, %" PRIu64 " events; skipped %" PRIu64 " frames, failed %" PRIu64,
@@ -211,7 +212,7 @@ static bool is_one_of(const char* word, const char* const* list) {
 
 /* The slot that an argument of the game's `follow` means, or no_slot. */
 static uint8_t player_named(const char* text) {
-    char name[sizeof((struct roster_entry*)0)->name];
+    char name[sizeof((struct match_player*)0)->name];
     if (isdigit((unsigned char)text[0])) {
         const long slot = strtol(text, NULL, 10);
         return slot < max_slots ? (uint8_t)slot : no_slot;

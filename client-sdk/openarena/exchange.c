@@ -25,7 +25,7 @@ void exchange_destroy(struct exchange* exchange) {
     free(exchange);
 }
 
-bool exchange_send_match(struct exchange* exchange, const struct match_state* match) {
+bool exchange_send_match(struct exchange* exchange, const struct match_message* match) {
     return message_ring_send(exchange->messages, message_match, match, sizeof *match);
 }
 

@@ -5,7 +5,6 @@
 
 #include "frame.h"
 #include "game/message_ring.h"
-#include "roster.h"
 #include "settings.h"
 
 #ifdef __cplusplus
@@ -15,18 +14,15 @@ extern "C" {
 /* After a map has been loaded the server makes up for the time with many frames at once. */
 enum { message_capacity = 256, report_capacity = 8 };
 
-/* Of one life: sent before its first frame, and again whenever something of it changes. */
-struct match_state {
-    uint32_t life;
-    char map[64];
-    struct settings settings;
-    struct roster_entry players[max_slots];
+struct match_message {
+    struct match_state state;
+    char record[sizeof((struct settings*)0)->record]; /* of the settings */
 };
 
 struct message {
     struct message_header header;
     union {
-        struct match_state match;
+        struct match_message match;
         struct server_frame frame;
     };
 };
@@ -38,7 +34,7 @@ struct exchange* exchange_create(void);
 void exchange_destroy(struct exchange* exchange);
 
 /* On the game's thread. Sends a copy; returns false when the ring is full. */
-bool exchange_send_match(struct exchange* exchange, const struct match_state* match);
+bool exchange_send_match(struct exchange* exchange, const struct match_message* match);
 bool exchange_send_frame(struct exchange* exchange, const struct server_frame* frame);
 bool exchange_send_end(struct exchange* exchange);
 /* The newest report or null. It stays valid until the next call. */

@@ -10,7 +10,7 @@ static bool all_finite(const float vector[3]) {
     return isfinite(vector[0]) && isfinite(vector[1]) && isfinite(vector[2]);
 }
 
-struct player_pose pose_of(const uint8_t* player_state, const struct roster_entry* entry, bool bot) {
+struct player_pose pose_of(const uint8_t* player_state, const struct match_player* entry, bool bot) {
     struct player_pose pose, absent;
     memset(&pose, 0, sizeof pose);
     memset(&absent, 0, sizeof absent);
@@ -38,7 +38,7 @@ struct player_pose pose_of(const uint8_t* player_state, const struct roster_entr
 
 void poses_sample(struct player_pose poses[max_slots]) {
     for (int slot = 0; slot < max_slots; ++slot) {
-        const struct roster_entry* entry = roster_at(slot);
+        const struct match_player* entry = roster_at(slot);
         if (!entry->in_use) {
             memset(&poses[slot], 0, sizeof poses[slot]);
             continue;

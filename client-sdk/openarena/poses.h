@@ -16,7 +16,7 @@ extern "C" {
 void poses_sample(struct player_pose poses[max_slots]);
 
 /* Of one playerState_t. Poses with numbers that are not finite count as not in the game. */
-struct player_pose pose_of(const uint8_t* player_state, const struct roster_entry* entry, bool bot);
+struct player_pose pose_of(const uint8_t* player_state, const struct match_player* entry, bool bot);
 
 /* For the director: the eye's position, and whether the player jumped between two frames: appeared,
  * respawned, teleported. */

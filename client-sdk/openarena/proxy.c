@@ -53,7 +53,7 @@ const struct settings* module_settings(void) {
 }
 
 const struct director_report* module_report(void) {
-    if (exchange == NULL || !settings.enable) return NULL;
+    if (exchange == NULL || !settings.match.enabled) return NULL;
     const struct director_report* report = exchange_newest_report(exchange);
     return report != NULL && report->life == life ? report : NULL;
 }
@@ -113,14 +113,17 @@ static void start_worker(void) {
     }
 }
 
+_Static_assert((int)max_slots == (int)match_max_players, "the place of a player is the slot");
+
 static void send_match(void) {
-    struct match_state match;
-    match.life = life;
-    memcpy(match.map, map_name, sizeof match.map);
-    match.settings = settings;
+    struct match_message match;
+    match.state.life = life;
+    memcpy(match.state.map, map_name, sizeof match.state.map);
+    match.state.settings = settings.match;
     for (int slot = 0; slot < max_slots; ++slot) {
-        match.players[slot] = *roster_at(slot);
+        match.state.players[slot] = *roster_at(slot);
     }
+    memcpy(match.record, settings.record, sizeof match.record);
     match_sent = exchange_send_match(exchange, &match);
     sent_roster = roster_version();
 }
@@ -136,7 +139,7 @@ static void read_settings(int level_time) {
 static void hand_over(const struct server_frame* frame) {
     if (exchange == NULL) return;
     if (!match_sent || sent_roster != roster_version()) send_match();
-    if (!settings.enable) return;
+    if (!settings.match.enabled) return;
     if (match_sent && exchange_send_frame(exchange, frame)) {
         undelivered_count = 0;
         return;

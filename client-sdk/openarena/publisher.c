@@ -8,35 +8,6 @@
 
 static const int64_t ns_per_ms = 1000000;
 
-static uint32_t list_players(cdir_player players[max_slots], const struct match_state* state) {
-    uint32_t count = 0;
-    for (uint32_t slot = 0; slot < max_slots; ++slot) {
-        const struct roster_entry* entry = &state->players[slot];
-        if (!entry->in_use) continue;
-        cdir_player* player = &players[count++];
-        *player = cdir_player_default();
-        player->id = slot;
-        player->team = entry->team;
-        snprintf(player->name, sizeof player->name, "%s", entry->name);
-    }
-    return count;
-}
-
-bool publisher_announce(struct publisher* publisher, const struct match_state* state) {
-    const struct settings* settings = &state->settings;
-    cdir_context_options options = cdir_context_options_default();
-    options.domain = settings->domain;
-    options.network_interface = settings->interface;
-    options.directors = settings->directors;
-    cdir_match_info info = cdir_match_info_default();
-    info.rate_hz = (float)settings->rate_hz;
-    snprintf(info.match_id, sizeof info.match_id, "%s", settings->match);
-    snprintf(info.map_name, sizeof info.map_name, "%s", state->map);
-    cdir_player players[max_slots];
-    const uint32_t count = list_players(players, state);
-    return published_match_announce(&publisher->match, &options, state->life, &info, players, count);
-}
-
 static bool send_poses(struct publisher* publisher, const struct server_frame* frame) {
     uint32_t ids[max_slots], flags[max_slots], count = 0;
     float eyes[3 * max_slots], orientations[4 * max_slots], velocities[3 * max_slots];
@@ -140,7 +111,6 @@ static void send_event(struct publisher* publisher, int32_t level_time, const st
 bool publisher_send(struct publisher* publisher, const struct server_frame* frame) {
     if (!send_movers(publisher, frame) || !send_poses(publisher, frame)) {
         ++publisher->failures;
-        published_match_close(&publisher->match);
         return false;
     }
     ++publisher->frames;

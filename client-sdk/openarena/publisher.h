@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-2.0-or-later */
-/* The match towards the directors, on the worker: its description, poses, movers and events. */
+/* The match towards the directors, on the worker: its poses, movers and events. */
 #ifndef CAMERA_DIRECTOR_OPENARENA_PUBLISHER_H
 #define CAMERA_DIRECTOR_OPENARENA_PUBLISHER_H
 
-#include "exchange.h"
+#include "frame.h"
 #include "game/published_match.h"
 
 /* All 0 = closed. */
@@ -18,12 +18,10 @@ struct publisher {
     uint64_t frames, events, failures; /* since the module was loaded */
 };
 
-/* As published_match_announce(). */
-bool publisher_announce(struct publisher* publisher, const struct match_state* state);
 /* Takes note of which movers have moved: of every frame, also of one that is not sent. */
 void publisher_note_movers(struct publisher* publisher, const struct server_frame* frame);
-/* The frame's movers, poses and events. Must be open. Returns false when that failed: it is closed then, and
- * cdir_last_error() says why. */
+/* The frame's movers, poses and events. Must be open. Returns false when that failed: cdir_last_error() says
+ * why. */
 bool publisher_send(struct publisher* publisher, const struct server_frame* frame);
 /* Its events alone. Must be open. */
 void publisher_send_events(struct publisher* publisher, const struct server_frame* frame);

@@ -28,9 +28,9 @@ struct recording {
     int64_t frames, rows;
     int32_t first_time; /* level time */
     int error;          /* errno of the first write that failed; 0 = none */
-    struct roster_entry players[max_slots];
+    struct match_player players[max_slots];
     struct occupant {
-        struct roster_entry player; /* in_use: took part, and has no row yet */
+        struct match_player player; /* in_use: took part, and has no row yet */
         int64_t since;              /* ms */
         bool left;                  /* the slot was free since */
         uint8_t teleport_bit, toggle;
@@ -97,7 +97,7 @@ struct recording* recording_open(const char* prefix, const char* map, time_t now
     return recording;
 }
 
-void recording_set_players(struct recording* recording, const struct roster_entry players[max_slots]) {
+void recording_set_players(struct recording* recording, const struct match_player players[max_slots]) {
     memcpy(recording->players, players, sizeof recording->players);
     for (int slot = 0; slot < max_slots; ++slot) {
         if (!players[slot].in_use) recording->occupants[slot].left = true;
@@ -152,7 +152,7 @@ static bool write_row(struct recording* recording, int kind, const char* row, in
 static void write_occupant(struct recording* recording, int slot) {
     char row[max_row];
     struct occupant* occupant = &recording->occupants[slot];
-    struct roster_entry* player = &occupant->player;
+    struct match_player* player = &occupant->player;
     if (!player->in_use) return;
     for (char* c = player->name; *c != '\0'; ++c) {
         if (*c == ',' || *c == '"') *c = '_';
@@ -166,7 +166,7 @@ static void write_occupant(struct recording* recording, int slot) {
  * one was: their first pose is a teleport. */
 static void take_in_player(struct recording* recording, int slot, int64_t time, uint8_t teleport_bit) {
     struct occupant* occupant = &recording->occupants[slot];
-    const struct roster_entry* player = &recording->players[slot];
+    const struct match_player* player = &recording->players[slot];
     const bool seen = occupant->player.in_use;
     if (!seen || occupant->left || strcmp(occupant->player.name, player->name) != 0) {
         if (seen && occupant->left && teleport_bit == occupant->teleport_bit) occupant->toggle ^= 1;

@@ -29,7 +29,7 @@ struct recording;
 struct recording* recording_open(const char* prefix, const char* map, time_t now, char* reason,
                                  size_t reason_size);
 /* Takes the players' names and teams from now on. */
-void recording_set_players(struct recording* recording, const struct roster_entry players[max_slots]);
+void recording_set_players(struct recording* recording, const struct match_player players[max_slots]);
 /* Returns false when it cannot be written: close it then. Frames of one life, in order. */
 bool recording_add_frame(struct recording* recording, const struct server_frame* frame);
 /* Pose rows so far. */

@@ -7,7 +7,7 @@
 #include "engine.h"
 #include "frame.h"
 
-static struct roster_entry entries[max_slots];
+static struct match_player entries[max_slots];
 static uint32_t version;
 
 void roster_reset(void) {
@@ -18,13 +18,13 @@ void roster_reset(void) {
 void roster_take_configstring(int number, const char* text) {
     const int slot = number - CONFIGSTRING_PLAYERS;
     if (slot < 0 || slot >= max_slots) return;
-    const struct roster_entry entry = roster_parse(text == NULL ? "" : text);
+    const struct match_player entry = roster_parse(text == NULL ? "" : text);
     if (memcmp(&entry, &entries[slot], sizeof entry) == 0) return;
     entries[slot] = entry;
     ++version;
 }
 
-const struct roster_entry* roster_at(int slot) {
+const struct match_player* roster_at(int slot) {
     return &entries[slot];
 }
 
@@ -45,8 +45,8 @@ void roster_copy_name(char* name, size_t size, const char* text) {
     name[length] = '\0';
 }
 
-struct roster_entry roster_parse(const char* configstring) {
-    struct roster_entry entry;
+struct match_player roster_parse(const char* configstring) {
+    struct match_player entry;
     memset(&entry, 0, sizeof entry); /* compared as bytes */
     const char* key = configstring;
     while (*key != '\0') {

@@ -7,28 +7,25 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "game/match_state.h"
+
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-struct roster_entry {
-    uint8_t in_use;
-    uint8_t team;  /* team_ value that the player has chosen: a follower's own, not that of the followed */
-    char name[36]; /* printable ASCII without colour codes */
-};
-
 void roster_reset(void);
 /* Takes a configstring that the game sets; null = "". Ignores those of no player. */
 void roster_take_configstring(int number, const char* text);
-/* slot < max_slots. */
-const struct roster_entry* roster_at(int slot);
+/* slot < max_slots. The team is the one that the player has chosen, a team_ value: a follower's own, not that
+ * of the followed. The name is printable ASCII without colour codes. */
+const struct match_player* roster_at(int slot);
 /* Changes whenever an entry does. */
 uint32_t roster_version(void);
 
 /* A name, up to the next backslash, without colour codes and what is not printable ASCII. size > 0. */
 void roster_copy_name(char* name, size_t size, const char* text);
-/* Of a player's configstring. */
-struct roster_entry roster_parse(const char* configstring);
+/* The same of a player's configstring. */
+struct match_player roster_parse(const char* configstring);
 
 #ifdef __cplusplus
 }

@@ -34,31 +34,32 @@ static uint32_t read_domain(struct settings* settings) {
     static const char name[] = "director_domain";
     char text[32];
     engine_cvar_string(name, text, sizeof text);
-    return setting_domain(name, text, settings->error, sizeof settings->error);
+    return setting_domain(name, text, settings->match.error, sizeof settings->match.error);
 }
 
 static void read_text(struct settings* settings, const char* name, char* text, size_t size) {
     enum { longest = 256 }; /* of the engine's cvars */
     char value[longest];
     engine_cvar_string(name, value, sizeof value);
-    setting_text(text, size, name, value, settings->error, sizeof settings->error);
+    setting_text(text, size, name, value, settings->match.error, sizeof settings->match.error);
 }
 
 bool settings_read(struct settings* settings) {
     struct settings now;
     memset(&now, 0, sizeof now); /* compared as bytes: an assignment need not keep the padding */
-    now.enable = engine_cvar_integer("director_enable") != 0;
-    now.spectate = now.enable && engine_cvar_integer("director_spectate") != 0;
-    now.domain = read_domain(&now);
+    now.match.enabled = engine_cvar_integer("director_enable") != 0;
+    now.spectate = now.match.enabled && engine_cvar_integer("director_spectate") != 0;
+    now.match.domain = read_domain(&now);
     const int rate = engine_cvar_integer("sv_fps");
-    now.rate_hz = rate > 0 ? rate : default_rate_hz;
-    read_text(&now, "director_match", now.match, sizeof now.match);
-    if (now.match[0] == '\0') {
+    now.match.rate_hz = (float)(rate > 0 ? rate : default_rate_hz);
+    read_text(&now, "director_match", now.match.match_id, sizeof now.match.match_id);
+    if (now.match.match_id[0] == '\0') {
         const int port = engine_cvar_integer("net_port");
-        snprintf(now.match, sizeof now.match, "openarena-%d", port > 0 ? port : default_port);
+        snprintf(now.match.match_id, sizeof now.match.match_id, "openarena-%d",
+                 port > 0 ? port : default_port);
     }
-    read_text(&now, "director_interface", now.interface, sizeof now.interface);
-    read_text(&now, "director_directors", now.directors, sizeof now.directors);
+    read_text(&now, "director_interface", now.match.network_interface, sizeof now.match.network_interface);
+    read_text(&now, "director_directors", now.match.directors, sizeof now.match.directors);
     read_text(&now, "director_profile", now.profile, sizeof now.profile);
     read_text(&now, "director_record", now.record, sizeof now.record);
     if (memcmp(&now, settings, sizeof now) == 0) return false;

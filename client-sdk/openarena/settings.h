@@ -6,21 +6,19 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "game/match_state.h"
+
 #ifdef __cplusplus
 extern "C" {
 #endif
 
 struct settings {
-    uint8_t enable;      /* director_enable: poses are published */
-    uint8_t spectate;    /* director_spectate, and enable: spectators get the director's camera */
-    uint32_t domain;     /* director_domain: DDS domain; UINT32_MAX when that is no number */
-    int32_t rate_hz;     /* sv_fps */
-    char match[64];      /* director_match: match id */
-    char interface[64];  /* director_interface: name or address of the network interface */
-    char directors[256]; /* director_directors: addresses */
-    char profile[32];    /* director_profile: of spectators who have chosen none */
-    char record[256];    /* director_record: path prefix of recordings; "" = none */
-    char error[128];     /* what is wrong with them; "" = nothing */
+    /* director_enable, director_domain, sv_fps, director_match, director_interface, director_directors; and
+     * what is wrong with any of the module's cvars. */
+    struct match_settings match;
+    uint8_t spectate; /* director_spectate, and director_enable: spectators get the director's camera */
+    char profile[32]; /* director_profile: of spectators who have chosen none */
+    char record[256]; /* director_record: path prefix of recordings; "" = none */
 };
 
 void settings_register(void);

@@ -36,6 +36,8 @@ static bool request_shot(struct shot* shot, const struct viewer_request* viewer)
 
 void shots_request(struct shots* shots, cdir_context context, const char* match_id,
                    const struct viewer_request viewers[max_slots], int64_t now) {
+    if (context.id != shots->context.id) memset(shots, 0, sizeof *shots); /* its observers are closed */
+    shots->context = context;
     for (uint32_t slot = 0; slot < max_slots; ++slot) {
         struct shot* shot = &shots->slots[slot];
         const struct viewer_request* viewer = &viewers[slot];
@@ -124,10 +126,4 @@ cdir_status shots_wait(const struct shots* shots, uint64_t slots, int64_t timeou
     /* The last one: it is served after the others. */
     const uint32_t slot = 63 - (uint32_t)__builtin_clzll(slots);
     return cdir_observer_wait(shots->slots[slot].observer, timeout);
-}
-
-void shots_close(struct shots* shots) {
-    for (uint32_t slot = 0; slot < max_slots; ++slot) {
-        close_shot(&shots->slots[slot]);
-    }
 }

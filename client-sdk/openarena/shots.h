@@ -9,8 +9,9 @@
 extern "C" {
 #endif
 
-/* All 0 = none. */
+/* All 0 = none. They end with their context. */
 struct shots {
+    cdir_context context; /* of the observers */
     struct shot {
         bool open;
         cdir_observer observer;
@@ -20,8 +21,8 @@ struct shots {
     } slots[max_slots];
 };
 
-/* Opens, changes and closes the shots as the frame's viewers want. What fails is tried again after a second.
- * now: CLOCK_MONOTONIC, ns. */
+/* Opens, changes and closes the shots as the frame's viewers want, all anew in another context than before.
+ * What fails is tried again after a second. now: CLOCK_MONOTONIC, ns. */
 void shots_request(struct shots* shots, cdir_context context, const char* match_id,
                    const struct viewer_request viewers[max_slots], int64_t now);
 /* The shots of these slots, as bits: those that are accepted and have no camera in the report that is as new
@@ -33,7 +34,6 @@ cdir_status shots_wait(const struct shots* shots, uint64_t slots, int64_t timeou
 /* Takes what has arrived for these slots into the report's cameras and shots, as far as it is of `epoch`.
  * Returns true when something new did. */
 bool shots_poll(struct shots* shots, uint64_t slots, uint64_t epoch, struct director_report* report);
-void shots_close(struct shots* shots);
 
 #ifdef __cplusplus
 }

@@ -13,20 +13,17 @@
 #include "shots.h"
 
 static const int64_t ns_per_s = 1000000000, ns_per_ms = 1000000;
-static const int64_t poll_ns = 250000;        /* while a frame is expected */
-static const int64_t early_ns = 500000;       /* before the next frame is due */
-static const int64_t idle_ns = 10000000;      /* longest sleep */
-static const int64_t answers_ns = 10000000;   /* between looks at all shots */
-static const int64_t retry_ns = 1000000000;   /* after a failure */
-static const int64_t linger_ns = 60000000000; /* after a life's end, until the match is closed */
+static const int64_t poll_ns = 250000;      /* while a frame is expected */
+static const int64_t early_ns = 500000;     /* before the next frame is due */
+static const int64_t idle_ns = 10000000;    /* longest sleep */
+static const int64_t answers_ns = 10000000; /* between looks at all shots */
 enum { max_backlog = 8 /* frames; the poses of older ones are not worth sending */ };
 
 static struct {
     struct exchange* exchange;
-    bool has_match; /* `match` is of a life that runs */
-    struct match_state match;
     struct publisher publisher;
     struct shots shots;
+    char record[sizeof((struct settings*)0)->record];
     struct recording* recording;
     bool recording_failed; /* in this life and with this prefix */
     struct director_report report;
@@ -35,9 +32,7 @@ static struct {
     bool cameras_arrived;             /* for a shot that is behind */
 
     int64_t now;           /* CLOCK_MONOTONIC */
-    int64_t retry_time;    /* not before: open the match */
-    int64_t end_time;      /* of the last life */
-    int64_t check_time;    /* of the next look at what changes seldom */
+    int64_t counts_time;   /* of the next report of the counts */
     int64_t answers_time;  /* of the next look at all shots */
     int64_t frame_arrival; /* of the newest frame */
     int64_t frame_period;
@@ -56,6 +51,8 @@ static void log_line(const char* text) {
 }
 
 enum { error_size = sizeof worker.report.error };
+_Static_assert(error_size >= sizeof worker.publisher.match.error,
+               "a text that is cut would be another each time");
 
 static void set_error(char error[error_size], const char* text) {
     if (strcmp(error, text) == 0) return;
@@ -66,60 +63,31 @@ static void set_error(char error[error_size], const char* text) {
 
 /* ------------------------------------------------------------------------------------------ the match */
 
-static void disconnect(void) {
-    shots_close(&worker.shots);
-    published_match_close(&worker.publisher.match);
-    worker.report.epoch = 0;
-    worker.report.directors = 0;
-    worker.report_changed = true;
-}
+static struct published_match* const match = &worker.publisher.match;
 
-static void fail(void) {
-    char text[error_size];
-    snprintf(text, sizeof text, "%s", cdir_last_error());
-    disconnect();
-    set_error(worker.report.error, text);
-    worker.retry_time = worker.now + retry_ns;
-}
-
-static void announce(void) {
-    if (!worker.match.settings.enable) {
-        disconnect();
-        return;
-    }
-    if (worker.match.settings.error[0] != '\0') {
-        disconnect();
-        worker.retry_time = 0;
-        set_error(worker.report.error, worker.match.settings.error);
-        return;
-    }
-    if (worker.now < worker.retry_time) return;
-    /* Where the match must be reached otherwise, its observers go with the old context. */
-    const uint64_t context = worker.publisher.match.context.id;
-    if (!publisher_announce(&worker.publisher, &worker.match)) {
-        fail();
-        return;
-    }
-    if (worker.publisher.match.context.id != context) shots_close(&worker.shots);
-    worker_thread_stop_before_contexts();
-    worker.report.epoch = worker.publisher.match.epoch;
-    worker.retry_time = 0;
-    set_error(worker.report.error, "");
+/* Takes what has become of the match into the report. */
+static void report_match(void) {
+    struct director_report* report = &worker.report;
+    if ((report->directors > 0) != (match->directors > 0))
+        log_line(match->directors > 0 ? "a director receives the match" : "no director receives the match");
+    if (report->epoch != match->epoch || report->directors != match->directors) worker.report_changed = true;
+    report->epoch = match->epoch;
+    report->directors = match->directors;
+    set_error(report->error, match->error);
 }
 
 static void send_frame(const struct server_frame* frame) {
     publisher_note_movers(&worker.publisher, frame);
-    if (worker.retry_time != 0 && worker.now >= worker.retry_time) announce();
-    if (!worker.publisher.match.open) {
+    if (!match->open) {
         ++worker.report.skipped_frames;
     } else if (exchange_backlog(worker.exchange) > max_backlog) {
         ++worker.report.skipped_frames;
         publisher_send_events(&worker.publisher, frame);
     } else if (!publisher_send(&worker.publisher, frame)) {
-        fail();
+        published_match_fail(match, worker.now);
     } else {
-        shots_request(&worker.shots, worker.publisher.match.context, worker.match.settings.match,
-                      frame->viewers, worker.now);
+        shots_request(&worker.shots, match->context, match->wanted.settings.match_id, frame->viewers,
+                      worker.now);
     }
 }
 
@@ -135,17 +103,16 @@ static void close_recording(void) {
 
 static void record_frame(const struct server_frame* frame) {
     char reason[error_size];
-    const struct settings* settings = &worker.match.settings;
-    if (!settings->enable || settings->record[0] == '\0' || worker.recording_failed) return;
+    if (!match->wanted.settings.enabled || worker.record[0] == '\0' || worker.recording_failed) return;
     if (worker.recording == NULL) {
         worker.recording =
-            recording_open(settings->record, worker.match.map, time(NULL), reason, sizeof reason);
+            recording_open(worker.record, match->wanted.map, time(NULL), reason, sizeof reason);
         if (worker.recording == NULL) {
             worker.recording_failed = true;
             set_error(worker.report.recording_error, reason);
             return;
         }
-        recording_set_players(worker.recording, worker.match.players);
+        recording_set_players(worker.recording, match->wanted.players);
     }
     if (recording_add_frame(worker.recording, frame)) return;
     worker.recording_failed = true;
@@ -154,10 +121,15 @@ static void record_frame(const struct server_frame* frame) {
 
 /* --------------------------------------------------------------------------------------- the messages */
 
-static void take_match(const struct match_state* match) {
-    const bool new_life = !worker.has_match || worker.match.life != match->life;
-    const bool new_target = strcmp(worker.match.settings.record, match->settings.record) != 0 ||
-                            worker.match.settings.enable != match->settings.enable;
+static bool runs(uint32_t life) {
+    return match->in_life && match->wanted.life == life;
+}
+
+static void take_match(const struct match_message* message) {
+    const struct match_state* wanted = &message->state;
+    const bool new_life = !runs(wanted->life);
+    const bool new_target = strcmp(worker.record, message->record) != 0 ||
+                            match->wanted.settings.enabled != wanted->settings.enabled;
     if (new_life || new_target) {
         worker.recording_failed = false;
         set_error(worker.report.recording_error, "");
@@ -165,18 +137,16 @@ static void take_match(const struct match_state* match) {
     }
     if (new_life) {
         memset(worker.report.cameras, 0, sizeof worker.report.cameras);
-        worker.report.life = match->life;
+        worker.report.life = wanted->life;
         worker.report_changed = true;
     }
-    if (!match->settings.enable) set_error(worker.report.error, "");
-    worker.match = *match;
-    worker.has_match = true;
-    if (worker.recording != NULL) recording_set_players(worker.recording, match->players);
-    announce();
+    memcpy(worker.record, message->record, sizeof worker.record);
+    if (worker.recording != NULL) recording_set_players(worker.recording, wanted->players);
+    published_match_want(match, wanted, worker.now);
 }
 
 static void take_frame(const struct server_frame* frame) {
-    if (!worker.has_match || frame->life != worker.match.life) return;
+    if (!runs(frame->life)) return;
     const int64_t period = (int64_t)(frame->level_time - worker.level_time) * ns_per_ms;
     worker.frame_period = period > 0 && period < ns_per_s / 5 ? period : ns_per_s / 60;
     worker.frame_arrival = worker.now;
@@ -188,7 +158,7 @@ static void take_frame(const struct server_frame* frame) {
 static void record_published(void) {
     if (worker.unrecorded == NULL) return;
     const struct server_frame* frame = &worker.unrecorded->frame;
-    if (worker.has_match && frame->life == worker.match.life) record_frame(frame);
+    if (runs(frame->life)) record_frame(frame);
     worker.unrecorded = NULL;
     exchange_release_message(worker.exchange);
 }
@@ -204,8 +174,7 @@ static void take_message(const struct message* message) {
             return;
         case message_end:
             close_recording();
-            worker.has_match = false;
-            worker.end_time = worker.now;
+            published_match_end_life(match, worker.now);
             break;
     }
     exchange_release_message(worker.exchange);
@@ -223,17 +192,9 @@ static void take_messages(void) {
 
 /* ------------------------------------------------------------------------------------------- the loop */
 
-static void check_directors(void) {
-    const uint32_t directors = published_match_directors(&worker.publisher.match),
-                   before = worker.report.directors;
-    worker.report.directors = directors;
-    if (directors > 0 && before == 0) log_line("a director receives the match");
-    if (directors == 0 && before > 0) {
-        log_line("no director receives the match");
-        /* One that only hung takes up a lost connection after a minute, but a new one at once. */
-        disconnect();
-        if (worker.has_match) announce();
-    }
+static void report_counts(void) {
+    if (worker.now < worker.counts_time) return;
+    worker.counts_time = worker.now + ns_per_s;
     worker.report.recorded_rows = worker.recording == NULL ? -1 : recording_rows(worker.recording);
     worker.report.published_frames = worker.publisher.frames;
     worker.report.published_events = worker.publisher.events;
@@ -241,16 +202,8 @@ static void check_directors(void) {
     worker.report_changed = true;
 }
 
-static void check_match(void) {
-    if (!worker.has_match && worker.publisher.match.open && worker.now - worker.end_time > linger_ns)
-        disconnect();
-    if (worker.now < worker.check_time) return;
-    worker.check_time = worker.now + ns_per_s;
-    check_directors();
-}
-
 static uint64_t shots_behind_newest(void) {
-    return worker.has_match ? shots_behind(&worker.shots, &worker.report, worker.level_time) : 0;
+    return match->in_life ? shots_behind(&worker.shots, &worker.report, worker.level_time) : 0;
 }
 
 /* Each look at a shot takes some microseconds: at those alone for which something can have come. */
@@ -261,7 +214,7 @@ static void look_at_shots(void) {
         worker.answers_time = worker.now + answers_ns;
         slots = UINT64_MAX;
     }
-    if (shots_poll(&worker.shots, slots, worker.publisher.match.epoch, &worker.report)) {
+    if (shots_poll(&worker.shots, slots, match->epoch, &worker.report)) {
         worker.report_changed = true;
     }
 }
@@ -272,7 +225,7 @@ static void report(void) {
 }
 
 static int64_t time_to_wait(void) {
-    if (!worker.has_match || !worker.match.settings.enable) return idle_ns;
+    if (!match->in_life || !match->wanted.settings.enabled) return idle_ns;
     const int64_t age = worker.now - worker.frame_arrival, due = worker.frame_period - early_ns;
     if (age > 4 * worker.frame_period) return 4 * poll_ns; /* no frames: the server hangs */
     if (age >= due) return poll_ns;
@@ -298,13 +251,15 @@ static void run(void* unused) {
         worker.now = clock_ns(CLOCK_MONOTONIC);
         take_messages();
         look_at_shots();
-        check_match();
+        published_match_look_after(match, worker.now);
+        report_match();
+        report_counts();
         report();
         wait_for_work();
     }
     record_published();
     close_recording();
-    disconnect();
+    published_match_close(match);
 }
 
 bool worker_start(struct exchange* exchange) {

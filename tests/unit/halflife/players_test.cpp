@@ -80,10 +80,10 @@ TEST_F(HalfLifePlayers, AreThoseWhomTheGameHasPutIn) {
     EXPECT_EQ(frame_.players[0].id, 3U);
     player(3).player_name = 0;
     EXPECT_EQ(sample().player_count, 0U);
-    std::array<player_identity, max_players> identities{};
-    players_identify(&list_, identities.data());
-    for (const player_identity& identity : identities)
-        EXPECT_EQ(identity.present, 0);
+    std::array<match_player, match_max_players> players{};
+    players_identify(&list_, players.data());
+    for (const match_player& player : players)
+        EXPECT_EQ(player.in_use, 0);
 }
 
 TEST_F(HalfLifePlayers, WithoutAFinitePoseAreLeftOut) {

@@ -43,7 +43,7 @@ class HalfLifeSettings : public testing::Test {
         set("director_max_rate", "100");
     }
 
-    static settings read_with(const char* name, const std::string& value) {
+    static match_settings read_with(const char* name, const std::string& value) {
         set(name, value.c_str());
         return settings_read();
     }
@@ -58,7 +58,7 @@ class HalfLifeSettings : public testing::Test {
 TEST_F(HalfLifeSettings, ADomainThatIsNoneIsNotAnotherOne) {
     EXPECT_EQ(read_with("director_domain", "230").domain, 230U);
     for (const char* text : {"231", "", "-1", "abc", "1.5"}) {
-        const settings read = read_with("director_domain", text);
+        const match_settings read = read_with("director_domain", text);
         EXPECT_EQ(read.domain, std::numeric_limits<std::uint32_t>::max()) << text;
         EXPECT_EQ(read.error, "director_domain '" + std::string(text) + "': expected a number from 0 to 230");
     }

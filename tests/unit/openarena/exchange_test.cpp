@@ -22,9 +22,9 @@ TEST(OpenArenaExchange, AnEmptyOneHoldsNothing) {
 
 TEST(OpenArenaExchange, MessagesArriveInOrderWithTheirKind) {
     const Exchange rings = create();
-    auto match = std::make_unique<match_state>();
+    auto match = std::make_unique<match_message>();
     auto frame = std::make_unique<server_frame>();
-    match->life = 7;
+    match->state.life = 7;
     frame->level_time = 50;
     frame->event_count = 1;
     frame->events[0] = {CDIR_EVENT_KILL, 1, 2, 1.0F, "MOD_ROCKET"};
@@ -33,7 +33,7 @@ TEST(OpenArenaExchange, MessagesArriveInOrderWithTheirKind) {
     ASSERT_TRUE(exchange_send_end(rings.get()));
     ASSERT_EQ(exchange_backlog(rings.get()), 3U);
     EXPECT_EQ(exchange_next_message(rings.get())->header.kind, message_match);
-    EXPECT_EQ(exchange_next_message(rings.get())->match.life, 7U);
+    EXPECT_EQ(exchange_next_message(rings.get())->match.state.life, 7U);
     exchange_release_message(rings.get());
     EXPECT_EQ(exchange_next_message(rings.get())->frame.events[0].subject, 2);
     exchange_release_message(rings.get());

@@ -41,7 +41,7 @@ FakeServer::FakeServer()
       entities_(max_slots * static_cast<std::size_t>(entity_shared_size)),
       configstrings_(1024) {
     current = this;
-    options.enable = options.spectate = 1;
+    options.match.enabled = options.spectate = 1;
     engine_attach(call_engine);
     restart(false);
 }

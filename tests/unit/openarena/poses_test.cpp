@@ -26,7 +26,7 @@ class OpenArenaPose : public testing::Test {
     player_pose pose() { return pose_of(state.data(), &entry, true); }
 
     std::vector<std::uint8_t> state = std::vector<std::uint8_t>(player_state_size);
-    roster_entry entry{};
+    match_player entry{};
 };
 
 TEST_F(OpenArenaPose, ReadsAPlayer) {

@@ -66,7 +66,7 @@ class OpenArenaRecording : public testing::Test {
 
     test::TemporaryFolder folder;
     std::unique_ptr<server_frame> frame = std::make_unique<server_frame>();
-    roster_entry players[max_slots] = {};
+    match_player players[max_slots] = {};
     char reason[300] = "";
 };
 

@@ -12,7 +12,7 @@ namespace camdir::openarena {
 namespace {
 
 TEST(OpenArenaRoster, ReadsNameAndTeam) {
-    const roster_entry entry = roster_parse("n\\Sarge\\t\\2\\model\\sarge\\hmodel\\sarge\\c1\\4");
+    const match_player entry = roster_parse("n\\Sarge\\t\\2\\model\\sarge\\hmodel\\sarge\\c1\\4");
     EXPECT_TRUE(entry.in_use);
     EXPECT_EQ(entry.team, team_blue);
     EXPECT_STREQ(entry.name, "Sarge");
@@ -53,7 +53,7 @@ TEST(OpenArenaRoster, JunkGivesAnEntryThatIsInRange) {
         for (char& c : text) {
             c = alphabet[letter(random)];
         }
-        const roster_entry entry = roster_parse(text.c_str());
+        const match_player entry = roster_parse(text.c_str());
         EXPECT_LE(entry.team, team_spectator);
         EXPECT_LT(std::string(entry.name).size(), sizeof entry.name);
         for (const char* c = entry.name; *c != '\0'; ++c) {

@@ -28,11 +28,11 @@ class OpenArenaSettings : public testing::Test {
 
 TEST_F(OpenArenaSettings, HaveDefaults) {
     const settings found = read();
-    EXPECT_STREQ(found.match, "openarena-27960");
-    EXPECT_STREQ(found.directors, "127.0.0.1");
-    EXPECT_EQ(found.domain, 0U);
-    EXPECT_EQ(found.rate_hz, 20);
-    EXPECT_STREQ(found.error, "");
+    EXPECT_STREQ(found.match.match_id, "openarena-27960");
+    EXPECT_STREQ(found.match.directors, "127.0.0.1");
+    EXPECT_EQ(found.match.domain, 0U);
+    EXPECT_EQ(found.match.rate_hz, 20);
+    EXPECT_STREQ(found.match.error, "");
 }
 
 TEST_F(OpenArenaSettings, AreReadAgainOnlyWhenTheyDiffer) {
@@ -40,27 +40,27 @@ TEST_F(OpenArenaSettings, AreReadAgainOnlyWhenTheyDiffer) {
     EXPECT_FALSE(settings_read(&found));
     engine.cvars["sv_fps"] = "60";
     EXPECT_TRUE(settings_read(&found));
-    EXPECT_EQ(found.rate_hz, 60);
+    EXPECT_EQ(found.match.rate_hz, 60);
 }
 
 TEST_F(OpenArenaSettings, ADomainThatIsNoneIsNotAnotherOne) {
     const auto domain = [&](const std::string& text) {
         engine.cvars["director_domain"] = text;
-        return read().domain;
+        return read().match.domain;
     };
     EXPECT_EQ(domain("230"), 230U);
     for (const char* text : {"231", "", "-1", "abc", "1x", "99999999999999999999"}) {
         EXPECT_EQ(domain(text), std::numeric_limits<std::uint32_t>::max()) << text;
-        EXPECT_EQ(read().error,
+        EXPECT_EQ(read().match.error,
                   "director_domain '" + std::string(text) + "': expected a number from 0 to 230");
     }
 }
 
 TEST_F(OpenArenaSettings, AValueThatDoesNotFitIsAnError) {
     engine.cvars["director_match"] = std::string(63, 'm');
-    EXPECT_STREQ(read().error, "");
+    EXPECT_STREQ(read().match.error, "");
     engine.cvars["director_match"] = std::string(64, 'm');
-    EXPECT_STREQ(read().error, "director_match is longer than 63 bytes");
+    EXPECT_STREQ(read().match.error, "director_match is longer than 63 bytes");
 }
 
 TEST_F(OpenArenaSettings, WithoutPosesThereAreNoCameras) {
