@@ -329,12 +329,14 @@ Result<void> direct(const DirectOptions& options) {
     line.show("editing", 0, 0);
     const direction::Rules& rules = inputs->rules;
     const auto events = events_of(inputs->trace, inputs->events);
+    const direction::MayShow may_show = out_of_the_way(inputs->trace, movers, *inputs->map.freespace,
+                                                       rushes->fixed, unit, rules.grammar, options.delay);
     const auto begin = std::chrono::steady_clock::now();
-    const auto shots = direction::direct(rushes->edited, events, rules, unit, options.delay, stop);
+    const auto shots = direction::direct(rushes->edited, events, rules, unit, options.delay, stop, may_show);
     if (!shots) return tl::unexpected(shots.error());
     const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
     const auto running = direction::direct(rushes->scouted, events, rules, unit,
-                                           director::Edit::foresight_s(options.delay), stop);
+                                           director::Edit::foresight_s(options.delay), stop, may_show);
     if (!running) return tl::unexpected(running.error());
     line.show("judging", 0, 0);
     const auto cameras = cameras_of_programme(inputs->trace, movers, *inputs->map.freespace, rushes->judged,

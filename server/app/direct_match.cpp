@@ -254,6 +254,24 @@ class ProgrammeShooter {
     CameraPath cameras_;
 };
 
+// The beats in which a mover is near to the place of each fixed camera, ascending.
+std::vector<std::vector<Beat>> beats_with_movers_near(const Trace& trace, const RecordedMovers& movers,
+                                                      const freespace::Freespace& freespace,
+                                                      std::span<const freespace::FixedShot> fixed,
+                                                      double unit) {
+    const float room = freespace::fixed_shot_room * static_cast<float>(unit);
+    const Beat end = direction::beat_of(seconds_from_start(trace, trace.frames.back().time)) + 1;
+    std::vector<std::vector<Beat>> near(fixed.size());
+    for (Beat beat = 0; beat < end; ++beat) {
+        const auto since = static_cast<std::int64_t>(1e9 * direction::beat_s * static_cast<double>(beat));
+        const freespace::Movers now = movers.baked_at(trace.frames.front().time + since);
+        const freespace::Space space(freespace, &now);
+        for (std::size_t i = 0; i < fixed.size(); ++i)
+            if (space.mover_distance(fixed[i].position, room).value < room) near[i].push_back(beat);
+    }
+    return near;
+}
+
 std::optional<EventKind> kind_of(std::string_view name) {
     static const std::map<std::string_view, EventKind> kinds = {
         {"kill", EventKind::kill},
@@ -325,6 +343,21 @@ Result<direction::Footage> scouted_footage_of(const Trace& trace, const Recorded
         takes = std::move(scout.takes);
         std::ranges::rotate(takes, takes.begin() + static_cast<std::ptrdiff_t>(scout.fixed));
     });
+}
+
+direction::MayShow out_of_the_way(const Trace& trace, const RecordedMovers& movers,
+                                  const freespace::Freespace& freespace,
+                                  std::span<const freespace::FixedShot> fixed, double unit,
+                                  const direction::Grammar& grammar, double delay_s) {
+    if (movers.rows().empty()) return {};
+    const Beat ahead = direction::beat_of(std::min(grammar.minimum_shot_s, delay_s));
+    return [near = beats_with_movers_near(trace, movers, freespace, fixed, unit),
+            players = trace.players.size(), ahead](std::size_t rush, Beat now, bool on_air) {
+        if (rush < players) return true;
+        const std::vector<Beat>& beats = near[rush - players];
+        const auto next = std::ranges::lower_bound(beats, now);
+        return next == beats.end() || *next > (on_air ? now : now + ahead);
+    };
 }
 
 evaluation::CameraPath cameras_of_programme(const Trace& trace, const RecordedMovers& movers,

@@ -10,6 +10,7 @@
 #include "base/error.hpp"
 #include "direction/editor.hpp"
 #include "direction/footage.hpp"
+#include "direction/programme.hpp"
 #include "direction/rules.hpp"
 #include "evaluation/camera_path.hpp"
 #include "evaluation/events.hpp"
@@ -43,6 +44,13 @@ using ClearLine = std::function<bool(const Vec3d&, const Vec3d&)>;
                                                             const freespace::Freespace& freespace,
                                                             std::size_t fixed_shots, double unit,
                                                             const std::stop_token& stop);
+
+// Fixed cameras do not begin where a mover comes near within the shortest shot, as far as `delay_s` lets it
+// be known, and end where one is near. Empty where nothing moves.
+[[nodiscard]] direction::MayShow out_of_the_way(const evaluation::Trace& trace, const RecordedMovers& movers,
+                                                const freespace::Freespace& freespace,
+                                                std::span<const freespace::FixedShot> fixed, double unit,
+                                                const direction::Grammar& grammar, double delay_s);
 
 // The cameras of all players' poses, those of a running director's shots as they begin with a cut, until
 // after the beat in which the next shot begins. `cameras`: of cameras that run all the time. Ends early, with

@@ -13,8 +13,14 @@ namespace {
 // Takes what becomes known, and cuts.
 class Director {
   public:
-    Director(const Footage& all, std::span<const Event> events, const Rules& rules, double unit)
-        : all_(all), events_(events), rules_(rules), unit_(unit), known_(all.players(), all.followed()) {}
+    Director(const Footage& all, std::span<const Event> events, const Rules& rules, double unit,
+             const MayShow& may_show)
+        : all_(all),
+          events_(events),
+          rules_(rules),
+          unit_(unit),
+          may_show_(may_show),
+          known_(all.players(), all.followed()) {}
 
     void decide(Beat now, Beat end_of_known) {
         while (known_.footage().beats() < end_of_known) {
@@ -25,7 +31,8 @@ class Director {
              ++next_event_)
             known_.add(events_[next_event_]);
         known_.forget_before(now);
-        const auto begun = cutter_.decide(known_, known_.moments(rules_, unit_, now), rules_, unit_, now);
+        const auto begun =
+            cutter_.decide(known_, known_.moments(rules_, unit_, now), rules_, unit_, now, choice_at(now));
         if (!begun) return;
         if (!shots_.empty()) shots_.back().end = now;
         shots_.push_back(*begun);
@@ -37,10 +44,20 @@ class Director {
     }
 
   private:
+    [[nodiscard]] std::vector<std::size_t> choice_at(Beat now) const {
+        std::vector<std::size_t> choice;
+        if (!may_show_) return choice;
+        const auto& on_air = cutter_.on_air();
+        for (std::size_t rush = 0; rush < all_.rushes(); ++rush)
+            if (may_show_(rush, now, on_air && on_air->rush == rush)) choice.push_back(rush);
+        return choice;
+    }
+
     const Footage& all_;
     std::span<const Event> events_;
     const Rules& rules_;
     double unit_;
+    const MayShow& may_show_;
     Material known_;
     std::size_t next_event_ = 0;
     Cutter cutter_;
@@ -50,9 +67,10 @@ class Director {
 }  // namespace
 
 Result<std::vector<Shot>> direct(const Footage& footage, std::span<const Event> events, const Rules& rules,
-                                 double unit, double delay_s, const std::stop_token& stop) {
+                                 double unit, double delay_s, const std::stop_token& stop,
+                                 const MayShow& may_show) {
     if (footage.beats() == 0 || footage.rushes() == 0) return fail("the match has no players or no time");
-    Director director(footage, events, rules, unit);
+    Director director(footage, events, rules, unit, may_show);
     const Beat delay = beat_of(delay_s);
     for (Beat now = 0; now < footage.beats(); now += cut_every) {
         if (stop.stop_requested()) return fail("interrupted", ErrorCode::interrupted);

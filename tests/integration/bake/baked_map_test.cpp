@@ -6,6 +6,7 @@
 #include <array>
 #include <cstring>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <sstream>
@@ -198,6 +199,38 @@ TEST_F(DividedMap, CamerasOfADirectedMatchAndOfAGroupKeepOutOfADoor) {
     const std::vector<std::string> group = {"evaluate", "--group", "1,2"};
     EXPECT_LT(smallest_x(group, false), 386.0);
     EXPECT_GT(smallest_x(group, true), 394.0);
+}
+
+// A fixed shot shows both players.
+TEST_F(DividedMap, ADirectedMatchShowsNoFixedShotThatADoorIsOver) {
+    std::string trace = "t_ms,player,x,y,z,pitch,yaw,roll,vx,vy,vz,viewheight,team,teleport_bit,alive\n";
+    for (int t = 0; t <= 8000; t += 50)
+        trace += std::to_string(t) + ",1,256,40,40,0,90,0,0,0,0,26,1,0,1\n" + std::to_string(t) +
+                 ",2,256,470,40,0,270,0,0,0,0,26,2,0,1\n";
+    ASSERT_TRUE(write_file(folder_ / "trace.csv", trace));
+    ASSERT_TRUE(write_file(folder_ / "events.csv", "t_ms,event,player,other\n4000,kill,1,2\n"));
+    // Frames from each fixed camera, by its x.
+    const auto fixed_with = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> command = {"direct",    baked_,
+                                            "--map",     map_,
+                                            "--trace",   folder_ / "trace.csv",
+                                            "--events",  folder_ / "events.csv",
+                                            "--delay",   "5",
+                                            "--cameras", "-"};
+        command.insert(command.end(), more.begin(), more.end());
+        std::istringstream rows(printed(command));
+        std::map<double, int> frames;
+        for (std::string row; std::getline(rows, row);)
+            if (row.find("fixed") != std::string::npos)
+                ++frames[std::stod(row.substr(row.find(',', row.find(',') + 1) + 1))];
+        return frames;
+    };
+    const auto without = fixed_with({});
+    ASSERT_FALSE(without.empty());
+    const double x = without.begin()->first;
+    ASSERT_TRUE(write_file(folder_ / "movers.csv",
+                           "t_ms,mover,x,y,z,pitch,yaw,roll\n0,1," + std::to_string(x) + ",256,0,0,0,0\n"));
+    EXPECT_FALSE(fixed_with({"--movers", folder_ / "movers.csv"}).contains(x));
 }
 
 TEST_F(BakedMap, AnotherFileIsRefusedWithTheReason) {

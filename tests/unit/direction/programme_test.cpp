@@ -107,6 +107,33 @@ TEST_P(Programme, WhatIsForgottenIsNotNeeded) {
 
 INSTANTIATE_TEST_SUITE_P(Delays, Programme, testing::Values(0.0, 1.0, 5.0));
 
+// Fixed rushes begin in even seconds alone, and end with them.
+TEST(Programme, ShowsOnlyWhatItMay) {
+    const MayShow may_show = [](std::size_t rush, Beat now, bool on_air) {
+        return rush < players || (now / 10 % 2 == 0 && (on_air || now % 10 < 5));
+    };
+    const auto violations = [&](const std::vector<Shot>& shots) {
+        std::size_t count = 0;
+        for (const Shot& shot : shots)
+            for (Beat beat = shot.begin; beat < shot.end; beat += cut_every)
+                count += may_show(shot.rush, beat, beat > shot.begin) ? 0 : 1;
+        return count;
+    };
+    std::mt19937 random(7);
+    std::size_t fixed = 0, otherwise = 0;
+    for (int round = 0; round < 10; ++round) {
+        const Footage footage = random_script(players, beats, random, 3).footage();
+        const auto events = random_kills(players, 15.0, 10, random);
+        const auto shots = direct(footage, events, default_rules(), test::unit, 5.0, {}, may_show).value();
+        EXPECT_EQ(violations(shots), 0U);
+        fixed += static_cast<std::size_t>(
+            std::ranges::count_if(shots, [](const Shot& shot) { return shot.rush >= players; }));
+        otherwise += violations(directed(footage, events, 5.0));
+    }
+    EXPECT_GT(fixed, 0U);
+    EXPECT_GT(otherwise, 0U);
+}
+
 TEST(Programme, ForKillsSeesAtLeastWhatTheEditorSees) {
     std::mt19937 random(3);
     const Rules rules = default_rules();
