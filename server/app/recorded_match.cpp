@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "director/roster.hpp"
 #include "recording/reader.hpp"
 
 namespace camdir::app {

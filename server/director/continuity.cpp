@@ -2,8 +2,6 @@
 
 #include <utility>
 
-#include "director/roster.hpp"
-
 namespace camdir::director {
 
 bool Continuity::broken(const PlayerPose& pose) {

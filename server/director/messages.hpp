@@ -50,12 +50,17 @@ struct MatchInfo {
     bool operator==(const MatchInfo&) const = default;
 };
 
+// Flags of a PlayerPose.
+inline constexpr std::uint32_t pose_alive = 1;
+inline constexpr std::uint32_t pose_discontinuity = 2;  // a respawn or teleport since the last frame
+inline constexpr std::uint32_t pose_spectator = 4;
+
 struct PlayerPose {
     std::uint32_t player_id = 0;
     Vec3f eye = Vec3f::Zero();
     Quatf orientation = Quatf::Identity();
     Vec3f velocity = Vec3f::Zero();
-    std::uint32_t flags = 0;  // 1 alive, 2 discontinuity since the last frame, 4 spectator
+    std::uint32_t flags = 0;
     std::optional<std::uint32_t> discontinuities = {};  // in this epoch, modulo 2^32
 };
 

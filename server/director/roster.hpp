@@ -9,10 +9,6 @@
 
 namespace camdir::director {
 
-inline constexpr std::uint32_t pose_alive = 1;
-inline constexpr std::uint32_t pose_discontinuity = 2;
-inline constexpr std::uint32_t pose_spectator = 4;
-
 enum class Presence { unknown, spectator, playing };
 
 // One thread at a time.

@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "director/clock.hpp"
-#include "director/roster.hpp"
 
 namespace camdir::director {
 namespace {

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "camera/camera.hpp"
-#include "director/roster.hpp"
 
 namespace camdir::live {
 namespace {

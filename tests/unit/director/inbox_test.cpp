@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "director/arrivals.hpp"
-#include "director/roster.hpp"
 #include "stage.hpp"
 
 namespace camdir::director {

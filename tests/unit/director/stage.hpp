@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "director/director.hpp"
-#include "director/roster.hpp"
 
 namespace camdir::director {
 

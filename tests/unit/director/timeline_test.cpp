@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "director/roster.hpp"
 #include "stage.hpp"
 
 namespace camdir::director {

@@ -5,7 +5,6 @@
 #include <random>
 
 #include "base/file.hpp"
-#include "director/roster.hpp"
 #include "live/relay.hpp"
 #include "recording/reader.hpp"
 #include "recording/writer.hpp"
