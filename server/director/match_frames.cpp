@@ -32,9 +32,8 @@ class Timed {
     std::int64_t begun_ = now_ns();
 };
 
-camera::Pose tracker_pose(const PlayerPose& pose, bool gap) {
-    return {pose.eye, pose.orientation, pose.velocity, (pose.flags & pose_alive) != 0,
-            gap || (pose.flags & pose_discontinuity) != 0};
+bool was_moved(const PlayerPose& pose) {
+    return (pose.flags & pose_discontinuity) != 0;
 }
 
 std::span<const PlayerPose> tracked(const PoseFrame& frame, const config::Limits& limits) {
@@ -169,8 +168,8 @@ void Match::gather_crowd(const PoseFrame& frame) {
     crowd_.clear();
     crowd_poses_.clear();
     for (const PlayerPose& pose : tracked(frame, config_->limits))
-        crowd_poses_.push_back(
-            {causal_time_ - rounding_s, tracker_pose(pose, false), (pose.flags & pose_spectator) == 0});
+        crowd_poses_.push_back({causal_time_ - rounding_s, camera_pose(pose, was_moved(pose)),
+                                (pose.flags & pose_spectator) == 0});
     for (std::size_t i = 0; i < crowd_poses_.size(); ++i)
         crowd_.push_back({frame.poses[i].player_id, {&crowd_poses_[i], 1}});
 }
@@ -282,7 +281,8 @@ ShotCamera Match::show_fixed(Shot& shot) {
 camera::Camera Match::step_by_pose(Shot& shot, const PlayerPose* seen, double dt, camera::Scratch& scratch) {
     const Timed timed(counters_.step);
     if (!shot.state.started) shot.state.time = causal_time_ - camera::usable_frame(dt);
-    const camera::Pose pose = seen != nullptr ? tracker_pose(*seen, after_silence_) : camera::Pose{};
+    camera::Pose pose;
+    if (seen != nullptr) pose = camera_pose(*seen, after_silence_ || was_moved(*seen));
     return camera::step(space(), shot.profile, seen != nullptr ? &pose : nullptr, dt, shot.state, scratch,
                         {crowd_, shot.target});
 }
@@ -308,7 +308,7 @@ camera::Camera Match::step_group_by_poses(Shot& shot, double dt) {
     for (std::size_t i = 0; i < count; ++i) {
         const PlayerPose* seen = roster_.pose(shot.key.group[i]);
         if (seen == nullptr) continue;
-        poses[i] = {causal_time_, tracker_pose(*seen, false), true};
+        poses[i] = {causal_time_, camera_pose(*seen, was_moved(*seen)), true};
         windows[i] = {&poses[i], 1};
     }
     return camera::step(space(), shot.profile, std::span(windows).first(count), causal_time_, shot.group,

@@ -12,10 +12,6 @@ constexpr double max_step_back_s = 1.0;
 constexpr double history_s = 0.25;
 constexpr std::ptrdiff_t worth_moving = 32;  // poses
 
-camera::Pose camera_pose(const PlayerPose& pose, bool discontinuity) {
-    return {pose.eye, pose.orientation, pose.velocity, (pose.flags & pose_alive) != 0, discontinuity};
-}
-
 // Of a second. Cameras decide at tenths: a standby that comes later at the same ones as its leader.
 std::int64_t last_tenth(std::int64_t time) {
     constexpr std::int64_t tenth = 100'000'000;
@@ -24,6 +20,10 @@ std::int64_t last_tenth(std::int64_t time) {
 }
 
 }  // namespace
+
+camera::Pose camera_pose(const PlayerPose& pose, bool discontinuity) {
+    return {pose.eye, pose.orientation, pose.velocity, (pose.flags & pose_alive) != 0, discontinuity};
+}
 
 void Timeline::clear() {
     empty_ = true;

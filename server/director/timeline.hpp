@@ -13,6 +13,10 @@
 
 namespace camdir::director {
 
+// As trackers take it. `discontinuity`: the player has respawned or teleported since the pose that they had
+// before, which may be older than what the pose itself declares.
+[[nodiscard]] camera::Pose camera_pose(const PlayerPose& pose, bool discontinuity);
+
 // Null: the match has no movers.
 struct TimedMovers {
     double time;
