@@ -79,10 +79,15 @@ void Match::turn(Turn& turn) noexcept {  // NOLINT(bugprone-exception-escape)
         handle_all(messages);
     }
     if (content_.leaves_more) turn.again();
-    follow();
+    follow_leader();
     prepare(turn);
     // A lookout that is asked for the first time takes milliseconds.
     if (std::ranges::any_of(requests_.shots(), &Shot::is_of_group)) expect_long_turns();
+}
+
+void Match::follow_leader() {
+    if (content_.has_shown) follower_.hear(content_.shown);
+    if (freespace_) follower_.follow({requests_.shots(), space(), config_->direction.grammar.fixed_shots});
 }
 
 void Match::handle_all(std::span<Message> messages) {

@@ -1,7 +1,6 @@
 // One match: processes its messages and pose frames on its strand.
 #pragma once
 
-#include <array>
 #include <atomic>
 #include <functional>
 #include <memory>
@@ -15,6 +14,7 @@
 #include "director/continuity.hpp"
 #include "director/delay_buffer.hpp"
 #include "director/edit.hpp"
+#include "director/follower.hpp"
 #include "director/inbox.hpp"
 #include "director/map_library.hpp"
 #include "director/match_obstacles.hpp"
@@ -94,16 +94,7 @@ class Match final : public Strand {
     [[nodiscard]] std::uint64_t epoch() const;
     [[nodiscard]] std::string waiting_for_delay(const DelayBuffer::State& delay) const;
 
-    void follow();
-    struct Disagreement {
-        const ShotCamera &own, &shown;  // at the same pose
-    };
-    void hear_reason(std::uint32_t camera_id);
-    // False: the leader shows what this director does not have, and the shot goes on.
-    bool follow(const Disagreement& disagreement);
-    [[nodiscard]] std::span<const CameraFrame> own_frames() const;
-    [[nodiscard]] const CameraFrame* own_frame(const CameraFrame& shown) const;
-    [[nodiscard]] bool has_cut_since(const CameraFrame& shown, std::uint32_t camera_id) const;
+    void follow_leader();
 
     void process(PoseFrame& frame, std::int64_t received_ns, Turn& turn);
     void show(const PoseFrame& frame, const CameraFrame& cameras);
@@ -130,9 +121,6 @@ class Match final : public Strand {
     // Calls move(i, scratch) for every i below `count`, also on workers that are idle.
     void share_shots(Turn& turn, std::size_t count,
                      const std::function<void(std::size_t, camera::Scratch&)>& move);
-    [[nodiscard]] static ShotCamera still_camera(std::uint32_t camera_id, const freespace::FixedShot& shot);
-    // Of the map; none for a camera that follows a player.
-    [[nodiscard]] std::uint32_t fixed_shot_of(const ShotCamera& shown) const;
     ShotCamera show_fixed(Shot& shot);
     [[nodiscard]] Edit::Setting edit_setting() const;
     void choose_targets(const PoseFrame& frame, CameraFrame& cameras);
@@ -208,12 +196,8 @@ class Match final : public Strand {
     std::vector<camera::Crowd::Player> crowd_;
     std::vector<camera::TimedPose> crowd_poses_;  // one of each, without a timeline
     std::uint32_t next_camera_frame_ = 0;
-    std::vector<Shot*> unprepared_;           // during prepare()
-    CameraFrame followed_, followed_before_;  // the last two of the director that leads
-    bool is_followed_ = true;                 // the last one has had its effect
-    std::array<CameraFrame, 16> own_frames_;  // the last ones; the next takes the place of the oldest
-    std::size_t own_frame_count_ = 0;         // since a shot has followed
-    std::size_t newest_own_ = 0;
+    std::vector<Shot*> unprepared_;  // during prepare()
+    Follower follower_;
 };
 
 }  // namespace camdir::director

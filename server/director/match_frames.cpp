@@ -7,7 +7,6 @@
 
 #include "director/clock.hpp"
 #include "director/match.hpp"
-#include "freespace/fixed_shots.hpp"
 
 namespace camdir::director {
 namespace {
@@ -69,8 +68,7 @@ void Match::process(PoseFrame& frame, std::int64_t received_ns, Turn& turn) {
     if (requests_.shots().empty()) {
         show(frame, no_cameras(frame));
     } else {
-        newest_own_ = own_frame_count_++ % own_frames_.size();
-        CameraFrame& cameras = own_frames_[newest_own_];
+        CameraFrame& cameras = follower_.next_own();
         move_cameras(frame, dt, cameras, turn);
         const std::int64_t computed_ns = now_ns();
         publisher_.publish(match_id_, cameras);
@@ -255,15 +253,6 @@ ShotCamera Match::move_camera(Shot& shot, double dt, camera::Scratch& scratch) {
     shot.position = camera.position;
     return {shot.camera_id,      shot.target,      camera.position, camera.orientation,
             camera.vertical_fov, camera.clearance, camera.flags};
-}
-
-ShotCamera Match::still_camera(std::uint32_t camera_id, const freespace::FixedShot& shot) {
-    ShotCamera camera;
-    camera.camera_id = camera_id;
-    camera.position = shot.position;
-    camera.orientation = camera::orientation_of({shot.yaw, shot.pitch});
-    camera.vertical_fov = freespace::fixed_shot_fov;
-    return camera;
 }
 
 ShotCamera Match::show_fixed(Shot& shot) {

@@ -7,6 +7,7 @@
 
 #include "base/utf8.hpp"
 #include "config/json_text.hpp"
+#include "freespace/fixed_shots.hpp"
 
 namespace camdir::director {
 namespace {
@@ -105,6 +106,15 @@ std::uint32_t camera_id_of(const ShotKey& key) {
 }
 
 }  // namespace
+
+ShotCamera still_camera(std::uint32_t camera_id, const freespace::FixedShot& shot) {
+    ShotCamera camera;
+    camera.camera_id = camera_id;
+    camera.position = shot.position;
+    camera.orientation = camera::orientation_of({shot.yaw, shot.pitch});
+    camera.vertical_fov = freespace::fixed_shot_fov;
+    return camera;
+}
 
 bool Requests::put(const ObserverRequest& request, const config::Config& config, std::uint64_t epoch) {
     const bool has_place = observers_.contains(request.observer_id) ||

@@ -71,6 +71,10 @@ struct Shot {
     }
 };
 
+// The camera of a fixed shot of the map, which has no target; its clearance and its flags are left to the
+// caller.
+[[nodiscard]] ShotCamera still_camera(std::uint32_t camera_id, const freespace::FixedShot& shot);
+
 // What decides about requests.
 struct RequestContext {
     const config::Config& config;
