@@ -65,8 +65,8 @@ class Edit {
         double delay_s;
         double rate_hz;
     };
-    // What is known when this frame is shown. Every frame, before choose(). The setting's map is needed until
-    // clear().
+    // What is known when this frame is shown. Every frame, before choose(). All calls until clear() need the
+    // setting's map.
     void show(const PoseFrame& frame, const DelayBuffer& delay, const Setting& setting);
 
     // Whom an automatic shot may show.

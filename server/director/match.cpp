@@ -16,26 +16,6 @@ namespace camdir::director {
 namespace {
 
 constexpr double default_rate_hz = 30.0;  // of game servers that state none
-constexpr float scale_tolerance = 1e-3F;  // relative: games state rounded lengths
-
-constexpr const char* no_server = "no game server runs this match";
-
-std::string joined(const std::vector<std::string>& names) {
-    std::string list;
-    for (const std::string& name : names)
-        list += (list.empty() ? "" : ", ") + name;
-    return list.empty() ? "none" : list;
-}
-
-// Of names that others have given, for a line of the log.
-std::string some_of(const std::vector<std::string>& names) {
-    constexpr std::size_t most = 8;
-    std::string list =
-        joined({names.begin(), names.begin() + static_cast<std::ptrdiff_t>(std::min(names.size(), most))});
-    std::ranges::replace_if(
-        list, [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
-    return names.size() > most ? list + " and others" : list;
-}
 
 std::time_t utc_second_after(std::int64_t ns) {
     const auto then = std::chrono::system_clock::now() + std::chrono::nanoseconds(ns);
@@ -54,7 +34,6 @@ std::int64_t silence_limit_ns(const MatchInfo& info, const config::Config& confi
 Match::Match(std::string match_id, std::shared_ptr<const config::Config> config, const MapLibrary& maps,
              const Pace& pace, Publisher& publisher, const Audiences& audiences)
     : match_id_(std::move(match_id)),
-      maps_(maps),
       pace_(pace),
       publisher_(publisher),
       audiences_(audiences),
@@ -62,7 +41,7 @@ Match::Match(std::string match_id, std::shared_ptr<const config::Config> config,
       inbox_(pace, counters_),
       delay_(static_cast<std::size_t>(config->limits.delay_mib) << 20U),
       config_(std::move(config)),
-      missing_map_(no_server),
+      map_(match_id_, maps, counters_),
       requests_(match_id_, publisher, counters_) {
     delay_.set_minimum(config_->matches.minimum_delay_s, now_ns());
 }
@@ -87,7 +66,8 @@ void Match::turn(Turn& turn) noexcept {  // NOLINT(bugprone-exception-escape)
 
 void Match::follow_leader() {
     if (content_.has_shown) follower_.hear(content_.shown);
-    if (freespace_) follower_.follow({requests_.shots(), space(), config_->direction.grammar.fixed_shots});
+    if (map_.freespace() != nullptr)
+        follower_.follow({requests_.shots(), space(), config_->direction.grammar.fixed_shots});
 }
 
 void Match::handle_all(std::span<Message> messages) {
@@ -105,7 +85,7 @@ void Match::handle(MatchInfo& info) {
     if (liveness_ == Liveness::lost) liveness_ = Liveness::silent;
     roster_.set_listed(info_->players);
     edit_.set_players(info_->players);
-    attach_map();
+    bind_map();
     publish_info();
 }
 
@@ -125,8 +105,8 @@ void Match::publish_info() {
     limit_silence();
     MatchInfo shown = *info_;
     shown.rate_hz = camera_rate_hz();
-    if (shown.metres_per_unit == 0.0F && freespace_)
-        shown.metres_per_unit = freespace_->metadata().metres_per_unit;
+    if (shown.metres_per_unit == 0.0F && map_.freespace() != nullptr)
+        shown.metres_per_unit = map_.freespace()->metadata().metres_per_unit;
     publisher_.publish(shown);
     for (Audience* audience : audiences_)
         audience->show(shown);
@@ -182,7 +162,9 @@ void Match::handle(const MatchEnded& /*ended*/) {
     refusal_.clear();
     liveness_ = Liveness::none;
     roster_.clear();
-    detach_map(no_server);
+    map_.release();
+    change_map();
+    reconcile_needed_ = true;
 }
 
 void Match::handle(const MatchRefused& refused) {
@@ -219,7 +201,7 @@ void Match::handle(const RequestEnded& ended) {
 
 void Match::handle(const MapsChanged& /*changed*/) {
     if (!info_) return;
-    attach_map();
+    bind_map();
     if (info_->metres_per_unit == 0.0F) publish_info();
 }
 
@@ -243,82 +225,20 @@ void Match::handle(const Reconfigured& changed) {
     reconcile_needed_ = true;
 }
 
-void Match::attach_map() {
+void Match::bind_map() {
     reconcile_needed_ = true;
-    const std::string refused_before = std::exchange(refusal_, {});
-    const std::string named = "map '" + info_->map_name + "'";
-    const auto entry = maps_.find(info_->map_name);
-    if (!entry) return wait_for_map(named + " is not configured; known: " + joined(maps_.names()));
-    if (!entry->freespace)
-        return wait_for_map(named + (entry->state == LoadState::failed ? " failed" : " is loading") +
-                            (entry->reason.empty() ? "" : ": " + entry->reason));
-    check_map_hash(*entry);
+    const bool changed = map_.bind(*info_);
+    const std::string refused_before = std::exchange(refusal_, map_.refusal());
     if (!refusal_.empty() && refusal_ != refused_before) counters_.add(Counter::refused_matches_map);
-    check_scale(*entry);
-    missing_map_.clear();
-    if (freespace_ && entry->generation == map_generation_) return;
-    edit_.clear();  // while the map that it refers to is there
-    freespace_ = entry->freespace;
-    map_generation_ = entry->generation;
-    obstacles_.set_map(&*freespace_);
-    reported_unknown_.clear();  // another map has others
-    report_unknown_movers();
-    scratch_.clear();
-    requests_.restart_shots();
+    if (changed) change_map();
 }
 
-void Match::check_map_hash(const MapEntry& entry) {
-    const std::uint64_t baked = entry.freespace->metadata().source_hash;
-    if (info_->map_hash == 0 || baked == 0 || info_->map_hash == baked) return;
-    const std::pair mismatch(info_->map_hash, baked);
-    if (std::exchange(reported_mismatch_, mismatch) != mismatch) {
-        counters_.add(Counter::map_hash_mismatches);
-        spdlog::warn("match {}: its map file {} (xxh3 {:016x}) is not the one that was baked ({:016x})",
-                     match_id_, info_->map_name, info_->map_hash, baked);
-    }
-    if (entry.strict)
-        refusal_ = "the game server's map '" + info_->map_name + "' is not the one that was baked";
-}
-
-// The cameras keep the map's scale; observers convert positions by the game server's.
-void Match::check_scale(const MapEntry& entry) {
-    const float sent = info_->metres_per_unit;
-    const float baked = entry.freespace->metadata().metres_per_unit;
-    if (sent == 0.0F || std::abs(sent - baked) <= scale_tolerance * baked) return;
-    const std::pair mismatch(sent, baked);
-    if (std::exchange(reported_scales_, mismatch) == mismatch) return;
-    counters_.add(Counter::scale_mismatches);
-    spdlog::warn(
-        "match {}: its game server says {} metres per unit, map {} was baked with {}: distances "
-        "differ between observers and cameras",
-        match_id_, sent, info_->map_name, baked);
-}
-
-void Match::report_unknown_movers() {
-    const std::vector<std::string>& unknown = obstacles_.unknown();
-    if (unknown == reported_unknown_) return;
-    reported_unknown_ = unknown;
-    counters_.add(Counter::unknown_movers, unknown.size());
-    if (unknown.empty()) return;
-    spdlog::warn(
-        "match {}: {} of its movers are no obstacles: map {} has no such model, and they have no shape of "
-        "their own: {}",
-        match_id_, unknown.size(), info_->map_name, some_of(unknown));
-}
-
-void Match::wait_for_map(std::string reason) {
-    if (reason != missing_map_) spdlog::warn("match {}: no cameras: {}", match_id_, reason);
-    detach_map(std::move(reason));
-}
-
-void Match::detach_map(std::string reason) {
-    missing_map_ = std::move(reason);
-    obstacles_.set_map(nullptr);
+void Match::change_map() {
     edit_.clear();
-    freespace_.reset();
+    obstacles_.set_map(map_.freespace());
+    map_.report_unknown_movers(obstacles_.unknown());
     scratch_.clear();
     requests_.restart_shots();
-    reconcile_needed_ = true;
 }
 
 void Match::reconcile() {
@@ -328,7 +248,7 @@ void Match::reconcile() {
     const std::string waiting = waiting_for_delay(delay);
     waits_for_delay_ = !waiting.empty();
     requests_.reconcile({*config_, roster_, epoch(), refusal_.empty() ? delay.refusal : refusal_,
-                         waits_for_delay_ ? waiting : missing_map_,
+                         waits_for_delay_ ? waiting : map_.missing(),
                          holds ? "the game server is silent: the camera holds" : "", now_ns()});
     next_answers_ns_ = requests_.next_answers();
     observer_count_ = requests_.observers();
@@ -379,7 +299,7 @@ std::string Match::state() const {
         case Liveness::running:
             break;
     }
-    return missing_map_.empty() ? "running" : "waiting for map";
+    return map_.missing().empty() ? "running" : "waiting for map";
 }
 
 void Match::handle(const ViewRequest& wanted) {

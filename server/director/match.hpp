@@ -7,7 +7,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "director/arrivals.hpp"
@@ -16,7 +15,7 @@
 #include "director/edit.hpp"
 #include "director/follower.hpp"
 #include "director/inbox.hpp"
-#include "director/map_library.hpp"
+#include "director/map_binding.hpp"
 #include "director/match_obstacles.hpp"
 #include "director/ports.hpp"
 #include "director/requests.hpp"
@@ -84,11 +83,9 @@ class Match final : public Strand {
     void publish_info();
     void begin_epoch();
     void fall_silent(Liveness liveness);
-    void attach_map();
-    void check_map_hash(const MapEntry& entry);
-    void check_scale(const MapEntry& entry);
-    void wait_for_map(std::string reason);
-    void detach_map(std::string reason);
+    void bind_map();
+    // Another one, or none.
+    void change_map();
     void reconcile();
     [[nodiscard]] std::string state() const;
     [[nodiscard]] std::uint64_t epoch() const;
@@ -104,12 +101,11 @@ class Match final : public Strand {
     bool extend_timeline(std::uint64_t epoch, std::int64_t frame_time);
     void place_obstacles(const PoseFrame& frame);
     // Of the map and the obstacles. There is a map.
-    [[nodiscard]] freespace::Space space() const { return {*freespace_, &obstacles_.movers()}; }
+    [[nodiscard]] freespace::Space space() const { return {*map_.freespace(), &obstacles_.movers()}; }
     // At the time of the frame that is shown.
     [[nodiscard]] freespace::Space space_shown() const {
         return space().at(by_timeline_ ? timeline_.shown() : causal_time_);
     }
-    void report_unknown_movers();
     [[nodiscard]] bool foresee(const PoseFrame& frame);
     // Makes the steps of the next frame, whose poses wait, so that its cameras leave when it is due.
     void prepare(Turn& turn);
@@ -142,7 +138,6 @@ class Match final : public Strand {
                                          camera::Scratch& scratch);
 
     const std::string match_id_;
-    const MapLibrary& maps_;
     const Pace& pace_;
     Publisher& publisher_;
     const Audiences& audiences_;
@@ -164,13 +159,9 @@ class Match final : public Strand {
     std::shared_ptr<const config::Config> config_;
     Inbox::Content content_;
     std::optional<MatchInfo> info_;
-    std::uint32_t frames_per_camera_ = 1;                        // that observers were told of
-    std::string refusal_;                                        // RequestContext::refusal
-    std::string missing_map_;                                    // RequestContext::missing_map
-    std::pair<std::uint64_t, std::uint64_t> reported_mismatch_;  // hashes: the game server's, the baked map's
-    std::pair<float, float> reported_scales_;  // metres per unit: the game server's, the baked map's
-    std::uint64_t map_generation_ = 0;
-    std::optional<freespace::Freespace> freespace_;
+    std::uint32_t frames_per_camera_ = 1;  // that observers were told of
+    std::string refusal_;                  // RequestContext::refusal
+    MapBinding map_;
     std::vector<std::unique_ptr<camera::Scratch>> scratch_;  // by lane; null where no shot has moved yet
     Roster roster_;
     Continuity continuity_;
@@ -189,8 +180,7 @@ class Match final : public Strand {
     std::shared_ptr<const MatchMovers> shown_movers_;  // of the last frame
     // How long the frames took until now, as trackers count it that do not move over the timeline.
     double causal_time_ = 0.0;
-    MatchObstacles obstacles_;                   // over the timeline, or that time
-    std::vector<std::string> reported_unknown_;  // of its movers
+    MatchObstacles obstacles_;    // over the timeline, or that time
     std::uint64_t foreseen_ = 0;  // position in the delay buffer of what follows in the timeline
     bool by_timeline_ = false;    // the cameras move over the timeline
     std::vector<camera::Crowd::Player> crowd_;

@@ -60,7 +60,7 @@ void Match::process(PoseFrame& frame, std::int64_t received_ns, Turn& turn) {
         obstacles_.clear();
     }
     place_obstacles(frame);
-    if (!freespace_) {
+    if (map_.freespace() == nullptr) {
         counters_.add(Counter::drop_waiting);
         return show(frame, no_cameras(frame));
     }
@@ -158,7 +158,7 @@ void Match::place_obstacles(const PoseFrame& frame) {
         by_timeline_ ? obstacles_.follow(timeline_) : obstacles_.add(causal_time_, frame.movers);
     if (frame.movers != shown_movers_) counters_.add(Counter::mover_frames);
     shown_movers_ = frame.movers;
-    if (changed) report_unknown_movers();
+    if (changed) map_.report_unknown_movers(obstacles_.unknown());
 }
 
 void Match::gather_crowd(const PoseFrame& frame) {
@@ -199,13 +199,13 @@ void Match::share_shots(Turn& turn, std::size_t count,
                         const std::function<void(std::size_t, camera::Scratch&)>& move) {
     scratch_.resize(turn.lanes());
     turn.share(count, shots_per_worker, [&](std::size_t lane, std::size_t i) {
-        if (!scratch_[lane]) scratch_[lane] = std::make_unique<camera::Scratch>(*freespace_);
+        if (!scratch_[lane]) scratch_[lane] = std::make_unique<camera::Scratch>(*map_.freespace());
         move(i, *scratch_[lane]);
     });
 }
 
 void Match::prepare(Turn& turn) {
-    if (!by_timeline_ || !freespace_) return;
+    if (!by_timeline_ || map_.freespace() == nullptr) return;
     if (pace_.frames_per_camera() > 1) return;  // it may not be due
     const auto next = delay_.upcoming();
     if (!next || next->epoch != info_->epoch || next->after != last_time_) return;
@@ -213,7 +213,7 @@ void Match::prepare(Turn& turn) {
     extend_timeline(next->epoch, next->frame_time);
     const double time = timeline_.seconds(next->frame_time);
     if (!timeline_.covers(next->frame_time) || time <= timeline_.shown()) return;
-    if (obstacles_.follow(timeline_)) report_unknown_movers();
+    if (obstacles_.follow(timeline_)) map_.report_unknown_movers(obstacles_.unknown());
     gather_crowd(time);
     unprepared_.clear();
     for (Shot& shot : requests_.shots())
@@ -256,7 +256,7 @@ ShotCamera Match::move_camera(Shot& shot, double dt, camera::Scratch& scratch) {
 }
 
 ShotCamera Match::show_fixed(Shot& shot) {
-    ShotCamera camera = still_camera(shot.camera_id, freespace_->fixed_shots()[shot.fixed]);
+    ShotCamera camera = still_camera(shot.camera_id, map_.freespace()->fixed_shots()[shot.fixed]);
     camera.clearance = freespace::distance(space_shown(), camera.position).value;
     if (!std::exchange(shot.state.started, true)) {
         camera.flags = camera::cut;
