@@ -17,8 +17,6 @@ namespace camdir::director {
 // shots where they differ. One thread at a time.
 class Follower {
   public:
-    static constexpr std::size_t max_own = 16;  // frames that are remembered
-
     // Where this director's next cameras are to be written, before any other call: into memory that is used
     // again.
     [[nodiscard]] CameraFrame& next_own() {
@@ -31,22 +29,24 @@ class Follower {
 
     struct Setting {
         std::vector<Shot>& shots;
-        freespace::Space space;  // of the map and the movers, at any time
+        freespace::Space space;  // its time does not matter
         bool fixed_shots;        // those of the map may be shown
     };
     // Takes over what was heard last, once: as soon as there are own cameras of the same pose. Targets change
     // with the next frame. Where this director is ahead, the leader's camera is taken to have moved since as
-    // its own did. What the leader shows and this director does not have, changes nothing, and so does what
-    // it has shown before a cut.
+    // its own did. What this director does not have changes nothing, nor does what was shown before a cut.
     void follow(const Setting& setting);
 
   private:
+    static constexpr std::size_t max_own = 16;  // frames that are remembered
+
     struct Disagreement {
         const ShotCamera &own, &shown;  // at the same pose
     };
 
     void hear_reason(Shot& shot) const;
-    // They return false where the shot stays what it is: the leader shows what this director does not have.
+    // They return false where the shot goes on as it is: the leader shows what this director does not have.
+    // `shot`: null where it has ended.
     bool correct(const Disagreement& disagreement, Shot* shot, const Setting& setting) const;
     bool correct_target(const ShotCamera& shown, Shot& shot, const Setting& setting) const;
     void correct_place(const Disagreement& disagreement, const ShotCamera& newest, Shot& shot,

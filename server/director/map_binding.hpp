@@ -14,19 +14,20 @@
 namespace camdir::director {
 
 // Finds a match's map in the library, and compares it with what the game server says of it. What does not
-// agree is logged and counted once. One thread at a time; `maps` and `counters` must outlive it.
+// agree is logged and counted, again when it changes. One thread at a time; `maps` and `counters` must
+// outlive it.
 class MapBinding {
   public:
     MapBinding(std::string match_id, const MapLibrary& maps, MatchCounters& counters)
         : match_id_(std::move(match_id)), maps_(maps), counters_(counters) {}
 
-    // Takes the map of this name as it is in the library now. Returns whether the map is another one than
-    // before, or there is none.
+    // Takes the match's map as it is in the library now. Returns true when it is another one than before, or
+    // there is none.
     bool bind(const MatchInfo& info);
     // No game server runs the match.
     void release();
 
-    // Null: there is none. Valid until the next bind() or release().
+    // Null: there is none. Valid until bind() returns true, or release().
     [[nodiscard]] const freespace::Freespace* freespace() const {
         return freespace_ ? &*freespace_ : nullptr;
     }
