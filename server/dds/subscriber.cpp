@@ -120,10 +120,8 @@ void Subscriber::run() noexcept {
     next_assertion_ = Clock::now();
     listened_ = Clock::now();
     while (!stopping_) {
-        const auto next_bounding = to_bound_.empty() ? Clock::time_point::max() : next_bounding_;
-        const auto next_catching_up = to_catch_up_.empty() ? Clock::time_point::max() : next_catching_up_;
         const auto& ready = ready_.wait(std::min(
-            {next_assertion_.load(), next_notice_, next_decision_, next_bounding, next_catching_up}));
+            {next_assertion_.load(), next_notice_, next_decision_, to_bound_.due(), to_catch_up_.due()}));
         notice_absence();
         take_ready(ready);
         bound_movers();
@@ -143,7 +141,7 @@ void Subscriber::run() noexcept {
         // Last, when all signs that had come by then are seen.
         if (Clock::now() >= next_decision_) decide();
         if (Clock::now() >= next_notice_) notice_what_is_owed();
-        if (!to_catch_up_.empty() && Clock::now() >= next_catching_up_) catch_up();
+        if (Clock::now() >= to_catch_up_.due()) catch_up();
     }
     next_assertion_ = Clock::time_point::max();
 }
@@ -218,22 +216,18 @@ void Subscriber::notice_what_is_owed() {
 }
 
 void Subscriber::notice_what_is_owed(Match& match) {
-    if (match.endpoints->owes() && !std::exchange(match.catches_up, true)) to_catch_up_.push_back(match.id());
+    if (match.endpoints->owes()) to_catch_up_.add(match.id());
 }
 
-// Matches take turns, a step each, and of each its cameras come first. What takes too long goes on after a
-// pause, and what failed with the next assertion.
+// Of each match its cameras come first. What takes too long goes on after a pause, and what failed with the
+// next assertion.
 void Subscriber::catch_up() {
-    const auto end = Clock::now() + longest_turn();
-    while (!to_catch_up_.empty() && Clock::now() < end) {
-        const auto found = matches_.find(to_catch_up_.front());
-        to_catch_up_.pop_front();
-        if (found == matches_.end()) continue;
-        Match& match = *found->second;
-        match.catches_up = false;
-        if (match.endpoints->catch_up()) notice_what_is_owed(match);
-    }
-    next_catching_up_ = to_catch_up_.empty() ? Clock::time_point{} : Clock::now() + longest_turn();
+    const bool some_are_left =
+        to_catch_up_.take_turns(Clock::now() + longest_turn(), [this](const std::string& match_id) {
+            const auto found = matches_.find(match_id);
+            return found != matches_.end() && found->second->endpoints->catch_up();
+        });
+    if (some_are_left) to_catch_up_.pause_until(Clock::now() + longest_turn());
 }
 
 void Subscriber::drop(Topic topic, ValidationError error, const std::string& match_id) {
@@ -333,8 +327,7 @@ void Subscriber::take_mover_infos(Match& match) {
 }
 
 void Subscriber::ask_for_bounds(Match& match) {
-    if ((match.bounding || match.movers.has_described()) && !std::exchange(match.waits_for_bounds, true))
-        to_bound_.push_back(match.id());
+    if (match.bounding || match.movers.has_described()) to_bound_.add(match.id());
 }
 
 // Whose description waits may own the match now.
@@ -343,23 +336,18 @@ void Subscriber::ask_again_for_bounds() {
         ask_for_bounds(*match);
 }
 
-// The only decoding that takes milliseconds waits where there is much of it, and matches take turns, a hull
-// at a time.
+// The only decoding that takes milliseconds waits where there is much of it. A step is a hull.
 void Subscriber::bound_movers() {
     const auto begun = Clock::now();
-    if (to_bound_.empty() || begun < next_bounding_) return;
-    while (!to_bound_.empty() && Clock::now() < begun + bounding_turn) {
-        const auto found = matches_.find(to_bound_.front());
-        to_bound_.pop_front();
-        if (found == matches_.end()) continue;
-        Match& match = *found->second;
-        match.waits_for_bounds = false;
-        if (bound_next(match)) ask_for_bounds(match);
-    }
-    next_bounding_ = Clock::now() + bounding_share * (Clock::now() - begun);
+    if (begun < to_bound_.due()) return;
+    to_bound_.take_turns(begun + bounding_turn, [this](const std::string& match_id) {
+        const auto found = matches_.find(match_id);
+        return found != matches_.end() && bound_next(*found->second);
+    });
+    to_bound_.pause_until(Clock::now() + bounding_share * (Clock::now() - begun));
 }
 
-// False where only strangers have described movers.
+// Whether the match has another: not where only strangers have described movers.
 bool Subscriber::bound_next(Match& match) {
     if (!match.bounding)
         match.bounding = match.movers.take_described([&](const SenderId& sender) {
@@ -371,13 +359,14 @@ bool Subscriber::bound_next(Match& match) {
     const auto error = bound_hulls(*match.bounding->info, 1);
     if (!error && !has_bounds(*match.bounding->info)) return true;
     const SentMovers::Described described = *std::exchange(match.bounding, std::nullopt);
-    if (error) {
-        if (!described.counted_as_dropped) drop(Topic::mover_info, *error, match.id());
-        return true;
+    if (!described.counted_as_dropped) {
+        if (error)
+            drop(Topic::mover_info, *error, match.id());
+        else
+            ++counters_.of(Topic::mover_info).accepted;
     }
-    if (!described.counted_as_dropped) ++counters_.of(Topic::mover_info).accepted;
-    match.movers.put_bounded(described.sender, described.info);
-    return true;
+    if (!error) match.movers.put_bounded(described.sender, described.info);
+    return match.movers.has_described();
 }
 
 void Subscriber::take_mover_frames(Match& match) {

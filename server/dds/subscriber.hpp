@@ -5,7 +5,6 @@
 #include <array>
 #include <atomic>
 #include <chrono>
-#include <deque>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -28,6 +27,7 @@
 #include "dds/sent_movers.hpp"
 #include "dds/shards.hpp"
 #include "dds/take_buffer.hpp"
+#include "dds/turn_queue.hpp"
 #include "dds/waiting_matches.hpp"
 #include "director/ports.hpp"
 
@@ -97,8 +97,6 @@ class Subscriber {
         SentMovers movers;
         std::unordered_map<WriterHandle, SenderId> mover_writers;  // of those whose movers are kept
         std::optional<SentMovers::Described> bounding;             // some hulls have bounds
-        bool waits_for_bounds = false;                             // is named in `to_bound_`
-        bool catches_up = false;                                   // is named in `to_catch_up_`
         Source poses{*this, &Subscriber::take_poses};
         Source mover_infos{*this, &Subscriber::take_mover_infos};
         Source mover_frames{*this, &Subscriber::take_mover_frames};
@@ -229,11 +227,9 @@ class Subscriber {
     std::unordered_map<std::string, std::unique_ptr<Match>> matches_;
     std::vector<std::string> new_matches_;  // whose signs were not looked at yet
     Clock::time_point poses_taken_{};       // of all matches
-    std::deque<std::string> to_bound_;      // matches with movers without bounds
-    Clock::time_point next_bounding_{};     // of hulls: not before
-    std::deque<std::string> to_catch_up_;   // matches that owe something
+    TurnQueue to_bound_;                    // matches with movers without bounds
+    TurnQueue to_catch_up_;                 // matches that owe something
     Clock::time_point next_notice_{};
-    Clock::time_point next_catching_up_{};                        // not before
     Clock::time_point listened_{};                                // to all who send
     Clock::time_point next_decision_ = Clock::time_point::max();  // when matches may change hands
     std::string next_to_decide_;                                  // the match, or any
