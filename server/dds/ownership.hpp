@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
-#include <ranges>
 #include <span>
 #include <vector>
 
@@ -54,16 +53,9 @@ class Ownership {
     [[nodiscard]] bool owns(const SenderId& sender) const {
         return !claims_.empty() && claims_.front().sender == sender;
     }
-    // Describes the match.
+    // Describes the match: owns it, or may own it later.
     [[nodiscard]] bool knows(const SenderId& sender) const {
         return std::ranges::find(claims_, sender, &Claim::sender) != claims_.end();
-    }
-    // All who do, but for the owner.
-    [[nodiscard]] std::vector<SenderId> heirs() const {
-        std::vector<SenderId> senders;
-        for (const Claim& claim : claims_ | std::views::drop(1))
-            senders.push_back(claim.sender);
-        return senders;
     }
     [[nodiscard]] bool has_owner() const { return !claims_.empty(); }
     [[nodiscard]] bool has_live_owner() const { return has_owner() && !lost_; }

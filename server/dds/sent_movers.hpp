@@ -7,10 +7,10 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
-#include "dds/sender.hpp"
+#include "dds/decode.hpp"
+#include "dds/ownership.hpp"
 #include "director/messages.hpp"
 
 namespace camdir::dds {
@@ -25,39 +25,29 @@ class SentMovers {
 
     [[nodiscard]] bool empty() const { return senders_.empty(); }
 
-    // Returns whether there is a place for `sender`. Where all are taken the one that was longest without a
-    // sample leaves, but for the owner's and those of `heirs`, who may own the match.
-    bool admit(const SenderId& sender, const SenderId& owner, std::span<const SenderId> heirs = {});
-    // Who is not among these is gone.
-    void retain(std::span<const SenderId> matched);
+    // `sender` has written by `writer`. Returns whether there is a place for it. Where all are taken the one
+    // that was longest without a sample leaves, but for those who own the match or may own it.
+    [[nodiscard]] bool admit(const SenderId& sender, WriterHandle writer, const Ownership& ownership);
+    // Who has no writer among these (ascending) is gone.
+    void retain(std::span<const WriterHandle> matched);
     // Of a sender that has been admitted since others were. Not null. A description, whose hulls have no
-    // bounds yet, replaces the one that waits, and counts from put_bounded() on.
+    // bounds yet, replaces the one that waits for them, and is in effect when all have theirs.
     void put(const SenderId& sender, std::shared_ptr<director::MoverInfo> described, bool counted_as_dropped);
     void put(const SenderId& sender, std::shared_ptr<const director::MoverFrame> frame);
 
-    // A description waits for its bounds.
-    [[nodiscard]] bool has_described() const {
-        return std::ranges::any_of(senders_, [](const Sent& sent) { return sent.described != nullptr; });
+    // Some hulls have no bounds yet.
+    [[nodiscard]] bool has_unbounded() const {
+        return bounding_ ||
+               std::ranges::any_of(senders_, [](const Sent& sent) { return sent.described != nullptr; });
     }
-    enum class Rank { owner, may_own, stranger };
-    struct Described {
-        SenderId sender;
-        std::shared_ptr<director::MoverInfo> info;
-        bool counted_as_dropped;
+    // Of a description that is complete or wrong now, and was not counted before.
+    struct Step {
+        bool is_accepted = false;
+        std::optional<ValidationError> error;
     };
-    // The description that is to have bounds next, which waits no longer: the owner's first, and no
-    // stranger's.
-    template <class RankOf>
-    [[nodiscard]] std::optional<Described> take_described(const RankOf& rank_of) {
-        for (const Rank rank : {Rank::owner, Rank::may_own})
-            for (Sent& sent : senders_)
-                if (sent.described && rank_of(sent.sender) == rank)
-                    return Described{sent.sender, std::exchange(sent.described, nullptr),
-                                     sent.counted_as_dropped};
-        return std::nullopt;
-    }
-    // Nothing when the sender has left meanwhile.
-    void put_bounded(const SenderId& sender, std::shared_ptr<const director::MoverInfo> info);
+    // Finds the bounds of one more hull, in up to 1 ms: of the owner's description first, then of those who
+    // may own the match. Returns nothing where there is no hull but of strangers, which wait.
+    [[nodiscard]] std::optional<Step> bound_next(const Ownership& ownership);
 
     // The movers of this sender as of a pose frame of its. Null where they are of another epoch, or not
     // complete yet. The same object as before where nothing has changed.
@@ -68,6 +58,7 @@ class SentMovers {
     using Frame = std::shared_ptr<const director::MoverFrame>;
     struct Sent {
         SenderId sender{};
+        std::vector<WriterHandle> writers;
         std::shared_ptr<director::MoverInfo> described;  // newer than `info`
         bool counted_as_dropped = false;                 // what is described
         std::shared_ptr<const director::MoverInfo> info;
@@ -75,9 +66,17 @@ class SentMovers {
         std::vector<Frame> waiting;  // in the order of arrival
         std::shared_ptr<const director::MatchMovers> both;
     };
+    struct Described {
+        SenderId sender;
+        std::shared_ptr<director::MoverInfo> info;
+        bool counted_as_dropped;
+    };
     [[nodiscard]] Sent* find(const SenderId& sender);
+    [[nodiscard]] std::optional<Described> take_described(const Ownership& ownership);
+    void put_bounded(const Described& described);
 
-    std::vector<Sent> senders_;  // who has sent last is the last
+    std::vector<Sent> senders_;          // who has sent last is the last
+    std::optional<Described> bounding_;  // some hulls have bounds
 };
 
 }  // namespace camdir::dds

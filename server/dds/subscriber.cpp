@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cassert>
 #include <chrono>
+#include <iterator>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -319,7 +320,7 @@ void Subscriber::take_mover_infos(Match& match) {
         if (!is_valid(match, Topic::mover_info, sample, *described)) return;
         const SenderId* sender = match.mover_info_senders.find(reader, info.publication_handle);
         const bool counts = comes_from_owner(match, Topic::mover_info, sender);
-        if (admit_movers(match, sender, info.publication_handle))
+        if (sender != nullptr && match.movers.admit(*sender, info.publication_handle, match.ownership))
             match.movers.put(*sender, std::move(described), !counts);
     });
     ask_for_bounds(match);
@@ -327,7 +328,7 @@ void Subscriber::take_mover_infos(Match& match) {
 }
 
 void Subscriber::ask_for_bounds(Match& match) {
-    if (match.bounding || match.movers.has_described()) to_bound_.add(match.id());
+    if (match.movers.has_unbounded()) to_bound_.add(match.id());
 }
 
 // Whose description waits may own the match now.
@@ -349,24 +350,11 @@ void Subscriber::bound_movers() {
 
 // Whether the match has another: not where only strangers have described movers.
 bool Subscriber::bound_next(Match& match) {
-    if (!match.bounding)
-        match.bounding = match.movers.take_described([&](const SenderId& sender) {
-            return match.ownership.owns(sender)    ? SentMovers::Rank::owner
-                   : match.ownership.knows(sender) ? SentMovers::Rank::may_own
-                                                   : SentMovers::Rank::stranger;
-        });
-    if (!match.bounding) return false;
-    const auto error = bound_hulls(*match.bounding->info, 1);
-    if (!error && !has_bounds(*match.bounding->info)) return true;
-    const SentMovers::Described described = *std::exchange(match.bounding, std::nullopt);
-    if (!described.counted_as_dropped) {
-        if (error)
-            drop(Topic::mover_info, *error, match.id());
-        else
-            ++counters_.of(Topic::mover_info).accepted;
-    }
-    if (!error) match.movers.put_bounded(described.sender, described.info);
-    return match.movers.has_described();
+    const auto step = match.movers.bound_next(match.ownership);
+    if (!step) return false;
+    if (step->is_accepted) ++counters_.of(Topic::mover_info).accepted;
+    if (step->error) drop(Topic::mover_info, *step->error, match.id());
+    return match.movers.has_unbounded();
 }
 
 void Subscriber::take_mover_frames(Match& match) {
@@ -377,7 +365,8 @@ void Subscriber::take_mover_frames(Match& match) {
         if (!is_valid(match, Topic::mover_frame, sample, *frame)) return;
         const SenderId* sender = match.mover_frame_senders.find(reader, info.publication_handle);
         if (comes_from_owner(match, Topic::mover_frame, sender)) ++counters_.of(Topic::mover_frame).accepted;
-        if (admit_movers(match, sender, info.publication_handle)) match.movers.put(*sender, std::move(frame));
+        if (sender != nullptr && match.movers.admit(*sender, info.publication_handle, match.ownership))
+            match.movers.put(*sender, std::move(frame));
     });
 }
 
@@ -387,28 +376,13 @@ bool Subscriber::comes_from_owner(const Match& match, Topic topic, const SenderI
     return false;
 }
 
-bool Subscriber::admit_movers(Match& match, const SenderId* sender, WriterHandle writer) {
-    if (sender == nullptr) return false;
-    // Also before it is known whose the match is.
-    const SenderId owner = match.ownership.has_owner() ? match.ownership.owner().sender : SenderId{};
-    if (!match.movers.admit(*sender, owner, match.ownership.heirs())) return false;
-    match.mover_writers[writer] = *sender;
-    return true;
-}
-
 void Subscriber::notice_unmatched_movers(Match& match) {
     // Else what is still to be read of a sender that is gone would be kept.
     match.mover_info_senders = match.mover_frame_senders = {};
-    const auto infos = matched_writers(match.endpoints->mover_info_reader());
-    const auto frames = matched_writers(match.endpoints->mover_frame_reader());
-    std::erase_if(match.mover_writers, [&](const auto& known) {
-        return !std::ranges::binary_search(infos, known.first) &&
-               !std::ranges::binary_search(frames, known.first);
-    });
-    std::vector<SenderId> senders;
-    for (const auto& [writer, sender] : match.mover_writers)
-        senders.push_back(sender);
-    match.movers.retain(senders);
+    std::vector<WriterHandle> matched;
+    std::ranges::merge(matched_writers(match.endpoints->mover_info_reader()),
+                       matched_writers(match.endpoints->mover_frame_reader()), std::back_inserter(matched));
+    match.movers.retain(matched);
 }
 
 void Subscriber::hand_on_poses() {

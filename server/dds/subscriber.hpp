@@ -95,8 +95,6 @@ class Subscriber {
         bool is_of_shard = true;
         SenderLookup pose_senders, event_senders, mover_info_senders, mover_frame_senders;
         SentMovers movers;
-        std::unordered_map<WriterHandle, SenderId> mover_writers;  // of those whose movers are kept
-        std::optional<SentMovers::Described> bounding;             // some hulls have bounds
         Source poses{*this, &Subscriber::take_poses};
         Source mover_infos{*this, &Subscriber::take_mover_infos};
         Source mover_frames{*this, &Subscriber::take_mover_frames};
@@ -150,8 +148,6 @@ class Subscriber {
     bool bound_next(Match& match);
     // The sender owns the match; else its sample counts as dropped.
     [[nodiscard]] bool comes_from_owner(const Match& match, Topic topic, const SenderId* sender);
-    // What comes from the sender is to be kept.
-    [[nodiscard]] bool admit_movers(Match& match, const SenderId* sender, WriterHandle writer);
     void notice_unmatched_movers(Match& match);
     void take_events(Match& match);
     void take_requests(Match& match);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <chrono>
 
 namespace camdir::dds {
 namespace {
@@ -22,20 +23,49 @@ std::shared_ptr<const director::MoverFrame> places_in(std::uint64_t epoch, std::
     return frame;
 }
 
+// Of one mover with one hull, a cube of edge 2; with so many half spaces alone it is none.
+std::shared_ptr<director::MoverInfo> with_hull(std::uint64_t epoch, std::size_t half_spaces = 6) {
+    auto info = movers_in(epoch);
+    director::Mover mover{7, {"*7", "func_door", {}, {}}};
+    freespace::ConvexHull& hull = mover.shape.hulls.emplace_back();
+    for (const float side : {-1.0F, 1.0F})
+        for (int axis = 0; axis < 3; ++axis)
+            hull.half_spaces.push_back({side * Vec3f::Unit(axis), 1.0F});
+    hull.half_spaces.resize(half_spaces);
+    info->movers.push_back(mover);
+    return info;
+}
+
 class SentMoversTest : public testing::Test {
   protected:
-    void sends(const SenderId& sender, std::shared_ptr<const director::MoverFrame> frame) {
-        movers_.admit(sender, owner);
-        movers_.put(sender, std::move(frame));
+    SentMoversTest() { describes_match(owner); }
+
+    void describes_match(const SenderId& sender) {
+        director::MatchInfo info;
+        info.match_id = "cup";
+        (void)ownership_.describe({sender, writer_of(sender), info}, {});
     }
-    void sends(const SenderId& sender, std::shared_ptr<director::MoverInfo> described) {
-        movers_.admit(sender, owner);
-        movers_.put(sender, std::move(described), false);
-        const auto rank = [](const SenderId& of) {
-            return of == owner ? SentMovers::Rank::owner : SentMovers::Rank::may_own;
-        };
-        while (const auto described = movers_.take_described(rank))
-            movers_.put_bounded(described->sender, described->info);
+    static WriterHandle writer_of(const SenderId& sender) { return sender[0]; }
+    bool admits(const SenderId& sender) { return movers_.admit(sender, writer_of(sender), ownership_); }
+
+    void sends(const SenderId& sender, std::shared_ptr<const director::MoverFrame> frame) {
+        if (admits(sender)) movers_.put(sender, std::move(frame));
+    }
+    // Of which no hull has bounds yet.
+    void describes(const SenderId& sender, std::shared_ptr<director::MoverInfo> info) {
+        ASSERT_TRUE(admits(sender));
+        movers_.put(sender, std::move(info), sender != owner);
+    }
+    void sends(const SenderId& sender, std::shared_ptr<director::MoverInfo> info) {
+        describes(sender, std::move(info));
+        bound_all();
+    }
+    // Returns in how many steps.
+    int bound_all() {
+        int steps = 0;
+        while (movers_.bound_next(ownership_))
+            ++steps;
+        return steps;
     }
     // Of the mover frame that the owner's poses of this time are seen with; -1: none.
     std::int64_t time_at(std::int64_t time, std::uint64_t epoch = 1) {
@@ -43,6 +73,7 @@ class SentMoversTest : public testing::Test {
         return movers ? movers->frame->frame_time : -1;
     }
 
+    Ownership ownership_;
     SentMovers movers_;
 };
 
@@ -95,6 +126,7 @@ TEST_F(SentMoversTest, FramesOfAClockThatPosesNeverReachWaitInABoundedQueue) {
 TEST_F(SentMoversTest, WhoDoesNotOwnTheMatchIsKeptForLater) {
     sends(owner, movers_in(1));
     sends(owner, places_in(1, 20));
+    describes_match(other);
     sends(other, movers_in(1));
     sends(other, places_in(1, 7));
     EXPECT_EQ(time_at(30), 20);
@@ -106,68 +138,113 @@ TEST_F(SentMoversTest, ACrowdOfStrangersTakesNoOwnersPlace) {
     sends(owner, movers_in(1));
     sends(owner, places_in(1, 20));
     for (unsigned char i = 2; i < 100; ++i)
-        sends(SenderId{i}, movers_in(1));
+        describes(SenderId{i}, movers_in(1));
     EXPECT_EQ(time_at(30), 20);
-    sends(SenderId{99}, places_in(1, 8));
+    for (const SenderId& late : {SenderId{2}, SenderId{99}}) {
+        sends(late, places_in(1, 8));
+        describes_match(late);
+    }
+    bound_all();
     EXPECT_TRUE(movers_.at(SenderId{99}, 1, 30)) << "the last ones are kept";
-    sends(SenderId{2}, places_in(1, 8));
     EXPECT_FALSE(movers_.at(SenderId{2}, 1, 30)) << "the first are not";
 }
 
 TEST_F(SentMoversTest, ACrowdOfStrangersTakesNoPlaceOfWhoMayOwnTheMatch) {
-    const std::array<SenderId, 1> heirs{other};
+    describes_match(other);
     sends(other, places_in(1, 7));
     sends(other, movers_in(1));
     for (unsigned char i = 3; i < 100; ++i)
-        EXPECT_TRUE(movers_.admit(SenderId{i}, owner, heirs));
+        EXPECT_TRUE(admits(SenderId{i}));
     EXPECT_TRUE(movers_.at(other, 1, 30));
 }
 
 TEST_F(SentMoversTest, WhereAllPlacesAreOfThoseWhoMayOwnTheMatchAStrangerHasNone) {
-    std::vector<SenderId> heirs;
-    for (unsigned char i = 2; i <= SentMovers::max_senders; ++i)
-        heirs.push_back({i});
-    EXPECT_TRUE(movers_.admit(owner, owner, heirs));
-    for (const SenderId& heir : heirs)
-        EXPECT_TRUE(movers_.admit(heir, owner, heirs));
-    EXPECT_FALSE(movers_.admit(SenderId{99}, owner, heirs));
-    EXPECT_TRUE(movers_.admit(owner, owner, heirs)) << "it has its place";
+    static_assert(SentMovers::max_senders == Ownership::max_claims);
+    for (unsigned char i = 1; i <= SentMovers::max_senders; ++i) {
+        describes_match({i});
+        EXPECT_TRUE(admits({i}));
+    }
+    EXPECT_FALSE(admits(SenderId{99}));
+    EXPECT_TRUE(admits(owner)) << "it has its place";
 }
 
 TEST_F(SentMoversTest, NothingIsKeptOfWhoIsGone) {
+    describes_match(other);
     for (const SenderId& sender : {owner, other}) {
         sends(sender, movers_in(1));
         sends(sender, places_in(1, 7));
     }
-    const std::array<SenderId, 1> matched{owner};
+    const std::array<WriterHandle, 1> matched{writer_of(owner)};
     movers_.retain(matched);
     EXPECT_EQ(time_at(30), 7);
     EXPECT_FALSE(movers_.at(other, 1, 30));
-    movers_.put_bounded(other, movers_in(1));
-    EXPECT_FALSE(movers_.at(other, 1, 30)) << "its hulls had bounds too late";
     movers_.retain({});
     EXPECT_TRUE(movers_.empty());
 }
 
+TEST_F(SentMoversTest, WhoHasAWriterStillIsNotGone) {
+    sends(owner, movers_in(1));
+    const WriterHandle of_frames = 50;
+    ASSERT_TRUE(movers_.admit(owner, of_frames, ownership_));
+    movers_.put(owner, places_in(1, 7));
+    const std::array<WriterHandle, 1> matched{of_frames};
+    movers_.retain(matched);
+    EXPECT_EQ(time_at(30), 7);
+}
+
+TEST_F(SentMoversTest, HullsHaveTheirBoundsOneByOneAndThenTheDescriptionCounts) {
+    sends(owner, places_in(1, 7));
+    auto info = with_hull(1);
+    info->movers.push_back(info->movers.front());
+    describes(owner, info);
+    const auto first = movers_.bound_next(ownership_);
+    ASSERT_TRUE(first);
+    EXPECT_FALSE(first->is_accepted || first->error);
+    EXPECT_TRUE(movers_.has_unbounded());
+    EXPECT_EQ(time_at(30), -1);
+    const auto second = movers_.bound_next(ownership_);
+    ASSERT_TRUE(second);
+    EXPECT_TRUE(second->is_accepted);
+    EXPECT_FALSE(movers_.has_unbounded());
+    EXPECT_EQ(time_at(30), 7);
+}
+
+TEST_F(SentMoversTest, ADescriptionWhoseHullIsNoneIsNotInEffect) {
+    sends(owner, with_hull(1));
+    sends(owner, places_in(1, 7));
+    const auto before = movers_.at(owner, 1, 30);
+    ASSERT_TRUE(before);
+    describes(owner, with_hull(1, 5));
+    const auto step = movers_.bound_next(ownership_);
+    ASSERT_TRUE(step);
+    EXPECT_EQ(step->error, ValidationError::bad_hull);
+    EXPECT_FALSE(step->is_accepted);
+    EXPECT_EQ(movers_.at(owner, 1, 31), before);
+}
+
+TEST_F(SentMoversTest, OfWhoIsGoneNothingIsInEffectThoughItsHullsHaveBoundsLater) {
+    auto info = with_hull(1);
+    info->movers.push_back(info->movers.front());
+    describes(owner, info);
+    ASSERT_TRUE(movers_.bound_next(ownership_));
+    movers_.retain({});
+    EXPECT_EQ(bound_all(), 1);
+    EXPECT_TRUE(movers_.empty());
+}
+
 TEST_F(SentMoversTest, TheOwnersDescriptionIsTheFirstToHaveBoundsAndAStrangersWaits) {
-    for (const SenderId& sender : {other, owner}) {
-        movers_.admit(sender, owner);
-        movers_.put(sender, movers_in(1), sender == other);
-    }
-    auto others = SentMovers::Rank::stranger;
-    const auto rank = [&](const SenderId& of) { return of == owner ? SentMovers::Rank::owner : others; };
-    const auto next = [&] {
-        const auto described = movers_.take_described(rank);
-        if (described) {
-            EXPECT_EQ(described->counted_as_dropped, described->sender == other);
-        }
-        return described ? described->sender : SenderId{};
-    };
-    EXPECT_EQ(next(), owner);
-    EXPECT_EQ(next(), SenderId{});
-    others = SentMovers::Rank::may_own;
-    EXPECT_EQ(next(), other);
-    EXPECT_EQ(next(), SenderId{});
+    for (const SenderId& sender : {other, owner})
+        describes(sender, movers_in(1));
+    const auto owners = movers_.bound_next(ownership_);
+    ASSERT_TRUE(owners);
+    EXPECT_TRUE(owners->is_accepted);
+    EXPECT_FALSE(movers_.bound_next(ownership_)) << "a stranger's";
+    EXPECT_TRUE(movers_.has_unbounded());
+    describes_match(other);
+    const auto others = movers_.bound_next(ownership_);
+    ASSERT_TRUE(others);
+    EXPECT_FALSE(others->is_accepted) << "it was counted as dropped";
+    EXPECT_FALSE(movers_.has_unbounded());
 }
 
 }  // namespace
