@@ -27,9 +27,9 @@ Subscriber::Options subscriber_options(const config::Dds& config, const config::
             .director_id = director_id,
             .partitions = config.partitions,
             .shards = {config.shard, config.shards},
-            .matches = static_cast<std::size_t>(limits.matches),
-            .participant_matches = share(limits.participant_matches, limits.matches),
-            .participant_match_rate = limits.participant_match_rate,
+            .limits = {.matches = static_cast<std::size_t>(limits.matches),
+                       .participant_matches = share(limits.participant_matches, limits.matches),
+                       .participant_match_rate = limits.participant_match_rate},
             .participant_observers = share(limits.participant_observers, limits.observers)};
 }
 

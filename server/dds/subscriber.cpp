@@ -39,11 +39,8 @@ Subscriber::Subscriber(const Participant& participant, Options options, MatchTab
       options_(std::move(options)),
       table_(table),
       counters_(counters),
-      shards_(options_.shards),
-      rate_(options_.participant_matches, options_.participant_match_rate),
-      waiting_(options_.matches, std::max<std::size_t>(options_.matches / 4, 1)),
-      elsewhere_(none_elsewhere()),
-      removal_(options_.matches),
+      admission_(*this, options_.shards, options_.limits),
+      removal_(options_.limits.matches),
       match_info_sample_(topic_type(Topic::match_info), 1),
       pose_samples_(topic_type(Topic::pose_frame), samples_per_take),
       mover_info_samples_(topic_type(Topic::mover_info), samples_per_take),
@@ -136,7 +133,7 @@ void Subscriber::run() noexcept {
             leave_matches();
             admit_waiting();
             take_signs_of_new_matches();
-            rate_.forget_idle(Clock::now());
+            admission_.forget_idle(Clock::now());
             next_assertion_ = Clock::now() + assertion_interval();
         }
         // Last, when all signs that had come by then are seen.

@@ -15,7 +15,7 @@
 
 #include "base/log_limit.hpp"
 #include "config/config.hpp"
-#include "dds/admission_rate.hpp"
+#include "dds/admission.hpp"
 #include "dds/counters.hpp"
 #include "dds/endpoint_removal.hpp"
 #include "dds/match_table.hpp"
@@ -28,7 +28,6 @@
 #include "dds/shards.hpp"
 #include "dds/take_buffer.hpp"
 #include "dds/turn_queue.hpp"
-#include "dds/waiting_matches.hpp"
 #include "director/ports.hpp"
 
 namespace camdir::dds {
@@ -38,16 +37,14 @@ namespace camdir::dds {
 // the owner alone is heard (ownership.hpp), and of an observer's requests those of its writer. The thread
 // also asserts the liveliness of the writers while the ingress is responsive, and takes over matches from
 // directors that do not.
-class Subscriber {
+class Subscriber final : private Admission::Host {
   public:
     struct Options {
         Leadership leadership;
         std::uint64_t director_id = 0;
         std::vector<std::string> partitions;
         Shards shards;
-        std::size_t matches = 0;
-        std::size_t participant_matches = 0;
-        double participant_match_rate = 0.0;    // that it may begin in a second
+        Admission::Limits limits;
         std::size_t participant_observers = 0;  // of a match
     };
 
@@ -163,19 +160,16 @@ class Subscriber {
 
     void match_info_found(const camera_director_MatchInfo& sample, const dds_sample_info_t& info);
     void match_info_lost(const camera_director_MatchInfo& key, const dds_sample_info_t& info);
-    // Of a match that may be new. Returns false where it waits or another shard serves it.
+    // Of a match that may be new. Returns false where the description waits.
     bool described(Ownership::Claim claim);
     void admit_waiting();
     void notice_unmatched();
     void put_into_effect(Ownership::Change change, const std::string& match_id);
     void begin_anew(Match& match);
-    void keep_waiting(WaitingMatches& waiting, Ownership::Claim claim);
-    // Counts what it refuses.
-    [[nodiscard]] bool admit(const Ownership::Claim& claim);
-    // Null: it is served.
-    [[nodiscard]] WaitingMatches* queue_for(const Ownership::Claim& claim);
-    [[nodiscard]] bool has_room_for(const std::string& match_id) const;
-    [[nodiscard]] bool may_own_another(const SenderId& sender) const;
+    [[nodiscard]] std::size_t owned_by(const SenderId& participant) const override;
+    [[nodiscard]] bool has_room_for(const std::string& match_id) const override;
+    [[nodiscard]] bool admits(const std::string& match_id) override;
+    void refuse(const std::string& match_id, ValidationError limit) override;
     // Returns false after logging why its endpoints could not be created.
     [[nodiscard]] bool add_match(const std::string& match_id);
     [[nodiscard]] Result<void> open_match(const std::string& match_id);
@@ -188,7 +182,6 @@ class Subscriber {
     // Hands over matches of other shards, and leaves those that a director of theirs leads.
     void leave_matches();
     void leave(const std::string& match_id);
-    [[nodiscard]] WaitingMatches none_elsewhere() const;
     // Returns false when the director refuses the match.
     bool introduce(Match& match);
     void cancel_forget(const std::string& match_id);
@@ -214,11 +207,7 @@ class Subscriber {
     std::thread thread_;
 
     // Used by the thread only.
-    Shards shards_;
-    AdmissionRate rate_;
-    WaitingMatches waiting_;    // for room
-    WaitingMatches moving_;     // for room, from a shard that leaves them: as many as were elsewhere
-    WaitingMatches elsewhere_;  // of other shards
+    Admission admission_;
     EndpointRemoval removal_;
     std::unordered_map<std::string, std::unique_ptr<Match>> matches_;
     std::vector<std::string> new_matches_;  // whose signs were not looked at yet

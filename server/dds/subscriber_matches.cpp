@@ -1,7 +1,8 @@
 // Subscriber: which matches there are, and whose.
 #include <spdlog/spdlog.h>
 
-#include <array>
+#include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "dds/decode.hpp"
@@ -26,15 +27,13 @@ void Subscriber::match_info_found(const camera_director_MatchInfo& sample, const
 
 bool Subscriber::described(Ownership::Claim claim) {
     const std::string match_id = claim.info.match_id;
-    WaitingMatches* const queue = queue_for(claim);
-    for (WaitingMatches* other : {&waiting_, &moving_, &elsewhere_})
-        if (other != queue) other->remove(match_id, claim.writer);  // an older description
-    if (queue != nullptr) {
-        keep_waiting(*queue, std::move(claim));
-        return false;
+    if (matches_.contains(match_id)) {
+        admission_.withdraw(match_id, claim.writer);
+    } else {
+        if (!admission_.begins(claim, Clock::now())) return false;
+        // The endpoints first, because the director publishes at once.
+        if (!add_match(match_id)) return true;
     }
-    // The endpoints first, because the director publishes at once.
-    if (!matches_.contains(match_id) && !add_match(match_id)) return true;
     Match& match = *matches_[match_id];
     const auto standing = match.ownership.describe(std::move(claim), Clock::now());
     if (standing == Ownership::Standing::stranger) {
@@ -50,62 +49,35 @@ bool Subscriber::described(Ownership::Claim claim) {
     return true;
 }
 
-WaitingMatches* Subscriber::queue_for(const Ownership::Claim& claim) {
-    if (matches_.contains(claim.info.match_id)) return nullptr;
-    if (!shards_.serves(claim.info.match_id)) return &elsewhere_;
-    if (admit(claim)) return nullptr;
-    return moving_.has(claim.info.match_id, claim.writer) ? &moving_ : &waiting_;
-}
-
-void Subscriber::keep_waiting(WaitingMatches& waiting, Ownership::Claim claim) {
-    const std::string match_id = claim.info.match_id;
-    if (!waiting.keep(std::move(claim))) drop(Topic::match_info, ValidationError::waiting_limit, match_id);
-}
-
-bool Subscriber::admit(const Ownership::Claim& claim) {
-    if (!may_own_another(claim.sender)) {
-        drop(Topic::match_info, ValidationError::participant_limit, claim.info.match_id);
-        return false;
-    }
-    if (!rate_.allows(claim.sender, Clock::now())) {
-        drop(Topic::match_info, ValidationError::participant_rate, claim.info.match_id);
-        return false;
-    }
-    // It counts and logs what it refuses.
-    if (!has_room_for(claim.info.match_id) || !ingress_->admit(claim.info.match_id)) return false;
-    rate_.take(claim.sender, Clock::now());
-    return true;
-}
-
-// No more at once than leave the matches that run their beat; those that run elsewhere first.
+// No more at once than leave the matches that run their beat.
 void Subscriber::admit_waiting() {
-    const auto is_wanted = [this](const Ownership::Claim& claim) {
-        return may_own_another(claim.sender) && rate_.allows(claim.sender, Clock::now()) &&
-               has_room_for(claim.info.match_id);
-    };
     const auto end = Clock::now() + longest_turn();
     while (Clock::now() < end && ingress_->has_room()) {
-        std::optional<Ownership::Claim> claim = moving_.take(is_wanted);
-        if (!claim) claim = waiting_.take(is_wanted);
+        std::optional<Ownership::Claim> claim = admission_.next(Clock::now());
         if (!claim || !described(std::move(*claim))) return;
     }
+}
+
+std::size_t Subscriber::owned_by(const SenderId& participant) const {
+    return static_cast<std::size_t>(std::ranges::count_if(
+        matches_, [&](const auto& entry) { return entry.second->ownership.owns(participant); }));
 }
 
 bool Subscriber::has_room_for(const std::string& match_id) const {
     return removal_.has_room() && !removal_.removes(match_id);
 }
 
-bool Subscriber::may_own_another(const SenderId& sender) const {
-    const auto owned = std::ranges::count_if(
-        matches_, [&](const auto& entry) { return entry.second->ownership.owns(sender); });
-    return static_cast<std::size_t>(owned) < options_.participant_matches;
+bool Subscriber::admits(const std::string& match_id) {
+    return has_room_for(match_id) && ingress_->admit(match_id);
+}
+
+void Subscriber::refuse(const std::string& match_id, ValidationError limit) {
+    drop(Topic::match_info, limit, match_id);
 }
 
 void Subscriber::match_info_lost(const camera_director_MatchInfo& key, const dds_sample_info_t& info) {
-    if (info.instance_state == DDS_NOT_ALIVE_DISPOSED_INSTANCE_STATE) {
-        for (WaitingMatches* waiting : {&waiting_, &moving_, &elsewhere_})
-            waiting->remove(key.match_id, info.publication_handle);
-    }
+    if (info.instance_state == DDS_NOT_ALIVE_DISPOSED_INSTANCE_STATE)
+        admission_.withdraw(key.match_id, info.publication_handle);
     const auto known = matches_.find(key.match_id);
     if (known == matches_.end()) return;
     Ownership& ownership = known->second->ownership;
@@ -118,8 +90,7 @@ void Subscriber::match_info_lost(const camera_director_MatchInfo& key, const dds
 // A game server that is gone is not told of where another describes its match too.
 void Subscriber::notice_unmatched() {
     const std::vector<WriterHandle> matched = matched_writers(match_info_reader_);
-    for (WaitingMatches* waiting : {&waiting_, &moving_, &elsewhere_})
-        waiting->retain(matched);
+    admission_.retain(matched);
     std::vector<std::string> match_ids;
     for (const auto& [match_id, match] : matches_)
         match_ids.push_back(match_id);
@@ -183,7 +154,7 @@ Result<void> Subscriber::open_match(const std::string& match_id) {
     auto& match = matches_[match_id];
     match = std::make_unique<Match>(options_.participant_observers);
     match->endpoints = std::move(*endpoints);
-    match->endpoints->set_shards(shards_.own(), shards_.home_of(match_id));
+    match->endpoints->set_shards(admission_.shards().own(), admission_.shards().home_of(match_id));
     table_.add(match->endpoints);
     next_decision_ = Clock::now();
     counters_.matches = static_cast<std::uint32_t>(matches_.size());
@@ -255,26 +226,19 @@ void Subscriber::remove_forgotten() {
     }
 }
 
-// As many as the other shards may serve.
-WaitingMatches Subscriber::none_elsewhere() const {
-    const std::size_t others = shards_.count();
-    return {others * options_.matches, others * options_.participant_matches};
-}
-
 void Subscriber::put_new_shards_into_effect() {
+    std::optional<Shards> changed;
     {
         const std::lock_guard lock(mutex_);
-        if (!new_shards_) return;
-        shards_ = *std::exchange(new_shards_, std::nullopt);
+        changed.swap(new_shards_);
     }
+    if (!changed) return;
+    admission_.reshard(std::move(*changed));
+    const Shards& shards = admission_.shards();
     for (const auto& [match_id, match] : matches_) {
-        match->is_of_shard = shards_.serves(match_id);
-        match->endpoints->set_shards(shards_.own(), shards_.home_of(match_id));
+        match->is_of_shard = shards.serves(match_id);
+        match->endpoints->set_shards(shards.own(), shards.home_of(match_id));
     }
-    for (WaitingMatches& all :
-         std::array{std::exchange(moving_, {}), std::exchange(elsewhere_, none_elsewhere())})
-        while (auto claim = all.take([](const Ownership::Claim&) { return true; }))
-            keep_waiting(shards_.serves(claim->info.match_id) ? moving_ : elsewhere_, std::move(*claim));
 }
 
 void Subscriber::leave_matches() {
@@ -296,7 +260,7 @@ void Subscriber::leave_matches() {
 void Subscriber::leave(const std::string& match_id) {
     Match& match = *matches_[match_id];
     spdlog::info("match {}: left to another shard", match_id);
-    if (match.ownership.has_live_owner()) keep_waiting(elsewhere_, match.ownership.owner());
+    if (match.ownership.has_live_owner()) admission_.leave(match.ownership.owner());
     for (const std::string& observer_id : match.request_owners.observers())
         ingress_->request_ended(match_id, observer_id);
     ingress_->match_ended(match_id);
