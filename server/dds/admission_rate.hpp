@@ -16,6 +16,7 @@ class AdmissionRate {
   public:
     using Time = std::chrono::steady_clock::time_point;
 
+    // Both > 0.
     AdmissionRate(std::size_t burst, double per_second);
 
     [[nodiscard]] bool allows(const SenderId& sender, Time now) const;
@@ -23,7 +24,6 @@ class AdmissionRate {
     void take(const SenderId& sender, Time now);
     // Forgets those whose buckets are full again.
     void forget_idle(Time now);
-    [[nodiscard]] std::size_t size() const { return full_at_.size(); }
 
   private:
     const Time::duration interval_;  // in which a token comes

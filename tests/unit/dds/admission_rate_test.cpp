@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "support/kept_memory.hpp"
+
 namespace camdir::dds {
 namespace {
 
@@ -31,14 +33,24 @@ TEST_F(AdmissionRateTest, ABurstThenARateForEachParticipant) {
     EXPECT_EQ(begun(host_, start_ + 1h), 16) << "no more than the burst";
 }
 
-TEST_F(AdmissionRateTest, ForgetsThoseWhoseBucketsAreFull) {
+TEST_F(AdmissionRateTest, ToBeForgottenGivesNobodyMore) {
     EXPECT_EQ(begun(host_, start_), 16);
     rate_.take(other_, start_);
     rate_.forget_idle(start_ + 1s);
-    EXPECT_EQ(rate_.size(), 1U);
-    EXPECT_EQ(begun(host_, start_ + 1s), 4);
-    rate_.forget_idle(start_ + 1h);
-    EXPECT_EQ(rate_.size(), 0U);
+    EXPECT_EQ(begun(host_, start_ + 1s), 4) << "its bucket was not full";
+    EXPECT_EQ(begun(other_, start_ + 1s), 16);
+}
+
+TEST_F(AdmissionRateTest, KeepsNothingOfThoseWhoseBucketsAreFull) {
+    AdmissionRate::Time now = start_;
+    unsigned passing = 0;
+    const auto come_and_go = [&] {
+        ++passing;
+        rate_.take({static_cast<unsigned char>(passing), static_cast<unsigned char>(passing >> 8U)}, now);
+        now += 1s;
+        rate_.forget_idle(now);
+    };
+    EXPECT_LT(test::bytes_kept(1000, come_and_go), 8.0) << "bytes of each";
 }
 
 }  // namespace
