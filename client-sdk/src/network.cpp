@@ -1,13 +1,14 @@
 #include "network.hpp"
 
-#include <arpa/inet.h>
 #include <netdb.h>
 
 #include <algorithm>
 #include <cctype>
+#include <chrono>
 #include <vector>
 
 #include "failure.hpp"
+#include "idl/network.hpp"
 
 namespace camdir::sdk {
 
@@ -23,22 +24,6 @@ void check_address(const std::string& field, const std::string& text) {
     }
 }
 
-bool is_ip_address(const std::string& text) {
-    unsigned char bytes[sizeof(in6_addr)];
-    return inet_pton(AF_INET, text.c_str(), bytes) == 1 || inet_pton(AF_INET6, text.c_str(), bytes) == 1;
-}
-
-std::string element(const std::string& name, const std::string& content) {
-    return "<" + name + ">" + content + "</" + name + ">";
-}
-
-std::string interface_element(const std::string& name) {
-    if (name.empty()) return "<NetworkInterface autodetermine=\"true\"/>";
-    check_address("network_interface", name);
-    const char* attribute = is_ip_address(name) ? "address" : "name";
-    return std::string("<NetworkInterface ") + attribute + "=\"" + name + "\"/>";
-}
-
 std::vector<std::string> addresses_of(const std::string& directors) {
     std::vector<std::string> addresses;
     std::size_t begin = 0;
@@ -50,13 +35,6 @@ std::vector<std::string> addresses_of(const std::string& directors) {
         begin = end + 1;
     }
     return addresses;
-}
-
-std::string peer_elements(const std::string& directors) {
-    std::string elements;
-    for (const std::string& address : addresses_of(directors))
-        elements += "<Peer Address=\"" + address + "\"/>";
-    return elements;
 }
 
 bool is_known(const std::string& address) {
@@ -74,20 +52,17 @@ bool is_known(const std::string& address) {
 
 std::string network_configuration(const cdir_context_options& options) {
     if (options.cyclone_xml != nullptr) return options.cyclone_xml;
-    const std::string general = element("Interfaces", interface_element(options.network_interface)) +
-                                element("AllowMulticast", "false") + element("MaxMessageSize", "65500B");
-    // With 0 as the highest index, a peer without a port is participant 0 of its host: a director.
-    const std::string discovery = element("ParticipantIndex", "none") +
-                                  element("MaxAutoParticipantIndex", "0") + element("SPDPInterval", "1s") +
-                                  element("Peers", peer_elements(options.directors));
-    // Packets to a host that is gone wait for seconds until the kernel has given up looking for its link
-    // address, and nothing is sent to anybody once they fill the buffer. The end of a writer waits for
-    // receivers, which may have stopped, that acknowledge its last samples.
-    const std::string internal = "<SocketSendBufferSize max=\"4MB\"/>" + element("MaxSampleSize", "1MB") +
-                                 element("WriterLingerDuration", "50ms");
-    return element("CycloneDDS",
-                   element("Domain", element("General", general) + element("Discovery", discovery) +
-                                         element("Internal", internal)));
+    const std::string interface = options.network_interface;
+    if (!interface.empty()) check_address("network_interface", interface);
+    return wire::network_xml({.interface = interface,
+                              .multicast = false,
+                              .peers = addresses_of(options.directors),
+                              .writer_linger = std::chrono::milliseconds(50),  // they may have stopped
+                              // With 0 as the highest index, a peer without a port is participant 0 of its
+                              // host: a director.
+                              .discovery = wire::element("ParticipantIndex", "none") +
+                                           wire::element("MaxAutoParticipantIndex", "0"),
+                              .internal = ""});
 }
 
 void require_known_director(const cdir_context_options& options) {

@@ -1,6 +1,5 @@
 #include "dds/participant.hpp"
 
-#include <arpa/inet.h>
 #include <netdb.h>
 #include <spdlog/spdlog.h>
 
@@ -10,77 +9,11 @@
 
 #include "base/log_limit.hpp"
 #include "dds/protection.hpp"
+#include "idl/network.hpp"
 #include "idl/security.hpp"
 
 namespace camdir::dds {
 namespace {
-
-std::string escaped(const std::string& text) {
-    std::string xml;
-    for (const char c : text) {
-        switch (c) {
-            case '&':
-                xml += "&amp;";
-                break;
-            case '<':
-                xml += "&lt;";
-                break;
-            case '>':
-                xml += "&gt;";
-                break;
-            case '"':
-                xml += "&quot;";
-                break;
-            default:
-                xml += c;
-        }
-    }
-    return xml;
-}
-
-std::string element(const std::string& name, const std::string& content) {
-    return "<" + name + ">" + content + "</" + name + ">";
-}
-
-bool is_ip_address(const std::string& text) {
-    unsigned char bytes[sizeof(in6_addr)];
-    return ::inet_pton(AF_INET, text.c_str(), bytes) == 1 || ::inet_pton(AF_INET6, text.c_str(), bytes) == 1;
-}
-
-std::string general(const config::Dds& config) {
-    std::string xml;
-    if (!config.interface.empty()) {
-        const std::string attribute = is_ip_address(config.interface) ? "address" : "name";
-        xml += element("Interfaces",
-                       "<NetworkInterface " + attribute + "=\"" + escaped(config.interface) + "\"/>");
-    }
-    xml += element("AllowMulticast", config.multicast ? "true" : "false");
-    // A camera frame fits into one datagram.
-    xml += element("MaxMessageSize", "65500B");
-    return element("General", xml);
-}
-
-std::string discovery(const config::Dds& config) {
-    const bool indexed = config.participant_index >= 0;
-    std::string xml =
-        element("ParticipantIndex", indexed ? std::to_string(config.participant_index) : "none");
-    std::string peers;
-    for (const std::string& peer : config.peers)
-        peers += "<Peer address=\"" + escaped(peer) + "\"/>";
-    if (!peers.empty()) xml += element("Peers", peers);
-    xml += element("SPDPInterval", "1s");
-    xml += element("Ports", element("Base", std::to_string(config.port)));
-    return element("Discovery", xml);
-}
-
-// A large receive buffer, because hundreds of clients can announce themselves at once. A large send buffer,
-// because packets to a host that is gone wait in it for seconds until the kernel has given up looking for its
-// link address: once they fill it, nothing is sent to anybody. A limit on samples, of which none comes near
-// 1 MB. The end of a writer does not wait for readers that acknowledge nothing.
-std::string internals() {
-    return element("Internal", "<SocketReceiveBufferSize max=\"4MB\"/><SocketSendBufferSize max=\"4MB\"/>" +
-                                   element("MaxSampleSize", "1MB") + element("WriterLingerDuration", "0s"));
-}
 
 Result<void> check_name(const std::string& peer) {
     addrinfo ipv4{};  // as Cyclone DDS
@@ -126,8 +59,17 @@ void log_message(void* /*unused*/, const dds_log_data_t* message) {
 
 std::string domain_xml(const config::Dds& config) {
     if (!config.xml.empty()) return config.xml;
-    return element("CycloneDDS",
-                   "<Domain Id=\"any\">" + general(config) + discovery(config) + internals() + "</Domain>");
+    const bool indexed = config.participant_index >= 0;
+    const std::string index = indexed ? std::to_string(config.participant_index) : "none";
+    return wire::network_xml(
+        {.interface = config.interface,
+         .multicast = config.multicast,
+         .peers = config.peers,
+         .writer_linger = std::chrono::milliseconds(0),
+         .discovery = wire::element("ParticipantIndex", index) +
+                      wire::element("Ports", wire::element("Base", std::to_string(config.port))),
+         // Hundreds of clients can announce themselves at once.
+         .internal = "<SocketReceiveBufferSize max=\"4MB\"/>"});
 }
 
 Participant::Participant(Participant&& other) noexcept

@@ -35,7 +35,7 @@ TEST(DomainXml, ContainsTheConfiguration) {
     EXPECT_THAT(xml, HasSubstr("<AllowMulticast>true<"));
     EXPECT_THAT(xml, HasSubstr("<ParticipantIndex>3<"));
     EXPECT_THAT(xml, HasSubstr("<Base>8000<"));
-    EXPECT_THAT(xml, HasSubstr("<Peer address=\"10.0.0.5\"/><Peer address=\"10.0.0.6:7412\"/>"));
+    EXPECT_THAT(xml, HasSubstr("<Peer Address=\"10.0.0.5\"/><Peer Address=\"10.0.0.6:7412\"/>"));
     config.participant_index = -1;
     EXPECT_THAT(domain_xml(config), HasSubstr("<ParticipantIndex>none<"));
 }
