@@ -15,7 +15,7 @@
 #include <dds/ddsi/q_rtps.h>
 #include <dds/ddsi/q_thread.h>
 
-enum { max_endpoints = 16 };  // a match's publisher or subscriber has at most five
+enum { max_endpoints = 16 };  // a match's publisher or subscriber has at most seven
 
 struct endpoints {
     struct ddsi_domaingv* domain;
