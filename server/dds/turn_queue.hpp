@@ -38,7 +38,7 @@ class TurnQueue {
 
   private:
     std::deque<std::string> order_;
-    std::unordered_set<std::string> waiting_;  // the same
+    std::unordered_set<std::string> waiting_;  // the same matches
     Clock::time_point due_{};
 };
 

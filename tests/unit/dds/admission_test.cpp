@@ -106,6 +106,15 @@ TEST_F(AdmissionTest, WhatTheHostRefusesWaitsAndCostsNoTime) {
     EXPECT_EQ(next(), "a 1");
 }
 
+TEST_F(AdmissionTest, WhatBeginsWaitsNoLonger) {
+    places_ = 0;
+    EXPECT_FALSE(begins(described(host_, "a")));
+    places_ = 8;
+    EXPECT_TRUE(begins(described(host_, "a", 2)));
+    served_.clear();
+    EXPECT_EQ(next(), "none");
+}
+
 TEST_F(AdmissionTest, OnlyAFewOfAParticipantWait) {
     places_ = 0;
     for (const char* match_id : {"a", "b", "c"})
