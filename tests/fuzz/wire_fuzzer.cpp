@@ -70,7 +70,10 @@ const director::MapLibrary& maps() {
 // A director that takes what is valid, from whatever match.
 class Receiver {
   public:
-    Receiver() { movers_.admit(sender_, sender_); }
+    Receiver() {
+        (void)ownership_.describe({sender_, 1, {}}, now_);
+        (void)movers_.admit(sender_, 1, ownership_);
+    }
 
     void take(const fuzz::WireRecord& record) {
         const std::span fields = record.fields;
@@ -102,7 +105,9 @@ class Receiver {
             case 6:
                 return take<camera_director_MoverInfo, director::MoverInfo>(
                     camera_director_MoverInfo_desc, fields, [&](const auto& /*match_id*/, const auto& info) {
-                        movers_.put_bounded(sender_, std::make_shared<director::MoverInfo>(info));
+                        movers_.put(sender_, std::make_shared<director::MoverInfo>(info), false);
+                        while (movers_.bound_next(ownership_)) {
+                        }
                     });
             case 7:
                 return take<camera_director_MoverFrame, director::MoverFrame>(
@@ -124,8 +129,6 @@ class Receiver {
         if (!sample) return;
         Message message{};
         if (dds::decode(*sample, message)) return;
-        if constexpr (std::is_same_v<Message, director::MoverInfo>)
-            if (dds::bound_hulls(message, director::max_half_spaces)) return;
         pass(std::string((*sample).match_id), message);
         director_.flush();
     }
@@ -139,6 +142,7 @@ class Receiver {
     }
 
     static constexpr dds::SenderId sender_{1};
+    dds::Ownership ownership_;
     dds::SentMovers movers_;  // of whatever match
     Encoder encoder_;
     director::Director director_{configuration(), maps(), encoder_};
