@@ -23,7 +23,7 @@ class DeletionTest : public DomainTest {
 TEST_F(DeletionTest, MatchesThatHaveEndedLeaveNothing) {
     int opened = 0;
     const auto kept = test::bytes_kept(50, [&] { open_and_delete_match(++opened); });
-    EXPECT_LT(kept, 1000.0) << "bytes of each";  // dds_delete() keeps 456 of each of the nine endpoints
+    EXPECT_LT(kept, 1000.0) << "bytes of each";  // dds_delete() keeps 456 of each endpoint
 }
 
 TEST_F(DeletionTest, DeletesAnEntityAlone) {
