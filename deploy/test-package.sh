@@ -21,7 +21,7 @@ deploy/install-packages.sh package
 work=$(mktemp -d)
 root=$work/root
 at_exit() {
-    umount "$root/proc" 2>/dev/null || true
+    umount -l "$root/proc" 2>/dev/null || true
     rm -rf --one-file-system "$work"
 }
 config=$root/etc/camera-director/camera-director.json

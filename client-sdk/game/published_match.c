@@ -82,10 +82,12 @@ static bool is_reached_alike(const struct match_settings* a, const struct match_
 
 void published_match_want(struct published_match* match, const struct match_state* wanted, int64_t now) {
     const bool new_life = match->wanted.life != wanted->life;
+    const bool same_settings =
+        memcmp(&match->wanted.settings, &wanted->settings, sizeof wanted->settings) == 0;
     if (!is_reached_alike(&match->wanted.settings, &wanted->settings)) published_match_close(match);
     match->wanted = *wanted;
     match->in_life = true;
-    announce(match, new_life, now);
+    if (match->retry_time == 0 || new_life || !same_settings) announce(match, new_life, now);
 }
 
 void published_match_end_life(struct published_match* match, int64_t now) {

@@ -33,7 +33,8 @@ struct published_match {
 
 /* Says what is to be published from now on. Opens the match, begins a new epoch where the life differs from
  * before, or updates its description; opens it anew where it has another id or must be reached otherwise;
- * closes it where nothing is to be published. What has failed before is tried again at once. */
+ * closes it where nothing is to be published. What has failed is tried again at once where the life or the
+ * settings are others; else in its time. */
 void published_match_want(struct published_match* match, const struct match_state* wanted, int64_t now);
 /* The life has ended: the match is closed unless another one begins within a minute. */
 void published_match_end_life(struct published_match* match, int64_t now);

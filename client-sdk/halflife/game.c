@@ -36,6 +36,12 @@ static void start_worker(void) {
     if (game.worker == NULL) engine_print("director: no thread could be started\n");
 }
 
+/* What was gathered for the next frame, and what it would be compared with. */
+static void forget_frame(void) {
+    game.frame.event_count = 0;
+    players_reset();
+}
+
 void game_begin_map(struct entity* entities, int count, int max_clients,
                     int (*find_message)(const char* name)) {
     game.in_map = true;
@@ -46,10 +52,13 @@ void game_begin_map(struct entity* entities, int count, int max_clients,
     game.clock = (struct game_clock){0};
     game.settings_read_at = -1.0;
     game.frame_due_at = -1.0;
-    game.frame.event_count = 0;
-    players_reset();
+    forget_frame();
     messages_reset(find_message);
     start_worker();
+}
+
+static bool is_published(void) {
+    return game.match.settings.enabled && game.match.settings.error[0] == '\0';
 }
 
 static void read_settings(double now) {
@@ -60,10 +69,7 @@ static void read_settings(double now) {
     game.match.settings = settings;
     game.match_sent = false;
     game.frame_due_at = -1.0;
-}
-
-static bool is_published(void) {
-    return game.match.settings.enabled && game.match.settings.error[0] == '\0';
+    if (!is_published()) forget_frame();
 }
 
 static void send_match(void) {
@@ -149,7 +155,7 @@ void game_print_status(void) {
                                                        : "waiting for a map");
     print_number("directors", status.directors);
     print_number("frames published", status.published_frames);
-    print_number("frames dropped", game.dropped_frames);
+    print_number("frames dropped", game.dropped_frames + status.dropped_frames);
     print_number("events published", status.published_events);
     print_number("events dropped", game.dropped_events + status.dropped_events);
 }

@@ -86,29 +86,34 @@ static bool is_discontinuous(const struct previous_pose* previous, const struct 
     return length(moved) > fmaxf(length(previous->velocity), length(now->velocity)) * seconds + lift_distance;
 }
 
+/* Returns false where something of it is no number: a game's bug must not cost all players their frame. */
+static bool place(const struct entity_variables* player, struct player_pose* pose) {
+    for (int i = 0; i < 3; ++i)
+        pose->eye[i] = player->origin[i] + player->view_offset[i];
+    memcpy(pose->velocity, player->velocity, sizeof pose->velocity);
+    memcpy(pose->angles, player->view_angles, sizeof pose->angles);
+    return all_finite(player->origin, 3) && all_finite(pose->eye, 3) && all_finite(pose->velocity, 3) &&
+           all_finite(pose->angles, 3);
+}
+
 void players_sample(const struct entity_list* list, double time, struct server_frame* frame) {
     frame->player_count = 0;
     for (int id = 1; id <= player_limit(list); ++id) {
         struct previous_pose* previous = &previous_poses[id - 1];
         const struct entity_variables* player = find_player(list, id);
-        /* A game's bug must not cost all players their frame. */
-        if (player == NULL || !all_finite(player->origin, 3) || !all_finite(player->velocity, 3) ||
-            !all_finite(player->view_angles, 3) || !all_finite(player->view_offset, 3)) {
+        struct player_pose* pose = &frame->players[frame->player_count];
+        if (player == NULL || !place(player, pose)) {
             previous->present = false;
             continue;
         }
+        ++frame->player_count;
         struct previous_pose now = {
             .present = true, .alive = is_alive(player), .view_set = player->fix_angles != 0, .time = time};
         memcpy(now.origin, player->origin, sizeof now.origin);
         memcpy(now.velocity, player->velocity, sizeof now.velocity);
-        struct player_pose* pose = &frame->players[frame->player_count++];
         pose->id = (uint32_t)id;
         pose->flags = (now.alive ? CDIR_POSE_ALIVE : 0u) | (spectates(player) ? CDIR_POSE_SPECTATOR : 0u) |
                       (is_discontinuous(previous, &now) ? CDIR_POSE_DISCONTINUITY : 0u);
-        for (int i = 0; i < 3; ++i)
-            pose->eye[i] = player->origin[i] + player->view_offset[i];
-        memcpy(pose->velocity, player->velocity, sizeof pose->velocity);
-        memcpy(pose->angles, player->view_angles, sizeof pose->angles);
         *previous = now;
     }
 }

@@ -18,7 +18,7 @@ struct worker {
 
     /* The worker's thread only. */
     struct published_match match;
-    uint64_t published_frames, published_events, dropped_events;
+    uint64_t published_frames, dropped_frames, published_events, dropped_events;
 
     pthread_mutex_t status_mutex;
     struct worker_status status;
@@ -55,12 +55,17 @@ static bool publish_poses(struct worker* worker, const struct server_frame* from
 }
 
 static void publish_frame(struct worker* worker, const struct server_frame* frame, int64_t now) {
-    if (!worker->match.open) return;
+    if (!worker->match.open) {
+        ++worker->dropped_frames;
+        worker->dropped_events += frame->event_count;
+        return;
+    }
     for (uint32_t i = 0; i < frame->event_count; ++i)
         publish_event(worker, &frame->events[i], frame->frame_time);
     if (publish_poses(worker, frame)) {
         ++worker->published_frames;
     } else {
+        ++worker->dropped_frames;
         published_match_fail(&worker->match, now);
     }
 }
@@ -83,6 +88,7 @@ static void write_status(struct worker* worker) {
     struct worker_status status = {.open = worker->match.open,
                                    .directors = worker->match.directors,
                                    .published_frames = worker->published_frames,
+                                   .dropped_frames = worker->dropped_frames,
                                    .published_events = worker->published_events,
                                    .dropped_events = worker->dropped_events};
     snprintf(status.error, sizeof status.error, "%s", worker->match.error);

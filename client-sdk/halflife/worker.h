@@ -15,7 +15,7 @@ struct worker;
 struct worker_status {
     bool open; /* a match is announced */
     uint32_t directors;
-    uint64_t published_frames, published_events, dropped_events;
+    uint64_t published_frames, dropped_frames, published_events, dropped_events;
     char error[160]; /* why nothing is published; "" = all is well */
 };
 

@@ -258,11 +258,11 @@ class ProgrammeShooter {
 std::vector<std::vector<Beat>> beats_with_movers_near(const Trace& trace, const RecordedMovers& movers,
                                                       const freespace::Freespace& freespace,
                                                       std::span<const freespace::FixedShot> fixed,
-                                                      double unit) {
+                                                      double unit, const std::stop_token& stop) {
     const float room = freespace::fixed_shot_room * static_cast<float>(unit);
     const Beat end = direction::beat_of(seconds_from_start(trace, trace.frames.back().time)) + 1;
     std::vector<std::vector<Beat>> near(fixed.size());
-    for (Beat beat = 0; beat < end; ++beat) {
+    for (Beat beat = 0; beat < end && !stop.stop_requested(); ++beat) {
         const auto since = static_cast<std::int64_t>(1e9 * direction::beat_s * static_cast<double>(beat));
         const freespace::Movers now = movers.baked_at(trace.frames.front().time + since);
         const freespace::Space space(freespace, &now);
@@ -348,15 +348,19 @@ Result<direction::Footage> scouted_footage_of(const Trace& trace, const Recorded
 direction::MayShow out_of_the_way(const Trace& trace, const RecordedMovers& movers,
                                   const freespace::Freespace& freespace,
                                   std::span<const freespace::FixedShot> fixed, double unit,
-                                  const direction::Grammar& grammar, double delay_s) {
-    if (movers.rows().empty()) return {};
-    const Beat ahead = direction::beat_of(std::min(grammar.minimum_shot_s, delay_s));
-    return [near = beats_with_movers_near(trace, movers, freespace, fixed, unit),
-            players = trace.players.size(), ahead](std::size_t rush, Beat now, bool on_air) {
+                                  const direction::Grammar& grammar, double delay_s,
+                                  const std::stop_token& stop) {
+    if (movers.rows().empty() || fixed.empty()) return {};
+    const Beat known = direction::beat_of(delay_s);
+    const Beat whole_shot = std::min(direction::beat_of(grammar.minimum_shot_s), known);
+    const Beat until_next_cut = std::min(direction::cut_every - 1, known);
+    return [whole_shot, until_next_cut, players = trace.players.size(),
+            near = beats_with_movers_near(trace, movers, freespace, fixed, unit, stop)](
+               std::size_t rush, Beat now, bool on_air) {
         if (rush < players) return true;
         const std::vector<Beat>& beats = near[rush - players];
         const auto next = std::ranges::lower_bound(beats, now);
-        return next == beats.end() || *next > (on_air ? now : now + ahead);
+        return next == beats.end() || *next > now + (on_air ? until_next_cut : whole_shot);
     };
 }
 

@@ -45,12 +45,14 @@ using ClearLine = std::function<bool(const Vec3d&, const Vec3d&)>;
                                                             std::size_t fixed_shots, double unit,
                                                             const std::stop_token& stop);
 
-// Fixed cameras do not begin where a mover comes near within the shortest shot, as far as `delay_s` lets it
-// be known, and end where one is near. Empty where nothing moves.
+// Fixed cameras do not begin where a mover comes near within the shortest shot, and end before one is near,
+// both as far as `delay_s` lets it be known. Empty where nothing moves; incomplete soon after `stop` is
+// requested.
 [[nodiscard]] direction::MayShow out_of_the_way(const evaluation::Trace& trace, const RecordedMovers& movers,
                                                 const freespace::Freespace& freespace,
                                                 std::span<const freespace::FixedShot> fixed, double unit,
-                                                const direction::Grammar& grammar, double delay_s);
+                                                const direction::Grammar& grammar, double delay_s,
+                                                const std::stop_token& stop);
 
 // The cameras of all players' poses, those of a running director's shots as they begin with a cut, until
 // after the beat in which the next shot begins. `cameras`: of cameras that run all the time. Ends early, with

@@ -5,8 +5,10 @@ nginx=$(PATH="$PATH:/usr/sbin" command -v nginx) || { echo "needs the package ng
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 # In the place of Debian's nginx.conf; a port and folders that everyone may use.
-sed -e "s|/var/cache/nginx|$folder|; s|listen 80;|listen 127.0.0.1:18080;|" "$1/nginx.conf" > "$folder/site.conf"
+sed -e "s|^proxy_cache_path [^ ]*|proxy_cache_path $folder/cache|; s|listen 80 default_server;|listen 127.0.0.1:18080;|" \
+    "$1/nginx.conf" > "$folder/site.conf"
 grep -q "listen 127.0.0.1:18080;" "$folder/site.conf"
+grep -q "proxy_cache_path $folder/cache" "$folder/site.conf"
 cat > "$folder/nginx.conf" <<END
 pid $folder/pid;
 error_log stderr;

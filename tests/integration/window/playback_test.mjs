@@ -169,8 +169,12 @@ const tests = {
         await ready(stage.player);
         const cache = `${folder}/nginx`;
         mkdirSync(cache);
-        const site = readFileSync(new URL('../../../deploy/broadcast/nginx.conf', import.meta.url), 'utf8')
-            .replace('/var/cache/nginx', cache).replace('listen 80;', `listen 127.0.0.1:${port + 1};`).replace('127.0.0.1:9464', `127.0.0.1:${port}`);
+        const site = [[/^proxy_cache_path \S+/m, `proxy_cache_path ${cache}/site`], ['listen 80 default_server;', `listen 127.0.0.1:${port + 1};`],
+            ['127.0.0.1:9464', `127.0.0.1:${port}`]].reduce((text, [from, to]) => {
+            const here = text.replace(from, to);
+            assert.notEqual(here, text, `nginx.conf has no ${from}`);
+            return here;
+        }, readFileSync(new URL('../../../deploy/broadcast/nginx.conf', import.meta.url), 'utf8'));
         const paths = ['client_body', 'proxy', 'fastcgi', 'uwsgi', 'scgi'].map(name => `${name}_temp_path ${cache}/${name};`).join(' ');
         writeFileSync(`${cache}/nginx.conf`, `pid ${cache}/pid; error_log stderr; daemon off; master_process off; events {}
             http { access_log off; ${paths} types { text/html html; } ${site} }`);

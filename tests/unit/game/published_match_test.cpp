@@ -119,6 +119,19 @@ TEST_F(PublishedMatch, IsOpenedAnewASecondAfterACallHasFailed) {
     EXPECT_EQ(publish(5), CDIR_OK);
 }
 
+TEST_F(PublishedMatch, PlayersWhoComeAndGoDoNotHastenAnotherTrial) {
+    std::strcpy(wanted.settings.network_interface, "no-such-interface");
+    EXPECT_FALSE(want());
+    const std::int64_t due = match.retry_time;
+    now += second / 2;
+    wanted.players[3].in_use = 1;
+    EXPECT_FALSE(want());
+    EXPECT_EQ(match.retry_time, due);
+    ++wanted.life;
+    EXPECT_FALSE(want());
+    EXPECT_EQ(match.retry_time, due + second / 2);
+}
+
 TEST_F(PublishedMatch, IsClosedWhileItsSettingsAreWrongOrItIsDisabled) {
     ASSERT_TRUE(want()) << match.error;
     std::strcpy(wanted.settings.error, "director_domain 'x': expected a number");
