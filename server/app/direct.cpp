@@ -329,8 +329,9 @@ Result<void> direct(const DirectOptions& options) {
     line.show("editing", 0, 0);
     const direction::Rules& rules = inputs->rules;
     const auto events = events_of(inputs->trace, inputs->events);
-    const direction::MayShow may_show = out_of_the_way(inputs->trace, movers, *inputs->map.freespace,
-                                                       rushes->fixed, unit, rules.grammar, options.delay, stop);
+    const direction::MayShow may_show =
+        out_of_the_way(inputs->trace, movers, *inputs->map.freespace, rushes->fixed, unit, rules.grammar,
+                       options.delay, stop);
     const auto begin = std::chrono::steady_clock::now();
     const auto shots = direction::direct(rushes->edited, events, rules, unit, options.delay, stop, may_show);
     if (!shots) return tl::unexpected(shots.error());

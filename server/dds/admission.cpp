@@ -10,7 +10,7 @@ Admission::Admission(Host& host, Shards shards, const Limits& limits)
       limits_(limits),
       shards_(std::move(shards)),
       rate_(limits.participant_matches, limits.participant_match_rate),
-      waiting_(limits.matches, std::max<std::size_t>(limits.matches / 4, 1)),
+      waiting_(none_waiting()),
       elsewhere_(none_elsewhere()) {}
 
 bool Admission::begins(const Claim& claim, Time now) {
@@ -72,10 +72,18 @@ void Admission::retain(std::span<const WriterHandle> matched) {
 
 void Admission::reshard(Shards shards) {
     shards_ = std::move(shards);
-    for (WaitingMatches& all :
-         std::array{std::exchange(moving_, {}), std::exchange(elsewhere_, none_elsewhere())})
+    const auto sort = [&](WaitingMatches all, WaitingMatches& here) {
         while (const auto claim = all.take([](const Claim&) { return true; }))
-            keep(shards_.serves(claim->info.match_id) ? moving_ : elsewhere_, *claim);
+            keep(shards_.serves(claim->info.match_id) ? here : elsewhere_, *claim);
+    };
+    WaitingMatches elsewhere = std::exchange(elsewhere_, none_elsewhere());
+    sort(std::exchange(moving_, {}), moving_);
+    sort(std::move(elsewhere), moving_);
+    sort(std::exchange(waiting_, none_waiting()), waiting_);
+}
+
+WaitingMatches Admission::none_waiting() const {
+    return {limits_.matches, std::max<std::size_t>(limits_.matches / 4, 1)};
 }
 
 // As many as the other shards may serve.

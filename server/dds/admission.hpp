@@ -48,8 +48,8 @@ class Admission {
 
     // Of a match that is not served: whether it begins now. Else the description waits.
     [[nodiscard]] bool begins(const Claim& claim, Time now);
-    // The first that waits and may begin, and waits no longer: begins() decides. Those that run in another
-    // shard come before others.
+    // The first that waits and may begin, and waits no longer: begins() decides. Those that other shards have
+    // left come before others.
     [[nodiscard]] std::optional<Claim> next(Time now);
     // A match that was served is another shard's.
     void leave(const Claim& claim) { keep(elsewhere_, claim); }
@@ -57,7 +57,7 @@ class Admission {
     void withdraw(const std::string& match_id, WriterHandle writer);
     // Those whose writers are not among these (ascending) are gone.
     void retain(std::span<const WriterHandle> matched);
-    // What other shards have served, and is this one's now, waits for room.
+    // What was another shard's, and is this one's now, waits for room, and the other way round.
     void reshard(Shards shards);
     [[nodiscard]] const Shards& shards() const { return shards_; }
     // Frees memory; to be called now and then.
@@ -69,6 +69,7 @@ class Admission {
     [[nodiscard]] bool may_own_another(const SenderId& participant) const;
     void keep(WaitingMatches& waiting, const Claim& claim);
     [[nodiscard]] std::array<WaitingMatches*, 3> queues() { return {&waiting_, &moving_, &elsewhere_}; }
+    [[nodiscard]] WaitingMatches none_waiting() const;
     [[nodiscard]] WaitingMatches none_elsewhere() const;
 
     Host& host_;
@@ -76,7 +77,7 @@ class Admission {
     Shards shards_;
     AdmissionRate rate_;
     WaitingMatches waiting_;    // for room
-    WaitingMatches moving_;     // for room, from a shard that leaves them: as many as were elsewhere
+    WaitingMatches moving_;     // for room, of another shard before: as many as were elsewhere
     WaitingMatches elsewhere_;  // of other shards
 };
 

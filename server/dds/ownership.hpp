@@ -57,6 +57,8 @@ class Ownership {
     [[nodiscard]] bool knows(const SenderId& sender) const {
         return std::ranges::find(claims_, sender, &Claim::sender) != claims_.end();
     }
+    // The owner's first; also of those whose liveliness is lost.
+    [[nodiscard]] std::vector<Claim> claims() const { return {claims_.begin(), claims_.end()}; }
     [[nodiscard]] bool has_owner() const { return !claims_.empty(); }
     [[nodiscard]] bool has_live_owner() const { return has_owner() && !lost_; }
     // The following are to be called while there has been an owner since the last `ended`.

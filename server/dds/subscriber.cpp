@@ -273,7 +273,8 @@ bool Subscriber::is_valid(const Match& match, Topic topic, const Sample& sample,
 bool Subscriber::accept(Match& match, Topic topic) {
     ++counters_.of(topic).accepted;
     const bool waits = match.service == Service::given_up && topic == Topic::observer_request;
-    return match.service == Service::served || waits || introduce(match);
+    if (match.service == Service::served || waits) return true;
+    return Clock::now() >= match.next_introduction && introduce(match);
 }
 
 bool Subscriber::is_of_owner(Match& match, const dds_sample_info_t& info) {

@@ -78,8 +78,9 @@ class Subscriber final : private Admission::Host {
         Match& match;
         void (Subscriber::*take)(Match&);
     };
-    // By the director. What is forgotten is introduced again when a sample arrives; what is given up, and has
-    // observers still, when one of its game server does.
+    // By the director. What is forgotten, or was refused at once, is introduced again when a pose, an event
+    // or a request arrives; what has ended there or was given up, and may have observers still, when its game
+    // server sends.
     enum class Service { served, given_up, forgotten };
     struct Match {
         explicit Match(std::size_t participant_observers) : request_owners(participant_observers) {}
@@ -89,6 +90,7 @@ class Subscriber final : private Admission::Host {
         Ownership ownership;
         RequestOwners request_owners;
         Service service = Service::served;
+        Clock::time_point next_introduction{};  // after a refusal, but for another description
         bool is_of_shard = true;
         SenderLookup pose_senders, event_senders, mover_info_senders, mover_frame_senders;
         SentMovers movers;

@@ -103,10 +103,9 @@ void Subscriber::put_into_effect(Ownership::Change change, const std::string& ma
     if (change == Ownership::Change::none) return;
     if (change == Ownership::Change::succeeded) return begin_anew(match);
     if (match.service == Service::forgotten) return remove_match(match_id);
-    if (change == Ownership::Change::ended)
-        ingress_->match_ended(match_id);
-    else
-        ingress_->server_lost(match_id);
+    if (change != Ownership::Change::ended) return ingress_->server_lost(match_id);
+    ingress_->match_ended(match_id);
+    match.service = Service::given_up;
 }
 
 // Epochs, frame numbers and clocks of its owner before mean nothing.
@@ -114,18 +113,19 @@ void Subscriber::begin_anew(Match& match) {
     hand_on_poses();
     spdlog::warn("match {}: another game server continues it", match.id());
     ingress_->match_ended(match.id());
+    match.service = Service::given_up;
     introduce(match);
 }
 
 bool Subscriber::introduce(Match& match) {
+    mark_given_up();  // what the director says from now on is newer
     if (!ingress_->receive(match.ownership.info())) {
         if (match.service == Service::served) match.service = Service::forgotten;
+        match.next_introduction = Clock::now() + assertion_interval();
         return false;
     }
     match.service = Service::served;
     cancel_forget(match.id());
-    const std::lock_guard lock(mutex_);
-    std::erase(given_up_, match.id());
     return true;
 }
 
@@ -260,7 +260,8 @@ void Subscriber::leave_matches() {
 void Subscriber::leave(const std::string& match_id) {
     Match& match = *matches_[match_id];
     spdlog::info("match {}: left to another shard", match_id);
-    if (match.ownership.has_live_owner()) admission_.leave(match.ownership.owner());
+    for (const Ownership::Claim& claim : match.ownership.claims())
+        admission_.leave(claim);
     for (const std::string& observer_id : match.request_owners.observers())
         ingress_->request_ended(match_id, observer_id);
     ingress_->match_ended(match_id);

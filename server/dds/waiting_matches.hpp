@@ -39,7 +39,6 @@ class WaitingMatches {
         claims_.erase(found);
         return claim;
     }
-    [[nodiscard]] bool empty() const { return claims_.empty(); }
 
   private:
     std::size_t most_ = std::numeric_limits<std::size_t>::max();

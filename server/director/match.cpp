@@ -99,14 +99,19 @@ void Match::limit_silence() {
     silence_limit_ns_ = silence_limit_ns(*info_, *config_) * frames_per_camera_;
 }
 
-// With the rate of its cameras, and the map's scale where the game server does not know it.
+// The map's where the game server does not know it.
+float Match::metres_per_unit() const {
+    const float sent = info_->metres_per_unit;
+    return sent == 0.0F && map_.freespace() != nullptr ? map_.freespace()->metadata().metres_per_unit : sent;
+}
+
+// With the rate of its cameras.
 void Match::publish_info() {
     frames_per_camera_ = pace_.frames_per_camera();
     limit_silence();
     MatchInfo shown = *info_;
     shown.rate_hz = camera_rate_hz();
-    if (shown.metres_per_unit == 0.0F && map_.freespace() != nullptr)
-        shown.metres_per_unit = map_.freespace()->metadata().metres_per_unit;
+    shown.metres_per_unit = metres_per_unit();
     publisher_.publish(shown);
     for (Audience* audience : audiences_)
         audience->show(shown);
@@ -201,8 +206,9 @@ void Match::handle(const RequestEnded& ended) {
 
 void Match::handle(const MapsChanged& /*changed*/) {
     if (!info_) return;
+    const float before = metres_per_unit();
     bind_map();
-    if (info_->metres_per_unit == 0.0F) publish_info();
+    if (metres_per_unit() != before) publish_info();
 }
 
 void Match::handle(const DelayChanged& /*changed*/) {
@@ -276,7 +282,7 @@ bool Match::poses_missing(std::int64_t now_ns) const {
 }
 
 bool Match::server_lost_for(std::int64_t ns, std::int64_t now_ns) const {
-    return liveness_ == Liveness::lost && now_ns - last_pose_ns_ > ns;
+    return liveness_ == Liveness::lost && now_ns - last_pose_ns_ > ns && !delay_.waits();
 }
 
 void Match::add_gauges(Statistics& sum) const {

@@ -80,6 +80,7 @@ class Match final : public Strand {
 
     [[nodiscard]] float camera_rate_hz() const;
     void limit_silence();
+    [[nodiscard]] float metres_per_unit() const;
     void publish_info();
     void begin_epoch();
     void fall_silent(Liveness liveness);

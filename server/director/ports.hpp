@@ -65,7 +65,8 @@ class Publisher {
     // returns after this call takes precedence. Must not wait for such a call: it waits for this one.
     virtual void forget(const std::string& match_id) = 0;
     // The game server has been gone for too long: the match has ended for its observers, who wait on. Its
-    // MatchInfo is to be received again when that game server sends again. Must not wait, likewise.
+    // MatchInfo is to be received again when that game server sends again. May be called while another thread
+    // publishes for the match. Must not wait, likewise.
     virtual void give_up(const std::string& match_id) = 0;
 };
 

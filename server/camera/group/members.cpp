@@ -7,7 +7,8 @@
 namespace camdir::camera {
 namespace {
 
-constexpr double tick = 0.1;  // s: between recorded instants
+constexpr double tick = 0.1;            // s: between recorded instants
+constexpr double tick_rounding = 1e-6;  // of a tick: times that are whole ones, but for rounding
 constexpr double least_recorded = 0.7;
 constexpr std::size_t foreseen_instants = 4;
 constexpr double foreseen_tick = 0.2;
@@ -53,7 +54,7 @@ Members members_at(const freespace::Space& space, std::span<const Window> window
     Members members;
     const double until = known_until(windows);
     members.is_recorded = until >= time + least_recorded;
-    members.first = static_cast<std::int64_t>(std::floor(time / tick));
+    members.first = static_cast<std::int64_t>(std::floor(time / tick + tick_rounding));
     const auto time_of = [&](std::size_t i) {
         if (i == 0) return time;
         return members.is_recorded ? static_cast<double>(members.first + static_cast<std::int64_t>(i)) * tick

@@ -323,6 +323,13 @@ TEST(Members, OfARecordedFutureAreThoseOfWholeTenths) {
             EXPECT_NEAR(members.at[i].eyes[0].x(), begin + 10.0 * then, 1e-2);
         }
     }
+    // The clocks of directors that began at different frames differ by whole tenths.
+    for (std::int64_t tenth = 10; tenth < 25; ++tenth) {
+        const std::array<Window, 1> windows = {Window(poses)};
+        const Members members =
+            members_at(freespace, windows, static_cast<double>(tenth * 100'000'000) * 1e-9);
+        EXPECT_EQ(members.first, tenth);
+    }
     // 0.5 s are known: after that the player is taken to run on.
     const std::array<Window, 1> windows = {Window(poses).first(31)};
     const Members members = members_at(freespace, windows, 1.0);

@@ -151,6 +151,23 @@ TEST_F(ShardedAdmissionTest, MatchesOfAnotherShardWaitUntilTheyAreThisOnes) {
     EXPECT_TRUE(refused_.empty());
 }
 
+TEST_F(ShardedAdmissionTest, MatchesThatWaitForRoomWaitElsewhereOnceTheyAreAnotherShards) {
+    admission_.reshard({"a", {"a"}});
+    places_ = 0;
+    const std::string others = match_of("b"), own = match_of("a");
+    for (const std::string& match_id : {others, match_of("b"), own})
+        EXPECT_EQ(begins(described(match_id == own ? other_ : host_, match_id)), false);
+    admission_.reshard({"a", {"a", "b"}});
+    for (const std::string& match_id : {match_of("a"), match_of("a")})
+        EXPECT_FALSE(begins(described(host_, match_id)));
+    EXPECT_TRUE(refused_.empty()) << "they have taken the places of the others";
+    places_ = 1;
+    EXPECT_EQ(next(), own + " 1");
+    places_ = 8;
+    admission_.reshard({"a", {"a"}});
+    EXPECT_EQ(next(), others + " 1");
+}
+
 TEST_F(ShardedAdmissionTest, AMatchThatIsLeftToAnotherShardMayComeBackBeforeThoseThatHaveNotBegun) {
     const std::string left = match_of("b"), late = match_of("a");
     admission_.leave(described(host_, left));

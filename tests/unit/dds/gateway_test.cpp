@@ -442,6 +442,9 @@ TEST_F(GatewayTest, AMatchThatWasGivenUpKeepsItsEndpointsAndReturnsWithItsPoses)
 
     recorder_.accepts = false;
     gateway_->give_up("cup");
+    raw.write(test::raw_request("cup", "anna", 1));
+    ASSERT_TRUE(eventually([&] { return recorder_.has("request anna 1"); }));
+    EXPECT_EQ(recorder_.count("info cup 1"), 2) << "a request does not bring it back";
     ASSERT_TRUE(eventually([&] {
         raw.write(frame.sample());
         return recorder_.count("info cup 1") > 2;
