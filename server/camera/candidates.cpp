@@ -21,7 +21,7 @@ constexpr double bodies_ahead = 1.0;     // s: later the plan is another
 constexpr float closing_speed = 600.0F;  // units/s, of two who run towards each other
 // Vantages are kept for so long, s, while the spot behind the player is no further off than that.
 constexpr double kept_for = 0.1;
-constexpr float near_foreseen = 4.0F * radians_of_a_degree<float>;
+constexpr float near_foreseen = 15.0F * radians_of_a_degree<float>;
 
 class Choosing {
   public:
@@ -88,10 +88,10 @@ class Choosing {
         const Vec3f direction = direction_of(behind);
         if (angle_between(direction, directions_[choice.bin]) < snap_angle) {
             const float length = beams_.free_length(i, direction, profile_.distance);
-            if (length >= choice.length - snap_length * profile_.unit)
-                return {behind, length, true, direction};
+            if (length >= choice.length - snap_length * profile_.unit) return {{}, length, direction};
         }
-        return {DirectionGrid::look(choice.bin), choice.length, false, direction};
+        const Look look = DirectionGrid::look(choice.bin);
+        return {{wrapped(look.yaw - behind.yaw), look.pitch - behind.pitch}, choice.length, direction};
     }
 
     const std::array<Vec3f, DirectionGrid::size>& directions_ = DirectionGrid::directions();
@@ -134,11 +134,12 @@ Arm arm_at(const MapProfile& profile, const Vantages& vantages, std::size_t i, c
     const Vantage& to = vantages.at_knots[std::min(knot + 1, last)];
     const float share =
         static_cast<float>((vantages.age + i) % plan.knot_spacing) / static_cast<float>(plan.knot_spacing);
-    const float length = from.length + share * (to.length - from.length);
-    if (from.behind && to.behind) return {plan.behind(i, profile.elevation), length};
-    return {{from.look.yaw + share * wrapped(to.look.yaw - from.look.yaw),
-             from.look.pitch + share * (to.look.pitch - from.look.pitch)},
-            length};
+    const Look& off = from.off_behind;
+    const float turn = wrapped(to.off_behind.yaw - off.yaw);
+    const Look behind = plan.behind(i, profile.elevation);
+    return {{behind.yaw + off.yaw + share * turn,
+             behind.pitch + off.pitch + share * (to.off_behind.pitch - off.pitch)},
+            from.length + share * (to.length - from.length)};
 }
 
 }  // namespace

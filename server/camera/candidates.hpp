@@ -19,9 +19,8 @@ struct CandidateScratch {
 
 // From where the player is seen at a knot of a plan.
 struct Vantage {
-    Look look;  // from the eye
+    Look off_behind;  // from straight behind, wherever that turns
     float length = 0.0F;
-    bool behind = false;             // straight behind, wherever that turns
     Vec3f foreseen = Vec3f::Zero();  // straight behind, when it was chosen
 };
 

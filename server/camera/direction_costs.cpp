@@ -164,8 +164,9 @@ void weigh_directions(const MapProfile& profile, const Plan& plan, std::size_t f
     for (std::size_t i = first; i < end; i += stride)
         side_view.look_at(plan.view[i]);
 
+    const auto& all = quads();
     for (std::size_t i = 0; i < quad_count; ++i) {
-        const Quad& quad = quads()[i];
+        const Quad& quad = all[i];
         const Float4 cosine = quad.dot(behind);
         Float4 sum = broadcast(2.0F * forbidden);
         if (bits(cosine >= least_cosine) != 0) {
@@ -179,11 +180,12 @@ void weigh_directions(const MapProfile& profile, const Plan& plan, std::size_t f
 
 void add_bodies(const MapProfile& profile, std::span<const Vec3f> offsets, float cost,
                 DirectionCosts& costs) {
+    const auto& all = quads();
     for (const Vec3f& offset : offsets) {
         const Body body(offset, profile);
         if (!body.is_in_reach()) continue;
         for (std::size_t i = 0; i < quad_count; ++i) {
-            const Float4 share = body.share_of(quads()[i]);
+            const Float4 share = body.share_of(all[i]);
             if (bits(share > Float4{}) == 0) continue;
             float* const quad = &costs[i * lane_count];
             store(load(quad) + cost * share, quad);
@@ -192,11 +194,12 @@ void add_bodies(const MapProfile& profile, std::span<const Vec3f> offsets, float
 }
 
 void add_turn(const Vec3f& from, float cost, DirectionCosts& costs) {
+    const auto& all = quads();
     for (std::size_t i = 0; i < quad_count; ++i) {
         float* const quad = &costs[i * lane_count];
         const Float4 before = load(quad);
         if (bits(before < forbidden) == 0) continue;
-        store(before + cost * squared_share(arc_cosine(quads()[i].dot(from)), DirectionGrid::spacing), quad);
+        store(before + cost * squared_share(arc_cosine(all[i].dot(from)), DirectionGrid::spacing), quad);
     }
 }
 

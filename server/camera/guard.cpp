@@ -13,10 +13,11 @@ constexpr std::array pulled_in = {1.0F, 0.9F, 0.75F};  // shares of the free lin
 }  // namespace
 
 std::optional<Candidate> guarded(const freespace::Space& space, const MapProfile& profile,
-                                 const PlayerTrack& track, const Motion& motion, const Vec3f& wanted) {
+                                 const PlayerTrack& track, const Motion& motion, const Vec3f& wanted,
+                                 freespace::RecentBalls& recent) {
     const auto fine = [&](const Vec3f& target) {
         auto place = reach(space, profile, track, motion.position,
-                           within_step(motion.position, target, profile.step_limit));
+                           within_step(motion.position, target, profile.step_limit), &recent);
         if (place && !acceptable(profile, track, *place)) place.reset();
         return place;
     };

@@ -17,20 +17,23 @@ constexpr double full_turn = 2.0 * std::numbers::pi;
 constexpr double same_step = 1e-3;
 constexpr double same_step_while_planned = 0.1;
 
-// A plan on a prediction is followed for a second sample if the player is where they were foreseen, and looks
+// A plan on a prediction is followed for so long, s, while the player is where they were foreseen, and looks
 // there, within so much.
-constexpr std::size_t samples_on_prediction = 2;
-constexpr float place_as_foreseen = 0.5F;  // units
-constexpr float view_as_foreseen = 0.5F * radians_of_a_degree<float>;
+constexpr double followed_for = 1.0 / 30.0;
+constexpr float place_as_foreseen = 4.0F;  // units
+constexpr float view_as_foreseen = 4.0F * radians_of_a_degree<float>;
 
 // A plan with a recorded future is made anew from knot to knot: one that begins off the grid of knots would
 // choose other directions.
 std::size_t samples_to_keep(const Plan& plan) {
-    const std::size_t wanted = plan.ahead ? plan.knot_spacing : samples_on_prediction;
+    const std::size_t wanted = plan.ahead
+                                   ? plan.knot_spacing
+                                   : std::min(plan.samples_in(followed_for), PlanState::most_on_prediction);
     return std::min({wanted, plan.count(), PlanState::capacity});
 }
 
-bool as_foreseen(const MapProfile& profile, const PlayerTrack& track, const PlanState::Foreseen& foreseen) {
+bool is_as_foreseen(const MapProfile& profile, const PlayerTrack& track,
+                    const PlanState::Foreseen& foreseen) {
     return (track.eye - foreseen.eye).norm() <= place_as_foreseen * profile.unit &&
            angle_between(track.view, foreseen.view) <= view_as_foreseen;
 }
@@ -54,8 +57,11 @@ void make_plan(const freespace::Space& space, const MapProfile& profile, const P
 
     state.count = samples_to_keep(plan);
     if (state.count > 1 && !std::exchange(state.is_spread, true)) state.count -= state.phase % state.count;
-    state.foreseen.reset();
-    if (!plan.ahead && state.count > 1) state.foreseen = {plan.future[1].eye, plan.view[1]};
+    state.is_predicted = !plan.ahead;
+    if (state.is_predicted) {
+        for (std::size_t i = 0; i < state.count; ++i)
+            state.foreseen[i] = {plan.future[i].eye, plan.view[i]};
+    }
     for (std::size_t i = 0; i < state.count; ++i)
         state.samples[i] = {plan.position[i],      plan.eye[i],      plan.heading_yaw[i],
                             plan.heading_pitch[i], plan.look_yaw[i], plan.look_pitch[i]};
@@ -137,9 +143,8 @@ const PlannedSample& next_sample(const freespace::Space& space, const MapProfile
         state.step = dt;
         state.is_spread = false;  // a missing frame makes all shots of a match plan
     }
-    const bool is_left =
-        state.next == state.count || (state.foreseen && !as_foreseen(profile, track, *state.foreseen));
-    if (is_left) {
+    const bool is_over = state.next == state.count;
+    if (is_over || (state.is_predicted && !is_as_foreseen(profile, track, state.foreseen[state.next]))) {
         discard(state);
         unwind(state.history);
         make_plan(space, profile, track, window, crowd, time, state, scratch);

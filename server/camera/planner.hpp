@@ -3,7 +3,7 @@
 // shot without a recorded future is planned in the same way on a prediction.
 #pragma once
 
-#include <optional>
+#include <array>
 
 #include "camera/aim.hpp"
 #include "camera/beams.hpp"
@@ -19,6 +19,7 @@ namespace camdir::camera {
 // What a shot remembers of its plan. A value.
 struct PlanState {
     static constexpr std::size_t capacity = 64;
+    static constexpr std::size_t most_on_prediction = 8;
     struct Foreseen {
         Vec3f eye;
         Vec3f view;  // direction
@@ -28,8 +29,9 @@ struct PlanState {
     std::array<PlannedSample, capacity> samples;  // that follow; planned anew after the last one
     std::size_t count = 0;
     std::size_t next = 0;
-    std::optional<Foreseen> foreseen;  // the player at the second sample, if that is predicted and kept
-    double step = 0.0;                 // s, between samples
+    bool is_predicted = false;
+    std::array<Foreseen, most_on_prediction> foreseen;  // the player at each sample of what is predicted
+    double step = 0.0;                                  // s, between samples
     std::uint32_t phase = 0;  // any number: shots that planned together plan in different frames by it
     bool is_spread = false;   // `phase` has shortened a plan since
     Vantages vantages;

@@ -12,19 +12,20 @@ constexpr float share_of_room = 0.675F;
 // A beam knows the clearance around a line of sight far better than a line does: the widest beam that matters
 // first, then the narrowest that counts.
 float sight_clearance(const freespace::Space& space, const MapProfile& profile, const PlayerTrack& track,
-                      const Vec3f& position) {
+                      const Vec3f& position, freespace::RecentBalls* recent) {
     const float wide = beam_radius(profile, track);
-    if (freespace::sight(space, position, track.anchor, wide).clear) {
+    if (recent != nullptr && freespace::sight(space, position, track.anchor, wide, *recent).clear)
         return wide;
-    }
+    if (freespace::sight(space, position, track.anchor, wide).clear) return wide;
     const float narrow = std::min(profile.visibility_threshold, wide);
     const freespace::Sight line = freespace::sight(space, position, track.anchor, narrow);
     return line.clear ? std::max(line.clearance, narrow) : 0.0F;
 }
 
 Candidate candidate(const freespace::Space& space, const MapProfile& profile, const PlayerTrack& track,
-                    const Vec3f& position, const freespace::Distance& free) {
-    return {position, free.triangle, free.value, sight_clearance(space, profile, track, position),
+                    const Vec3f& position, const freespace::Distance& free,
+                    freespace::RecentBalls* recent = nullptr) {
+    return {position, free.triangle, free.value, sight_clearance(space, profile, track, position, recent),
             room_soon(space, position, std::min(free.value, profile.minimum_clearance))};
 }
 
@@ -41,13 +42,14 @@ float kept_clearance(const MapProfile& profile, const PlayerTrack& track) {
 }
 
 std::optional<Candidate> reach(const freespace::Space& space, const MapProfile& profile,
-                               const PlayerTrack& track, const Vec3f& start, const Vec3f& target) {
+                               const PlayerTrack& track, const Vec3f& start, const Vec3f& target,
+                               freespace::RecentBalls* recent) {
     const freespace::Distance free = freespace::distance(space, target);
     if (!free.covered()) return std::nullopt;
     const bool near = (target - start).norm() < freespace::surely_inside * free.value;
     if (!near && !freespace::sight(space.map(), start, target).clear) return std::nullopt;
     if (!space.lets_pass(start, target)) return std::nullopt;
-    return candidate(space, profile, track, target, free);
+    return candidate(space, profile, track, target, free, recent);
 }
 
 std::optional<Candidate> reach_shortened(const freespace::Space& space, const MapProfile& profile,

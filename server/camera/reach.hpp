@@ -21,10 +21,11 @@ namespace camdir::camera {
 // How far before the end of a free beam a place lies, in units of 0.0254 m.
 inline constexpr float inside_beam = 2.0F;
 
-// `target`, if the whole step from `start` to it is free.
+// `target`, if the whole step from `start` to it is free. `recent`: balls near the line of sight, if any are
+// known.
 [[nodiscard]] std::optional<Candidate> reach(const freespace::Space& space, const MapProfile& profile,
                                              const PlayerTrack& track, const Vec3f& start,
-                                             const Vec3f& target);
+                                             const Vec3f& target, freespace::RecentBalls* recent = nullptr);
 
 // The same, and when the step leaves the freespace on its way the point half-way to where it leaves.
 [[nodiscard]] std::optional<Candidate> reach_shortened(const freespace::Space& space,

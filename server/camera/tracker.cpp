@@ -68,7 +68,7 @@ class Step {
         const Vec3f wanted = planned.position.cast<float>();
         const Look look{wrapped(static_cast<float>(planned.look_yaw)),
                         static_cast<float>(planned.look_pitch)};
-        const auto place = guarded(space_, profile_, player_, motion(), wanted);
+        const auto place = guarded(space_, profile_, player_, motion(), wanted, state_.plan.balls);
         if (!place) return search();
         const bool as_planned = place->position == wanted;
         const Motion before = motion();

@@ -15,10 +15,9 @@ namespace {
 
 // Most marches take a few balls; one that needs more creeps towards a pinch.
 constexpr int ball_limit = 128;
-// The march ends when no ball carries it on by this share of the last ball's radius, or of the segment where
-// that is shorter.
+// The march ends when no ball carries it on by this share of the last ball's radius.
 constexpr double least_gain = 0.01;
-// A recent ball that carries on by less than this share of its radius is not worth going through.
+// With recent balls no ball that carries on by less than this share of its radius is worth going through.
 constexpr double least_hop = 0.1;
 // Shrinks a ball before the exit from it is computed, so that rounding never places the exit outside of it.
 constexpr double shrink = 1.0 - 1e-9;
@@ -78,9 +77,10 @@ bool carries_on(const Sweep& sweep, double t, double here, double exit, double g
     return here > sweep.radius && (exit >= sweep.length || exit - t > gain);
 }
 
-// `next_ball` gives the ball to go on through at t, if there is one.
+// `next_ball` gives the ball to go on through at t, if there is one. It has to carry on by `least_share` of
+// the last one's radius, or of the segment where that is shorter.
 template <class NextBall>
-Sight march(const Sweep& sweep, const NextBall& next_ball) {
+Sight march(const Sweep& sweep, double least_share, const NextBall& next_ball) {
     Sight sight;
     std::optional<BallOnSegment> last;
     double entered = 0.0;  // where the last ball was entered
@@ -109,7 +109,7 @@ Sight march(const Sweep& sweep, const NextBall& next_ball) {
         last = ball;
         sight.clear = reached == sweep.length;
         if (sight.clear) break;
-        gain = least_gain * std::min(ball.radius, sweep.length);
+        gain = least_share * std::min(ball.radius, sweep.length);
     }
     if (!last) return sight;
     clearance = std::min(clearance, last->clearance(reached));
@@ -190,7 +190,7 @@ SightOrigin::SightOrigin(const Freespace& freespace, const Vec3f& from, float ra
 Sight SightOrigin::to(const Vec3f& end) const {
     if (first_.triangle == none || !end.allFinite()) return {};
     const Sweep sweep = sweep_of(from_, end, radius_);
-    return march(sweep, [&](double t) -> std::optional<Found> {
+    return march(sweep, least_gain, [&](double t) -> std::optional<Found> {
         const SlabPoint point = t > 0.0 ? roomiest(*octree_, sweep, t) : first_;
         if (point.triangle == none) return std::nullopt;
         return Found{{sweep, octree_->ball(point)}, point.triangle};
@@ -207,7 +207,7 @@ Sight sight(const Freespace& freespace, const Vec3f& from, const Vec3f& to, floa
     const SlabOctree& octree = freespace.octree();
     const Sweep sweep = sweep_of(from, to, radius);
     const BallIntervals intervals(recent, sweep);
-    return march(sweep, [&](double t) -> std::optional<Found> {
+    return march(sweep, least_hop, [&](double t) -> std::optional<Found> {
         if (const int known = intervals.furthest(static_cast<float>(t)); known >= 0) {
             const auto i = static_cast<std::size_t>(known);
             const BallOnSegment ball(sweep, recent.ball(i));

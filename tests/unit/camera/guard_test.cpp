@@ -23,6 +23,7 @@ TEST(Guard, NeverLeavesTheFreespaceNorGoesThroughAnything) {
         for (std::uint32_t seed = 1; seed <= 6; ++seed) {
             Runner runner(plan, plan.eye('s'), seed);
             PlayerTrack track;
+            freespace::RecentBalls recent;
             restart(freespace, profile, runner.next(1.0F / 60.0F), track);
             for (int i = 0; i < 300; ++i) {
                 follow(freespace, profile, runner.next(1.0F / 60.0F), 1.0F / 60.0F, track);
@@ -30,7 +31,7 @@ TEST(Guard, NeverLeavesTheFreespaceNorGoesThroughAnything) {
                 const freespace::Distance place = freespace::distance(freespace, from);
                 if (!place.covered()) continue;
                 const Motion motion{from, Vec3f::Zero(), 1.0F / 60.0F};
-                const auto next = guarded(freespace, profile, track, motion, track.anchor + offset());
+                const auto next = guarded(freespace, profile, track, motion, track.anchor + offset(), recent);
                 if (!next) continue;
                 ++found;
                 EXPECT_GT(plan.clearance(next->position), 0.0F);
