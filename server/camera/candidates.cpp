@@ -19,9 +19,21 @@ constexpr float snap_length = 8.0F;      // units that it may be shorter
 constexpr float body_cost = 5.0F;
 constexpr double bodies_ahead = 1.0;     // s: later the plan is another
 constexpr float closing_speed = 600.0F;  // units/s, of two who run towards each other
-// Vantages are kept for so long, s, while the spot behind the player is no further off than that.
+// Vantages are kept for so long, s, while the player's turns leave each within so much of where it was
+// foreseen.
 constexpr double kept_for = 0.1;
+constexpr float steepest_arm = 80.0F * radians_of_a_degree<float>;
 constexpr float near_foreseen = 15.0F * radians_of_a_degree<float>;
+
+std::size_t knots_of(const Plan& plan) {
+    return std::min(Programme::knots, (plan.count() - 1) / plan.knot_spacing + 1);
+}
+
+// Off straight behind sample i.
+Look look_from_behind(const MapProfile& profile, const Plan& plan, std::size_t i, const Look& off) {
+    const Look behind = plan.behind(i, profile.elevation);
+    return {behind.yaw + off.yaw, std::clamp(behind.pitch + off.pitch, -steepest_arm, steepest_arm)};
+}
 
 class Choosing {
   public:
@@ -33,7 +45,7 @@ class Choosing {
     }
 
     void run(Vantages& vantages) {
-        const std::size_t knots = std::min(Programme::knots, (plan_.count() - 1) / plan_.knot_spacing + 1);
+        const std::size_t knots = knots_of(plan_);
         auto& direction_costs = scratch_.direction_costs;
         for (std::size_t knot = 0; knot < knots; ++knot)
             weigh_directions(profile_, plan_, knot * plan_.knot_spacing, direction_costs[knot]);
@@ -47,7 +59,6 @@ class Choosing {
             vantages.at_knots[knot] = vantage_of(knot, choices[knot]);
         vantages.count = choices.size();
         vantages.knot_spacing = plan_.knot_spacing;
-        vantages.samples = plan_.count();
         vantages.age = 0;
     }
 
@@ -91,7 +102,9 @@ class Choosing {
             if (length >= choice.length - snap_length * profile_.unit) return {{}, length, direction};
         }
         const Look look = DirectionGrid::look(choice.bin);
-        return {{wrapped(look.yaw - behind.yaw), look.pitch - behind.pitch}, choice.length, direction};
+        return {{wrapped(look.yaw - behind.yaw), look.pitch - behind.pitch},
+                choice.length,
+                directions_[choice.bin]};
     }
 
     const std::array<Vec3f, DirectionGrid::size>& directions_ = DirectionGrid::directions();
@@ -106,12 +119,14 @@ class Choosing {
 
 bool still_hold(const MapProfile& profile, const Plan& plan, const Vantages& vantages) {
     if (vantages.count == 0 || vantages.age >= plan.samples_in(kept_for)) return false;
-    if (plan.ahead || vantages.knot_spacing != plan.knot_spacing || vantages.samples != plan.count())
+    if (plan.ahead || vantages.knot_spacing != plan.knot_spacing || vantages.count != knots_of(plan))
         return false;
     for (std::size_t knot = 0; knot < vantages.count; ++knot) {
-        const std::size_t i = std::max(knot * plan.knot_spacing, vantages.age) - vantages.age;
-        const Vec3f behind = direction_of(plan.behind(i, profile.elevation));
-        if (angle_between(behind, vantages.at_knots[knot].foreseen) > near_foreseen) return false;
+        if (knot * plan.knot_spacing < vantages.age) continue;  // it is past
+        const Vantage& vantage = vantages.at_knots[knot];
+        const std::size_t i = knot * plan.knot_spacing - vantages.age;
+        const Vec3f direction = direction_of(look_from_behind(profile, plan, i, vantage.off_behind));
+        if (angle_between(direction, vantage.foreseen) > near_foreseen) return false;
     }
     return true;
 }
@@ -134,12 +149,9 @@ Arm arm_at(const MapProfile& profile, const Vantages& vantages, std::size_t i, c
     const Vantage& to = vantages.at_knots[std::min(knot + 1, last)];
     const float share =
         static_cast<float>((vantages.age + i) % plan.knot_spacing) / static_cast<float>(plan.knot_spacing);
-    const Look& off = from.off_behind;
-    const float turn = wrapped(to.off_behind.yaw - off.yaw);
-    const Look behind = plan.behind(i, profile.elevation);
-    return {{behind.yaw + off.yaw + share * turn,
-             behind.pitch + off.pitch + share * (to.off_behind.pitch - off.pitch)},
-            from.length + share * (to.length - from.length)};
+    const Look off{from.off_behind.yaw + share * wrapped(to.off_behind.yaw - from.off_behind.yaw),
+                   from.off_behind.pitch + share * (to.off_behind.pitch - from.off_behind.pitch)};
+    return {look_from_behind(profile, plan, i, off), from.length + share * (to.length - from.length)};
 }
 
 }  // namespace

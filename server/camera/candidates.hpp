@@ -21,7 +21,7 @@ struct CandidateScratch {
 struct Vantage {
     Look off_behind;  // from straight behind, wherever that turns
     float length = 0.0F;
-    Vec3f foreseen = Vec3f::Zero();  // straight behind, when it was chosen
+    Vec3f foreseen = Vec3f::Zero();  // its direction, when it was chosen
 };
 
 // The vantages of a plan; after the last one, that one. A value.
@@ -29,7 +29,6 @@ struct Vantages {
     std::array<Vantage, Programme::knots> at_knots;
     std::size_t count = 0;         // 0: every path turns faster than the programme can, or none was chosen
     std::size_t knot_spacing = 0;  // of the plan that they were chosen for
-    std::size_t samples = 0;       // likewise
     std::size_t age = 0;           // samples from the one at which they were chosen to the plan's first one
 };
 

@@ -13,9 +13,14 @@ constexpr double least_ahead = 0.3;          // s of a recorded future, or the p
 constexpr double knot_interval = 0.15;       // s
 constexpr double knot_interval_ahead = 0.1;  // s
 constexpr double full_turn = 2.0 * std::numbers::pi;
-// Relative. Time stamps may be rounded to milliseconds: that is no reason to drop what is planned.
+// Relative.
 constexpr double same_step = 1e-3;
-constexpr double same_step_while_planned = 0.1;
+constexpr double nearly_same_step = 0.1;
+// Time stamps may be rounded to milliseconds: that is no reason to drop what is planned. The step is their
+// mean.
+constexpr double stamp_rounding = 1.001e-3;
+constexpr double largest_stamp_rounding = 0.25;  // relative
+constexpr double step_smoothing = 0.1;
 
 // A plan on a prediction is followed for so long, s, while the player is where they were foreseen, and looks
 // there, within so much.
@@ -100,6 +105,20 @@ void resample(History& history, double ratio) {
         before.*angle = last.*angle + ratio * (before.*angle - last.*angle);
 }
 
+// For a step of `dt`.
+void keep_time(double dt, PlanState& state) {
+    const double off = std::abs(dt - state.step);
+    if (off <= same_step * dt) return;
+    if (off <= std::max(nearly_same_step * dt, std::min(stamp_rounding, largest_stamp_rounding * dt))) {
+        state.step += step_smoothing * (dt - state.step);
+        return;
+    }
+    resample(state.history, dt / state.step);
+    begin_anew(state);
+    state.step = dt;
+    state.is_spread = false;  // a missing frame makes all shots of a match plan
+}
+
 }  // namespace
 
 void restart_plan(PlanState& state, const CameraMotion& camera, const PlayerTrack& track, double dt) {
@@ -136,13 +155,7 @@ void deviate(PlanState& state, const Vec3f& position, const Vec3f& velocity, con
 const PlannedSample& next_sample(const freespace::Space& space, const MapProfile& profile,
                                  const PlayerTrack& track, Window window, const Crowd& crowd, double time,
                                  double dt, PlanState& state, PlanScratch& scratch) {
-    const double tolerance = state.next < state.count ? same_step_while_planned : same_step;
-    if (std::abs(dt - state.step) > tolerance * dt) {
-        resample(state.history, dt / state.step);
-        begin_anew(state);
-        state.step = dt;
-        state.is_spread = false;  // a missing frame makes all shots of a match plan
-    }
+    keep_time(dt, state);
     const bool is_over = state.next == state.count;
     if (is_over || (state.is_predicted && !is_as_foreseen(profile, track, state.foreseen[state.next]))) {
         discard(state);

@@ -19,7 +19,7 @@ namespace camdir::camera {
 // What a shot remembers of its plan. A value.
 struct PlanState {
     static constexpr std::size_t capacity = 64;
-    static constexpr std::size_t most_on_prediction = 8;
+    static constexpr std::size_t most_on_prediction = 8;  // samples that are followed
     struct Foreseen {
         Vec3f eye;
         Vec3f view;  // direction

@@ -14,9 +14,9 @@ constexpr float share_of_room = 0.675F;
 float sight_clearance(const freespace::Space& space, const MapProfile& profile, const PlayerTrack& track,
                       const Vec3f& position, freespace::RecentBalls* recent) {
     const float wide = beam_radius(profile, track);
-    if (recent != nullptr && freespace::sight(space, position, track.anchor, wide, *recent).clear)
-        return wide;
-    if (freespace::sight(space, position, track.anchor, wide).clear) return wide;
+    const bool clear = recent != nullptr ? freespace::is_clear(space, position, track.anchor, wide, *recent)
+                                         : freespace::sight(space, position, track.anchor, wide).clear;
+    if (clear) return wide;
     const float narrow = std::min(profile.visibility_threshold, wide);
     const freespace::Sight line = freespace::sight(space, position, track.anchor, narrow);
     return line.clear ? std::max(line.clearance, narrow) : 0.0F;

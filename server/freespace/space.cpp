@@ -57,4 +57,8 @@ Sight sight(const Space& space, const Vec3f& from, const Vec3f& to, float radius
     return space.shortened(sight(space.map(), from, to, radius, recent), from, to, radius);
 }
 
+bool is_clear(const Space& space, const Vec3f& from, const Vec3f& to, float radius, RecentBalls& recent) {
+    return sight(space, from, to, radius, recent).clear || sight(space, from, to, radius).clear;
+}
+
 }  // namespace camdir::freespace

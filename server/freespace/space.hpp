@@ -61,4 +61,8 @@ class Space {
 [[nodiscard]] Sight sight(const Space& space, const Vec3f& from, const Vec3f& to, float radius,
                           RecentBalls& recent);
 
+// Whether sight() says that it is clear, with recent balls or without: the cheaper march is tried first.
+[[nodiscard]] bool is_clear(const Space& space, const Vec3f& from, const Vec3f& to, float radius,
+                            RecentBalls& recent);
+
 }  // namespace camdir::freespace

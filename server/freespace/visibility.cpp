@@ -17,7 +17,8 @@ namespace {
 constexpr int ball_limit = 128;
 // The march ends when no ball carries it on by this share of the last ball's radius.
 constexpr double least_gain = 0.01;
-// With recent balls no ball that carries on by less than this share of its radius is worth going through.
+// With recent balls the march ends sooner, by this share; and one that carries on by less than this share of
+// its own radius is not worth going through.
 constexpr double least_hop = 0.1;
 // Shrinks a ball before the exit from it is computed, so that rounding never places the exit outside of it.
 constexpr double shrink = 1.0 - 1e-9;
@@ -77,8 +78,9 @@ bool carries_on(const Sweep& sweep, double t, double here, double exit, double g
     return here > sweep.radius && (exit >= sweep.length || exit - t > gain);
 }
 
-// `next_ball` gives the ball to go on through at t, if there is one. It has to carry on by `least_share` of
-// the last one's radius, or of the segment where that is shorter.
+// `next_ball` gives a ball at t, if there is one; one that carries on by more than `gain` where it can. The
+// march ends where none does: `gain` is `least_share` of the last ball's radius, or of the segment where that
+// is shorter.
 template <class NextBall>
 Sight march(const Sweep& sweep, double least_share, const NextBall& next_ball) {
     Sight sight;
@@ -89,7 +91,7 @@ Sight march(const Sweep& sweep, double least_share, const NextBall& next_ball) {
     double gain = 0.0;
     double clearance = std::numeric_limits<double>::infinity();
     for (int i = 0; i < ball_limit; ++i) {
-        const std::optional<Found> next = next_ball(reached);
+        const std::optional<Found> next = next_ball(reached, gain);
         if (!next) break;
         const BallOnSegment& ball = next->ball;
         const double here = ball.clearance(reached);
@@ -190,7 +192,7 @@ SightOrigin::SightOrigin(const Freespace& freespace, const Vec3f& from, float ra
 Sight SightOrigin::to(const Vec3f& end) const {
     if (first_.triangle == none || !end.allFinite()) return {};
     const Sweep sweep = sweep_of(from_, end, radius_);
-    return march(sweep, least_gain, [&](double t) -> std::optional<Found> {
+    return march(sweep, least_gain, [&](double t, double) -> std::optional<Found> {
         const SlabPoint point = t > 0.0 ? roomiest(*octree_, sweep, t) : first_;
         if (point.triangle == none) return std::nullopt;
         return Found{{sweep, octree_->ball(point)}, point.triangle};
@@ -207,11 +209,12 @@ Sight sight(const Freespace& freespace, const Vec3f& from, const Vec3f& to, floa
     const SlabOctree& octree = freespace.octree();
     const Sweep sweep = sweep_of(from, to, radius);
     const BallIntervals intervals(recent, sweep);
-    return march(sweep, least_hop, [&](double t) -> std::optional<Found> {
+    return march(sweep, least_hop, [&](double t, double gain) -> std::optional<Found> {
         if (const int known = intervals.furthest(static_cast<float>(t)); known >= 0) {
             const auto i = static_cast<std::size_t>(known);
             const BallOnSegment ball(sweep, recent.ball(i));
-            if (carries_on(sweep, t, ball.clearance(t), ball.exit(sweep.radius), least_hop * ball.radius))
+            const double worth = std::max(gain, least_hop * ball.radius);
+            if (carries_on(sweep, t, ball.clearance(t), ball.exit(sweep.radius), worth))
                 return Found{ball, recent.triangle(i)};
         }
         const SlabPoint point = roomiest(octree, sweep, t);

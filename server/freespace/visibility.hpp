@@ -56,8 +56,9 @@ class RecentBalls {
 
 // The same, by a cheaper march: where recent balls carry on it goes through the one that reaches furthest,
 // and asks the octree only where none does. What it finds there becomes recent. It ends where no ball carries
-// on by 10 % of the last one's radius. What is reported free is as surely free, but free length, clearance
-// and triangle may be others than without recent balls. Thread-safe for different `recent`.
+// on by 10 % of the last one's radius (or of the segment's length). What is reported free is as surely free,
+// but free length, clearance and triangle may be others than without recent balls. Thread-safe for different
+// `recent`.
 [[nodiscard]] Sight sight(const Freespace& freespace, const Vec3f& from, const Vec3f& to, float radius,
                           RecentBalls& recent);
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "freespace/visibility.hpp"
+#include "freespace/space.hpp"
 
 namespace camdir::camera {
 namespace {
@@ -19,7 +19,7 @@ Set look(const freespace::Freespace& freespace, const PictureShape& picture, std
         probable &= lookouts.seeing(freespace, eye);
     const auto sees_all = [&](const Vec3f& position) {
         for (std::size_t i = 0; i < eyes.size(); ++i)
-            if (!freespace::sight(freespace, eyes[i], position, 0.0F, balls[i]).clear) return false;
+            if (!freespace::is_clear(freespace, eyes[i], position, 0.0F, balls[i])) return false;
         return true;
     };
     Set showing;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "freespace/distance.hpp"
+#include "freespace/space.hpp"
 #include "support/freespace_meshes.hpp"
 #include "support/freespace_twins.hpp"
 
@@ -158,6 +159,40 @@ TEST(RecentBalls, ProveTheSameSightAgainAlone) {
     EXPECT_TRUE(sight(freespace, from, {120, 50, 5}, 2.0F, recent).clear);
     EXPECT_TRUE(sight(freespace, from, {115, 51, 4}, 2.0F, recent).clear);
     EXPECT_EQ(centres(recent), found) << "no other ball was needed";
+}
+
+struct BallOnX {
+    float x, radius;
+};
+
+// A map of slabs that are nearly balls.
+Freespace balls_in_a_row(const std::vector<BallOnX>& balls) {
+    Contents contents = test::empty_contents();
+    for (const auto& [x, radius] : balls) {
+        const auto first = static_cast<std::uint32_t>(contents.vertices.size());
+        for (const float side : {-0.1F, 0.0F, 0.1F})
+            contents.vertices.push_back({x, side, 10.0F * side * side, radius});
+        contents.triangles.push_back({first, first + 1, first + 2});
+    }
+    return make_freespace(contents);
+}
+
+// A small ball that is worth a hop by itself, but gains too little after a large one, ends no sight that
+// another ball carries on.
+TEST(RecentBalls, EndNoSightThatTheOctreeCarriesOn) {
+    const Freespace freespace = balls_in_a_row({{0, 100}, {150, 100}});
+    RecentBalls recent;
+    recent.add({{88.0, 0.0, 0.0}, 19.0}, 0);
+    EXPECT_TRUE(sight(freespace, {0, 0, 0}, {240, 0, 0}, 0.0F, recent).clear);
+}
+
+TEST(RecentBalls, EndASightWhereNoBallGainsATenthButIsClearGoesOn) {
+    const Freespace freespace = balls_in_a_row({{0, 100}, {10, 95}, {151, 50}});
+    RecentBalls recent;
+    const Vec3f from(-90, 0, 0);
+    EXPECT_FALSE(sight(freespace, from, {190, 0, 0}, 0.0F, recent).clear);
+    EXPECT_TRUE(is_clear(freespace, from, {190, 0, 0}, 0.0F, recent));
+    EXPECT_FALSE(is_clear(freespace, from, {210, 0, 0}, 0.0F, recent));
 }
 
 TEST(RecentBalls, LeaveStrangeInputBlocked) {
