@@ -80,6 +80,7 @@ Result<Inputs> read_inputs(const DirectOptions& options, ProgressLine& line) {
     if (!map) return tl::unexpected(map.error());
     line.clear();
     warn_of_another_source(options.freespace, options.map, *map);
+    warn_of_another_map(options.trace, match->trace, options.freespace, *map);
     warn_of_unknown_movers(options.movers, movers, options.map, options.freespace, *map);
     return Inputs{std::move(match->trace),
                   std::move(match->events).value_or(std::vector<evaluation::TraceEvent>()), std::move(movers),

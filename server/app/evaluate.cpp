@@ -185,6 +185,7 @@ Result<void> evaluate(const EvaluateOptions& options) {
     if (!map) return tl::unexpected(map.error());
     line.clear();
     warn_of_another_source(options.freespace, options.map, *map);
+    warn_of_another_map(options.trace, match->poses, options.freespace, *map);
     if (match->movers)
         warn_of_unknown_movers(options.movers, *match->movers, options.map,
                                options.tracks() ? options.freespace : "", *map);

@@ -1,5 +1,6 @@
 #include "app/evaluate_inputs.hpp"
 
+#include <algorithm>
 #include <iostream>
 #include <map>
 #include <set>
@@ -7,11 +8,14 @@
 
 #include "app/recorded_match.hpp"
 #include "evaluation/resample.hpp"
+#include "freespace/distance.hpp"
 #include "maps/source.hpp"
 #include "scene/load.hpp"
 
 namespace camdir::app {
 namespace {
+
+constexpr std::size_t looked_at = 1000;  // poses of a match, about
 
 void warn_of_models_without(const std::map<std::uint32_t, std::uint32_t>& places, const std::string& map,
                             const std::string& file, std::span<const evaluation::MoverRow> rows) {
@@ -76,6 +80,24 @@ void warn_of_another_source(const std::string& freespace, const std::string& map
     if (!opened.freespace || opened.freespace->metadata().source_hash == opened.scene.source_hash) return;
     std::cerr << "camera-director: warning: " << freespace << " was baked from another file than " << map
               << '\n';
+}
+
+void warn_of_another_map(const std::string& trace, const evaluation::Trace& poses,
+                         const std::string& freespace, const SourceMap& opened) {
+    if (!opened.freespace) return;
+    const std::size_t stride = std::max<std::size_t>(1, poses.poses.size() / looked_at);
+    std::size_t alive = 0;
+    std::size_t inside = 0;
+    for (std::size_t i = 0; i < poses.poses.size(); i += stride) {
+        const evaluation::TracePose& pose = poses.poses[i];
+        if (!pose.alive) continue;
+        ++alive;
+        inside += freespace::distance(*opened.freespace, pose.eye.cast<float>()).covered() ? 1 : 0;
+    }
+    if (2 * inside >= alive) return;
+    std::cerr << "camera-director: warning: " << trace << ": " << inside << " of " << alive
+              << " poses that were looked at are in the free space of " << freespace
+              << "; expected a match on this map\n";
 }
 
 }  // namespace camdir::app

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <exception>
 #include <iostream>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -61,6 +62,9 @@ int run_command(int argc, char** argv) {
 int main(int argc, char** argv) {
     try {
         return camdir::app::run_command(argc, argv);
+    } catch (const std::bad_alloc&) {
+        std::cerr << "camera-director: out of memory\n";
+        return camdir::app::exit_failed;
     } catch (const std::exception& error) {
         std::cerr << "camera-director: " << error.what() << '\n';
         return camdir::app::exit_failed;

@@ -11,16 +11,22 @@ namespace camdir {
 class TurnTimer {
   public:
     // Called by the thread.
-    void begin() { began_.store(now(), std::memory_order_relaxed); }
+    void begin() {
+        const std::int64_t time = now();
+        went_on_.store(time, std::memory_order_relaxed);
+        began_.store(time, std::memory_order_relaxed);
+    }
+    // A part of the turn is done: it does not hang.
+    void go_on() { went_on_.store(now(), std::memory_order_relaxed); }
     void end() {
         const std::int64_t began = began_.exchange(idle, std::memory_order_relaxed);
         if (began != idle) busy_.fetch_add(now() - began, std::memory_order_relaxed);
     }
 
-    // False when a turn goes on that began more than `limit` ago. Thread-safe.
+    // False when a turn goes on that began, or went on, more than `limit` ago. Thread-safe.
     [[nodiscard]] bool within(std::chrono::nanoseconds limit) const {
-        const std::int64_t began = began_.load(std::memory_order_relaxed);
-        return began == idle || now() - began <= limit.count();
+        return began_.load(std::memory_order_relaxed) == idle ||
+               now() - went_on_.load(std::memory_order_relaxed) <= limit.count();
     }
 
     // Of all turns that have ended. Thread-safe.
@@ -37,6 +43,7 @@ class TurnTimer {
     }
 
     std::atomic<std::int64_t> began_{idle};
+    std::atomic<std::int64_t> went_on_{0};
     std::atomic<std::int64_t> busy_{0};
 };
 

@@ -96,7 +96,7 @@ void WorkerPool::work(Worker& worker) {
         } else {
             Strand* strand = claim();
             if (strand == nullptr) break;
-            claimed_ns_.store(now_ns(), std::memory_order_relaxed);
+            went_on_ns_.store(now_ns(), std::memory_order_relaxed);
             run(worker, *strand);
         }
         worker.turn.end();
@@ -131,7 +131,12 @@ void WorkerPool::call_helpers(std::size_t count) {
 }
 
 void Turn::share(std::size_t count, std::size_t share, const SharedWork::Item& item) {
-    worker_.shared.begin(count, item);
+    const SharedWork::Item timed = [this, &item](std::size_t lane, std::size_t i) {
+        item(lane, i);
+        (lane == 0 ? worker_ : *pool_.workers_[lane - 1]).turn.go_on();
+        pool_.went_on_ns_.store(now_ns(), std::memory_order_relaxed);
+    };
+    worker_.shared.begin(count, timed);
     const std::size_t worth = (count + share - 1) / share;
     if (worth > 1) pool_.call_helpers(std::min(worth, pool_.workers_.size()) - 1);
     worker_.shared.finish();
@@ -178,7 +183,7 @@ Strand* WorkerPool::claim_in(std::size_t word, std::uint64_t mask) {
 
 bool WorkerPool::responsive(std::chrono::nanoseconds limit) const {
     const std::int64_t latest = now_ns() - limit.count();
-    const bool starves = claimed_ns_.load(std::memory_order_relaxed) < latest && waits_since(latest);
+    const bool starves = went_on_ns_.load(std::memory_order_relaxed) < latest && waits_since(latest);
     return !starves && caller_.turn.within(limit) &&
            std::ranges::all_of(workers_, [&](const auto& worker) { return worker->turn.within(limit); });
 }

@@ -72,8 +72,8 @@ class WorkerPool {
     // Waits until the strand is idle.
     static void wait_idle(const Strand& strand);
 
-    // True when no thread has been busy with one turn, its own or others', for longer than `limit`, and no
-    // turn that is due has waited so long for the next free worker. Thread-safe.
+    // True when no thread has been busy for longer than `limit` with one turn, or one item of a turn that it
+    // shares, and no turn that is due has waited so long while none of them went on. Thread-safe.
     [[nodiscard]] bool responsive(std::chrono::nanoseconds limit) const;
 
     [[nodiscard]] std::size_t workers() const { return workers_.size(); }
@@ -107,10 +107,10 @@ class WorkerPool {
     std::vector<Strand*> slots_;
     std::vector<std::atomic<std::uint64_t>> ready_;          // one bit per slot
     std::vector<std::atomic<std::int64_t>> ready_since_ns_;  // per slot, of its last ready bit; steady clock
-    std::atomic<std::int64_t> claimed_ns_{0};                // when a worker claimed a strand last
-    std::atomic<std::size_t> next_{0};                       // slot at which the round continues
-    std::atomic<std::size_t> calls_{0};                      // for help, not yet answered by a worker
-    sem_t work_available_;                                   // one permit per ready bit and per call
+    std::atomic<std::int64_t> went_on_ns_{0};  // when a worker claimed a strand or did an item last
+    std::atomic<std::size_t> next_{0};         // slot at which the round continues
+    std::atomic<std::size_t> calls_{0};        // for help, not yet answered by a worker
+    sem_t work_available_;                     // one permit per ready bit and per call
     std::atomic<bool> stopping_{false};
     std::vector<std::unique_ptr<Worker>> workers_;
     std::mutex calling_;  // guards the next two

@@ -150,6 +150,42 @@ TEST(WorkerPool, DetectsATurnThatNobodyBegins) {
     EXPECT_TRUE(pool.responsive(std::chrono::hours(1)));
 }
 
+// However long a turn of many shots takes: whoever goes on does not hang, and whoever does not does.
+TEST(WorkerPool, ALongTurnThatGoesOnDoesNotHang) {
+    constexpr std::size_t items = 50;
+    constexpr std::chrono::milliseconds limit(50);
+    WorkerPool pool(1, 2);
+    std::atomic<std::size_t> allowed{0};
+    FunctionStrand strand([&](Turn& turn) {
+        std::size_t done = 0;
+        turn.share(items, items, [&](std::size_t, std::size_t) {
+            while (allowed.load() == done)
+                std::this_thread::yield();
+            ++done;
+        });
+    });
+    FunctionStrand other([] {});
+    ASSERT_TRUE(pool.attach(strand) && pool.attach(other));
+    pool.schedule(strand);
+    pool.schedule(other);  // which waits meanwhile
+    int went_on = 0;
+    for (std::size_t item = 0; item + 1 < items; ++item) {
+        ASSERT_TRUE(test::eventually([&] { return !pool.responsive(limit); }));
+        ++allowed;  // this one ends, the next one begins
+        const auto since = std::chrono::steady_clock::now();
+        bool responsive = false;
+        while (!responsive && std::chrono::steady_clock::now() - since < limit)
+            responsive = pool.responsive(limit);
+        went_on += responsive ? 1 : 0;
+    }
+    EXPECT_GT(went_on, 0);
+    ++allowed;
+    WorkerPool::wait_idle(strand);
+    WorkerPool::wait_idle(other);
+    pool.detach(strand);
+    pool.detach(other);
+}
+
 TEST(WorkerPool, EveryItemOfATurnIsDoneOnceByOneWorkerOnALane) {
     constexpr std::size_t strands = 5;
     WorkerPool pool(4, strands);
