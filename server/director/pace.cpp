@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace camdir::director {
 namespace {
@@ -36,9 +37,11 @@ void Pace::slow_down() {
     if (since_speed_up_ <= calm_needed_) calm_needed_ = std::min(2 * calm_needed_, longest_calm);
     frames_.store(static_cast<std::uint32_t>(wanted), std::memory_order_relaxed);
     late_ = 0;
+    has_held_ = false;
 }
 
 void Pace::speed_up() {
+    if (std::exchange(has_held_, true)) calm_needed_ = std::max(calm_needed_ / 2, shortest_calm);
     frames_.store(frames_per_camera() - 1, std::memory_order_relaxed);
     calm_ = 0;
     since_speed_up_ = 0;

@@ -9,7 +9,8 @@ namespace camdir::director {
 // One pace for all matches, from the load that is observed at regular intervals. It slows down when frames of
 // matches were replaced by newer ones in three intervals in a row, which is more than a stall reaches into:
 // by the least that was missing in one of them. It speeds up by one step when the workers would have time to
-// spare even then, after a calm time that doubles when it was too short.
+// spare even then, after a calm time that doubles when it was too short and is halved by a step that held
+// until the next.
 class Pace {
   public:
     static constexpr std::uint32_t slowest = 8;
@@ -40,6 +41,7 @@ class Pace {
     std::uint32_t calm_ = 0;  // and in which none was
     std::uint32_t calm_needed_ = shortest_calm;
     std::uint32_t since_speed_up_ = longest_calm;  // intervals
+    bool has_held_ = false;                        // the last step, if it was one up
 };
 
 }  // namespace camdir::director

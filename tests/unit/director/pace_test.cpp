@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <thread>
+#include <vector>
 
 #include "stage.hpp"
 #include "support/eventually.hpp"
@@ -92,6 +93,21 @@ TEST(PaceTest, ItTriesLessOftenWhatHasFailed) {
     observe(pace, calm, 60);
     observe(pace, late, 3);
     EXPECT_EQ(intervals_to_speed_up(pace, calm), 5) << "after a minute without a late frame";
+}
+
+// After a burst that made it try in vain, a director is not slow for minutes.
+TEST(PaceTest, StepsThatHoldAreTakenFaster) {
+    Pace pace;
+    for (int i = 0; i < 10; ++i) {
+        observe(pace, {.taken = 450, .superseded = 150, .busy = 1.0}, 3);
+        (void)intervals_to_speed_up(pace, calm);
+    }
+    observe(pace, {.taken = 1, .superseded = 1000, .busy = 1.0}, 3);
+    ASSERT_EQ(pace.frames_per_camera(), Pace::slowest);
+    std::vector<int> intervals;
+    while (pace.frames_per_camera() > 1)
+        intervals.push_back(intervals_to_speed_up(pace, calm));
+    EXPECT_EQ(intervals, (std::vector{60, 60, 30, 15, 7, 5, 5}));
 }
 
 // Takes its time over cameras while it is slow.
