@@ -5,6 +5,7 @@
 #include <iostream>
 #include <new>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "app/commands.hpp"
@@ -64,6 +65,11 @@ int main(int argc, char** argv) {
         return camdir::app::run_command(argc, argv);
     } catch (const std::bad_alloc&) {
         std::cerr << "camera-director: out of memory\n";
+        return camdir::app::exit_failed;
+    } catch (const std::system_error& error) {
+        const bool limited = error.code() == std::errc::resource_unavailable_try_again;
+        std::cerr << "camera-director: " << (limited ? "cannot start a thread: " : "") << error.what()
+                  << '\n';
         return camdir::app::exit_failed;
     } catch (const std::exception& error) {
         std::cerr << "camera-director: " << error.what() << '\n';

@@ -26,7 +26,18 @@ WorkerPool::WorkerPool(std::size_t workers, std::size_t capacity)
     assert(failed == 0);
     for (std::size_t i = 0; i < workers; ++i)
         workers_.emplace_back(std::make_unique<Worker>())->lane = i + 1;
-    for (const auto& worker : workers_) {  // started when all are there: they help each other
+    try {
+        start();
+    } catch (...) {
+        stop();
+        ::sem_destroy(&work_available_);
+        throw;
+    }
+}
+
+// When all workers are there: they help each other.
+void WorkerPool::start() {
+    for (const auto& worker : workers_) {
         worker->thread = std::thread([this, &worker] { work(*worker); });
         const std::string name = "worker-" + std::to_string(worker->lane - 1);
         ::pthread_setname_np(worker->thread.native_handle(), name.c_str());
@@ -43,7 +54,7 @@ void WorkerPool::stop() {
     for (std::size_t i = 0; i < workers_.size(); ++i)
         ::sem_post(&work_available_);
     for (const auto& worker : workers_)
-        worker->thread.join();
+        if (worker->thread.joinable()) worker->thread.join();
 }
 
 bool WorkerPool::attach(Strand& strand) {

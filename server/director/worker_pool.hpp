@@ -53,7 +53,8 @@ class Strand {
 // other strand, and of what other turns share. Scheduling takes no lock and allocates nothing.
 class WorkerPool {
   public:
-    // `capacity` is the largest number of attached strands. Both arguments must be greater than 0.
+    // `capacity` is the largest number of attached strands. Both arguments must be greater than 0. Throws
+    // std::system_error where a thread cannot be started.
     WorkerPool(std::size_t workers, std::size_t capacity);
     WorkerPool(const WorkerPool&) = delete;
     WorkerPool& operator=(const WorkerPool&) = delete;
@@ -94,6 +95,7 @@ class WorkerPool {
         SharedWork shared;     // of its turn
     };
 
+    void start();
     void work(Worker& worker);
     bool claim_call();
     void help(Worker& worker);

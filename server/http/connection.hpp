@@ -42,7 +42,9 @@ struct Site {
     Connections connections{};
     std::size_t slow_pages = 0;  // that are made or sent
     boost::asio::io_context io{1};
-    boost::asio::thread_pool makers{2};  // of the pages that are not prompt
+    // Of the pages that are not prompt. A thread more attaches itself: the constructor of a pool that can
+    // start one of its threads, but not the next, waits for ever.
+    boost::asio::thread_pool makers{1};
 };
 
 // Reads requests and answers them one after the other. What it waits for keeps it alive.

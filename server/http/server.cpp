@@ -66,6 +66,8 @@ void warn_of_missing(const Files& files) {
 }  // namespace
 
 struct Server::Listener {
+    ~Listener();
+    void start_threads();
     void accept();
     void accept_waiting();
     void take(tcp::socket socket);
@@ -82,7 +84,21 @@ struct Server::Listener {
     std::atomic<Clock::time_point> next_beat{Clock::now()};
     tcp::endpoint endpoint{};
     std::thread thread{};
+    std::thread maker{};
 };
+
+Server::Listener::~Listener() {
+    site.io.stop();
+    site.makers.stop();
+    for (std::thread* one : {&thread, &maker})
+        if (one->joinable()) one->join();
+    site.makers.join();
+}
+
+void Server::Listener::start_threads() {
+    thread = std::thread([this] { site.io.run(); });
+    maker = std::thread([this] { site.makers.attach(); });
+}
 
 void Server::Listener::accept() {
     acceptor.async_accept([this](boost::system::error_code error, tcp::socket socket) {
@@ -162,7 +178,7 @@ Result<std::unique_ptr<Server>> Server::start(const config::Http& config, Source
     }
     listener->accept();
     listener->beat();
-    listener->thread = std::thread([&io = listener->site.io] { io.run(); });
+    listener->start_threads();
     return std::unique_ptr<Server>(new Server(std::move(listener)));
 }
 
@@ -178,12 +194,7 @@ Result<void> Server::check(const config::Http& config) {
 
 Server::Server(std::unique_ptr<Listener> listener) : listener_(std::move(listener)) {}
 
-Server::~Server() {
-    listener_->site.io.stop();
-    listener_->site.makers.stop();
-    listener_->thread.join();
-    listener_->site.makers.join();
-}
+Server::~Server() = default;
 
 Result<void> Server::reload() {
     auto access = Access::load(listener_->config, listener_->endpoint.address().is_loopback());
