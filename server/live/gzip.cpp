@@ -3,6 +3,7 @@
 #include <zlib.h>
 
 #include <cassert>
+#include <new>
 
 namespace camdir::live {
 
@@ -10,8 +11,9 @@ std::string gzip(std::span<const std::byte> content) {
     constexpr int gzip_window = 15 + 16;  // the largest window; 16: gzip's header, without a time
     constexpr int default_memory = 8;
     z_stream stream{};
-    [[maybe_unused]] int status = deflateInit2(&stream, Z_BEST_COMPRESSION, Z_DEFLATED, gzip_window,
-                                               default_memory, Z_DEFAULT_STRATEGY);
+    int status = deflateInit2(&stream, Z_BEST_COMPRESSION, Z_DEFLATED, gzip_window, default_memory,
+                              Z_DEFAULT_STRATEGY);
+    if (status == Z_MEM_ERROR) throw std::bad_alloc();
     assert(status == Z_OK);
     std::string file(deflateBound(&stream, content.size()), '\0');
     stream.next_in = reinterpret_cast<Bytef*>(const_cast<std::byte*>(content.data()));
