@@ -22,8 +22,8 @@ constexpr float closing_speed = 600.0F;  // units/s, of two who run towards each
 // Vantages are kept for so long, s, while the player's turns leave each within so much of where it was
 // foreseen.
 constexpr double kept_for = 0.1;
-constexpr float steepest_arm = 80.0F * radians_of_a_degree<float>;
 constexpr float near_foreseen = 15.0F * radians_of_a_degree<float>;
+constexpr float steepest_arm = 80.0F * radians_of_a_degree<float>;
 
 std::size_t knots_of(const Plan& plan) {
     return std::min(Programme::knots, (plan.count() - 1) / plan.knot_spacing + 1);

@@ -22,7 +22,7 @@ namespace camdir::camera {
 inline constexpr float inside_beam = 2.0F;
 
 // `target`, if the whole step from `start` to it is free. `recent`: balls near the line of sight, if any are
-// known.
+// known; those that it takes are added.
 [[nodiscard]] std::optional<Candidate> reach(const freespace::Space& space, const MapProfile& profile,
                                              const PlayerTrack& track, const Vec3f& start,
                                              const Vec3f& target, freespace::RecentBalls* recent = nullptr);
