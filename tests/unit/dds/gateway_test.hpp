@@ -152,6 +152,16 @@ class GatewayTest : public testing::Test {
             return recorder_.has(line);
         });
     }
+    // Writes poses, from the number on, until the last one has arrived: then no pose is on its way.
+    bool last_arrives(RawPeer& raw, const std::string& match_id, std::uint32_t number) {
+        constexpr std::chrono::seconds lost{1};
+        return eventually([&] {
+            RawPoseFrame frame(match_id, 1, ++number, 1);
+            raw.write(frame.sample());
+            return eventually(
+                [&] { return recorder_.has("pose " + match_id + " " + std::to_string(number)); }, lost);
+        });
+    }
 
     test::TestDomain domain_;
     config::Dds config_;
