@@ -85,7 +85,8 @@ void warn_of_another_source(const std::string& freespace, const std::string& map
 void warn_of_another_map(const std::string& trace, const evaluation::Trace& poses,
                          const std::string& freespace, const SourceMap& opened) {
     if (!opened.freespace) return;
-    const std::size_t stride = std::max<std::size_t>(1, poses.poses.size() / looked_at);
+    // Odd: players often are a power of two.
+    const std::size_t stride = poses.poses.size() / looked_at | 1U;
     std::size_t alive = 0;
     std::size_t inside = 0;
     for (std::size_t i = 0; i < poses.poses.size(); i += stride) {

@@ -67,8 +67,8 @@ void warn_of_unknown_movers(const std::string& file, std::span<const evaluation:
 // Warns on standard error where these two files of opened maps do not belong together.
 void warn_of_another_source(const std::string& freespace, const std::string& map, const SourceMap& opened);
 
-// Warns on standard error where most of the players of the match `trace` are outside of the free space of the
-// baked file, if there is one.
+// Warns on standard error where most of the poses of the match `trace` that it looks at are outside of the
+// free space of the baked file, if there is one.
 void warn_of_another_map(const std::string& trace, const evaluation::Trace& poses,
                          const std::string& freespace, const SourceMap& opened);
 

@@ -1,6 +1,7 @@
 // camera-director: dispatches to the subcommands.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdlib>
 #include <exception>
 #include <iostream>
 #include <new>
@@ -57,22 +58,41 @@ int run_command(int argc, char** argv) {
     return run();
 }
 
+// In the words of the user, of the exception that is being handled.
+void report_exception() {
+    std::cerr << "camera-director: ";
+    try {
+        throw;
+    } catch (const std::bad_alloc&) {
+        std::cerr << "out of memory\n";
+    } catch (const std::system_error& error) {
+        const bool limited = error.code() == std::errc::resource_unavailable_try_again;
+        std::cerr << (limited ? "cannot start a thread: " : "") << error.what() << '\n';
+    } catch (const std::exception& error) {
+        std::cerr << error.what() << '\n';
+    } catch (...) {
+        std::cerr << "ended by an unknown exception\n";
+    }
+}
+
+// An exception that leaves a thread, as where memory runs out while it serves.
+[[noreturn]] void report_and_abort() {
+    if (std::current_exception())
+        report_exception();
+    else
+        std::cerr << "camera-director: terminated without an exception\n";
+    std::abort();
+}
+
 }  // namespace
 }  // namespace camdir::app
 
 int main(int argc, char** argv) {
+    std::set_terminate(camdir::app::report_and_abort);
     try {
         return camdir::app::run_command(argc, argv);
-    } catch (const std::bad_alloc&) {
-        std::cerr << "camera-director: out of memory\n";
-        return camdir::app::exit_failed;
-    } catch (const std::system_error& error) {
-        const bool limited = error.code() == std::errc::resource_unavailable_try_again;
-        std::cerr << "camera-director: " << (limited ? "cannot start a thread: " : "") << error.what()
-                  << '\n';
-        return camdir::app::exit_failed;
-    } catch (const std::exception& error) {
-        std::cerr << "camera-director: " << error.what() << '\n';
+    } catch (...) {
+        camdir::app::report_exception();
         return camdir::app::exit_failed;
     }
 }

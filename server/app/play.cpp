@@ -1,5 +1,4 @@
 // camera-director play: serves a recording over HTTP, with the page that shows it.
-#include <algorithm>
 #include <boost/asio/ip/address.hpp>
 #include <cmath>
 #include <cstdio>
@@ -44,14 +43,6 @@ Result<config::Http> listening(const PlayOptions& options) {
     http.port = std::stoi(port);
     http.token_file = options.token_file;
     return http;
-}
-
-// A recording may come from elsewhere: nothing in it commands the terminal.
-std::string printable(const std::string& text) {
-    std::string shown = to_utf8(text);
-    std::ranges::replace_if(
-        shown, [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; }, '?');
-    return shown;
 }
 
 // For a browser on this host.

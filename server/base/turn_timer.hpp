@@ -14,7 +14,7 @@ class TurnTimer {
     void begin() {
         const std::int64_t time = now();
         went_on_.store(time, std::memory_order_relaxed);
-        began_.store(time, std::memory_order_relaxed);
+        began_.store(time, std::memory_order_release);  // after went_on_, which within() reads next
     }
     // A part of the turn is done: it does not hang.
     void go_on() { went_on_.store(now(), std::memory_order_relaxed); }
@@ -25,7 +25,7 @@ class TurnTimer {
 
     // False when a turn goes on that began, or went on, more than `limit` ago. Thread-safe.
     [[nodiscard]] bool within(std::chrono::nanoseconds limit) const {
-        return began_.load(std::memory_order_relaxed) == idle ||
+        return began_.load(std::memory_order_acquire) == idle ||
                now() - went_on_.load(std::memory_order_relaxed) <= limit.count();
     }
 

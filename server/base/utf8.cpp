@@ -42,6 +42,28 @@ std::size_t first_character(std::string_view text) {
     return length > 0 && may_follow(first, at(text, 1)) ? length : 0;
 }
 
+// U+0000 to U+001F and U+007F to U+009F.
+bool is_control(std::string_view character) {
+    if (character.size() == 1) return at(character, 0) < 0x20 || at(character, 0) == 0x7f;
+    return at(character, 0) == 0xc2 && at(character, 1) < 0xa0;
+}
+
+// In place of every byte that belongs to no character, and of unwanted characters.
+template <class Unwanted>
+std::string with_question_marks(std::string_view text, Unwanted unwanted) {
+    std::string wanted;
+    while (!text.empty()) {
+        const std::size_t length = first_character(text);
+        const std::string_view character = text.substr(0, std::max<std::size_t>(length, 1));
+        if (length == 0 || unwanted(character))
+            wanted += '?';
+        else
+            wanted += character;
+        text.remove_prefix(character.size());
+    }
+    return wanted;
+}
+
 }  // namespace
 
 std::size_t utf8_prefix(std::string_view text, std::size_t max) {
@@ -52,16 +74,11 @@ std::size_t utf8_prefix(std::string_view text, std::size_t max) {
 }
 
 std::string to_utf8(std::string_view text) {
-    std::string valid;
-    while (!text.empty()) {
-        const std::size_t length = first_character(text);
-        if (length == 0)
-            valid += '?';
-        else
-            valid += text.substr(0, length);
-        text.remove_prefix(std::max<std::size_t>(length, 1));
-    }
-    return valid;
+    return with_question_marks(text, [](std::string_view) { return false; });
+}
+
+std::string printable(std::string_view text) {
+    return with_question_marks(text, is_control);
 }
 
 }  // namespace camdir

@@ -13,4 +13,8 @@ namespace camdir {
 // With a question mark for every byte that belongs to no character.
 [[nodiscard]] std::string to_utf8(std::string_view text);
 
+// For a terminal or a line of a log, which it can neither end nor command: the same, with a question mark for
+// every control character too.
+[[nodiscard]] std::string printable(std::string_view text);
+
 }  // namespace camdir

@@ -23,7 +23,6 @@ constexpr float closing_speed = 600.0F;  // units/s, of two who run towards each
 // foreseen.
 constexpr double kept_for = 0.1;
 constexpr float near_foreseen = 15.0F * radians_of_a_degree<float>;
-constexpr float steepest_arm = 80.0F * radians_of_a_degree<float>;
 
 std::size_t knots_of(const Plan& plan) {
     return std::min(Programme::knots, (plan.count() - 1) / plan.knot_spacing + 1);
@@ -32,7 +31,8 @@ std::size_t knots_of(const Plan& plan) {
 // Off straight behind sample i.
 Look look_from_behind(const MapProfile& profile, const Plan& plan, std::size_t i, const Look& off) {
     const Look behind = plan.behind(i, profile.elevation);
-    return {behind.yaw + off.yaw, std::clamp(behind.pitch + off.pitch, -steepest_arm, steepest_arm)};
+    return {behind.yaw + off.yaw,
+            std::clamp(behind.pitch + off.pitch, -steepest_arm<float>, steepest_arm<float>)};
 }
 
 class Choosing {

@@ -10,7 +10,6 @@
 namespace camdir::camera {
 namespace {
 
-constexpr double steepest_view = 80.0 * radians_of_a_degree<double>;
 constexpr float side_view_begin = 50.0F * radians_of_a_degree<float>;
 constexpr double weight_in_dead_zone = 0.1;
 
@@ -31,7 +30,8 @@ float Plan::side_view(const MapProfile& profile) {
 }
 
 Look Plan::behind(std::size_t i, float elevation) const {
-    const double pitch = std::clamp(-heading_pitch[i] + elevation, -steepest_view, steepest_view);
+    const double pitch =
+        std::clamp(-heading_pitch[i] + elevation, -steepest_arm<double>, steepest_arm<double>);
     return {static_cast<float>(heading_yaw[i] + std::numbers::pi), static_cast<float>(pitch)};
 }
 

@@ -16,8 +16,8 @@ constexpr double full_turn = 2.0 * std::numbers::pi;
 // Relative.
 constexpr double same_step = 1e-3;
 constexpr double nearly_same_step = 0.1;
-// Time stamps may be rounded to milliseconds: that is no reason to drop what is planned. The step is their
-// mean.
+// Time stamps may be rounded to milliseconds: up to 250 Hz that is no reason to drop what is planned. The
+// step follows their running mean.
 constexpr double stamp_rounding = 1.001e-3;
 constexpr double largest_stamp_rounding = 0.25;  // relative
 constexpr double step_smoothing = 0.1;

@@ -12,7 +12,6 @@
 namespace camdir::camera {
 namespace {
 
-constexpr float steepest = 80.0F * radians_of_a_degree<float>;
 constexpr float yaw_step = 15.0F * radians_of_a_degree<float>;
 constexpr int yaw_steps = 12;  // to each side
 constexpr std::array elevations = {0.0F * radians_of_a_degree<float>, 20.0F * radians_of_a_degree<float>,
@@ -65,8 +64,8 @@ class Fan {
         const Vec3f heading =
             towards_camera == nullptr ? track.heading : predicted_heading(track, lag(profile));
         const Look behind = look_along(-heading, 0.0F);
-        behind_ =
-            direction_of({behind.yaw, std::clamp(behind.pitch + profile.elevation, -steepest, steepest)});
+        behind_ = direction_of({behind.yaw, std::clamp(behind.pitch + profile.elevation, -steepest_arm<float>,
+                                                       steepest_arm<float>)});
     }
 
     void add(const Vec3f& direction, float swing) {
@@ -76,7 +75,8 @@ class Fan {
     void fill(float swing) {
         const Look behind = look_along(behind_, 0.0F);
         for (const float elevation : elevations) {
-            const float pitch = std::clamp(behind.pitch + elevation, -steepest, steepest);
+            const float pitch =
+                std::clamp(behind.pitch + elevation, -steepest_arm<float>, steepest_arm<float>);
             for (int step = -yaw_steps; step < yaw_steps; ++step) {
                 const float yaw = static_cast<float>(step) * yaw_step;
                 add(direction_of({behind.yaw + yaw, pitch}), swing);

@@ -11,6 +11,10 @@ struct Look {
     float pitch = 0.0F;
 };
 
+// The steepest that a camera stands above or below its player, rad.
+template <class Real>
+inline constexpr Real steepest_arm = Real(80) * radians_of_a_degree<Real>;
+
 // A camera that another tracker has computed.
 struct View {
     Vec3f position;

@@ -34,14 +34,15 @@ void Pace::observe(const Load& load) {
 
 void Pace::slow_down() {
     const double wanted = std::ceil(std::min<double>(headroom * missing_ * frames_per_camera(), slowest));
-    if (since_speed_up_ <= calm_needed_) calm_needed_ = std::min(2 * calm_needed_, longest_calm);
+    if (since_speed_up_ <= calm_needed_) calm_needed_ = std::min(2 * calm_when_slowed_, longest_calm);
+    calm_when_slowed_ = calm_needed_;
     frames_.store(static_cast<std::uint32_t>(wanted), std::memory_order_relaxed);
     late_ = 0;
-    has_held_ = false;
+    last_step_was_up_ = false;
 }
 
 void Pace::speed_up() {
-    if (std::exchange(has_held_, true)) calm_needed_ = std::max(calm_needed_ / 2, shortest_calm);
+    if (std::exchange(last_step_was_up_, true)) calm_needed_ = std::max(calm_needed_ / 2, shortest_calm);
     frames_.store(frames_per_camera() - 1, std::memory_order_relaxed);
     calm_ = 0;
     since_speed_up_ = 0;

@@ -9,8 +9,8 @@ namespace camdir::director {
 // One pace for all matches, from the load that is observed at regular intervals. It slows down when frames of
 // matches were replaced by newer ones in three intervals in a row, which is more than a stall reaches into:
 // by the least that was missing in one of them. It speeds up by one step when the workers would have time to
-// spare even then, after a calm time that doubles when it was too short and is halved by a step that held
-// until the next.
+// spare even then, after a calm time that doubles when it was too short, however many steps back it took, and
+// that is halved by a step that held until the next.
 class Pace {
   public:
     static constexpr std::uint32_t slowest = 8;
@@ -40,8 +40,9 @@ class Pace {
     double missing_ = 1.0;    // all frames over those taken, the least of these intervals
     std::uint32_t calm_ = 0;  // and in which none was
     std::uint32_t calm_needed_ = shortest_calm;
-    std::uint32_t since_speed_up_ = longest_calm;  // intervals
-    bool has_held_ = false;                        // the last step, if it was one up
+    std::uint32_t calm_when_slowed_ = shortest_calm;  // what was needed after it last slowed down
+    std::uint32_t since_speed_up_ = longest_calm;     // intervals
+    bool last_step_was_up_ = false;
 };
 
 }  // namespace camdir::director

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <atomic>
 #include <limits>
 #include <vector>
 
@@ -80,9 +81,16 @@ Result<void> verify_coverage(const VerificationJob& job, Verification& result) {
     const std::uint64_t points = job.parameters.points;
     const std::uint64_t max_chunks = points * max_candidates_a_point / chunk_size + chunks_a_round;
     for (std::uint64_t chunk = 0; samples.size() < points && chunk < max_chunks; chunk += chunks_a_round) {
-        const auto drawn = run_chunks<std::vector<Sample>>(
-            chunk, chunks_a_round, job.stop, [&](std::uint64_t i) { return sampler.draw(i); },
-            [&](std::uint64_t) { job.progress("coverage", samples.size(), points); });
+        std::atomic<std::uint64_t> found = samples.size();
+        const auto draw = [&](std::uint64_t number) {
+            auto some = sampler.draw(number);
+            found += some.size();
+            return some;
+        };
+        const auto tell = [&](std::uint64_t) {
+            job.progress("coverage", std::min<std::uint64_t>(found, points), points);
+        };
+        const auto drawn = run_chunks<std::vector<Sample>>(chunk, chunks_a_round, job.stop, draw, tell);
         if (job.stop.stop_requested()) return fail("interrupted", ErrorCode::interrupted);
         for (const std::vector<Sample>& some : drawn) {
             samples.insert(samples.end(), some.begin(), some.end());

@@ -58,7 +58,9 @@ Sight sight(const Space& space, const Vec3f& from, const Vec3f& to, float radius
 }
 
 bool is_clear(const Space& space, const Vec3f& from, const Vec3f& to, float radius, RecentBalls& recent) {
-    return sight(space, from, to, radius, recent).clear || sight(space, from, to, radius).clear;
+    Sight of_map = sight(space.map(), from, to, radius, recent);
+    if (!of_map.clear) of_map = sight(space.map(), from, to, radius);
+    return of_map.clear && space.shortened(of_map, from, to, radius).clear;
 }
 
 }  // namespace camdir::freespace

@@ -232,13 +232,12 @@ void Recorder::finish(const std::string& match_id, Match& match) {
 }
 
 void Recorder::fail(const std::string& match_id, Match& match, const Error& error) {
-    failures_ += match.failed ? 0 : 1;
-    match.failed = true;
+    if (!std::exchange(match.failed, true)) {
+        ++failures_;
+        spdlog::error("match {}: no longer recorded: {}", match_id, error.message);
+    }
     match.needs_archive = archive_ == nullptr;
     end_recording(match_id, match);
-    if (const auto times = failure_lines_.due())
-        spdlog::error("match {}: no longer recorded: {} ({} since the last such line)", match_id,
-                      error.message, *times);
 }
 
 void Recorder::end_recording(const std::string& match_id, Match& match) {

@@ -12,7 +12,6 @@
 #include <unordered_map>
 #include <vector>
 
-#include "base/log_limit.hpp"
 #include "director/ports.hpp"
 #include "recording/archive.hpp"
 #include "recording/broadcast.hpp"
@@ -130,7 +129,6 @@ class Recorder final : public director::Audience {
     void update_statistics();
 
     const RecorderOptions options_;
-    LogLimit failure_lines_;
 
     mutable std::mutex mutex_;  // guards the next six
     std::condition_variable_any written_;

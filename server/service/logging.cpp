@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/log_limit.hpp"
+#include "base/utf8.hpp"
 
 namespace camdir::service {
 namespace {
@@ -16,13 +17,13 @@ constexpr const char* time_pattern = "%Y-%m-%dT%H:%M:%S.%eZ";
 constexpr std::uint64_t max_lines_per_second = 200;
 
 // 2026-01-02T03:04:05.678Z info: message
-// Control characters are replaced: names from outside cannot start a new line of the log.
+// Names from outside cannot start a new line of the log, and whatever reads it finds UTF-8.
 class TextLines final : public spdlog::formatter {
   public:
     void format(const spdlog::details::log_msg& message, spdlog::memory_buf_t& line) override {
         head_.format(message, line);
-        for (const char c : message.payload)
-            line.push_back(static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c);
+        const std::string text = printable({message.payload.data(), message.payload.size()});
+        line.append(text.data(), text.data() + text.size());
         line.push_back('\n');
     }
 

@@ -11,8 +11,8 @@ namespace camdir::bench {
 namespace {
 
 constexpr double rate_hz = 60.0;
-constexpr Load loads[] = {
-    {1, 1, rate_hz}, {1, 8, rate_hz}, {40, 1, rate_hz}, {40, 4, rate_hz}, {4, 32, rate_hz}};
+constexpr Load loads[] = {{1, 1, rate_hz},  {1, 8, rate_hz},  {40, 1, rate_hz},
+                          {40, 4, rate_hz}, {4, 32, rate_hz}, {16, 32, rate_hz}};
 constexpr std::size_t one_shot = 2;  // the loads whose difference is cameras alone
 constexpr std::size_t four_shots = 3;
 constexpr std::uint32_t shots_of_largest = 8;

@@ -13,6 +13,7 @@ namespace {
 
 using nlohmann::json;
 using testing::HasSubstr;
+using testing::Not;
 
 class DirectCommand : public HallMatch {
   protected:
@@ -177,6 +178,15 @@ TEST_F(DirectCommand, NeedsABakedMapAndAFileForEachOutput) {
 TEST_F(DirectCommand, WarnsOfABakedMapOfAnotherSource) {
     ASSERT_EQ(direct({}), 0) << errors_;
     EXPECT_THAT(errors_, HasSubstr("hall.vfs was baked from another file than"));
+}
+
+TEST_F(DirectCommand, WarnsOfAMatchOfAnotherMap) {
+    ASSERT_EQ(direct({}), 0) << errors_;
+    EXPECT_THAT(errors_, Not(HasSubstr("expected a match on this map")));
+    write_trace(100.0);
+    ASSERT_EQ(direct({}), 0) << errors_;
+    EXPECT_THAT(errors_, HasSubstr("trace.csv: 0 of "));
+    EXPECT_THAT(errors_, HasSubstr("hall.vfs; expected a match on this map"));
 }
 
 TEST_F(DirectCommand, RefusesAMatchThatNeverEnds) {

@@ -20,8 +20,21 @@ class HallMatch : public testing::Test {
     void SetUp() override {
         write_map();
         write_freespace();
-        write_trace();
+        write_trace(0.0);
         ASSERT_TRUE(write_file(events_, "t_ms,event,player,other\n3000,kill,1,0\n"));
+    }
+
+    // All of it `aside` metres off along x.
+    void write_trace(double aside) const {
+        std::ostringstream trace;
+        trace << "t_ms,player,x,y,z,pitch,yaw,roll,vx,vy,vz,viewheight,team,teleport_bit,alive\n";
+        for (int t = 0; t <= 4000; t += 16) {
+            const double angle = 1e-3 * t;
+            trace << t << ",0," << aside + 2.5 * std::sin(angle) << ',' << -2.5 * std::cos(angle) << ",3.4,0,"
+                  << angle * 180.0 / std::numbers::pi << ",0,0,0,0,0.6,0,0,1\n"
+                  << t << ",1," << aside << ",0,3.4,0,0,0,0,0,0,0.6,0,0,1\n";
+        }
+        ASSERT_TRUE(write_file(trace_, trace.str()));
     }
 
     test::TemporaryFolder folder_;
@@ -50,18 +63,6 @@ class HallMatch : public testing::Test {
         contents.triangles = {{0, 1, 2}, {0, 2, 3}};
         contents.spawn_points = {{Vec3f(0, 0, 4), 0.0F}};
         ASSERT_TRUE(write_file(vfs_, freespace::encode(contents)));
-    }
-
-    void write_trace() const {
-        std::ostringstream trace;
-        trace << "t_ms,player,x,y,z,pitch,yaw,roll,vx,vy,vz,viewheight,team,teleport_bit,alive\n";
-        for (int t = 0; t <= 4000; t += 16) {
-            const double angle = 1e-3 * t;
-            trace << t << ",0," << 2.5 * std::sin(angle) << ',' << -2.5 * std::cos(angle) << ",3.4,0,"
-                  << angle * 180.0 / std::numbers::pi << ",0,0,0,0,0.6,0,0,1\n"
-                  << t << ",1,0,0,3.4,0,0,0,0,0,0,0.6,0,0,1\n";
-        }
-        ASSERT_TRUE(write_file(trace_, trace.str()));
     }
 };
 

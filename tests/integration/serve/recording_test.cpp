@@ -73,12 +73,15 @@ TEST(RecordingTest, AFolderThatCannotBeUsedCostsNoCameras) {
     ASSERT_TRUE(server.ready()) << server.log();
     const Context context = Context::open(connection(domain.id())).value();
     const Game game(context, "cup", "hall");
+    const Game other(context, "final", "hall");
     Observer observer = Observer::open(context, "cup", "spectator").value();
     observer.request({.target = 1}).value();
-    EXPECT_TRUE(eventually([&] {
-        return server.log().find("match cup: no longer recorded: /dev/null/recordings: cannot create") !=
-               std::string::npos;
-    })) << server.log();
+    for (const std::string match : {"cup", "final"})
+        EXPECT_TRUE(eventually([&] {
+            return server.log().find("match " + match +
+                                     ": no longer recorded: /dev/null/recordings: cannot create") !=
+                   std::string::npos;
+        })) << server.log();
     EXPECT_TRUE(sees_own_camera(observer));
 }
 

@@ -23,5 +23,12 @@ TEST(Utf8, InvalidBytesBecomeQuestionMarks) {
     EXPECT_EQ(to_utf8(""), "");
 }
 
+TEST(Utf8, WhatIsPrintedCommandsNoTerminal) {
+    EXPECT_EQ(printable("caf\u00e9 ~\u00a0"), "caf\u00e9 ~\u00a0");
+    EXPECT_EQ(printable("a\nb\tc\x1b[2J\x7f"), "a?b?c?[2J?");
+    EXPECT_EQ(printable("\u0080\u009b2J\u009f"), "??2J?") << "as escape sequences are";
+    EXPECT_EQ(printable("\x9b\xff"), "??");
+}
+
 }  // namespace
 }  // namespace camdir

@@ -95,7 +95,20 @@ TEST(PaceTest, ItTriesLessOftenWhatHasFailed) {
     EXPECT_EQ(intervals_to_speed_up(pace, calm), 5) << "after a minute without a late frame";
 }
 
-// After a burst that made it try in vain, a director is not slow for minutes.
+// Slowing down may take it below what holds: the steps back to there are no reason to try again sooner.
+TEST(PaceTest, StepsBackToWhatHoldsAreNoReasonToTryAgainSooner) {
+    Pace pace;
+    std::vector<int> tries;
+    for (int i = 0; i < 8; ++i) {
+        observe(pace, {.taken = 300, .superseded = 300, .busy = 1.0}, 3);
+        ASSERT_EQ(pace.frames_per_camera(), 3U);
+        tries.push_back(intervals_to_speed_up(pace, calm) + intervals_to_speed_up(pace, calm));
+    }
+    EXPECT_EQ(tries, (std::vector{10, 20, 40, 80, 120, 120, 120, 120}));
+}
+
+// After a burst that made it try in vain, a director is at its full pace again in three minutes, not in
+// seven.
 TEST(PaceTest, StepsThatHoldAreTakenFaster) {
     Pace pace;
     for (int i = 0; i < 10; ++i) {

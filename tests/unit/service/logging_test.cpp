@@ -37,5 +37,12 @@ TEST(Logging, WhatIsLeftOutIsToldAtALevelThatIsWanted) {
     EXPECT_THAT(log, Not(HasSubstr("warning")));
 }
 
+TEST(Logging, NamesFromOutsideStayOnTheirLineAsUtf8) {
+    testing::internal::CaptureStderr();
+    start_logging({.level = "error", .format = "text"});
+    spdlog::error("observer {} of caf\u00e9", "a\xff\nb");
+    EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("error: observer a??b of caf\u00e9\n"));
+}
+
 }  // namespace
 }  // namespace camdir::service
