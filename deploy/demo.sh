@@ -127,8 +127,8 @@ step "Live: one row for each player, and the camera that follows them"
 cat >&2 <<LEGEND
    state        tracking; searching: following the roadmap to a player out of sight; held: the player is dead; cut
    visible %    frames in which the camera sees the player     p50, p99 ms  delay from a pose to its camera
-   clearance    camera to nearest wall, in units of 2.54 cm    gaps         camera frames that did not arrive
-                (less than 100 while a dead one is held)
+                (less than 100 while a dead one is held)       gaps         camera frames that did not arrive
+   clearance    camera to nearest wall, in units of 2.54 cm
    in obstacle, through, jumps: cameras inside a wall, moved through one, or moved too far without a declared cut
 Logs: $work/director.log, $work/replay.log. Ctrl-C ends the demo.
 

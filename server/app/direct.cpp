@@ -272,9 +272,10 @@ std::vector<report::Fact> facts_of(const DirectOptions& options, const Inputs& i
         {"Map", options.map + ", " + inputs.map.scene.kind},
         {"Match", options.trace + ", " + std::to_string(inputs.trace.players.size()) + " players, " +
                       evaluation::format_value(report::duration(inputs.trace), 1) + " s"},
-        {"Events", options.events.empty() ? options.trace : options.events},
         {"Delay", options.delay == 0.0 ? "none: live" : evaluation::format_value(options.delay, 1) + " s"},
         {"Baked map", options.freespace}};
+    if (!inputs.events.empty())
+        facts.push_back({"Events", options.events.empty() ? options.trace : options.events});
     if (!options.movers.empty()) facts.push_back({"Movers", options.movers});
     return facts;
 }

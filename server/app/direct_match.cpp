@@ -26,7 +26,9 @@ using evaluation::Trace;
 using evaluation::TraceFrame;
 using evaluation::TracePose;
 
-constexpr double max_player_beats = 4e6;
+// Of the footage that is kept, about 6 GB. A beat of a rush has some figures, and some more for each player.
+constexpr double max_figures = 4e8;
+constexpr double figures_of_a_rush = 32.0;
 
 Index index_of(const Trace& trace, std::uint32_t player) {
     return static_cast<Index>(std::ranges::lower_bound(trace.players, player) - trace.players.begin());
@@ -301,13 +303,14 @@ double item_value(std::string_view item) {
 
 Result<void> check_length(const Trace& trace) {
     const double length = seconds_from_start(trace, trace.frames.back().time);
-    if (length / direction::beat_s * static_cast<double>(trace.players.size()) > max_player_beats)
-        return fail("the match lasts " + std::to_string(std::llround(length)) + " s with " +
-                    std::to_string(trace.players.size()) + " players, expected at most " +
-                    std::to_string(std::llround(max_player_beats * direction::beat_s /
-                                                static_cast<double>(trace.players.size()))) +
-                    " s with so many");
-    return {};
+    const auto players = static_cast<double>(trace.players.size());
+    const double figures_of_a_beat =
+        (players + static_cast<double>(freespace::max_fixed_shots)) * (players + figures_of_a_rush);
+    const double longest = max_figures / figures_of_a_beat * direction::beat_s;
+    if (length <= longest) return {};
+    return fail("the match lasts " + std::to_string(std::llround(length)) + " s with " +
+                std::to_string(trace.players.size()) + " players, expected at most " +
+                std::to_string(std::llround(longest)) + " s with so many");
 }
 
 Result<direction::Footage> footage_of(const Trace& trace, const RecordedMovers& movers,

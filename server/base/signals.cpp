@@ -51,6 +51,9 @@ Signals::Signals() : mask_before_(block({SIGTERM, SIGINT, SIGHUP}, signals_)) {
 }
 
 Signals::~Signals() {
+    // Whoever asked again has what they wanted.
+    while (wait_for(signals_, std::chrono::milliseconds(0)) >= 0) {
+    }
     pthread_sigmask(SIG_SETMASK, &mask_before_, nullptr);
 }
 

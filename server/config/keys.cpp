@@ -336,7 +336,8 @@ void add_direction(std::vector<Key>& table) {
     add("minimum_shot_s", &Grammar::minimum_shot_s, "No shot is shorter.", "s", 0.4, 60);
     add("preferred_shot_s", &Grammar::preferred_shot_s, "The length that costs nothing.", "s", 0.4, 600);
     add("maximum_shot_s", &Grammar::maximum_shot_s,
-        "No shot is longer while another may follow; at least `minimum_shot_s`.", "s", 0.4, 600);
+        "No shot is longer while another may follow; less than `minimum_shot_s` counts as that.", "s", 0.4,
+        600);
     add("length", &Grammar::length, "Cost of a shot 2.7 times as long, or as short, as preferred.", "kills",
         0, 1000);
     add("cut", &Grammar::cut, "Cost of a cut.", "kills", 0, 1000);

@@ -101,7 +101,7 @@ class Plan {
           slots_(static_cast<std::size_t>(horizon_ - now + 1) / cut_every + 1),
           shortest_(beat_of(rules.grammar.minimum_shot_s)),
           preferred_(beat_of(rules.grammar.preferred_shot_s)),
-          longest_(beat_of(rules.grammar.maximum_shot_s)),
+          longest_(beat_of(std::max(rules.grammar.minimum_shot_s, rules.grammar.maximum_shot_s))),
           lengths_((horizon_ - now + longest_) / cut_every + 1),
           value_(footage, moments, rules, unit, on_air.last_shown, now, horizon_),
           shots_(slots_ * rushes_),

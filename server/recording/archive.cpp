@@ -100,7 +100,12 @@ Result<std::unique_ptr<Archive>> Archive::open(const fs::path& folder) {
         return fail(folder.string() + ": cannot lock: " + std::generic_category().message(errno) +
                     ": expected a folder that no other director records into");
     if (auto listed = archive->list(); !listed) return tl::unexpected(listed.error());
-    archive->thread_ = std::jthread([raw = archive.get()](const std::stop_token& stop) { raw->run(stop); });
+    try {
+        archive->thread_ =
+            std::jthread([raw = archive.get()](const std::stop_token& stop) { raw->run(stop); });
+    } catch (const std::system_error& error) {
+        return fail(folder.string() + ": cannot start the thread that removes recordings: " + error.what());
+    }
     return archive;
 }
 

@@ -1,5 +1,6 @@
 #include "direction/editor.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -180,6 +181,22 @@ TEST(Editor, APlanIsOneSequenceOfShotsWithinTheGrammar) {
             EXPECT_LE(plan[i].end - plan[i].begin, 7);
         }
     }
+}
+
+TEST(Editor, AMaximumBelowTheMinimumCountsAsTheMinimum) {
+    std::mt19937 random(7);
+    const Footage footage = random_script(5, 60, random).footage();
+    const auto lengths = [&](double maximum_shot_s) {
+        Rules rules = small_rules();
+        rules.grammar.minimum_shot_s = 0.6;
+        rules.grammar.maximum_shot_s = maximum_shot_s;
+        std::vector<Beat> lengths;
+        for (const Shot& shot : plan_shots(footage, {}, rules, test::unit, nothing_yet(footage), 0))
+            lengths.push_back(shot.end - shot.begin);
+        return lengths;
+    };
+    EXPECT_THAT(lengths(0.4), testing::Each(6));
+    EXPECT_EQ(lengths(0.4), lengths(0.6));
 }
 
 TEST(Editor, CutsToAFightBeforeItBeginsWhenItIsKnown) {
