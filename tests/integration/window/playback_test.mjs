@@ -86,9 +86,10 @@ const tests = {
             const t = range[0] + part * (range[1] - range[0]);
             await seek(browser, t, range);
             await eventually('the seek', async () => isAt(await browser.evaluate('cameraDirector.state()'), t, range));
+            // Where the recording has a gap, as of a machine that stalled, that is the frame before it.
             const shown = await eventually('the picture', async () => {
                 const state = await browser.evaluate('cameraDirector.state()');
-                return state.shown === state.time && state;
+                return Math.abs(state.shown - frames.sample(state.time).t) < 1e-6 && state;
             });
             const wanted = frames.sample(shown.time);
             assert.deepEqual(shown.players.map(({slot}) => slot), [...wanted.players.keys()]);
