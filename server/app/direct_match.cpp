@@ -26,7 +26,7 @@ using evaluation::Trace;
 using evaluation::TraceFrame;
 using evaluation::TracePose;
 
-// Of the footage that is kept, about 6 GB. A beat of a rush has some figures, and some more for each player.
+// Of the footage that is kept, gigabytes. A beat of a rush has some figures, and one more for each player.
 constexpr double max_figures = 4e8;
 constexpr double figures_of_a_rush = 32.0;
 

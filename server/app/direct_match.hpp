@@ -22,8 +22,8 @@ namespace camdir::app {
 // The segment between two points meets no obstacle that stands still. Called from several threads.
 using ClearLine = std::function<bool(const Vec3d&, const Vec3d&)>;
 
-// Fails when the match is so long that its footage would take more than about 6 GB: 11 h of 8 players, 3 h of
-// 32.
+// Fails when the match is so long that its footage would take too much memory: 11 h of 8 players, 3 h of 32
+// take gigabytes.
 [[nodiscard]] Result<void> check_length(const evaluation::Trace& trace);
 
 // Players in the order of `trace.players`; rush r is the camera of player r, after them come those of

@@ -152,7 +152,7 @@ class GatewayTest : public testing::Test {
             return recorder_.has(line);
         });
     }
-    // Writes poses, from the number on, until the last one has arrived: then no pose is on its way.
+    // Writes poses, numbered after `number`, until the last one has arrived: then none is on its way.
     bool last_arrives(RawPeer& raw, const std::string& match_id, std::uint32_t number) {
         constexpr std::chrono::seconds lost{1};
         return eventually([&] {
