@@ -103,8 +103,8 @@ Result<std::unique_ptr<Archive>> Archive::open(const fs::path& folder) {
     try {
         archive->thread_ =
             std::jthread([raw = archive.get()](const std::stop_token& stop) { raw->run(stop); });
-    } catch (const std::system_error& error) {
-        return fail(folder.string() + ": cannot start the thread that removes recordings: " + error.what());
+    } catch (const std::system_error& failed) {
+        return fail(folder.string() + ": cannot start the thread that removes recordings: " + failed.what());
     }
     return archive;
 }
