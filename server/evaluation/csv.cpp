@@ -77,6 +77,11 @@ class Table {
     std::size_t field_count_ = 0;
 };
 
+std::string_view without_byte_order_mark(std::string_view line) {
+    constexpr std::string_view mark = "\xEF\xBB\xBF";
+    return line.starts_with(mark) ? line.substr(mark.size()) : line;
+}
+
 }  // namespace
 
 Result<double> to_number(std::string_view field, const Column& column) {
@@ -96,7 +101,8 @@ Result<void> read_text_csv(std::span<const std::byte> bytes, const std::string& 
     Table table(columns, sink);
     std::uint64_t line_number = 1;
     const auto read = for_each_line(bytes, [&](std::string_view line) {
-        auto taken = table.has_header() ? table.read_row(line) : table.read_header(line);
+        auto taken =
+            table.has_header() ? table.read_row(line) : table.read_header(without_byte_order_mark(line));
         if (taken) ++line_number;
         return taken;
     });

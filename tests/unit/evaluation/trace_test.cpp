@@ -137,6 +137,15 @@ TEST(Trace, ReadsGzipWithSeveralMembers) {
     EXPECT_EQ(trace->frames.size(), 2U);
 }
 
+TEST(Trace, ReadsWhatSpreadsheetsWrite) {
+    std::string text = header;
+    text += "8,0,0,0,0,0,0,0,0,0,0,26,1,0,0,1\n";
+    const auto trace = trace_in("\xEF\xBB\xBF" + text);
+    ASSERT_TRUE(trace) << trace.error().message;
+    EXPECT_EQ(trace->frames.size(), 1U);
+    EXPECT_FALSE(trace_in("\xEF\xBB" + text));
+}
+
 TEST(Trace, RefusesDamagedGzip) {
     std::string text = header;
     for (int i = 0; i < 2000; ++i)
