@@ -55,10 +55,10 @@ std::vector<Row> network_rows() {
                    .means = Row::Means::hosts};
     };
     // Nobody can serve the observer for that long, and when they meet again all must be sent anew.
-    const auto blind = [](Row row, milliseconds duration) {
-        row.more_gap_ms = std::chrono::duration<double, std::milli>(duration + milliseconds(500)).count();
-        row.fills_delay = true;
-        return row;
+    const auto blind = [](Row of, milliseconds duration) {
+        of.more_gap_ms = std::chrono::duration<double, std::milli>(duration + milliseconds(500)).count();
+        of.fills_delay = true;
+        return of;
     };
     return {
         {.name = "nothing, three hosts", .happens = [](Stage&) {}, .means = Row::Means::hosts},

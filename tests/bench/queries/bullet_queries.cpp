@@ -32,11 +32,11 @@ struct BulletQueries::World {
     }
     ~World() { world.removeCollisionObject(&object); }
 
-    [[nodiscard]] float sweep(const btConvexShape& shape, const Vec3f& from, const Vec3f& to) const {
+    [[nodiscard]] float sweep(const btConvexShape& moving, const Vec3f& from, const Vec3f& to) const {
         const btTransform begin(btQuaternion::getIdentity(), to_bullet(from));
         const btTransform end(btQuaternion::getIdentity(), to_bullet(to));
         btCollisionWorld::ClosestConvexResultCallback hit(begin.getOrigin(), end.getOrigin());
-        world.convexSweepTest(&shape, begin, end, hit);
+        world.convexSweepTest(&moving, begin, end, hit);
         return hit.hasHit() ? hit.m_closestHitFraction : 1.0F;
     }
 };

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "game_server.hpp"
+#include "support/eventually.hpp"
 #include "support/http_client.hpp"
 #include "support/test_domain.hpp"
 

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <camera_director/camera_director.h>
 #include <csignal>
 #include <fstream>
 

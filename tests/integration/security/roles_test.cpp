@@ -99,9 +99,9 @@ TEST_P(RolesTest, EndpointsBeyondARoleAreRefused) {
 INSTANTIATE_TEST_SUITE_P(Each, RolesTest,
                          testing::Combine(testing::Values(game_server, director, observer),
                                           testing::Values(game_server, director, observer)),
-                         [](const auto& info) {
-                             std::string name = std::string(std::get<0>(info.param).name) + "_and_" +
-                                                std::get<1>(info.param).name;
+                         [](const auto& pair) {
+                             std::string name = std::string(std::get<0>(pair.param).name) + "_and_" +
+                                                std::get<1>(pair.param).name;
                              std::ranges::replace(name, '-', '_');
                              return name;
                          });

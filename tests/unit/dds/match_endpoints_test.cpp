@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "dds/endpoint_removal.hpp"
+#include "domain_test.hpp"
 #include "support/eventually.hpp"
 #include "support/raw_peer.hpp"
 

@@ -477,10 +477,10 @@ TEST_F(ReshardTest, EveryMatchOfAParticipantMovesToTheShardThatIsLeft) {
 TEST(WaitingMatches, KeepsTheNewestDescriptionOfEachWithinItsBoundsUntilItIsGone) {
     WaitingMatches waiting(4, 2);
     const auto claim = [](unsigned char sender, const std::string& match_id, std::uint64_t epoch = 1) {
-        Ownership::Claim claim = claim_of({sender});
-        claim.info.match_id = match_id;
-        claim.info.epoch = epoch;
-        return claim;
+        Ownership::Claim made = claim_of({sender});
+        made.info.match_id = match_id;
+        made.info.epoch = epoch;
+        return made;
     };
     EXPECT_TRUE(waiting.keep(claim(1, "a")));
     EXPECT_TRUE(waiting.keep(claim(1, "b")));
@@ -493,7 +493,7 @@ TEST(WaitingMatches, KeepsTheNewestDescriptionOfEachWithinItsBoundsUntilItIsGone
     waiting.remove("b", 3);
     const std::array<WriterHandle, 1> matched{1};
     const auto of = [&](unsigned char sender) {
-        return waiting.take([&](const Ownership::Claim& claim) { return claim.sender == SenderId{sender}; });
+        return waiting.take([&](const Ownership::Claim& kept) { return kept.sender == SenderId{sender}; });
     };
     EXPECT_FALSE(of(4));
     EXPECT_EQ(of(3)->info.match_id, "d");

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <random>
+#include <vector>
 
 #include "direction/grammar.hpp"
 #include "small_match.hpp"
@@ -190,10 +192,10 @@ TEST(Editor, AMaximumBelowTheMinimumCountsAsTheMinimum) {
         Rules rules = small_rules();
         rules.grammar.minimum_shot_s = 0.6;
         rules.grammar.maximum_shot_s = maximum_shot_s;
-        std::vector<Beat> lengths;
+        std::vector<Beat> beats;
         for (const Shot& shot : plan_shots(footage, {}, rules, test::unit, nothing_yet(footage), 0))
-            lengths.push_back(shot.end - shot.begin);
-        return lengths;
+            beats.push_back(shot.end - shot.begin);
+        return beats;
     };
     EXPECT_THAT(lengths(0.4), testing::Each(6));
     EXPECT_EQ(lengths(0.4), lengths(0.6));

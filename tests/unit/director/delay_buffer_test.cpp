@@ -6,6 +6,7 @@
 #include <limits>
 #include <random>
 
+#include "director/arrivals.hpp"
 #include "stage.hpp"
 
 namespace camdir::director {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "camera/camera.hpp"
 #include "freespace/shape_checks.hpp"
 #include "stage.hpp"
 #include "support/freespace_meshes.hpp"
