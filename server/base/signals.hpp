@@ -32,7 +32,8 @@ class Interruption {
 
 enum class Signal { none, stop, reload };
 
-// For a service: while it lives, SIGTERM, SIGINT and SIGHUP are queued for wait(), and SIGPIPE is ignored.
+// For a service: while it lives, SIGTERM, SIGINT and SIGHUP are queued for wait(); from then on SIGPIPE and
+// SIGXFSZ are ignored.
 class Signals {
   public:
     Signals();

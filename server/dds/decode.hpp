@@ -17,12 +17,14 @@ namespace camdir::dds {
 // Why a sample from outside was dropped.
 enum class ValidationError : std::size_t {
     array_length,  // the sample's arrays disagree in length
-    too_many,      // more than 256 players, group members or movers; more of a shape than its limits
+    too_many,      // more than 256 players, group members, movers, cameras or their reasons; more of a shape
+                   // than its limits
     not_finite,    // a number is infinite or not a number
     not_unit,      // the length of a quaternion or normal is off 1 by more than 1e-3
     out_of_range,  // a negative rate, delay or scale; a ball without radius, or one or a half space too far
-                   // away; a term or rank beyond the greatest
-    duplicate,     // a mover is named twice
+                   // away; a term or rank beyond the greatest; a lease of 0 or beyond the greatest; a
+                   // player's id that is reserved
+    duplicate,     // a player or mover is named twice
     bad_hull,      // a hull of fewer than 4 half spaces, or empty, or unbounded
     bad_match_id,  // empty, or not usable as the name of a partition
     wrong_partition,    // the sample names another match than its partition does

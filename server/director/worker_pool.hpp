@@ -81,7 +81,7 @@ class WorkerPool {
     // That all threads have spent on turns and on helping, together, without those that go on. Thread-safe.
     [[nodiscard]] std::chrono::nanoseconds busy() const;
 
-    // Joins the workers. Strands scheduled afterwards get no turn.
+    // Joins the workers. Strands scheduled afterwards get no turn of a worker.
     void stop();
 
   private:

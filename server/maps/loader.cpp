@@ -51,6 +51,7 @@ void Loader::load(const std::vector<config::Map>& maps) {
     std::vector<config::Map> changed;
     for (const config::Map& map : maps) {
         if (is_unchanged(map)) continue;
+        loaded_.erase(map.name);  // until it is loaded again, which another call may stop
         sink_.added(map);
         changed.push_back(map);
     }

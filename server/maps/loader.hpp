@@ -15,7 +15,8 @@
 
 namespace camdir::maps {
 
-// What can be checked without baking: the map's file opens, or its source can be read.
+// What can be checked without baking: the map's file opens, or there is a source to bake it from and options
+// for it that are right.
 [[nodiscard]] Result<void> check_map(const config::Map& map);
 
 // Receives the state of each map; all are set. Called from load() and from the loader's thread, never from

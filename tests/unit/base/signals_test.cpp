@@ -37,5 +37,11 @@ TEST(Signals, AreQueuedForWait) {
     }
 }
 
+TEST(Signals, ThoseThatNobodyWaitedForEndNothing) {
+    Signals signals;
+    ASSERT_EQ(::kill(::getpid(), SIGTERM), 0);
+    ASSERT_EQ(::kill(::getpid(), SIGHUP), 0);
+}
+
 }  // namespace
 }  // namespace camdir
