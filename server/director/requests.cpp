@@ -4,6 +4,7 @@
 #include <xxhash.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "base/utf8.hpp"
 #include "config/json_text.hpp"
@@ -15,6 +16,8 @@ namespace {
 constexpr std::size_t max_reason_bytes = 255;  // ObserverStatus.reason
 // Each is sent with all answers of its bucket, to every observer.
 constexpr std::int64_t repeat_interval_ns = 1'000'000'000;
+constexpr std::int64_t group_shot_interval_ns = 200'000'000;
+constexpr std::int64_t group_shots_at_once = 8;
 
 std::string shortened(std::string text) {
     text.resize(utf8_prefix(text, max_reason_bytes));
@@ -213,26 +216,54 @@ void Requests::reconcile(const RequestContext& context) {
     std::vector<Decision> decisions;
     for (Shot& shot : shots_)
         shot.observers = 0;
-    for (const auto& [id, observer] : observers_) {
-        const Decision& decision = decisions.emplace_back(decide(observer, context));
-        Shot* shot = decision.state == RequestState::accepted ? find_shot(observer.key) : nullptr;
-        if (shot != nullptr) ++shot->observers;
-    }
+    for (const auto& [id, observer] : observers_)
+        decisions.push_back(decide(observer, context));
+    pace_group_shots(decisions, context.now);
+    auto decision = decisions.begin();
+    for (const auto& [id, observer] : observers_)
+        if (Shot* shot = find_shot(observer, *decision++)) ++shot->observers;
     std::erase_if(shots_, [](const Shot& shot) { return shot.observers == 0; });
 
     for (Shot& shot : shots_)
         shot.observers = 0;
-    auto decision = decisions.begin();
+    decision = decisions.begin();
     for (auto& [id, observer] : observers_) {
-        if (decision->state == RequestState::accepted)
-            assign(observer, context.config.limits.shots, *decision);
+        Decision& one = *decision++;
+        if (one.waits) {
+            if (Shot* shot = find_shot(observer, one)) ++shot->observers;
+            continue;
+        }
+        if (one.state == RequestState::accepted) assign(observer, context.config.limits.shots, one);
         publish(observer.answer,
-                {match_id_, id, context.epoch, decision->state, decision->camera_id,
-                 shortened(std::move(decision->reason))},
-                decision->refusal, context.now);
-        ++decision;
+                {match_id_, id, context.epoch, one.state, one.camera_id, shortened(std::move(one.reason))},
+                one.refusal, context.now);
     }
     refuse_waiting(context);
+}
+
+// Each that begins pays an interval; no more of the past than that of `group_shots_at_once` is left to pay.
+void Requests::pace_group_shots(std::span<Decision> decisions, std::int64_t now) {
+    std::vector<std::pair<Observer*, Decision*>> beginning;
+    auto decision = decisions.begin();
+    for (auto& [id, observer] : observers_) {
+        Decision& one = *decision++;
+        if (one.state == RequestState::accepted && observer.key.target == whole_group &&
+            find_shot(observer.key) == nullptr)
+            beginning.emplace_back(&observer, &one);
+    }
+    std::ranges::stable_sort(beginning, {}, [](const auto& one) { return one.first->group_shot_begun_ns; });
+    for (const auto& [observer, one] : beginning) {
+        const std::int64_t paid =
+            std::max(group_shots_paid_ns_, now - group_shots_at_once * group_shot_interval_ns) +
+            group_shot_interval_ns;
+        one->waits = paid > now;
+        if (one->waits) {
+            next_answers_ = std::min(next_answers_, paid);
+        } else {
+            group_shots_paid_ns_ = paid;
+            observer->group_shot_begun_ns = now;
+        }
+    }
 }
 
 // Observers take no refusal of an epoch before.
@@ -244,7 +275,7 @@ void Requests::refuse_waiting(const RequestContext& context) {
                 Counter::refused_observers, context.now);
 }
 
-void Requests::assign(const Observer& observer, std::int64_t max_shots, Decision& decision) {
+void Requests::assign(Observer& observer, std::int64_t max_shots, Decision& decision) {
     Shot* shot = find_shot(observer.key);
     if (shot == nullptr) {
         if (shots_.size() >= static_cast<std::size_t>(max_shots)) {
@@ -257,7 +288,14 @@ void Requests::assign(const Observer& observer, std::int64_t max_shots, Decision
     }
     shot->profile = observer.profile;
     ++shot->observers;
+    observer.shown = observer.key;
     decision.camera_id = shot->camera_id;
+}
+
+Shot* Requests::find_shot(const Observer& observer, const Decision& decision) {
+    if (decision.state != RequestState::accepted) return nullptr;
+    if (!decision.waits) return find_shot(observer.key);
+    return observer.shown ? find_shot(*observer.shown) : nullptr;
 }
 
 Shot* Requests::find_shot(const ShotKey& key) {

@@ -6,6 +6,8 @@
 #include <list>
 #include <map>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <unordered_set>
 #include <vector>
@@ -106,9 +108,11 @@ class Requests {
 
     // Decides about every request, ends and begins shots accordingly, and publishes the statuses that
     // changed, and those that observers do not have: these once a second. A running shot continues while any
-    // request wants it; new shots beyond limits.shots are refused.
+    // request wants it; new shots beyond limits.shots are refused. The first step of a group shot takes
+    // milliseconds: eight begin at once, five a second after that. Whoever waits for theirs, those first who
+    // began one longest ago, keeps the shot and the status from before.
     void reconcile(const RequestContext& context);
-    // When the next reconcile() publishes a status that has not changed.
+    // When the next reconcile() publishes a status that has not changed, or lets a group shot begin.
     [[nodiscard]] std::int64_t next_answers() const { return next_answers_; }
 
     // All shots start again, with a cut.
@@ -129,7 +133,9 @@ class Requests {
         ObserverRequest request;
         ShotKey key;
         camera::Profile profile;
-        std::string error;  // why the request is invalid; empty when it is valid
+        std::string error;                  // why the request is invalid; empty when it is valid
+        std::optional<ShotKey> shown = {};  // of the shot that it had last
+        std::int64_t group_shot_begun_ns = std::numeric_limits<std::int64_t>::min();  // its last one
         Answer answer;
     };
     struct Waiting {
@@ -141,6 +147,7 @@ class Requests {
         std::uint32_t camera_id = 0;
         std::string reason;
         Counter refusal = Counter::refused_invalid;  // of what is refused
+        bool waits = false;                          // for its group shot to begin
     };
 
     // They return what put() returns.
@@ -150,7 +157,10 @@ class Requests {
     void refuse_waiting(const RequestContext& context);
     static void resolve(Observer& observer, const config::Config& config);
     [[nodiscard]] static Decision decide(const Observer& observer, const RequestContext& context);
-    void assign(const Observer& observer, std::int64_t max_shots, Decision& decision);
+    void pace_group_shots(std::span<Decision> decisions, std::int64_t now);
+    void assign(Observer& observer, std::int64_t max_shots, Decision& decision);
+    // That of an accepted request, or until it may begin the one before; null where there is none.
+    Shot* find_shot(const Observer& observer, const Decision& decision);
     Shot* find_shot(const ShotKey& key);
     Shot& add_shot(const ShotKey& key);
     // `refusal`: what a refusal counts as.
@@ -165,6 +175,7 @@ class Requests {
     std::list<Waiting> waiting_;                   // for a place, in the order of arrival
     std::unordered_set<std::string> turned_away_;  // observers who cannot even wait
     std::vector<Shot> shots_;
+    std::int64_t group_shots_paid_ns_ = std::numeric_limits<std::int64_t>::min();  // see pace_group_shots()
     std::int64_t next_answers_ = never;
 };
 

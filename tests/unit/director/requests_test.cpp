@@ -3,6 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <string>
+#include <vector>
+
 #include "stage.hpp"
 
 namespace camdir::director {
@@ -127,6 +131,92 @@ TEST_F(RequestsTest, RefusalsAreCountedWhenTheyChange) {
     counters_.add_to(sum);
     EXPECT_EQ(sum[Counter::refused_invalid], 1U);
     EXPECT_EQ(sum[Counter::refused_observers], 0U);
+}
+
+// Observers who ask for group shots in a match of 64 players.
+class GroupRequestsTest : public RequestsTest {
+  protected:
+    void SetUp() override {
+        std::vector<Player> players;
+        for (std::uint32_t player = 1; player <= 64; ++player)
+            players.push_back({.id = player, .name = {}, .player_class = {}});
+        roster_.set_listed(players);
+    }
+    void ask(const std::string& observer_id, std::uint32_t first) {
+        ObserverRequest request = Stage::request(observer_id, whole_group);
+        request.group = {first, first + 1};
+        put(request);
+    }
+    // The group shot that begins with this player.
+    const Shot* shot_of(std::uint32_t first) {
+        const auto found = std::ranges::find_if(requests_.shots(), [&](const Shot& shot) {
+            return shot.key.group == std::vector{first, first + 1};
+        });
+        return found == requests_.shots().end() ? nullptr : &*found;
+    }
+    std::size_t group_shots() {
+        return static_cast<std::size_t>(std::ranges::count_if(requests_.shots(), &Shot::is_of_group));
+    }
+};
+
+TEST_F(GroupRequestsTest, EightBeginAtOnceAndFiveASecondAfterThat) {
+    for (std::uint32_t i = 0; i < 20; ++i)
+        ask("o" + std::to_string(i), 2 * i + 1);
+    EXPECT_EQ(reconcile(0), 8U);
+    for (std::int64_t begun = 8; begun < 20; ++begun) {
+        EXPECT_EQ(group_shots(), static_cast<std::size_t>(begun));
+        const std::int64_t next = requests_.next_answers();
+        EXPECT_EQ(next, (begun - 7) * 200 * ms);
+        EXPECT_EQ(reconcile(next - 1), 0U);
+        EXPECT_EQ(reconcile(next), 1U);
+    }
+    EXPECT_EQ(group_shots(), 20U);
+    EXPECT_EQ(requests_.next_answers(), Requests::never);
+}
+
+TEST_F(GroupRequestsTest, UntilTheNewOneBeginsTheShotAndItsAnswerStay) {
+    ask("anna", 1);
+    reconcile(0);
+    const std::uint32_t camera = publisher_.status("anna").camera_id;
+    for (std::uint32_t i = 0; i < 7; ++i)
+        ask("o" + std::to_string(i), 2 * i + 11);
+    reconcile(0);
+    for (std::int64_t i = 1; i < 20; ++i) {  // a hundred times a second
+        ask("anna", static_cast<std::uint32_t>(30 + i));
+        EXPECT_EQ(reconcile(i * 10 * ms), 0U);
+        ASSERT_NE(shot_of(1), nullptr);
+        EXPECT_EQ(shot_of(1)->observers, 1U);
+        EXPECT_EQ(publisher_.status("anna").camera_id, camera);
+    }
+    EXPECT_EQ(reconcile(200 * ms), 1U);
+    EXPECT_EQ(shot_of(1), nullptr);
+    ASSERT_NE(shot_of(49), nullptr) << "the one that was asked for last";
+    EXPECT_EQ(publisher_.status("anna").camera_id, shot_of(49)->camera_id);
+    put(Stage::request("anna", 2));
+    reconcile(201 * ms);
+    EXPECT_EQ(shot_of(49), nullptr);
+}
+
+TEST_F(GroupRequestsTest, WhoBeganNoneLatelyComesFirst) {
+    std::uint32_t next = 1;
+    const auto everybody_changes = [&] {
+        for (int i = 0; i < 20; ++i) {
+            ask("a" + std::to_string(i), next);
+            next = next % 60 + 1;
+        }
+    };
+    everybody_changes();
+    reconcile(0);
+    for (std::int64_t time = 10; time < 10'000; time += 10) {
+        everybody_changes();
+        reconcile(time * ms);
+    }
+    ask("zoe", 63);
+    for (std::int64_t time = 10'000; time <= 10'200 && shot_of(63) == nullptr; time += 10) {
+        everybody_changes();
+        reconcile(time * ms);
+    }
+    EXPECT_NE(shot_of(63), nullptr);
 }
 
 }  // namespace
