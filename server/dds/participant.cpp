@@ -3,8 +3,10 @@
 #include <netdb.h>
 #include <spdlog/spdlog.h>
 
+#include <charconv>
 #include <chrono>
 #include <cstdint>
+#include <string_view>
 #include <utility>
 
 #include "base/log_limit.hpp"
@@ -15,12 +17,23 @@
 namespace camdir::dds {
 namespace {
 
-Result<void> check_name(const std::string& peer) {
+bool is_port(std::string_view text) {
+    std::uint16_t port = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), port);
+    return error == std::errc() && end == text.data() + text.size() && port > 0;
+}
+
+Result<void> check_peer(const std::string& peer) {
+    const std::size_t colon = peer.find(':');
+    if (colon != std::string::npos && !is_port(std::string_view(peer).substr(colon + 1)))
+        return fail("\"" + peer + "\": expected a host, or host:port with a port from 1 to 65535");
     addrinfo ipv4{};  // as Cyclone DDS
     ipv4.ai_family = AF_INET;
     addrinfo* found = nullptr;
-    const int error = ::getaddrinfo(peer.substr(0, peer.find(':')).c_str(), nullptr, &ipv4, &found);
-    if (error != 0) return fail("\"" + peer + "\": " + ::gai_strerror(error));
+    const int error = ::getaddrinfo(peer.substr(0, colon).c_str(), nullptr, &ipv4, &found);
+    if (error != 0)
+        return fail("\"" + peer + "\": " + ::gai_strerror(error) +
+                    ": expected an IPv4 address, or a name that has one");
     ::freeaddrinfo(found);
     return {};
 }
@@ -30,10 +43,8 @@ Result<void> check_name(const std::string& peer) {
 Result<void> check_peers(const config::Dds& config) {
     if (!config.xml.empty()) return {};
     for (std::size_t i = 0; i < config.peers.size(); ++i) {
-        const auto checked = check_name(config.peers[i]);
-        if (!checked)
-            return fail("/dds/peers/" + std::to_string(i) + ": " + checked.error().message +
-                        ": expected an IPv4 address, or a name that has one");
+        const auto checked = check_peer(config.peers[i]);
+        if (!checked) return fail("/dds/peers/" + std::to_string(i) + ": " + checked.error().message);
     }
     return {};
 }

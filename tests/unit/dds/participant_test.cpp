@@ -168,6 +168,20 @@ TEST(Participant, HasRoomForWhatWaitsForHostsThatAreGone) {
         EXPECT_EQ(send_buffer(socket.file), granted);
 }
 
+// Cyclone DDS would go on without it.
+TEST(Participant, NamesThePeerWhosePortIsNone) {
+    const test::TestDomain domain;
+    for (const char* port : {"0", "", "65536", "-1", "74a", "7410:1"}) {
+        config::Dds config;
+        config.domain = domain.id();
+        config.peers = {"127.0.0.1", std::string("127.0.0.1:") + port};
+        const auto participant = Participant::open(config);
+        ASSERT_FALSE(participant) << port;
+        EXPECT_THAT(participant.error().message,
+                    AllOf(HasSubstr("/dds/peers/1: \"127.0.0.1:"), HasSubstr("a port from 1 to 65535")));
+    }
+}
+
 TEST(Participant, NamesThePeerThatCannotBeResolved) {
     const test::TestDomain domain;
     config::Dds config;
