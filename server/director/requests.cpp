@@ -241,7 +241,7 @@ void Requests::reconcile(const RequestContext& context) {
     refuse_waiting(context);
 }
 
-// Each that begins pays an interval; no more of the past than that of `group_shots_at_once` is left to pay.
+// Each that begins pays for an interval; `group_shots_at_once` intervals may be saved up.
 void Requests::pace_group_shots(std::span<Decision> decisions, std::int64_t now) {
     std::vector<std::pair<Observer*, Decision*>> beginning;
     auto decision = decisions.begin();
