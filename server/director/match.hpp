@@ -115,8 +115,9 @@ class Match final : public Strand {
     void gather_crowd(const PoseFrame& frame);
     void gather_crowd(double time);
     void move_cameras(const PoseFrame& frame, double dt, CameraFrame& cameras, Turn& turn);
-    // Calls move(i, scratch) for every i below `count`, also on workers that are idle.
-    void share_shots(Turn& turn, std::size_t count,
+    // Calls move(i, scratch) for every i below `count`, also on workers that are idle; on more of them where
+    // a group shot begins.
+    void share_shots(Turn& turn, std::size_t count, bool begins_group_shot,
                      const std::function<void(std::size_t, camera::Scratch&)>& move);
     ShotCamera show_fixed(Shot& shot);
     [[nodiscard]] Edit::Setting edit_setting() const;

@@ -15,8 +15,10 @@ constexpr double max_ahead_s = 2.5;       // that the planner uses
 constexpr double arrival_jitter_s = 0.1;  // of poses
 constexpr double lead_s = 1e-9 * static_cast<double>(DelayBuffer::lead_ns);
 constexpr double first_step_s = 1.0 / 60.0;
-constexpr double rounding_s = 1e-6;          // trackers may count the same time by another sum
-constexpr std::size_t shots_per_worker = 8;  // fewer are not worth waking another worker for
+constexpr double rounding_s = 1e-6;  // trackers may count the same time by another sum
+// So many are worth waking another worker for.
+constexpr std::size_t shots_per_worker = 8;
+constexpr std::size_t beginning_group_shots_per_worker = 1;  // whose first step takes milliseconds
 
 // Counts how long it lives.
 class Timed {
@@ -38,6 +40,10 @@ bool was_moved(const PlayerPose& pose) {
 std::span<const PlayerPose> tracked(const PoseFrame& frame, const config::Limits& limits) {
     return std::span(frame.poses)
         .first(std::min(frame.poses.size(), static_cast<std::size_t>(limits.players)));
+}
+
+bool is_beginning_group(const Shot& shot) {
+    return shot.is_of_group() && !shot.group.started && !shot.is_prepared;
 }
 
 CameraFrame no_cameras(const PoseFrame& frame) {
@@ -188,17 +194,19 @@ void Match::move_cameras(const PoseFrame& frame, double dt, CameraFrame& cameras
     gather_crowd(frame);
     std::vector<Shot>& shots = requests_.shots();
     cameras.cameras.resize(shots.size());
-    share_shots(turn, shots.size(), [&](std::size_t i, camera::Scratch& scratch) {
+    const bool begins = std::ranges::any_of(shots, is_beginning_group);
+    share_shots(turn, shots.size(), begins, [&](std::size_t i, camera::Scratch& scratch) {
         cameras.cameras[i] = move_camera(shots[i], dt, scratch);
     });
     counters_.add(Counter::camera_frames);
     counters_.add(Counter::cameras, cameras.cameras.size());
 }
 
-void Match::share_shots(Turn& turn, std::size_t count,
+void Match::share_shots(Turn& turn, std::size_t count, bool begins_group_shot,
                         const std::function<void(std::size_t, camera::Scratch&)>& move) {
     scratch_.resize(turn.lanes());
-    turn.share(count, shots_per_worker, [&](std::size_t lane, std::size_t i) {
+    const std::size_t share = begins_group_shot ? beginning_group_shots_per_worker : shots_per_worker;
+    turn.share(count, share, [&](std::size_t lane, std::size_t i) {
         if (!scratch_[lane]) scratch_[lane] = std::make_unique<camera::Scratch>(*map_.freespace());
         move(i, *scratch_[lane]);
     });
@@ -221,7 +229,9 @@ void Match::prepare(Turn& turn) {
             unprepared_.push_back(&shot);
     // In more turns than one where a worker would be busy for long: what is due waits for it.
     const std::size_t count = std::min(unprepared_.size(), shots_per_worker * turn.workers());
-    share_shots(turn, count, [&](std::size_t i, camera::Scratch& scratch) {
+    const bool begins =
+        std::ranges::any_of(unprepared_, [](const Shot* shot) { return is_beginning_group(*shot); });
+    share_shots(turn, count, begins, [&](std::size_t i, camera::Scratch& scratch) {
         prepare_step(*unprepared_[i], time, scratch);
     });
     if (count < unprepared_.size()) turn.again();

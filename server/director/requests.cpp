@@ -229,11 +229,11 @@ void Requests::reconcile(const RequestContext& context) {
     decision = decisions.begin();
     for (auto& [id, observer] : observers_) {
         Decision& one = *decision++;
-        if (one.waits) {
-            if (Shot* shot = find_shot(observer, one)) ++shot->observers;
-            continue;
-        }
-        if (one.state == RequestState::accepted) assign(observer, context.config.limits.shots, one);
+        if (must_wait(observer, one, context.config.limits.shots))
+            wait_for_group_shot(observer, one, context.now);
+        else if (one.state == RequestState::accepted)
+            assign(observer, context, one);
+        if (one.state != RequestState::accepted) observer.shown.reset();
         publish(observer.answer,
                 {match_id_, id, context.epoch, one.state, one.camera_id, shortened(std::move(one.reason))},
                 one.refusal, context.now);
@@ -241,28 +241,51 @@ void Requests::reconcile(const RequestContext& context) {
     refuse_waiting(context);
 }
 
-// Each that begins pays for an interval; `group_shots_at_once` intervals may be saved up.
+// As many as the match may begin now; who wants the same shot waits or begins together.
 void Requests::pace_group_shots(std::span<Decision> decisions, std::int64_t now) {
     std::vector<std::pair<Observer*, Decision*>> beginning;
     auto decision = decisions.begin();
     for (auto& [id, observer] : observers_) {
         Decision& one = *decision++;
-        if (one.state == RequestState::accepted && observer.key.target == whole_group &&
-            find_shot(observer.key) == nullptr)
-            beginning.emplace_back(&observer, &one);
-    }
-    std::ranges::stable_sort(beginning, {}, [](const auto& one) { return one.first->group_shot_begun_ns; });
-    for (const auto& [observer, one] : beginning) {
-        const std::int64_t paid =
-            std::max(group_shots_paid_ns_, now - group_shots_at_once * group_shot_interval_ns) +
-            group_shot_interval_ns;
-        one->waits = paid > now;
-        if (one->waits) {
-            next_answers_ = std::min(next_answers_, paid);
-        } else {
-            group_shots_paid_ns_ = paid;
-            observer->group_shot_begun_ns = now;
+        if (one.state != RequestState::accepted || observer.key.target != whole_group ||
+            find_shot(observer.key) != nullptr) {
+            observer.waits_since.reset();
+            continue;
         }
+        if (!observer.waits_since) observer.waits_since = now;
+        beginning.emplace_back(&observer, &one);
+    }
+    std::ranges::stable_sort(beginning, {}, [](const auto& one) { return *one.first->waits_since; });
+    const std::int64_t may_begin =
+        (now + group_shot_interval_ns - next_group_shot(now)) / group_shot_interval_ns;
+    std::vector<const ShotKey*> begin;
+    for (const auto& [observer, one] : beginning) {
+        if (std::ranges::any_of(begin, [&](const ShotKey* key) { return *key == observer->key; })) continue;
+        one->waits = static_cast<std::int64_t>(begin.size()) >= may_begin;
+        if (!one->waits) begin.push_back(&observer->key);
+    }
+}
+
+// Each pays for an interval; `group_shots_at_once` of them may be saved up.
+std::int64_t Requests::next_group_shot(std::int64_t now) const {
+    return std::max(group_shots_paid_ns_, now - group_shots_at_once * group_shot_interval_ns) +
+           group_shot_interval_ns;
+}
+
+// Where there is no room it is refused at once, unless its shot from before makes room.
+bool Requests::must_wait(const Observer& observer, const Decision& decision, std::int64_t max_shots) {
+    return decision.waits &&
+           (find_shot(observer, decision) != nullptr || shots_.size() < static_cast<std::size_t>(max_shots));
+}
+
+void Requests::wait_for_group_shot(const Observer& observer, Decision& decision, std::int64_t now) {
+    next_answers_ = std::min(next_answers_, std::max(next_group_shot(now), now));
+    if (Shot* shot = find_shot(observer, decision)) {
+        ++shot->observers;
+        decision.camera_id = shot->camera_id;
+    } else {
+        decision.camera_id = camera_id_of(observer.key);
+        decision.reason = "its group shot begins soon: others of this match begin before it";
     }
 }
 
@@ -275,9 +298,11 @@ void Requests::refuse_waiting(const RequestContext& context) {
                 Counter::refused_observers, context.now);
 }
 
-void Requests::assign(Observer& observer, std::int64_t max_shots, Decision& decision) {
+void Requests::assign(Observer& observer, const RequestContext& context, Decision& decision) {
+    observer.waits_since.reset();
     Shot* shot = find_shot(observer.key);
     if (shot == nullptr) {
+        const std::int64_t max_shots = context.config.limits.shots;
         if (shots_.size() >= static_cast<std::size_t>(max_shots)) {
             decision = {RequestState::refused, 0,
                         "this match has " + std::to_string(max_shots) + " cameras already",
@@ -285,6 +310,7 @@ void Requests::assign(Observer& observer, std::int64_t max_shots, Decision& deci
             return;
         }
         shot = &add_shot(observer.key);
+        if (shot->is_of_group()) group_shots_paid_ns_ = next_group_shot(context.now);
     }
     shot->profile = observer.profile;
     ++shot->observers;

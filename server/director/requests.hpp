@@ -109,8 +109,9 @@ class Requests {
     // Decides about every request, ends and begins shots accordingly, and publishes the statuses that
     // changed, and those that observers do not have: these once a second. A running shot continues while any
     // request wants it; new shots beyond limits.shots are refused. The first step of a group shot takes
-    // milliseconds: eight begin at once, five a second after that. Whoever waits for theirs, those first who
-    // began one longest ago, keeps the shot and the status from before.
+    // milliseconds: eight begin at once, five a second after that, in the order in which they were asked for.
+    // Until then observers keep their shot from before, or are accepted for a camera that begins soon. Only a
+    // restart of all shots is not spread.
     void reconcile(const RequestContext& context);
     // When the next reconcile() publishes a status that has not changed, or lets a group shot begin.
     [[nodiscard]] std::int64_t next_answers() const { return next_answers_; }
@@ -133,9 +134,9 @@ class Requests {
         ObserverRequest request;
         ShotKey key;
         camera::Profile profile;
-        std::string error;                  // why the request is invalid; empty when it is valid
-        std::optional<ShotKey> shown = {};  // of the shot that it had last
-        std::int64_t group_shot_begun_ns = std::numeric_limits<std::int64_t>::min();  // its last one
+        std::string error;                             // why the request is invalid; empty when it is valid
+        std::optional<ShotKey> shown = {};             // of its shot; of the one before while that begins
+        std::optional<std::int64_t> waits_since = {};  // for a group shot, whichever it asks for
         Answer answer;
     };
     struct Waiting {
@@ -158,7 +159,10 @@ class Requests {
     static void resolve(Observer& observer, const config::Config& config);
     [[nodiscard]] static Decision decide(const Observer& observer, const RequestContext& context);
     void pace_group_shots(std::span<Decision> decisions, std::int64_t now);
-    void assign(Observer& observer, std::int64_t max_shots, Decision& decision);
+    [[nodiscard]] std::int64_t next_group_shot(std::int64_t now) const;
+    [[nodiscard]] bool must_wait(const Observer& observer, const Decision& decision, std::int64_t max_shots);
+    void wait_for_group_shot(const Observer& observer, Decision& decision, std::int64_t now);
+    void assign(Observer& observer, const RequestContext& context, Decision& decision);
     // That of an accepted request, or until it may begin the one before; null where there is none.
     Shot* find_shot(const Observer& observer, const Decision& decision);
     Shot* find_shot(const ShotKey& key);

@@ -56,11 +56,13 @@ class GroupStep {
         } else {
             cuts = is_threatened() ? make_way() : (glide(), false);
             turn();
+        }
+        judge();
+        if (!cuts && state_.until_choice <= 0.0F && members_.now().living != 0 && choose()) {
+            cuts = true;
             judge();
-            cuts = cuts || (state_.until_choice <= 0.0F && members_.now().living != 0 && choose());
         }
         state_.side = side_of(members_.now(), state_.position);
-        if (cuts) judge();
         return frame(flags_ | (cuts ? std::uint32_t{cut} : 0U));
     }
 

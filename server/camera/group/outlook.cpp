@@ -35,7 +35,7 @@ Set look(const freespace::Freespace& freespace, const PictureShape& picture, std
 }  // namespace
 
 bool Outlook::Answer::is_of(const PictureShape& asked_for, std::span<const Vec3f> asked) const {
-    return picture == asked_for && count == asked.size() &&
+    return count == asked.size() && picture == asked_for &&
            std::ranges::equal(asked, std::span(eyes).first(count));
 }
 

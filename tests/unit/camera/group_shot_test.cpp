@@ -4,7 +4,10 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
+#include <optional>
+#include <random>
 #include <vector>
 
 #include "camera/group/framing.hpp"
@@ -19,6 +22,9 @@ namespace {
 
 constexpr double group_frame = 1.0 / 60.0;
 
+// By member; none: not present.
+using Poses = std::vector<std::optional<Pose>>;
+
 bool flagged(const Camera& camera, std::uint32_t flag) {
     return (camera.flags & flag) != 0;
 }
@@ -28,10 +34,10 @@ class CheckedGroup {
   public:
     explicit CheckedGroup(const test::Plan& plan) : plan_(plan), freespace_(plan.freespace()) {}
 
-    Camera step(const std::vector<Pose>& poses) {
+    Camera step(const Poses& poses) {
         std::vector<TimedPose> timed;
-        for (const Pose& pose : poses)
-            timed.push_back({time_, pose, true});
+        for (const auto& pose : poses)
+            timed.push_back({time_, pose.value_or(Pose{}), pose.has_value()});
         std::vector<Window> windows;
         for (const TimedPose& pose : timed)
             windows.emplace_back(&pose, 1);
@@ -45,8 +51,9 @@ class CheckedGroup {
     [[nodiscard]] int cuts() const { return cuts_; }
 
   private:
-    void check(const Camera& camera, const std::vector<Pose>& poses) {
+    void check(const Camera& camera, const Poses& poses) {
         ASSERT_TRUE(camera.position.allFinite());
+        ASSERT_TRUE(camera.orientation.coeffs().allFinite());
         EXPECT_NEAR(camera.orientation.norm(), 1.0F, 1e-4F);
         EXPECT_NEAR((camera.orientation * Vec3f::UnitY()).z(), 0.0F, 1e-4F) << "a level horizon";
         EXPECT_GT(plan_.clearance(camera.position), 0.0F);
@@ -58,9 +65,9 @@ class CheckedGroup {
             EXPECT_TRUE(plan_.segment_clear(position_, camera.position));
             EXPECT_LT((camera.position - position_).norm(), 400.0 * group_frame);
         }
-        for (const Pose& pose : poses) {
-            if (!flagged(camera, target_visible) || !pose.alive) continue;
-            EXPECT_TRUE(shows(camera, pose.eye));
+        for (const auto& pose : poses) {
+            if (!flagged(camera, target_visible) || !pose || !usable(*pose) || !pose->alive) continue;
+            EXPECT_TRUE(shows(camera, pose->eye));
         }
         position_ = camera.position;
     }
@@ -91,6 +98,39 @@ TEST(GroupShot, ShowsBothFromTheFirstFrame) {
     const Camera camera = shot.step({pose_at(plan.eye(2, 3), 0.0F), pose_at(plan.eye(3, 6), 3.0F)});
     EXPECT_TRUE(flagged(camera, cut));
     EXPECT_TRUE(flagged(camera, target_visible));
+}
+
+// Poses that no game should send: anywhere, in walls, not finite, missing.
+TEST(GroupShot, NonsenseNeverBreaksAPromise) {
+    const test::Plan plan = test::two_rooms();
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    constexpr float odd_numbers[] = {0.0F,  -0.0F,  infinity, -infinity,
+                                     1e38F, 1e-38F, 1e7F,     std::numeric_limits<float>::quiet_NaN()};
+    for (std::uint32_t seed = 1; seed <= 16; ++seed) {
+        SCOPED_TRACE(testing::Message() << "seed " << seed);
+        std::mt19937 random(seed);
+        const auto odd_number = [&] { return odd_numbers[random() % std::size(odd_numbers)]; };
+        CheckedGroup shot(plan);
+        std::vector<Runner> runners;
+        for (std::uint32_t i = 0; i < 2 + seed % 3; ++i)
+            runners.emplace_back(plan, plan.eye('s'), 4 * seed + i);
+        for (int frame = 0; frame < 300; ++frame) {
+            Poses poses;
+            for (Runner& runner : runners) {
+                Pose pose = runner.next(1.0F / 60.0F);
+                const auto what = frame == 0 ? 0 : random() % 40;
+                if (what == 1) pose.eye = plan.bounds().sample();
+                if (what == 2) pose.eye[static_cast<int>(random() % 3)] = odd_number();
+                if (what == 3) pose.orientation.coeffs()[static_cast<int>(random() % 4)] = odd_number();
+                if (what == 4) pose.velocity[static_cast<int>(random() % 3)] = odd_number();
+                pose.discontinuity = what == 5;
+                pose.alive = what != 6;
+                poses.push_back(what == 7 ? std::nullopt : std::optional(pose));
+            }
+            shot.step(poses);
+            if (HasFailure()) return;
+        }
+    }
 }
 
 TEST(GroupShot, StandsStillWhilePlayersStayInTheMiddleOfThePicture) {
@@ -139,10 +179,10 @@ TEST(GroupShot, KeepsTheMoreImportantWhereNobodySeesBoth) {
 TEST(GroupShot, HoldsTheLastPictureWhenNobodyLives) {
     const test::Plan plan = hall();
     CheckedGroup shot(plan);
-    std::vector<Pose> poses = {pose_at(plan.eye(2, 3), 0.0F), pose_at(plan.eye(3, 6), 3.0F)};
+    Poses poses = {pose_at(plan.eye(2, 3), 0.0F), pose_at(plan.eye(3, 6), 3.0F)};
     const Camera before = shot.step(poses);
-    for (Pose& pose : poses)
-        pose.alive = false;
+    for (std::optional<Pose>& pose : poses)
+        pose->alive = false;
     for (int i = 0; i < 60; ++i) {
         const Camera camera = shot.step(poses);
         EXPECT_TRUE(flagged(camera, held));
@@ -184,10 +224,10 @@ TEST_P(GroupRun, KeepsItsPromisesAndIsDeterministic) {
         runners.emplace_back(plan, lookouts[static_cast<std::size_t>(i) * 3 % lookouts.size()],
                              static_cast<std::uint32_t>(100 + i));
     for (int i = 0; i < 240; ++i) {
-        std::vector<Pose> poses;
+        Poses poses;
         for (Runner& runner : runners)
             poses.push_back(runner.next(static_cast<float>(group_frame)));
-        poses.front().alive = i % 120 < 100;
+        poses.front()->alive = i % 120 < 100;
         const Camera camera = shot.step(poses);
         const Camera twin = again.step(poses);
         ASSERT_EQ(camera.position, twin.position);

@@ -27,9 +27,9 @@ class RequestsTest : public testing::Test {
     bool put(const ObserverRequest& request) { return requests_.put(request, config_, 1); }
 
     // Returns the number of statuses that it publishes.
-    std::size_t reconcile(std::int64_t now) {
+    std::size_t reconcile(std::int64_t now, std::uint64_t epoch = 1) {
         const std::size_t before = publisher_.statuses_published();
-        requests_.reconcile({config_, roster_, 1, "", "", "", now});
+        requests_.reconcile({config_, roster_, epoch, "", "", "", now});
         return publisher_.statuses_published() - before;
     }
 
@@ -162,7 +162,7 @@ class GroupRequestsTest : public RequestsTest {
 TEST_F(GroupRequestsTest, EightBeginAtOnceAndFiveASecondAfterThat) {
     for (std::uint32_t i = 0; i < 20; ++i)
         ask("o" + std::to_string(i), 2 * i + 1);
-    EXPECT_EQ(reconcile(0), 8U);
+    EXPECT_EQ(reconcile(0), 20U);
     for (std::int64_t begun = 8; begun < 20; ++begun) {
         EXPECT_EQ(group_shots(), static_cast<std::size_t>(begun));
         const std::int64_t next = requests_.next_answers();
@@ -172,6 +172,72 @@ TEST_F(GroupRequestsTest, EightBeginAtOnceAndFiveASecondAfterThat) {
     }
     EXPECT_EQ(group_shots(), 20U);
     EXPECT_EQ(requests_.next_answers(), Requests::never);
+}
+
+TEST_F(GroupRequestsTest, WhoeverWaitsForAFirstShotIsToldSo) {
+    for (std::uint32_t i = 0; i < 8; ++i)
+        ask("a" + std::to_string(i), 2 * i + 1);
+    ask("zoe", 31);
+    reconcile(0);
+    const ObserverStatus waits = publisher_.status("zoe");
+    EXPECT_EQ(waits.state, RequestState::accepted);
+    EXPECT_NE(waits.reason, "");
+    EXPECT_EQ(shot_of(31), nullptr);
+    reconcile(200 * ms);
+    ASSERT_NE(shot_of(31), nullptr);
+    EXPECT_EQ(publisher_.status("zoe").camera_id, shot_of(31)->camera_id);
+    EXPECT_EQ(publisher_.status("zoe").reason, "");
+    EXPECT_EQ(waits.camera_id, shot_of(31)->camera_id);
+}
+
+TEST_F(GroupRequestsTest, WhoAskForTheSamePayOnce) {
+    for (int i = 0; i < 12; ++i)
+        ask("a" + std::to_string(i), 1);
+    for (std::uint32_t i = 0; i < 7; ++i)
+        ask("b" + std::to_string(i), 2 * i + 3);
+    for (int i = 0; i < 3; ++i)
+        ask("c" + std::to_string(i), 41);
+    reconcile(0);
+    EXPECT_EQ(group_shots(), 8U);
+    ASSERT_NE(shot_of(1), nullptr);
+    EXPECT_EQ(shot_of(1)->observers, 12U);
+    EXPECT_EQ(shot_of(41), nullptr);
+    reconcile(200 * ms);
+    ASSERT_NE(shot_of(41), nullptr);
+    EXPECT_EQ(shot_of(41)->observers, 3U);
+}
+
+// Observers take no answer of an epoch before.
+TEST_F(GroupRequestsTest, WhoeverWaitsIsAnsweredAgainInANewEpoch) {
+    ask("anna", 1);
+    reconcile(0);
+    for (std::uint32_t i = 0; i < 7; ++i)
+        ask("o" + std::to_string(i), 2 * i + 11);
+    reconcile(0);
+    ask("anna", 31);
+    reconcile(1 * ms, 2);
+    ASSERT_NE(shot_of(1), nullptr);
+    EXPECT_EQ(publisher_.status("anna").epoch, 2U);
+    EXPECT_EQ(publisher_.status("anna").camera_id, shot_of(1)->camera_id);
+}
+
+TEST_F(GroupRequestsTest, WhereThereIsNoRoomNobodyWaitsOrPays) {
+    config_.limits.shots = 2;
+    ask("anna", 1);
+    ask("bert", 3);
+    reconcile(0);
+    for (std::uint32_t i = 0; i < 20; ++i)
+        ask("o" + std::to_string(i), 2 * i + 11);
+    for (std::int64_t time = 10; time < 100; time += 10)
+        reconcile(time * ms);
+    EXPECT_EQ(requests_.next_answers(), Requests::never);
+    for (std::uint32_t i = 0; i < 20; ++i)
+        EXPECT_EQ(publisher_.status("o" + std::to_string(i)).state, RequestState::refused);
+    for (const std::uint32_t first : {5U, 7U, 9U}) {  // each makes room for itself
+        ask("bert", first);
+        reconcile(200 * ms);
+        EXPECT_NE(shot_of(first), nullptr);
+    }
 }
 
 TEST_F(GroupRequestsTest, UntilTheNewOneBeginsTheShotAndItsAnswerStay) {
@@ -197,26 +263,29 @@ TEST_F(GroupRequestsTest, UntilTheNewOneBeginsTheShotAndItsAnswerStay) {
     EXPECT_EQ(shot_of(49), nullptr);
 }
 
-TEST_F(GroupRequestsTest, WhoBeganNoneLatelyComesFirst) {
+TEST_F(GroupRequestsTest, WhoChangesOrLeavesAndReturnsAllTheTimeStarvesNobody) {
     std::uint32_t next = 1;
     const auto everybody_changes = [&] {
         for (int i = 0; i < 20; ++i) {
-            ask("a" + std::to_string(i), next);
+            const std::string id = "a" + std::to_string(i);
+            if (i % 2 == 0) requests_.remove(id, config_);
+            ask(id, next);
             next = next % 60 + 1;
         }
     };
-    everybody_changes();
-    reconcile(0);
-    for (std::int64_t time = 10; time < 10'000; time += 10) {
-        everybody_changes();
-        reconcile(time * ms);
+    for (const std::uint32_t first : {63U, 61U}) {  // a first shot, then another
+        const std::int64_t asked = first == 63 ? 10'000 : 20'000;
+        for (std::int64_t time = asked - 10'000; time < asked; time += 10) {
+            everybody_changes();
+            reconcile(time * ms);
+        }
+        ask("zoe", first);
+        for (std::int64_t time = asked; time <= asked + 21 * 200 && shot_of(first) == nullptr; time += 10) {
+            everybody_changes();
+            reconcile(time * ms);
+        }
+        EXPECT_NE(shot_of(first), nullptr);
     }
-    ask("zoe", 63);
-    for (std::int64_t time = 10'000; time <= 10'200 && shot_of(63) == nullptr; time += 10) {
-        everybody_changes();
-        reconcile(time * ms);
-    }
-    EXPECT_NE(shot_of(63), nullptr);
 }
 
 }  // namespace
