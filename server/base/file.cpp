@@ -152,7 +152,8 @@ bool is_named(int fd, const std::filesystem::path& name) {
 
 }  // namespace
 
-Result<std::optional<PendingFile>> PendingFile::begin(const std::filesystem::path& path) {
+Result<std::optional<PendingFile>> PendingFile::begin(const std::filesystem::path& named) {
+    const std::filesystem::path path = target_of(named);
     const std::filesystem::path part = part_of(path);
     for (;;) {
         const int fd = ::open(part.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0644);

@@ -32,7 +32,7 @@ using Bytes = std::vector<std::byte>;
 // at most an unlocked `path`.part, which the next one takes over. Movable.
 class PendingFile {
   public:
-    // Nothing: another process or thread is making the file.
+    // Nothing: another process or thread is making the file. A symbolic link keeps its place.
     [[nodiscard]] static Result<std::optional<PendingFile>> begin(const std::filesystem::path& path);
     PendingFile(PendingFile&& other) noexcept;
     PendingFile& operator=(PendingFile&&) = delete;

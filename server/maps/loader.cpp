@@ -114,6 +114,7 @@ void Loader::bake_and_open(const config::Map& map, const std::stop_token& stop) 
 }
 
 void Loader::open(const config::Map& map, double bake_seconds) {
+    const auto file = state_of(map.file);  // before it is read: it may be replaced meanwhile
     // With what its queries look up: no match's worker must wait for that, or run out of memory.
     auto opened = guarded(map.file, [&] {
         auto freespace = freespace::Freespace::open(map.file);
@@ -127,7 +128,7 @@ void Loader::open(const config::Map& map, double bake_seconds) {
     if (!opened) return set_failed(map, opened.error());
     spdlog::info("map {}: {} vertices, {} triangles", map.name, opened->vertices().size(),
                  opened->triangles().size());
-    remember(map);
+    loaded_[map.name] = {map, file};
     sink_.ready(map.name, std::move(*opened), bake_seconds);
 }
 
@@ -141,14 +142,15 @@ bool Loader::is_unchanged(const config::Map& map) const {
     const auto found = loaded_.find(map.name);
     if (found == loaded_.end()) return false;
     const LoadedFile& loaded = found->second;
-    std::error_code error;
-    return loaded.map == map && fs::last_write_time(map.file, error) == loaded.written &&
-           fs::file_size(map.file, error) == loaded.size && !error;
+    return loaded.map == map && loaded.file && state_of(map.file) == loaded.file;
 }
 
-void Loader::remember(const config::Map& map) {
-    std::error_code error;
-    loaded_[map.name] = {map, fs::last_write_time(map.file, error), fs::file_size(map.file, error)};
+std::optional<Loader::FileState> Loader::state_of(const std::string& file) {
+    std::error_code no_time;
+    std::error_code no_size;
+    const FileState state{fs::last_write_time(file, no_time), fs::file_size(file, no_size)};
+    if (no_time || no_size) return std::nullopt;
+    return state;
 }
 
 }  // namespace camdir::maps

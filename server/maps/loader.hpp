@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <thread>
@@ -45,11 +46,16 @@ class Loader {
     void stop();
 
   private:
+    struct FileState {
+        std::filesystem::file_time_type written;
+        std::uintmax_t size = 0;
+
+        bool operator==(const FileState&) const = default;
+    };
     // What a loaded map was read from.
     struct LoadedFile {
         config::Map map;
-        std::filesystem::file_time_type written;
-        std::uintmax_t size = 0;
+        std::optional<FileState> file;
     };
 
     void run(const std::stop_token& stop, const std::vector<config::Map>& maps);
@@ -58,7 +64,8 @@ class Loader {
     void open(const config::Map& map, double bake_seconds);
     void set_failed(const config::Map& map, const Error& error);
     [[nodiscard]] bool is_unchanged(const config::Map& map) const;
-    void remember(const config::Map& map);
+    // None: it cannot be told.
+    [[nodiscard]] static std::optional<FileState> state_of(const std::string& file);
 
     const LoaderSink sink_;
     std::set<std::string> listed_;

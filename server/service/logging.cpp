@@ -1,17 +1,23 @@
 #include "service/logging.hpp"
 
+#include <poll.h>
 #include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
 #include <chrono>
+#include <mutex>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "base/log_limit.hpp"
 #include "base/utf8.hpp"
 
 namespace camdir::service {
 namespace {
+
+using namespace std::chrono_literals;
 
 constexpr const char* time_pattern = "%Y-%m-%dT%H:%M:%S.%eZ";
 constexpr std::uint64_t max_lines_per_second = 200;
@@ -58,26 +64,48 @@ class JsonLines final : public spdlog::formatter {
     spdlog::pattern_formatter time_{time_pattern, spdlog::pattern_time_type::utc, ""};
 };
 
-// Other processes can provoke lines. Critical ones, with which the process ends, are never left out.
+// Whether standard error takes a line of PIPE_BUF bytes without a wait: not a pipe that nobody reads.
+bool can_write(std::chrono::milliseconds patience) {
+    pollfd standard_error{STDERR_FILENO, POLLOUT, 0};
+    return ::poll(&standard_error, 1, static_cast<int>(patience.count())) > 0;
+}
+
+// Other processes can provoke lines, and no camera waits for whoever reads them. Critical ones, with which
+// the process ends, do not count, and are waited for a little.
 class LimitedLines final : public spdlog::sinks::stderr_sink_mt {
   public:
     void log(const spdlog::details::log_msg& message) override {
         const bool vital = message.level == spdlog::level::critical;
         const auto left_out = budget_.take(std::chrono::steady_clock::now(), vital);
         if (!left_out) return;
-        if (*left_out > 0) tell(*left_out, message.level);
-        stderr_sink::log(message);
+        const std::lock_guard lock(one_writer_);
+        untold_ += *left_out;
+        if (!write(message, vital ? longest_wait : 0ms)) ++untold_;
     }
 
   private:
+    static constexpr std::chrono::milliseconds longest_wait = 1s;
+
+    bool write(const spdlog::details::log_msg& message, std::chrono::milliseconds patience) {
+        if (!can_write(patience)) return false;
+        if (untold_ > 0) {
+            tell(std::exchange(untold_, 0), message.level);
+            if (!can_write(patience)) return false;
+        }
+        stderr_sink::log(message);
+        return true;
+    }
+
     // With the level of a line that is wanted.
     void tell(std::uint64_t left_out, spdlog::level::level_enum level) {
         const std::string text = std::to_string(left_out) + " lines left out: more than " +
-                                 std::to_string(max_lines_per_second) + " in a second";
+                                 std::to_string(max_lines_per_second) + " in a second, or nobody read them";
         stderr_sink::log({spdlog::string_view_t(), level, text});
     }
 
     LogBudget budget_{max_lines_per_second};
+    std::mutex one_writer_;
+    std::uint64_t untold_ = 0;  // lines that were left out since the last that was written
 };
 
 }  // namespace

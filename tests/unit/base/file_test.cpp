@@ -99,6 +99,17 @@ TEST_F(FileTest, AbandonedPendingFileLeavesNothing) {
     EXPECT_EQ(entries(), 0U);
 }
 
+TEST_F(FileTest, PendingFileKeepsASymbolicLink) {
+    const fs::path link = folder_ / "link";
+    fs::create_symlink("made", link);
+    auto pending = PendingFile::begin(link).value();
+    ASSERT_TRUE(pending);
+    EXPECT_FALSE(PendingFile::begin(folder_ / "made").value()) << "the same file";
+    ASSERT_TRUE(std::move(*pending).finish(std::as_bytes(std::span(std::string_view("new")))));
+    EXPECT_TRUE(fs::is_symlink(link));
+    EXPECT_EQ(text(read_file(folder_ / "made").value()), "new");
+}
+
 TEST_F(FileTest, PendingFileIsMadeByOneAtATime) {
     const fs::path path = folder_ / "made";
     auto first = PendingFile::begin(path).value();

@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <filesystem>
+#include <thread>
 
 #include "base/file.hpp"
 #include "support/eventually.hpp"
@@ -20,8 +22,8 @@ using testing::StartsWith;
 
 class LoaderTest : public testing::Test {
   protected:
-    config::Map add_room(const std::string& name) {
-        auto bsp = test::room_map(Box3d(Vec3d(0.0, 0.0, 0.0), Vec3d(512.0, 384.0, 256.0)));
+    config::Map add_room(const std::string& name, double length = 512.0) {
+        auto bsp = test::room_map(Box3d(Vec3d(0.0, 0.0, 0.0), Vec3d(length, 384.0, 256.0)));
         test::add_spawn_point(bsp, Vec3d(256.0, 192.0, 40.0));
         config::Map map;
         map.name = name;
@@ -67,6 +69,7 @@ class LoaderTest : public testing::Test {
         sink.loading = [](const std::string&, const std::string&) {};
         sink.ready = [this](const std::string& map, const freespace::Freespace& freespace, double seconds) {
             EXPECT_FALSE(freespace.triangles().empty());
+            vertices_ = freespace.vertices().size();
             note((seconds > 0.0 ? "baked " : "opened ") + map, true);
         };
         sink.failed = [this](const std::string& map, const std::string& reason) {
@@ -79,6 +82,7 @@ class LoaderTest : public testing::Test {
     std::mutex mutex_;
     std::vector<std::string> events_;
     std::size_t ended_ = 0;
+    std::size_t vertices_ = 0;  // of the map that was ready last
     Loader loader_{sink()};
 };
 
@@ -104,6 +108,28 @@ TEST_F(LoaderTest, AMapWhoseBakeWasStoppedIsLoadedAnewAsItWasBefore) {
     loader_.load({finer});
     loader_.stop();
     EXPECT_THAT(load({a}), ElementsAre("added a", AnyOf("opened a", "baked a")));
+}
+
+TEST_F(LoaderTest, AFileThatWasReplacedWhileItWasLoadedIsLoadedAgain) {
+    config::Map a = add_room("a");
+    const config::Map b = add_room("b", 768.0);
+    ASSERT_THAT(load({a, b}), ElementsAre("added a", "added b", "baked a", "baked b"));
+    const auto size_of_b = std::filesystem::file_size(b.file);
+    ASSERT_NE(std::filesystem::file_size(a.file), size_of_b);
+    const auto bytes_of_a = read_file(a.file).value();
+    const auto bytes_of_b = read_file(b.file).value();
+    a.source.clear();
+    for (int round = 0; round < 60; ++round) {  // at other moments of the loading
+        ASSERT_TRUE(write_file(a.file, bytes_of_a));
+        std::thread other([&] {
+            std::this_thread::sleep_for(round * std::chrono::microseconds(100));
+            EXPECT_TRUE(write_file(a.file, bytes_of_b));
+        });
+        load({a});
+        other.join();
+        load({a});
+        ASSERT_EQ(vertices_, freespace::Freespace::open(b.file)->vertices().size());
+    }
 }
 
 TEST_F(LoaderTest, OpensFilesBeforeItBakes) {

@@ -1,9 +1,12 @@
 #include "service/logging.hpp"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <string>
 
 namespace camdir::service {
@@ -27,7 +30,7 @@ TEST(Logging, LeavesLinesOutAndSaysSoAtOnce) {
     const std::string log = flooded_log();
     EXPECT_THAT(log, HasSubstr("error: line 199;\n"));
     EXPECT_THAT(log, Not(HasSubstr("error: line 999;\n")));
-    EXPECT_THAT(log, HasSubstr(" lines left out: more than 200 in a second\n"));
+    EXPECT_THAT(log, HasSubstr(" lines left out: more than 200 in a second, or nobody read them\n"));
     EXPECT_THAT(log, HasSubstr("critical: the end\n"));
 }
 
@@ -35,6 +38,54 @@ TEST(Logging, WhatIsLeftOutIsToldAtALevelThatIsWanted) {
     const std::string log = flooded_log();
     EXPECT_THAT(log, ContainsRegex("critical: [0-9]+ lines left out"));
     EXPECT_THAT(log, Not(HasSubstr("warning")));
+}
+
+// Standard error, until the destructor, as a pipe of 16 kB.
+class PipedStderr {
+  public:
+    PipedStderr() {
+        EXPECT_EQ(::pipe2(ends_, O_CLOEXEC | O_NONBLOCK), 0);
+        EXPECT_GT(::fcntl(ends_[1], F_SETPIPE_SZ, 16384), 0);
+        EXPECT_EQ(::fcntl(ends_[1], F_SETFL, 0), 0) << "who writes waits";
+        ::dup2(ends_[1], STDERR_FILENO);
+    }
+    ~PipedStderr() {
+        ::dup2(before_, STDERR_FILENO);
+        for (const int descriptor : {before_, ends_[0], ends_[1]})
+            ::close(descriptor);
+    }
+    PipedStderr(const PipedStderr&) = delete;
+    PipedStderr& operator=(const PipedStderr&) = delete;
+
+    // What waits to be read.
+    [[nodiscard]] std::string read() const {
+        std::string text(65536, ' ');
+        const ssize_t size = ::read(ends_[0], text.data(), text.size());
+        text.resize(static_cast<std::size_t>(std::max<ssize_t>(size, 0)));
+        return text;
+    }
+
+  private:
+    int before_ = ::dup(STDERR_FILENO);
+    int ends_[2] = {-1, -1};
+};
+
+TEST(Logging, NobodyWaitsForWhoeverReadsIt) {
+    std::string first;
+    std::string then;
+    {
+        const PipedStderr piped;
+        start_logging({.level = "error", .format = "text"});
+        for (int i = 0; i < 190; ++i)
+            spdlog::error("line {} {};", i, std::string(100, '.'));
+        first = piped.read();
+        spdlog::error("the last");
+        then = piped.read();
+    }
+    EXPECT_THAT(first, HasSubstr("error: line 0 "));
+    EXPECT_THAT(first, Not(HasSubstr("error: line 189 ")));
+    EXPECT_THAT(then, ContainsRegex("error: [0-9]+ lines left out"));
+    EXPECT_THAT(then, HasSubstr("error: the last\n"));
 }
 
 TEST(Logging, NamesFromOutsideStayOnTheirLineAsUtf8) {
