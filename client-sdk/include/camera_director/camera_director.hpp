@@ -18,6 +18,12 @@
 // destroyed before its matches and observers: their calls then fail with CDIR_INVALID_HANDLE.
 #pragma once
 
+// MSVC's __cplusplus stays that of C++98 unless it is asked for another; GCC 10's C++20 has a number before
+// 202002.
+#if !(__cplusplus > 201703L || (defined(_MSVC_LANG) && _MSVC_LANG > 201703L))
+#error "camera_director.hpp needs C++20: compile with -std=c++20 (MSVC: /std:c++20), or use camera_director.h"
+#endif
+
 #include <camera_director/camera_director.h>
 
 #include <chrono>

@@ -29,6 +29,8 @@ warnings=(-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror)
 "$cxx" -std=c++20 "${warnings[@]}" "${sanitize_flags[@]}" "$sources/consumer.cpp" -o "$work/consumer-cxx" "${flags[@]}" -pthread
 "$cxx" -std=c++20 -fno-exceptions -fno-rtti "${warnings[@]}" "${sanitize_flags[@]}" "$sources/consumer.cpp" \
     -o "$work/consumer-cxx-bare" "${flags[@]}" -pthread
+if "$cxx" -std=c++17 -fsyntax-only "$sources/consumer.cpp" "${cflags[@]}" 2>"$work/errors"; then exit 1; fi
+grep -m 1 'error:' "$work/errors" | grep -q 'needs C++20: compile with -std=c++20'
 library_dir=$(dirname "$(find "$prefix" -name libcamera-director-client.so)")
 for program in consumer-c consumer-cxx consumer-cxx-bare; do
     LD_LIBRARY_PATH=$library_dir "$work/$program"
