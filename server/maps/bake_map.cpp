@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -68,11 +69,16 @@ Result<Freshness> freshness_of(const config::Map& map) {
     const auto opened = freespace::Freespace::open(map.file);
     if (!opened && !hash) return tl::unexpected(hash.error());
     if (!opened) {
-        const bool missing = !std::filesystem::exists(map.file);
+        std::error_code unreachable;  // as a loop of symbolic links is
+        const bool missing = !std::filesystem::exists(map.file, unreachable);
+        if (unreachable) return tl::unexpected(opened.error());
         return Freshness{missing ? map.file + " was not there" : opened.error().message, ""};
     }
     if (!hash) return Freshness{"", hash.error().message + ": " + map.file + " is used as it is"};
-    if (opened->metadata().source_hash != *hash) return Freshness{map.source + " has changed since", ""};
+    if (opened->metadata().source_hash != *hash)
+        return Freshness{"it was baked from other bytes (" + opened->metadata().source_name + ") than " +
+                             map.source + " has",
+                         ""};
     const auto options = read_options_of(map);
     if (!options) return tl::unexpected(options.error());
     const std::string other =

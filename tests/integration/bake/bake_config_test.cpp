@@ -126,7 +126,8 @@ TEST_F(BakeConfig, BakesOnlyWhatIsMissingOrStale) {
     add_room("b", 640.0);
     const Ran source = run();
     EXPECT_THAT(source.states(), UnorderedElementsAre(Pair("a", "fresh"), Pair("b", "baked")));
-    EXPECT_THAT(source.reason("b"), HasSubstr("b.bsp has changed since"));
+    EXPECT_THAT(source.reason("b"),
+                AllOf(HasSubstr("it was baked from other bytes ("), HasSubstr("b.bsp has")));
     EXPECT_THAT(states(), UnorderedElementsAre(Pair("a", "fresh"), Pair("b", "fresh")));
 
     write("b.vfs", "damaged");
@@ -139,6 +140,24 @@ TEST_F(BakeConfig, BakesOnlyWhatIsMissingOrStale) {
     EXPECT_THAT(run({"--force"}).states(), UnorderedElementsAre(Pair("a", "baked"), Pair("b", "baked")));
     EXPECT_THAT(files_ending_with(".vfs"), ElementsAre("a.vfs", "b.vfs"));
     EXPECT_THAT(files_ending_with(".part"), ElementsAre());
+}
+
+TEST_F(BakeConfig, TellsWhatAFileOfAnotherMapWasBakedFrom) {
+    add_room("a", 512.0);
+    add_room("b", 768.0);
+    ASSERT_EQ(run().exit_code, 0);
+    entries_.erase("b");
+    entries_["a"]["file"] = "b.vfs";
+    EXPECT_THAT(run().reason("a"),
+                testing::MatchesRegex("it was baked from other bytes \\(.*b\\.bsp\\) than .*a\\.bsp has"));
+}
+
+TEST_F(BakeConfig, NamesAFileThatCannotBeReached) {
+    add_room("a", 512.0);
+    fs::create_symlink("a.vfs", folder_ / "a.vfs");
+    const Ran ran = run();
+    EXPECT_EQ(ran.exit_code, 1);
+    EXPECT_THAT(ran.reason("a"), AllOf(HasSubstr("a.vfs: cannot open: "), testing::Not(HasSubstr("a.bsp"))));
 }
 
 TEST_F(BakeConfig, OneThatFailsDoesNotStopTheOthers) {
