@@ -24,9 +24,10 @@ std::string hexadecimal(std::uint64_t hash) {
     return text.str();
 }
 
+// As --centre and --seed take it.
 std::string triple(const Vec3f& p) {
     std::ostringstream text;
-    text << p.x() << ' ' << p.y() << ' ' << p.z();
+    text << p.x() << ',' << p.y() << ',' << p.z();
     return text.str();
 }
 
@@ -56,7 +57,7 @@ std::string count_text(double value) {
 // What the bake counted: a row for each number, the name of the stage in its first row.
 void print_counts(const std::vector<freespace::Count>& counts) {
     if (counts.empty()) return;
-    std::cerr << "counts of the bake\n";
+    std::cerr << "counts of the bake, lengths in units\n";
     std::string stage;
     for (const freespace::Count& count : counts) {
         std::cerr << "  " << std::left << std::setw(14) << (count.stage == stage ? "" : count.stage)
@@ -79,22 +80,24 @@ void print_table(const Freespace& freespace) {
     print_row("source", metadata.source_name);
     print_row("source hash", hexadecimal(metadata.source_hash));
     print_row("metres per unit", number(metadata.metres_per_unit));
-    print_row("d0", number(metadata.d0));
+    print_row("d0", number(metadata.d0 * metadata.metres_per_unit) + " m, " + number(metadata.d0) + " units");
     print_row("parameters", metadata.parameters);
     print_row("vertices", number(freespace.vertices().size()));
     print_row("triangles", number(freespace.triangles().size()));
     print_row("bytes", number(freespace.byte_size()));
-    print_row("bounds", triple(freespace.bounds().min()) + " .. " + triple(freespace.bounds().max()));
+    print_row("bounds",
+              triple(freespace.bounds().min()) + " .. " + triple(freespace.bounds().max()) + " units");
     for (const freespace::SpawnPoint& spawn : freespace.spawn_points())
-        print_row("spawn point", triple(spawn.eye) + ", yaw " + degrees(spawn.yaw) + " degrees");
+        print_row("spawn point", triple(spawn.eye) + " units, yaw " + degrees(spawn.yaw) + " degrees");
     for (const freespace::MoverShape& mover : freespace.movers())
         print_row("mover", mover.name + " " + mover.kind + ", " + number(mover.hulls.size()) + " hulls, " +
-                               number(mover.balls.size()) + " balls, at " + triple(mover.rest));
+                               number(mover.balls.size()) + " balls, at " + triple(mover.rest) + " units");
     const auto fixed_shots = freespace.fixed_shots();
     for (std::size_t i = 0; i < fixed_shots.size(); ++i)
-        print_row("fixed shot " + number(i),
-                  triple(fixed_shots[i].position) + ", yaw " + degrees(fixed_shots[i].yaw) + ", pitch " +
-                      degrees(fixed_shots[i].pitch) + " degrees" + near_spawn_point(fixed_shots[i]));
+        print_row("fixed shot " + number(i), triple(fixed_shots[i].position) + " units, yaw " +
+                                                 degrees(fixed_shots[i].yaw) + ", pitch " +
+                                                 degrees(fixed_shots[i].pitch) + " degrees" +
+                                                 near_spawn_point(fixed_shots[i]));
     print_counts(metadata.counts);
 }
 

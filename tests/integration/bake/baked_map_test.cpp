@@ -108,6 +108,14 @@ TEST_F(BakedMap, InspectPrintsWhatTheFileHoldsAndWhatTheBakeSkipped) {
                                                     "rest": [400.0, 256.0, 0.0]}])"));
 }
 
+TEST_F(BakedMap, InspectPrintsUnitsAndPointsAsOptionsTakeThem) {
+    ChildProcess process({CAMERA_DIRECTOR, "inspect", baked_});
+    EXPECT_EQ(process.wait(), 0);
+    EXPECT_THAT(process.errors(), HasSubstr("d0                0.8128 m, 32 units\n"));
+    EXPECT_THAT(process.errors(), testing::ContainsRegex("spawn point       256,256,[0-9.]+ units, yaw "));
+    EXPECT_THAT(process.errors(), HasSubstr(" at 400,256,0 units\n"));
+}
+
 // The rigid camera stands 120 units behind a player at 256, 256 who looks along x.
 TEST_F(BakedMap, EvaluateJudgesCamerasAgainstMovers) {
     std::string trace = "t_ms,player,x,y,z,pitch,yaw,roll,vx,vy,vz,viewheight,team,teleport_bit,alive\n";
