@@ -110,13 +110,25 @@ static void report_counters(cdir_observer observer) {
             counters.frames, counters.gaps, counters.stale_epoch, counters.invalid);
 }
 
+/* A player's number, or auto; ends the program when the value is neither. */
+static uint32_t target_option(const char* value) {
+    if (strcmp(value, "auto") == 0) return CDIR_CHOOSE_TARGET;
+    char* end = NULL;
+    const unsigned long long number = strtoull(value, &end, 10);
+    if (*value < '0' || *value > '9' || *end != '\0' || number >= CDIR_SHOW_GROUP) {
+        fprintf(stderr, "--target: expected a player's number or auto, not '%s'\n", value);
+        exit(EXIT_USAGE);
+    }
+    return (uint32_t)number;
+}
+
 static void print_usage(FILE* to) {
     fprintf(to,
             "Usage: example-observer [options]\n"
             "Requests a shot and prints its camera once per display frame, as CSV.\n\n"
             "  --match ID            match id (default example)\n"
             "  --id ID               observer id, unique within the match (default example-observer)\n"
-            "  --target N            player id, or auto (default auto)\n"
+            "  --target N            a player's number, or auto (default auto)\n"
             "  --profile NAME        camera profile (default: the director's)\n"
             "  --overrides JSON      changes to the profile, such as {\"distance\": 90}\n"
             "  --rate HZ             display frames per second (default 60)\n"
@@ -158,9 +170,7 @@ int main(int argc, char** argv) {
         if (strcmp(name, "rate") == 0) rate = number_option(name, optarg, 1, 1000);
         if (strcmp(name, "seconds") == 0) seconds = number_option(name, optarg, 0, 1e9);
         if (strcmp(name, "patience") == 0) patience = number_option(name, optarg, 0, 1e9);
-        if (strcmp(name, "target") == 0 && strcmp(optarg, "auto") != 0) {
-            request.target = (uint32_t)number_option(name, optarg, 0, 4294967294.0);
-        }
+        if (strcmp(name, "target") == 0) request.target = target_option(optarg);
     }
     if (optind < argc) {
         fprintf(stderr, "unexpected argument '%s'\n", argv[optind]);

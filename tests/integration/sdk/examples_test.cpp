@@ -172,6 +172,12 @@ TEST(ExamplesCommandLine, HelpIsPrintedAndBadUsageIsRefused) {
             EXPECT_EQ(child.output(), "") << wrong[0];
         }
     }
+    for (const char* target : {"bob", "", "-1", "1.5", "4294967294", "99999999999999999999"}) {
+        ChildProcess child({observer, "--target", target});
+        EXPECT_EQ(child.wait(), 2) << target;
+        EXPECT_THAT(child.errors(), HasSubstr("--target: expected a player's number or auto, not '"))
+            << target;
+    }
     ChildProcess bad_match({game_server, "--match", "a/b"});
     EXPECT_EQ(bad_match.wait(), 1);
     EXPECT_THAT(bad_match.errors(), HasSubstr("match_id"));
