@@ -233,7 +233,10 @@ std::optional<Response> check(const Request& request, const Page* page, const Ac
                             "the Host of this request is no name of this host: ask for localhost; the "
                             "name of a proxy belongs into /http/hosts of the configuration\n"));
     if (!access.allows(reads, page != nullptr && page->open, authorization_of(request))) {
-        Response response = refusal(request, Status::unauthorized);
+        Response response =
+            answer(request, plain(Status::unauthorized,
+                                  "Unauthorized: send the header Authorization: Bearer TOKEN; TOKEN is the "
+                                  "content of the file that /http/token_file of the configuration names\n"));
         response.set(field::www_authenticate, "Bearer");
         return response;
     }

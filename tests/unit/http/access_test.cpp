@@ -14,7 +14,9 @@ namespace camdir::http {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 class AccessTest : public testing::Test {
   protected:
@@ -129,7 +131,10 @@ TEST_F(AccessTest, NothingChangesTheServerWithoutAToken) {
     write_token("secret");
     TestServer server(config_);
     const std::string token = "Authorization: Bearer secret\r\n";
-    EXPECT_EQ(server.status_of("POST", "/hand-over"), 401);
+    const auto refused = server.ask("POST", "/hand-over");
+    EXPECT_EQ(refused.status, 401);
+    EXPECT_THAT(refused.body, AllOf(HasSubstr("Authorization: Bearer TOKEN"), HasSubstr("/http/token_file"),
+                                    Not(HasSubstr("secret"))));
     EXPECT_EQ(server.ask("GET", "/hand-over", token).header.at("allow"), "POST");
     const auto done = server.ask("POST", "/hand-over", token);
     EXPECT_EQ(done.status, 200);
