@@ -51,8 +51,12 @@ Result<std::unique_ptr<Service>> Service::open(std::filesystem::path file, std::
         new Service(std::move(file), std::move(shard), std::move(config), std::move(*gateway)));
     const config::Http& http = service->config_.http;
     if (http.enabled) {
+        if (auto usable = http::Server::check(http); !usable) return tl::unexpected(usable.error());
         auto server = http::Server::start(http, service->sources());
-        if (!server) return tl::unexpected(server.error());
+        if (!server)
+            return fail(
+                server.error().message +
+                "; set /http/port or /http/address to another, or stop the program that listens there");
         service->http_ = std::move(*server);
         spdlog::info("http: listening on {} port {}", http.address, service->http_->port());
     }

@@ -151,7 +151,8 @@ TEST(Service, FailsOnAPortInUse) {
     config["http"]["port"] = std::stoi(log.substr(at));
     Served second(other, config);
     EXPECT_EQ(second.exit_code(), 1);
-    EXPECT_THAT(second.log(), HasSubstr("http: cannot listen on 127.0.0.1 port"));
+    EXPECT_THAT(second.log(),
+                AllOf(HasSubstr("http: cannot listen on 127.0.0.1 port"), HasSubstr("; set /http/port")));
 }
 
 }  // namespace
