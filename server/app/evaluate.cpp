@@ -1,9 +1,11 @@
 // camera-director evaluate: measures the cameras of a recorded match against its map.
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <memory>
 #include <optional>
 #include <set>
+#include <span>
 
 #include "app/commands.hpp"
 #include "app/evaluate_cameras.hpp"
@@ -45,6 +47,13 @@ void check_usage(const EvaluateOptions& options) {
                                {"--terms", options.terms},
                                {"--json", options.json},
                                {"--report", options.report}});
+}
+
+// Why nearly all figures are "-", where they are.
+void tell_of_nothing_judged(std::span<const evaluation::Judgement> judgements) {
+    if (std::ranges::any_of(judgements, &evaluation::Judgement::counted)) return;
+    std::cerr << "no frame is judged, hence the figures without a value: that takes a player who has been "
+                 "alive for more than half a second since the first pose, a respawn or a teleport\n";
 }
 
 void print(const EvaluateOptions& options, const evaluation::Trace& trace, const evaluation::Metrics& metrics,
@@ -202,6 +211,7 @@ Result<void> evaluate(const EvaluateOptions& options) {
     if (!judged) return tl::unexpected(judged.error());
     line.clear();
     print(options, match->frames, judged->metrics, made->recording);
+    tell_of_nothing_judged(judged->judgements);
     auto written = write_results(options, match->frames, judged->metrics, made->recording);
     if (!written || options.report.empty()) return written;
     return write_report(options, *match, *map, judge, std::move(*judged), line, stop);

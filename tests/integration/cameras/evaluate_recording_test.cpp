@@ -1,4 +1,5 @@
 // `evaluate --trace` of a recording's folder.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -84,6 +85,15 @@ TEST_F(EvaluateRecording, HasTheFiguresOfTheSameMatchAsATable) {
                     1e-3 + 0.02 * std::abs(value.get<double>()))
             << name;
     }
+}
+
+TEST_F(EvaluateRecording, SaysWhyNoFrameIsJudged) {
+    const Bytes bytes = read_file(trace_).value();
+    const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    ASSERT_TRUE(write_file(trace_, text.substr(0, text.find("\n400,") + 1)));
+    test::ChildProcess process({CAMERA_DIRECTOR, "evaluate", vfs_, "--map", map_, "--trace", trace_});
+    EXPECT_EQ(process.wait(), 0) << process.errors();
+    EXPECT_THAT(process.errors(), testing::HasSubstr("no frame is judged, hence "));
 }
 
 }  // namespace
