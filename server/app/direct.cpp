@@ -200,7 +200,10 @@ void print_table(const std::vector<Judged>& judged, std::size_t kills_in_reach) 
         for (const Judged& one : judged)
             std::fprintf(stderr, "%12.*f", figure.decimals, one.figures.*figure.member);
     }
-    std::fprintf(stderr, "\n%zu kills are in reach of the cameras, whatever the grammar\n", kills_in_reach);
+    std::fprintf(stderr,
+                 "\nbound: the most kills that can be seen; it seeks nothing else, its other figures bound "
+                 "nothing\n%zu kills are in reach of the cameras, whatever the grammar\n",
+                 kills_in_reach);
 }
 
 std::string reason_text(const direction::Reason& reason, const direction::Rules& rules,

@@ -170,10 +170,9 @@ std::string figures(const ProgrammeSubject& subject) {
     }
     return html + "</tbody></table></div>\n" +
            "<p>direction: by cameras that run all the time; running: as a running director shows it, whose "
-           "cameras begin "
-           "with its cuts; random: somebody else every 6 s; hltv, quakeworld: the rules of these; bound: the "
-           "most kills "
-           "that the same grammar allows who knows the whole match.</p>\n";
+           "cameras begin with its cuts; random: somebody else every 6 s; hltv, quakeworld: the rules of "
+           "these; bound: the most kills that the same grammar allows who knows the whole match: of "
+           "kills_seen alone, its other figures bound nothing.</p>\n";
 }
 
 // The first frame from the beat on; the match's last where there is none.

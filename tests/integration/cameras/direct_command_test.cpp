@@ -73,6 +73,7 @@ TEST_F(DirectCommand, DrawsAPageThatNeedsNothingElse) {
     const std::string html = written(page);
     const json figures = json::parse(written(file));
     EXPECT_THAT(html, HasSubstr("<tr id=\"kills_seen\"><th>kills_seen</th><td><data value=\"1\">1</data>"));
+    EXPECT_THAT(html, HasSubstr("its other figures bound nothing"));
     for (const char* section : {"figures", "timeline", "cuts"})
         EXPECT_THAT(html, HasSubstr("<section id=\"" + std::string(section) + "\">"));
     EXPECT_THAT(html, HasSubstr("<title>3 s: 1 kills 0, seen</title>"));
