@@ -3,6 +3,7 @@
 #include <array>
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <iterator>
 #include <memory>
@@ -54,6 +55,14 @@ struct Inputs {
     direction::Rules rules;
 };
 
+void warn_of_no_events(const std::string& trace) {
+    std::cerr
+        << "camera-director: warning: " << trace << " holds no events, so that no kill can be foreseen: "
+        << (std::filesystem::is_directory(trace)
+                ? "the game server published none while it was recorded; others are named with --events\n"
+                : "name them with --events\n");
+}
+
 Result<Inputs> read_inputs(const DirectOptions& options, ProgressLine& line) {
     auto config = options.config.empty() ? config::parse("{}", "", "") : config::load(options.config);
     if (!config) return tl::unexpected(config.error());
@@ -62,13 +71,11 @@ Result<Inputs> read_inputs(const DirectOptions& options, ProgressLine& line) {
     if (auto fits = check_length(match->trace); !fits)
         return fail(options.trace + ": " + fits.error().message);
     if (!options.events.empty()) {
-        auto events = evaluation::read_events(options.events, match->trace);
+        auto events = evaluation::read_events(options.events, match->trace, directs_by);
         if (!events) return tl::unexpected(events.error());
         match->events = std::move(*events);
     }
-    if (!match->events)
-        std::cerr << "camera-director: warning: " << options.trace
-                  << " holds no events, so that no kill can be foreseen: name them with --events\n";
+    if (!match->events) warn_of_no_events(options.trace);
     std::vector<evaluation::MoverRow> movers;
     if (!options.movers.empty()) {
         auto rows = evaluation::read_movers(options.movers);

@@ -379,6 +379,10 @@ evaluation::CameraPath cameras_of_programme(const Trace& trace, const RecordedMo
     return std::move(shooter).cameras();
 }
 
+bool directs_by(std::string_view kind) {
+    return kind_of(kind).has_value();
+}
+
 std::vector<direction::Event> events_of(const Trace& trace,
                                         const std::vector<evaluation::TraceEvent>& events) {
     std::vector<direction::Event> known;

@@ -4,6 +4,7 @@
 #include <functional>
 #include <span>
 #include <stop_token>
+#include <string_view>
 #include <vector>
 
 #include "app/recorded_movers.hpp"
@@ -63,6 +64,9 @@ using ClearLine = std::function<bool(const Vec3d&, const Vec3d&)>;
     const direction::Footage& footage, std::span<const freespace::FixedShot> fixed,
     std::span<const direction::Shot> shots, double look_ahead, evaluation::CameraPath cameras,
     const std::stop_token& stop);
+
+// Whether the direction knows events of this kind, as tables name it.
+[[nodiscard]] bool directs_by(std::string_view kind);
 
 // The events that the direction knows, times from the trace's first frame; events before it are left out.
 [[nodiscard]] std::vector<direction::Event> events_of(const evaluation::Trace& trace,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/file.hpp"
 #include "evaluation/csv.hpp"
@@ -22,14 +23,12 @@ bool is_nobody(std::string_view field, const Trace& trace) {
     return field.empty() || (field == "1022" && !std::ranges::binary_search(trace.players, 1022U));
 }
 
-Result<TraceEvent> event_of(std::span<const std::string_view> row, const Trace& trace) {
-    const auto time = time_in(row[event_time]);
-    if (!time) return tl::unexpected(time.error());
+Result<TraceEvent> event_of(std::int64_t time, std::span<const std::string_view> row, const Trace& trace) {
     const auto actor = player_in(row[event_actor], event_columns[event_actor].name, trace);
     if (!actor) return tl::unexpected(actor.error());
     const auto subject = player_in(row[event_subject], event_columns[event_subject].name, trace);
     if (!subject) return tl::unexpected(subject.error());
-    return TraceEvent{*time, std::string(row[event_kind]), *actor, *subject, std::string(row[event_detail])};
+    return TraceEvent{time, std::string(row[event_kind]), *actor, *subject, std::string(row[event_detail])};
 }
 
 }  // namespace
@@ -52,13 +51,17 @@ Result<std::int64_t> time_in(std::string_view field) {
 }
 
 Result<std::vector<TraceEvent>> parse_events(std::span<const std::byte> bytes, const std::string& name,
-                                             const Trace& trace) {
+                                             const Trace& trace, const TakesKind& takes) {
     std::vector<TraceEvent> events;
+    std::int64_t last = 0;
     const auto read = read_text_csv(bytes, name, event_columns, [&](auto row) -> Result<void> {
-        auto event = event_of(row, trace);
-        if (!event) return tl::unexpected(event.error());
-        if (!events.empty() && event->time < events.back().time)
+        const auto time = time_in(row[event_time]);
+        if (!time) return tl::unexpected(time.error());
+        if (*time < std::exchange(last, *time))
             return fail("column \"t_ms\" is before the last row's, expected rows ordered by time");
+        if (takes && !takes(row[event_kind])) return {};
+        auto event = event_of(*time, row, trace);
+        if (!event) return tl::unexpected(event.error());
         if (events.size() == max_events)
             return fail("more than " + std::to_string(max_events) + " events, expected those of one match");
         events.push_back(std::move(*event));
@@ -68,10 +71,11 @@ Result<std::vector<TraceEvent>> parse_events(std::span<const std::byte> bytes, c
     return events;
 }
 
-Result<std::vector<TraceEvent>> read_events(const std::filesystem::path& path, const Trace& trace) {
+Result<std::vector<TraceEvent>> read_events(const std::filesystem::path& path, const Trace& trace,
+                                            const TakesKind& takes) {
     const auto bytes = read_file(path);
     if (!bytes) return tl::unexpected(bytes.error());
-    return parse_events(*bytes, path.string(), trace);
+    return parse_events(*bytes, path.string(), trace, takes);
 }
 
 }  // namespace camdir::evaluation

@@ -53,6 +53,14 @@ TEST_F(DirectCommand, WritesEveryFigureBesideOtherDirectors) {
     EXPECT_EQ(figures.at("kills_seen"), 1);
     EXPECT_EQ(figures.at("kills_bound"), 1);
     EXPECT_EQ(figures.at("kills_in_reach"), 1);
+    EXPECT_THAT(errors_, HasSubstr("\nbound: the most kills that can be seen"));
+}
+
+TEST_F(DirectCommand, IgnoresEventsOfKindsThatItDoesNotKnow) {
+    ASSERT_TRUE(write_file(events_, "t_ms,event,player,other\n1550,jump,99,\n3000,kill,1,0\n"));
+    const std::string file = folder_ / "figures.json";
+    ASSERT_EQ(direct({"--json", file}), 0) << errors_;
+    EXPECT_EQ(json::parse(written(file)).at("kills"), 1);
 }
 
 TEST_F(DirectCommand, WritesTheCameraOfEveryFrameAndRepeatsItself) {

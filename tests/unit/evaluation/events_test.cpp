@@ -10,11 +10,11 @@
 namespace camdir::evaluation {
 namespace {
 
-Result<std::vector<TraceEvent>> parse_rows(std::string_view text) {
+Result<std::vector<TraceEvent>> parse_rows(std::string_view text, const TakesKind& takes = {}) {
     Trace trace;
     trace.players = {4, 9};
     add_frame(trace, 0, {standing(4, {0, 0, 100}), standing(9, {0, 0, 100})});
-    return parse_events(std::as_bytes(std::span(text)), "events.csv", trace);
+    return parse_events(std::as_bytes(std::span(text)), "events.csv", trace, takes);
 }
 
 TEST(Events, OfEveryKindAreRead) {
@@ -29,6 +29,17 @@ TEST(Events, OfEveryKindAreRead) {
     EXPECT_EQ((*events)[1].time, 1'256'500'000);
     EXPECT_EQ((*events)[1].subject, 9U);
     EXPECT_EQ((*events)[2].actor, std::nullopt);
+}
+
+TEST(Events, OfKindsThatAreNotTakenMayNameAnyPlayer) {
+    const auto takes = [](std::string_view kind) { return kind == "kill"; };
+    const auto events = parse_rows("t_ms,kind,actor,subject\n100,jump,99,x\n200,kill,9,4\n", takes);
+    ASSERT_TRUE(events) << events.error().message;
+    ASSERT_EQ(events->size(), 1U);
+    EXPECT_EQ((*events)[0].actor, 9U);
+    const auto late = parse_rows("t_ms,kind,actor,subject\n300,jump,99,x\n200,kill,9,4\n", takes);
+    ASSERT_FALSE(late);
+    EXPECT_THAT(late.error().message, testing::HasSubstr("events.csv:3: column \"t_ms\" is before"));
 }
 
 TEST(Events, NeedNoDetail) {
