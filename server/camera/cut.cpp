@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <utility>
 
 #include "camera/evade.hpp"
 #include "camera/reach.hpp"
@@ -33,28 +34,83 @@ std::optional<Candidate> roadmap_spot(const freespace::Space& space, const MapPr
     return nearest;
 }
 
-// Where a mover is over the anchor: the nearest vertex of the roadmap in no mover's way, if possible one that
-// has kept_clearance().
+constexpr std::size_t most_near = 64;     // vertices that are asked about movers: the nearest
+constexpr std::size_t most_spread = 128;  // and, where there is no room among these, so many of all
+
+// The vertices of the roadmap nearest to a point, in no order.
+class NearVertices {
+  public:
+    explicit NearVertices(const Vec3f& point) : point_(point) {}
+
+    void consider(std::uint32_t vertex, const Vec3f& position) {
+        const Entry entry{(position - point_).squaredNorm(), vertex};
+        if (count_ == most_near && !(entry < entries_.front())) return;
+        if (count_ == most_near) std::pop_heap(entries_.begin(), entries_.begin() + count_--);
+        entries_[static_cast<std::size_t>(count_++)] = entry;
+        std::push_heap(entries_.begin(), entries_.begin() + count_);
+    }
+    template <class Visitor>
+    void for_each(const Visitor& visit) const {
+        for (std::ptrdiff_t i = 0; i < count_; ++i)
+            visit(entries_[static_cast<std::size_t>(i)].second);
+    }
+
+  private:
+    using Entry = std::pair<float, std::uint32_t>;  // squared distance, vertex
+    Vec3f point_;
+    std::array<Entry, most_near> entries_;  // a heap
+    std::ptrdiff_t count_ = 0;
+};
+
+// The nearest of some places that has the wanted room between movers, else the one that has most of it.
+class RoomiestVertex {
+  public:
+    RoomiestVertex(const freespace::Space& space, const Vec3f& from, float wanted)
+        : space_(space), from_(from), wanted_(wanted) {}
+
+    void consider(std::uint32_t i) {
+        const freespace::Vertex& vertex = space_.map().vertices()[i];
+        const float distance = (vertex.position() - from_).norm();
+        if (found() && distance >= distance_ && room_ >= wanted_) return;
+        const float wanted = std::min(vertex.free_distance, wanted_);
+        if (space_.mover_distance(vertex.position(), wanted).value <= 0.0F) return;  // as most are, if many
+        const float room = room_soon(space_, vertex.position(), wanted);
+        if (room < room_ || room <= 0.0F || (room == room_ && distance >= distance_)) return;
+        vertex_ = i;
+        distance_ = distance;
+        room_ = room;
+    }
+    [[nodiscard]] bool found() const { return vertex_ != freespace::none; }
+    [[nodiscard]] Vec3f position() const { return space_.map().vertices()[vertex_].position(); }
+
+  private:
+    const freespace::Space& space_;
+    Vec3f from_;
+    float wanted_;
+    std::uint32_t vertex_ = freespace::none;
+    float distance_ = 0.0F;
+    float room_ = 0.0F;
+};
+
+// Where a mover is over the anchor: a vertex of the roadmap in no mover's way, near the anchor if there is
+// one, if possible one that has kept_clearance(). Movers over the whole map must not make it slow: not every
+// vertex is asked about.
 std::optional<Candidate> free_vertex(const freespace::Space& space, const MapProfile& profile,
                                      const PlayerTrack& track) {
-    const float wanted = kept_clearance(profile, track);
-    std::uint32_t nearest = freespace::none;
-    float least = 0.0F;
-    float most_room = 0.0F;
     const auto vertices = space.map().vertices();
-    for (std::uint32_t i = 0; i < vertices.size(); ++i) {
-        if (!freespace::on_roadmap(vertices[i]) || space.map().incident(i).empty()) continue;
-        const float distance = (vertices[i].position() - track.anchor).norm();
-        if (nearest != freespace::none && distance >= least && most_room >= wanted) continue;
-        const float room =
-            room_soon(space, vertices[i].position(), std::min(vertices[i].free_distance, wanted));
-        if (room < most_room || room <= 0.0F || (room == most_room && distance >= least)) continue;
-        nearest = i;
-        least = distance;
-        most_room = room;
-    }
-    if (nearest == freespace::none) return std::nullopt;
-    return look_up(space, profile, track, vertices[nearest].position());
+    const auto is_place = [&](std::uint32_t i) {
+        return freespace::on_roadmap(vertices[i]) && !space.map().incident(i).empty();
+    };
+    NearVertices near(track.anchor);
+    for (std::uint32_t i = 0; i < vertices.size(); ++i)
+        if (is_place(i)) near.consider(i, vertices[i].position());
+    RoomiestVertex best(space, track.anchor, kept_clearance(profile, track));
+    near.for_each([&](std::uint32_t i) { best.consider(i); });
+    const std::size_t stride = std::max<std::size_t>(vertices.size() / most_spread, 1);
+    for (std::size_t i = 0; i < vertices.size() && !best.found(); i += stride)
+        if (is_place(static_cast<std::uint32_t>(i))) best.consider(static_cast<std::uint32_t>(i));
+    if (!best.found()) return std::nullopt;
+    return look_up(space, profile, track, best.position());
 }
 
 }  // namespace

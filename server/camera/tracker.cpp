@@ -25,6 +25,8 @@ constexpr float at_the_eye = 1.0F;  // units: nearer, there is no line of sight 
 constexpr float quarter_turn = std::numbers::pi_v<float> / 2.0F;
 // Of a dead player, in rad/s: bodies fly past the camera, and what happened is where they come from.
 constexpr float turn_limit_after_death = quarter_turn;
+// Where movers are everywhere, a way out is looked for every so many seconds: that takes long.
+constexpr float time_between_ways_out = 0.25F;
 
 // One step of one shot.
 class Step {
@@ -183,12 +185,16 @@ class Step {
 
     // For a mover. Returns the flag of the step, if any.
     std::uint32_t make_way(float clearance) {
+        state_.trapped -= dt_;
+        if (state_.trapped > 0.0F) return 0;
         if (const auto place = evade(space_, state_.position, clearance, profile_.step_limit)) {
             state_.position = *place;
             state_.slab = freespace::distance(space_, *place).triangle;
             return 0;
         }
         settle(landing(space_, profile_, player_));
+        const bool is_free = room_soon(space_, state_.position, clearance) > 0.0F;
+        state_.trapped = is_free ? 0.0F : time_between_ways_out;
         return cut;
     }
 

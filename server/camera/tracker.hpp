@@ -29,6 +29,7 @@ struct ShotState {
     std::uint32_t slab = freespace::none;  // of the position
     Look look;
     float lost_for = 0.0F;  // seconds since the player was last seen
+    float trapped = 0.0F;   // s: for so long no way out of movers is looked for, where there was none
     double time = 0.0;      // s: of the last step
     SpotMemory spot;        // of the paper's heuristic
     PlanState plan;         // of the planner

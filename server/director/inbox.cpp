@@ -125,11 +125,11 @@ bool Inbox::put(PoseFrame& frame, std::int64_t received_ns, bool in_burst) {
         return false;
     }
     const std::uint32_t frames_per_camera = pace_.frames_per_camera();
-    const bool wanted = left_out_ + 1 >= frames_per_camera;
+    const bool wanted = left_out_ + 1 >= frames_per_camera && received_ns >= rests_until_;
     const bool was_due = is_due();
     const bool stalled = in_burst || (frame_count_ > 0 && frames().back().in_burst && !was_late_);
     if (!in_burst) was_late_ = frame_count_ > 0;
-    if (!in_burst || frames_per_camera > 1) {
+    if (!in_burst || frames_per_camera > 1 || !was_due) {
         replace(frame_count_, frame,
                 !was_due || !wanted ? Counter::drop_paced
                 : stalled           ? Counter::drop_burst
@@ -145,6 +145,13 @@ bool Inbox::put(PoseFrame& frame, std::int64_t received_ns, bool in_burst) {
     place.in_burst = in_burst;
     place.is_due = wanted || was_due;
     return place.is_due;
+}
+
+void Inbox::rest_until(std::int64_t ns) {
+    const std::lock_guard lock(mutex_);
+    rests_until_ = ns;
+    for (Frame& frame : frames())
+        frame.is_due = false;
 }
 
 void Inbox::replace(std::size_t count, PoseFrame& by, Counter reason) {

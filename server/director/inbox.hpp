@@ -64,6 +64,9 @@ class Inbox {
     // and their discontinuities are carried over to it.
     bool put(PoseFrame& frame, std::int64_t received_ns, bool in_burst = false);
 
+    // A frame that waits, or comes before that time, steady clock, is not due: a later one takes its place.
+    void rest_until(std::int64_t ns);
+
     // When the first frame was received, or due, that waits for a turn and that the pace lets be taken.
     [[nodiscard]] std::optional<std::int64_t> frame_waits_since();
 
@@ -92,7 +95,7 @@ class Inbox {
         std::int64_t received_ns = 0;
         std::size_t messages_before = 0;
         bool in_burst = false;
-        bool is_due = false;  // when several wait, all are
+        bool is_due = false;  // when several wait, all are or none
     };
 
     // The first of the same kind that waits.
@@ -121,6 +124,7 @@ class Inbox {
     std::size_t frame_count_ = 0;
     bool was_late_ = false;          // the last frame in no burst found one that waited
     std::uint32_t left_out_ = 0;     // frames since one was due
+    std::int64_t rests_until_ = 0;   // see rest_until()
     std::size_t events_ = 0;         // in messages_
     std::size_t view_requests_ = 0;  // likewise
     bool has_shown_ = false;

@@ -48,7 +48,13 @@ Match::Match(std::string match_id, std::shared_ptr<const config::Config> config,
 
 // Only running out of memory throws in here, and that ends the process.
 void Match::turn(Turn& turn) noexcept {  // NOLINT(bugprone-exception-escape)
+    const std::int64_t begun_ns = now_ns();
+    const bool is_long = long_turns_.usual() > 0;
+    const bool may_move = !is_long || turn.begin_long();
+    if (!may_move && inbox_.frame_waits_since()) rest(long_turns_.usual());
     inbox_.take(content_);
+    const bool is_long_of_frame = is_long && content_.has_frame;
+    if (is_long_of_frame) inbox_.rest_until(Requests::never);
     const std::span messages(content_.messages);
     if (content_.has_frame) {
         handle_all(messages.first(content_.messages_before_frame));
@@ -59,7 +65,9 @@ void Match::turn(Turn& turn) noexcept {  // NOLINT(bugprone-exception-escape)
     }
     if (content_.leaves_more) turn.again();
     follow_leader();
-    prepare(turn);
+    if (may_move) prepare(turn);
+    long_turns_.add(now_ns() - begun_ns, content_.has_frame);
+    if (is_long_of_frame) rest(long_turns_.usual());
     // A lookout that is asked for the first time takes milliseconds.
     if (std::ranges::any_of(requests_.shots(), &Shot::is_of_group)) expect_long_turns();
 }
@@ -96,7 +104,19 @@ float Match::camera_rate_hz() const {
 
 // Of the frames that are let in, some are left out at a slower pace.
 void Match::limit_silence() {
-    silence_limit_ns_ = silence_limit_ns(*info_, *config_) * frames_per_camera_;
+    silence_limit_ns_ = silence_limit_ns(*info_, *config_) * frames_per_camera_ + 2 * long_turns_.interval();
+}
+
+// After a turn whose cameras took long, or when it has to wait until other matches' long ones are over.
+void Match::rest(std::int64_t ns) {
+    inbox_.rest_until(now_ns() + ns);
+    if (info_) limit_silence();
+    if (ns > 0 && long_turns_logged_.due())
+        spdlog::warn(
+            "match {}: its {} cameras take {} ms a pose frame: they move every {} ms at most, for other "
+            "matches to have theirs",
+            match_id_, requests_.shots().size(), long_turns_.usual() / 1'000'000,
+            long_turns_.interval() / 1'000'000);
 }
 
 // The map's where the game server does not know it.

@@ -15,6 +15,7 @@
 #include "director/edit.hpp"
 #include "director/follower.hpp"
 #include "director/inbox.hpp"
+#include "director/long_turns.hpp"
 #include "director/map_binding.hpp"
 #include "director/match_obstacles.hpp"
 #include "director/ports.hpp"
@@ -80,6 +81,7 @@ class Match final : public Strand {
 
     [[nodiscard]] float camera_rate_hz() const;
     void limit_silence();
+    void rest(std::int64_t ns);
     [[nodiscard]] float metres_per_unit() const;
     void publish_info();
     void begin_epoch();
@@ -162,7 +164,9 @@ class Match final : public Strand {
     Inbox::Content content_;
     std::optional<MatchInfo> info_;
     std::uint32_t frames_per_camera_ = 1;  // that observers were told of
-    std::string refusal_;                  // RequestContext::refusal
+    LongTurns long_turns_;
+    LogLimit long_turns_logged_;
+    std::string refusal_;  // RequestContext::refusal
     MapBinding map_;
     std::vector<std::unique_ptr<camera::Scratch>> scratch_;  // by lane; null where no shot has moved yet
     Roster roster_;

@@ -147,10 +147,23 @@ void Turn::share(std::size_t count, std::size_t share, const SharedWork::Item& i
         (lane == 0 ? worker_ : *pool_.workers_[lane - 1]).turn.go_on();
         pool_.went_on_ns_.store(now_ns(), std::memory_order_relaxed);
     };
+    if (is_long_) {
+        for (std::size_t i = 0; i < count; ++i)
+            timed(0, i);
+        return;
+    }
     worker_.shared.begin(count, timed);
     const std::size_t worth = (count + share - 1) / share;
     if (worth > 1) pool_.call_helpers(std::min(worth, pool_.workers_.size()) - 1);
     worker_.shared.finish();
+}
+
+bool Turn::begin_long() {
+    const std::size_t most = std::max<std::size_t>(workers() / 2, 1);
+    std::size_t running = pool_.long_turns_.load();
+    while (running < most && !is_long_)
+        is_long_ = pool_.long_turns_.compare_exchange_weak(running, running + 1);
+    return is_long_;
 }
 
 void WorkerPool::run(Worker& worker, Strand& strand) {
@@ -159,6 +172,7 @@ void WorkerPool::run(Worker& worker, Strand& strand) {
     const std::int64_t begun = now_ns();
     Turn turn(*this, worker, strand);
     strand.turn(turn);
+    if (turn.is_long_) long_turns_.fetch_sub(1);
     strand.expect(now_ns() - begun);
     // As soon as nothing is pending the strand may be destroyed.
     if (strand.pending_.fetch_sub(seen, std::memory_order_acq_rel) != seen) mark_ready(slot);

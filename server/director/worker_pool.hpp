@@ -112,6 +112,7 @@ class WorkerPool {
     std::atomic<std::int64_t> went_on_ns_{0};  // when a worker claimed a strand or did an item last
     std::atomic<std::size_t> next_{0};         // slot at which the round continues
     std::atomic<std::size_t> calls_{0};        // for help, not yet answered by a worker
+    std::atomic<std::size_t> long_turns_{0};   // that go on
     sem_t work_available_;                     // one permit per ready bit and per call
     std::atomic<bool> stopping_{false};
     std::vector<std::unique_ptr<Worker>> workers_;
@@ -147,6 +148,10 @@ class Turn {
     // `share` > 0 items to do. Every lane is less than lanes().
     void share(std::size_t count, std::size_t share, const SharedWork::Item& item);
 
+    // For a turn that will take long, before it shares anything: nobody helps in it, and at most half of the
+    // workers, one at the least, are in such turns. False: it is none, because too many go on.
+    [[nodiscard]] bool begin_long();
+
     [[nodiscard]] std::size_t lanes() const { return workers() + 1; }
     [[nodiscard]] std::size_t workers() const { return pool_.workers(); }
 
@@ -161,6 +166,7 @@ class Turn {
     WorkerPool& pool_;
     WorkerPool::Worker& worker_;
     Strand& strand_;
+    bool is_long_ = false;
 };
 
 }  // namespace camdir::director

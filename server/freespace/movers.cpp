@@ -13,6 +13,7 @@ namespace camdir::freespace {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double rounding = 1e-5;          // of lengths
 constexpr float length_tolerance = 1e-3F;  // of what should have length 1
 // Movements between frames further apart than this say nothing about what comes after, s.
 constexpr double longest_frame = 0.25;
@@ -72,6 +73,13 @@ double distance_of(const Box3d& box, const Vec3d& point) {
     const Vec3d outside = (box.min() - point).cwiseMax(point - box.max());
     const double depth = outside.maxCoeff();
     return depth > 0.0 ? outside.cwiseMax(0.0).norm() : depth;
+}
+
+double distance_from_way(const Vec3d& point, const Vec3d& from, const Vec3d& to) {
+    const Vec3d way = to - from;
+    const double squared = way.squaredNorm();
+    const double share = squared > 0.0 ? std::clamp(way.dot(point - from) / squared, 0.0, 1.0) : 0.0;
+    return (from + share * way - point).norm();
 }
 
 Vec3d way_out_of(const Box3d& box, const Vec3d& point) {
@@ -138,7 +146,7 @@ Result<Movers> Movers::of(std::span<const MoverShape> shapes) {
 
 void Movers::add_shape(const MoverShape& shape) {
     const auto size_of = [](const auto& list) { return static_cast<std::uint32_t>(list.size()); };
-    Shape added{size_of(hulls_), 0, size_of(balls_), 0, {}};
+    Shape added{size_of(hulls_), 0, size_of(balls_), 0, {}, 0.0};
     for (const ConvexHull& hull : shape.hulls) {
         const std::uint32_t first = size_of(planes_);
         for (const HalfSpace& half_space : hull.half_spaces) {
@@ -152,6 +160,9 @@ void Movers::add_shape(const MoverShape& shape) {
         balls_.push_back({ball.centre.cast<double>(), ball.radius});
         added.bounds.extend(Box3f(ball.centre.array() - ball.radius, ball.centre.array() + ball.radius));
     }
+    if (!added.bounds.isEmpty())
+        added.radius =
+            added.bounds.min().cwiseAbs().cwiseMax(added.bounds.max().cwiseAbs()).cast<double>().norm();
     added.end_hull = size_of(hulls_);
     added.end_ball = size_of(balls_);
     shapes_.push_back(added);
@@ -218,7 +229,8 @@ void Movers::bound(std::uint32_t mover) {
         positions.extend(sample.position);
         turns = turns || sample.orientation.coeffs() != known.front().orientation.coeffs();
     }
-    if (const auto last = sample_at(mover, known.back().time + prediction)) positions.extend(last->position);
+    if (const auto last = stretch_at(mover, known.back().time + prediction))
+        positions.extend(last->position());
     const Box3f& bounds = shapes_[mover].bounds;
     if (bounds.isEmpty()) return;
     Box3f reach;
@@ -241,39 +253,59 @@ void Movers::bound(std::uint32_t mover) {
     }
 }
 
-std::optional<Movers::Sample> Movers::sample_at(std::uint32_t mover, double time) const {
+std::optional<Movers::Stretch> Movers::stretch_at(std::uint32_t mover, double time) const {
     const Samples& known = samples_[mover];
     const auto later = std::upper_bound(known.begin(), known.end(), time,
                                         [](double at, const Sample& sample) { return at < sample.time; });
     if (later == known.begin()) return std::nullopt;
     const Sample& last = *(later - 1);
+    const Stretch stands{&last, &last, last.time, 0.0F};
     const bool foreseen = later == known.end();
-    if (foreseen && (last.time < newest_ || later - known.begin() < 2)) return last;
+    if (foreseen && (last.time < newest_ || later - known.begin() < 2)) return stands;
     const Sample& from = foreseen ? *(later - 2) : last;
     const Sample& to = foreseen ? last : *later;
     const double frame = to.time - from.time;
-    if (foreseen && frame > longest_frame) return last;
+    if (foreseen && frame > longest_frame) return stands;
     const double at = foreseen ? std::min(time, to.time + prediction) : time;
-    const auto share = static_cast<float>((at - from.time) / frame);
-    if (from.orientation.coeffs() == to.orientation.coeffs())
-        return Sample{at, from.position + share * (to.position - from.position), to.orientation};
-    const Eigen::AngleAxisf turn(to.orientation * from.orientation.conjugate());
+    return Stretch{&from, &to, at, static_cast<float>((at - from.time) / frame)};
+}
+
+Quatf Movers::Stretch::orientation() const {
+    if (from->orientation.coeffs() == to->orientation.coeffs()) return to->orientation;
+    const Eigen::AngleAxisf turn(to->orientation * from->orientation.conjugate());
     const Quatf turned(Eigen::AngleAxisf(share * turn.angle(), turn.axis()));
-    return Sample{at, from.position + share * (to.position - from.position),
-                  (turned * from.orientation).normalized()};
+    return (turned * from->orientation).normalized();
 }
 
 std::optional<MoverPose> Movers::pose_at(std::uint32_t mover, double time) const {
-    const auto sample = sample_at(mover, time);
-    if (!sample) return std::nullopt;
-    return MoverPose{mover, sample->position, sample->orientation};
+    const auto stretch = stretch_at(mover, time);
+    if (!stretch) return std::nullopt;
+    return MoverPose{mover, stretch->position(), stretch->orientation()};
+}
+
+Movers::Placement Movers::placement_of(const Stretch& stretch) {
+    return {stretch.orientation().cast<double>().normalized().toRotationMatrix(),
+            stretch.position().cast<double>()};
 }
 
 std::optional<Movers::Placement> Movers::placement_at(std::uint32_t mover, double time) const {
-    const auto sample = sample_at(mover, time);
-    if (!sample) return std::nullopt;
-    return Placement{sample->orientation.cast<double>().normalized().toRotationMatrix(),
-                     sample->position.cast<double>()};
+    const auto stretch = stretch_at(mover, time);
+    if (!stretch) return std::nullopt;
+    return placement_of(*stretch);
+}
+
+// Most of the movers that may be near at some time are far away now: which way they are turned need not be
+// known.
+std::optional<Movers::Placement> Movers::near_placement_at(std::uint32_t mover, double time,
+                                                           const Vec3f& from, const Vec3f& to,
+                                                           float limit) const {
+    const auto stretch = stretch_at(mover, time);
+    if (!stretch) return std::nullopt;
+    const Vec3d centre = stretch->position().cast<double>();
+    const double reach = (1.0 + rounding) * (shapes_[mover].radius + static_cast<double>(limit)) +
+                         rounding * centre.cwiseAbs().maxCoeff();
+    if (distance_from_way(centre, from.cast<double>(), to.cast<double>()) > reach) return std::nullopt;
+    return placement_of(*stretch);
 }
 
 // Visits those whose reach touches the box.
@@ -305,7 +337,7 @@ MoverDistance Movers::distance(const Vec3f& point, double time, float limit) con
     double least = limit;
     const float around = std::max(limit, 0.0F);
     for_each_near(Box3f(point.array() - around, point.array() + around), [&](std::uint32_t mover) {
-        const auto placement = placement_at(mover, time);
+        const auto placement = near_placement_at(mover, time, point, point, around);
         if (!placement) return;
         const double before = least;
         Vec3d way_out;
@@ -358,7 +390,8 @@ MoverSweep Movers::sweep(const Vec3f& from, double since, const Vec3f& to, doubl
     const int parts = static_cast<int>(std::clamp(std::ceil((time - since) / part_time), 1.0, most_parts));
     double least = infinite;
     for_each_near(box, [&](std::uint32_t mover) {
-        auto before = placement_at(mover, since);
+        auto before =
+            since == time ? near_placement_at(mover, time, from, to, radius) : placement_at(mover, since);
         for (int part = 1; part <= parts; ++part) {
             const double begin = static_cast<double>(part - 1) / parts;
             const double end = static_cast<double>(part) / parts;

@@ -104,7 +104,8 @@ class Movers {
     struct Shape {
         std::uint32_t first_hull, end_hull;
         std::uint32_t first_ball, end_ball;
-        Box3f bounds;  // of all, in its own frame
+        Box3f bounds;   // of all, in its own frame
+        double radius;  // of a ball about its origin that holds all
     };
     struct Plane {
         Vec3d normal;
@@ -114,6 +115,18 @@ class Movers {
         double time;
         Vec3f position;
         Quatf orientation;
+    };
+    // Where a mover is at a time: on its way between two samples, or where both are one.
+    struct Stretch {
+        const Sample* from;
+        const Sample* to;
+        double at;
+        float share;  // of the way; more than 1: foreseen
+
+        [[nodiscard]] Vec3f position() const {
+            return from->position + share * (to->position - from->position);
+        }
+        [[nodiscard]] Quatf orientation() const;
     };
     // Rigid: rotates, then moves.
     struct Placement {
@@ -134,8 +147,13 @@ class Movers {
     void add_shape(const MoverShape& shape);
     void append(std::uint32_t mover, const Sample& sample);
     void bound(std::uint32_t mover);
-    [[nodiscard]] std::optional<Sample> sample_at(std::uint32_t mover, double time) const;
+    [[nodiscard]] std::optional<Stretch> stretch_at(std::uint32_t mover, double time) const;
+    [[nodiscard]] static Placement placement_of(const Stretch& stretch);
     [[nodiscard]] std::optional<Placement> placement_at(std::uint32_t mover, double time) const;
+    // None where a mover is farther than `limit` from the way, or nowhere.
+    [[nodiscard]] std::optional<Placement> near_placement_at(std::uint32_t mover, double time,
+                                                             const Vec3f& from, const Vec3f& to,
+                                                             float limit) const;
     template <class Visitor>
     void for_each_near(const Box3f& box, const Visitor& visit) const;
     void approach(const Shape& shape, const Vec3d& point, double& least, Vec3d& way_out) const;

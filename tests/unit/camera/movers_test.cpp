@@ -356,6 +356,38 @@ TEST(AmongMovers, ACrusherOverADeadPlayer) {
     }
 }
 
+Scene ball_round_the_player(float radius) {
+    Scene scene{rooms_with_a_doorway(), {}, {}, {}};
+    MoverShape ball;
+    ball.name = "ball";
+    ball.balls.push_back({Vec3f::Zero(), radius});
+    scene.shapes.push_back(ball);
+    const Vec3f eye = scene.plan.eye('s');
+    scene.motions.emplace_back([eye](double) { return MoverPose{0, eye, Quatf::Identity()}; });
+    scene.player = [eye](double) { return pose_at(eye, 0.0F); };
+    return scene;
+}
+
+// However many places near the player it covers.
+TEST(AmongMovers, ABallThatFillsTheRoomLeavesTheOther) {
+    const Scene scene = ball_round_the_player(420.0F);
+    for (const Solver solver : {Solver::planner, Solver::paper}) {
+        SCOPED_TRACE(name_of(solver));
+        expect_kept(run(scene, solver, 0.0, 3.0));
+    }
+}
+
+// A way out is not looked for in every frame where there is none.
+TEST(AmongMovers, ABallOverTheWholeMapIsNotCutAwayFromAllTheTime) {
+    const Scene scene = ball_round_the_player(1e5F);
+    for (const Solver solver : {Solver::planner, Solver::paper}) {
+        SCOPED_TRACE(name_of(solver));
+        const Findings found = run(scene, solver, 0.0, 3.0);
+        EXPECT_GT(found.cuts, 1);
+        EXPECT_LT(found.cuts, 20);
+    }
+}
+
 // Behind the door there is no way to the player, nor any sight of them.
 TEST(AmongMovers, AClosedDoorHidesThePlayer) {
     Scene scene = sliding_door(2.3);

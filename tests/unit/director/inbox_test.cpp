@@ -337,6 +337,36 @@ TEST_F(InboxTest, AtASlowerPaceOnlyWhatWouldHaveBecomeCamerasIsSuperseded) {
     EXPECT_EQ(counted(Counter::drop_superseded), 2U);
 }
 
+TEST_F(InboxTest, WhileItRestsAFrameWaitsForALaterOne) {
+    EXPECT_TRUE(put(frame(1, 1, pose_discontinuity), 10));
+    inbox_.rest_until(40);
+    EXPECT_FALSE(inbox_.frame_waits_since());
+    inbox_.take(content_);
+    EXPECT_FALSE(content_.has_frame);
+    EXPECT_FALSE(put(frame(1, 2), 20));
+    EXPECT_FALSE(put(frame(1, 3), 30));
+    EXPECT_TRUE(put(frame(1, 4), 40));
+    inbox_.take(content_);
+    EXPECT_EQ(content_.frame.frame_number, 4U);
+    EXPECT_EQ(content_.frame.poses.at(0).flags, pose_alive | pose_discontinuity);
+    EXPECT_EQ(counted(Counter::drop_paced), 3U);
+    EXPECT_EQ(counted(Counter::drop_superseded), 0U);
+}
+
+TEST_F(InboxTest, WhatWaitedOfABurstWhileItRestedIsReplaced) {
+    for (std::uint32_t number = 1; number <= 3; ++number) {
+        PoseFrame poses = frame(1, number);
+        EXPECT_TRUE(inbox_.put(poses, 10, true));
+    }
+    inbox_.rest_until(40);
+    PoseFrame next = frame(1, 4);
+    EXPECT_TRUE(inbox_.put(next, 50, true));
+    inbox_.take(content_);
+    EXPECT_TRUE(content_.has_frame);
+    EXPECT_EQ(content_.frame.frame_number, 4U);
+    EXPECT_FALSE(content_.leaves_more);
+}
+
 TEST_F(InboxTest, AtASlowerPaceTheLastFrameOfAMatchDoesNotOutlastIt) {
     slow_down_to(3);
     EXPECT_FALSE(put(frame(10, 1), 10));

@@ -252,6 +252,58 @@ TEST(WorkerPool, IdleWorkersHelp) {
     pool.detach(strand);
 }
 
+TEST(WorkerPool, LongTurnsLeaveHalfOfTheWorkersToOthers) {
+    WorkerPool pool(4, 4);
+    std::atomic<int> begun{0};
+    std::atomic<int> refused{0};
+    std::vector<std::unique_ptr<FunctionStrand>> strands;
+    for (int i = 0; i < 4; ++i) {
+        strands.push_back(std::make_unique<FunctionStrand>([&](Turn& turn) {
+            ++(turn.begin_long() ? begun : refused);
+            EXPECT_TRUE(test::eventually([&] { return begun + refused == 4; }));
+        }));
+        ASSERT_TRUE(pool.attach(*strands.back()));
+    }
+    for (const auto& strand : strands)
+        pool.schedule(*strand);
+    for (const auto& strand : strands)
+        WorkerPool::wait_idle(*strand);
+    EXPECT_EQ(begun, 2);
+    EXPECT_EQ(refused, 2);
+    for (const auto& strand : strands)
+        pool.detach(*strand);
+    FunctionStrand later([&](Turn& turn) {
+        if (turn.begin_long()) ++begun;
+    });
+    ASSERT_TRUE(pool.attach(later));
+    for (int i = 0; i < 5; ++i) {
+        pool.schedule(later);
+        WorkerPool::wait_idle(later);
+    }
+    EXPECT_EQ(begun, 7) << "those before are over";
+    pool.detach(later);
+}
+
+TEST(WorkerPool, NobodyHelpsInALongTurn) {
+    WorkerPool pool(4, 1);
+    std::atomic<int> elsewhere{0};
+    int done = 0;  // not atomic, so that the thread sanitizer reports a race
+    FunctionStrand strand([&](Turn& turn) {
+        ASSERT_TRUE(turn.begin_long());
+        const auto thread = std::this_thread::get_id();
+        turn.share(1000, 1, [&](std::size_t lane, std::size_t /*item*/) {
+            ++done;
+            if (lane != 0 || std::this_thread::get_id() != thread) ++elsewhere;
+        });
+    });
+    ASSERT_TRUE(pool.attach(strand));
+    pool.schedule(strand);
+    WorkerPool::wait_idle(strand);
+    EXPECT_EQ(done, 1000);
+    EXPECT_EQ(elsewhere, 0);
+    pool.detach(strand);
+}
+
 TEST(WorkerPool, HoldsNoMoreThanItsCapacity) {
     WorkerPool pool(1, 2);
     FunctionStrand a([] {});
