@@ -102,13 +102,18 @@ std::optional<Candidate> free_vertex(const freespace::Space& space, const MapPro
         return freespace::on_roadmap(vertices[i]) && !space.map().incident(i).empty();
     };
     NearVertices near(track.anchor);
-    for (std::uint32_t i = 0; i < vertices.size(); ++i)
-        if (is_place(i)) near.consider(i, vertices[i].position());
+    std::size_t places = 0;
+    for (std::uint32_t i = 0; i < vertices.size(); ++i) {
+        if (!is_place(i)) continue;
+        near.consider(i, vertices[i].position());
+        ++places;
+    }
     RoomiestVertex best(space, track.anchor, kept_clearance(profile, track));
     near.for_each([&](std::uint32_t i) { best.consider(i); });
-    const std::size_t stride = std::max<std::size_t>(vertices.size() / most_spread, 1);
-    for (std::size_t i = 0; i < vertices.size() && !best.found(); i += stride)
-        if (is_place(static_cast<std::uint32_t>(i))) best.consider(static_cast<std::uint32_t>(i));
+    const std::size_t stride = (places + most_spread - 1) / most_spread;
+    std::size_t place = 0;
+    for (std::uint32_t i = 0; i < vertices.size() && !best.found(); ++i)
+        if (is_place(i) && place++ % stride == 0) best.consider(i);
     if (!best.found()) return std::nullopt;
     return look_up(space, profile, track, best.position());
 }

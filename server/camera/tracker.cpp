@@ -170,13 +170,17 @@ class Step {
     void settle(const Candidate& place) {
         state_.position = place.position;
         state_.slab = place.slab;
+        state_.trapped = 0.0F;
     }
 
     // It keeps its place, unless a mover comes there.
     Camera hold(std::uint32_t flags) {
         state_.velocity = Vec3f::Zero();
         const float kept = kept_clearance(profile_, player_);
-        if (is_threatened(space_, state_.position, kept)) flags |= make_way(kept);
+        if (is_threatened(space_, state_.position, kept))
+            flags |= make_way(kept);
+        else
+            state_.trapped = 0.0F;
         plan_from_here();
         const auto place = look_up(space_, profile_, player_, state_.position);
         const Candidate uncovered{state_.position};
@@ -193,8 +197,7 @@ class Step {
             return 0;
         }
         settle(landing(space_, profile_, player_));
-        const bool is_free = room_soon(space_, state_.position, clearance) > 0.0F;
-        state_.trapped = is_free ? 0.0F : time_between_ways_out;
+        if (room_soon(space_, state_.position, clearance) <= 0.0F) state_.trapped = time_between_ways_out;
         return cut;
     }
 

@@ -150,8 +150,15 @@ bool Inbox::put(PoseFrame& frame, std::int64_t received_ns, bool in_burst) {
 void Inbox::rest_until(std::int64_t ns) {
     const std::lock_guard lock(mutex_);
     rests_until_ = ns;
+    put_aside();
+}
+
+// What waits: the newest frame of it until a later one comes.
+void Inbox::put_aside() {
+    if (frame_count_ > 1) replace(frame_count_ - 1, frames().back().poses, Counter::drop_paced);
     for (Frame& frame : frames())
         frame.is_due = false;
+    if (std::ranges::any_of(messages_, is<MatchEnded>)) forget_frame_that_is_not_due();
 }
 
 void Inbox::replace(std::size_t count, PoseFrame& by, Counter reason) {
@@ -188,8 +195,9 @@ void Inbox::put(const CameraFrame& shown) {
     has_shown_ = true;
 }
 
-void Inbox::take(Content& content) {
+void Inbox::take(Content& content, bool with_frame) {
     const std::lock_guard lock(mutex_);
+    if (!with_frame) put_aside();
     take_messages(content);
     take_frame(content);
     put_first_requests(content);

@@ -64,7 +64,7 @@ class Inbox {
     // and their discontinuities are carried over to it.
     bool put(PoseFrame& frame, std::int64_t received_ns, bool in_burst = false);
 
-    // A frame that waits, or comes before that time, steady clock, is not due: a later one takes its place.
+    // Frames that wait, or come before that time, steady clock, are not due: a later one takes their place.
     void rest_until(std::int64_t ns);
 
     // When the first frame was received, or due, that waits for a turn and that the pace lets be taken.
@@ -86,7 +86,8 @@ class Inbox {
 
     // Moves what waits into `content`, whose memory is reused; not a frame that is not due, of a burst one
     // frame with the messages around it, and not the requests of more observers than max_observers_taken.
-    void take(Content& content);
+    // Without a frame: those that wait are not due from then on.
+    void take(Content& content, bool with_frame = true);
 
   private:
     using Place = std::vector<Message>::iterator;
@@ -95,7 +96,7 @@ class Inbox {
         std::int64_t received_ns = 0;
         std::size_t messages_before = 0;
         bool in_burst = false;
-        bool is_due = false;  // when several wait, all are or none
+        bool is_due = false;  // when several wait, all are
     };
 
     // The first of the same kind that waits.
@@ -107,6 +108,7 @@ class Inbox {
     // Makes one of an end and of that which waits. Returns false when none does.
     [[nodiscard]] bool merge_end();
     void forget_frame_that_is_not_due();
+    void put_aside();
     // The frames that wait, the oldest first.
     [[nodiscard]] std::span<Frame> frames() { return std::span(frame_memory_).first(frame_count_); }
     [[nodiscard]] bool is_due() const { return frame_count_ > 0 && frame_memory_.front().is_due; }

@@ -9,27 +9,41 @@
 
 namespace camdir::director {
 
-// Of one match: how long its turns usually take for a pose frame, all together. Who asks for much, such as
-// cameras among hundreds of movers, pays for it alone: such a match rests for as long as it has worked.
+// Of one match: whether its turns usually take long for a pose frame, with those that prepare it. Who asks
+// for much, such as cameras among hundreds of movers, pays for it alone: it rests for as long as it has
+// worked.
 class LongTurns {
   public:
     static constexpr std::int64_t long_ns = 20'000'000;  // other matches hardly notice shorter ones
 
-    // A turn has taken so long. `of_frame`: it moved the cameras.
-    void add(std::int64_t ns, bool of_frame) {
-        since_frame_ += ns;
-        if (!of_frame) return;
+    // ns. What decides is `helped`: who has help and who has none must not be judged by different measures.
+    struct Turn {
+        std::int64_t took = 0;
+        std::int64_t helped = 0;  // that it would have taken with all help that it may have at best
+
+        Turn& operator+=(const Turn& other) {
+            took += other.took;
+            helped += other.helped;
+            return *this;
+        }
+    };
+
+    // Part of the work for the next frame is done.
+    void prepared(const Turn& turn) { since_frame_ += turn; }
+    // The cameras have moved with a frame.
+    void moved(const Turn& turn) {
+        const Turn all = std::exchange(since_frame_, {}) += turn;
         const std::int64_t before = last_[count_ % last_.size()];
         std::int64_t& last = last_[++count_ % last_.size()];
-        last = std::exchange(since_frame_, 0);
+        last = all.helped;
+        worked_ = all.took;
         // A single long one, as when a group shot begins, says little, two in a row say all.
-        usual_ = std::max({median(last_), std::min(before, last), last / 8});
+        is_long_ = std::max({median(last_), std::min(before, last), last / 8}) >= long_ns;
     }
 
-    // ns; 0 where they are not long.
-    [[nodiscard]] std::int64_t usual() const { return usual_ < long_ns ? 0 : usual_; }
-    // From the beginning of one to that of the next.
-    [[nodiscard]] std::int64_t interval() const { return 2 * usual(); }
+    [[nodiscard]] bool is_long() const { return is_long_; }
+    // For the last frame, ns; 0 where turns are not long.
+    [[nodiscard]] std::int64_t worked() const { return is_long_ ? worked_ : 0; }
 
   private:
     using Last = std::array<std::int64_t, 5>;
@@ -40,10 +54,11 @@ class LongTurns {
         return *middle;
     }
 
+    Turn since_frame_;
     Last last_{};
     std::size_t count_ = 0;
-    std::int64_t since_frame_ = 0;
-    std::int64_t usual_ = 0;
+    std::int64_t worked_ = 0;
+    bool is_long_ = false;
 };
 
 }  // namespace camdir::director

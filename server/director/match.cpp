@@ -4,6 +4,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 #include <cmath>
 #include <ctime>
@@ -49,10 +50,9 @@ Match::Match(std::string match_id, std::shared_ptr<const config::Config> config,
 // Only running out of memory throws in here, and that ends the process.
 void Match::turn(Turn& turn) noexcept {  // NOLINT(bugprone-exception-escape)
     const std::int64_t begun_ns = now_ns();
-    const bool is_long = long_turns_.usual() > 0;
+    const bool is_long = long_turns_.is_long();
     const bool may_move = !is_long || turn.begin_long();
-    if (!may_move && inbox_.frame_waits_since()) rest(long_turns_.usual());
-    inbox_.take(content_);
+    inbox_.take(content_, may_move);
     const bool is_long_of_frame = is_long && content_.has_frame;
     if (is_long_of_frame) inbox_.rest_until(Requests::never);
     const std::span messages(content_.messages);
@@ -65,9 +65,13 @@ void Match::turn(Turn& turn) noexcept {  // NOLINT(bugprone-exception-escape)
     }
     if (content_.leaves_more) turn.again();
     follow_leader();
-    if (may_move) prepare(turn);
-    long_turns_.add(now_ns() - begun_ns, content_.has_frame);
-    if (is_long_of_frame) rest(long_turns_.usual());
+    const bool prepared = !is_long && prepare(turn);
+    const std::int64_t took_ns = now_ns() - begun_ns;
+    if (content_.has_frame)
+        long_turns_.moved({took_ns, turn.helped(took_ns)});
+    else if (prepared)
+        long_turns_.prepared({took_ns, turn.helped(took_ns)});
+    if (is_long_of_frame) rest();
     // A lookout that is asked for the first time takes milliseconds.
     if (std::ranges::any_of(requests_.shots(), &Shot::is_of_group)) expect_long_turns();
 }
@@ -104,19 +108,26 @@ float Match::camera_rate_hz() const {
 
 // Of the frames that are let in, some are left out at a slower pace.
 void Match::limit_silence() {
-    silence_limit_ns_ = silence_limit_ns(*info_, *config_) * frames_per_camera_ + 2 * long_turns_.interval();
+    silence_limit_ns_ = silence_limit_ns(*info_, *config_) * frames_per_camera_;
 }
 
-// After a turn whose cameras took long, or when it has to wait until other matches' long ones are over.
-void Match::rest(std::int64_t ns) {
-    inbox_.rest_until(now_ns() + ns);
-    if (info_) limit_silence();
-    if (ns > 0 && long_turns_logged_.due())
+// After a turn whose cameras took long.
+void Match::rest() {
+    const std::int64_t worked = long_turns_.worked();
+    inbox_.rest_until(now_ns() + worked);
+    if (worked > 0 && long_turns_logged_.due())
         spdlog::warn(
-            "match {}: its {} cameras take {} ms a pose frame: they move every {} ms at most, for other "
-            "matches to have theirs",
-            match_id_, requests_.shots().size(), long_turns_.usual() / 1'000'000,
-            long_turns_.interval() / 1'000'000);
+            "match {}: its {} cameras take {} ms a pose frame: they move half of the time, for other matches "
+            "to have theirs",
+            match_id_, requests_.shots().size(), worked / 1'000'000);
+}
+
+// Of so many pose frames one moves the cameras. What long turns take varies: by powers of two.
+std::uint32_t Match::wanted_frames_per_camera() const {
+    const double interval_s = 2e-9 * static_cast<double>(long_turns_.worked());
+    const double frames = std::min(interval_s * static_cast<double>(info_->rate_hz), 1e6);
+    const auto own = std::bit_ceil(static_cast<std::uint32_t>(std::ceil(std::max(frames, 1.0))));
+    return std::max(pace_.frames_per_camera(), own);
 }
 
 // The map's where the game server does not know it.
@@ -127,7 +138,7 @@ float Match::metres_per_unit() const {
 
 // With the rate of its cameras.
 void Match::publish_info() {
-    frames_per_camera_ = pace_.frames_per_camera();
+    frames_per_camera_ = wanted_frames_per_camera();
     limit_silence();
     MatchInfo shown = *info_;
     shown.rate_hz = camera_rate_hz();

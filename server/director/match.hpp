@@ -81,7 +81,8 @@ class Match final : public Strand {
 
     [[nodiscard]] float camera_rate_hz() const;
     void limit_silence();
-    void rest(std::int64_t ns);
+    void rest();
+    [[nodiscard]] std::uint32_t wanted_frames_per_camera() const;
     [[nodiscard]] float metres_per_unit() const;
     void publish_info();
     void begin_epoch();
@@ -110,8 +111,9 @@ class Match final : public Strand {
         return space().at(by_timeline_ ? timeline_.shown() : causal_time_);
     }
     [[nodiscard]] bool foresee(const PoseFrame& frame);
-    // Makes the steps of the next frame, whose poses wait, so that its cameras leave when it is due.
-    void prepare(Turn& turn);
+    // Makes the steps of the next frame, whose poses wait, so that its cameras leave when it is due. False:
+    // nothing is to be done now.
+    bool prepare(Turn& turn);
     void prepare_step(Shot& shot, double time, camera::Scratch& scratch);
     // Of this frame, or by the timeline at a time and until the timeline changes.
     void gather_crowd(const PoseFrame& frame);

@@ -70,7 +70,7 @@ void Match::process(PoseFrame& frame, std::int64_t received_ns, Turn& turn) {
         counters_.add(Counter::drop_waiting);
         return show(frame, no_cameras(frame));
     }
-    if (frames_per_camera_ != pace_.frames_per_camera()) publish_info();
+    if (frames_per_camera_ != wanted_frames_per_camera()) publish_info();
     if (requests_.shots().empty()) {
         show(frame, no_cameras(frame));
     } else {
@@ -212,15 +212,18 @@ void Match::share_shots(Turn& turn, std::size_t count, bool begins_group_shot,
     });
 }
 
-void Match::prepare(Turn& turn) {
-    if (!by_timeline_ || map_.freespace() == nullptr) return;
-    if (pace_.frames_per_camera() > 1) return;  // it may not be due
+bool Match::prepare(Turn& turn) {
+    if (!by_timeline_ || map_.freespace() == nullptr) return false;
+    if (pace_.frames_per_camera() > 1) return false;  // it may not be due
     const auto next = delay_.upcoming();
-    if (!next || next->epoch != info_->epoch || next->after != last_time_) return;
-    if (content_.has_frame) return turn.again();  // frames of other matches that are due go first
+    if (!next || next->epoch != info_->epoch || next->after != last_time_) return false;
+    if (content_.has_frame) {
+        turn.again();  // frames of other matches that are due go first
+        return false;
+    }
     extend_timeline(next->epoch, next->frame_time);
     const double time = timeline_.seconds(next->frame_time);
-    if (!timeline_.covers(next->frame_time) || time <= timeline_.shown()) return;
+    if (!timeline_.covers(next->frame_time) || time <= timeline_.shown()) return false;
     if (obstacles_.follow(timeline_)) map_.report_unknown_movers(obstacles_.unknown());
     gather_crowd(time);
     unprepared_.clear();
@@ -235,6 +238,7 @@ void Match::prepare(Turn& turn) {
         prepare_step(*unprepared_[i], time, scratch);
     });
     if (count < unprepared_.size()) turn.again();
+    return true;
 }
 
 void Match::prepare_step(Shot& shot, double time, camera::Scratch& scratch) {

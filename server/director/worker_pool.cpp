@@ -142,20 +142,27 @@ void WorkerPool::call_helpers(std::size_t count) {
 }
 
 void Turn::share(std::size_t count, std::size_t share, const SharedWork::Item& item) {
-    const SharedWork::Item timed = [this, &item](std::size_t lane, std::size_t i) {
+    const std::int64_t begun = now_ns();
+    std::atomic<std::int64_t> work{0};
+    const SharedWork::Item timed = [&](std::size_t lane, std::size_t i) {
+        const std::int64_t item_begun = now_ns();
         item(lane, i);
+        const std::int64_t item_ended = now_ns();
+        work.fetch_add(item_ended - item_begun, std::memory_order_relaxed);
         (lane == 0 ? worker_ : *pool_.workers_[lane - 1]).turn.go_on();
-        pool_.went_on_ns_.store(now_ns(), std::memory_order_relaxed);
+        pool_.went_on_ns_.store(item_ended, std::memory_order_relaxed);
     };
+    const std::size_t worth = std::min((count + share - 1) / share, workers());
     if (is_long_) {
         for (std::size_t i = 0; i < count; ++i)
             timed(0, i);
-        return;
+    } else {
+        worker_.shared.begin(count, timed);
+        if (worth > 1) pool_.call_helpers(worth - 1);
+        worker_.shared.finish();
     }
-    worker_.shared.begin(count, timed);
-    const std::size_t worth = (count + share - 1) / share;
-    if (worth > 1) pool_.call_helpers(std::min(worth, pool_.workers_.size()) - 1);
-    worker_.shared.finish();
+    shared_ns_ += now_ns() - begun;
+    helped_ns_ += work / std::max<std::int64_t>(static_cast<std::int64_t>(worth), 1);
 }
 
 bool Turn::begin_long() {

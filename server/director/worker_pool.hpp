@@ -152,6 +152,9 @@ class Turn {
     // workers, one at the least, are in such turns. False: it is none, because too many go on.
     [[nodiscard]] bool begin_long();
 
+    // How long a turn that took `ns` would have taken if all whom share() may call had helped.
+    [[nodiscard]] std::int64_t helped(std::int64_t ns) const { return ns - shared_ns_ + helped_ns_; }
+
     [[nodiscard]] std::size_t lanes() const { return workers() + 1; }
     [[nodiscard]] std::size_t workers() const { return pool_.workers(); }
 
@@ -167,6 +170,8 @@ class Turn {
     WorkerPool::Worker& worker_;
     Strand& strand_;
     bool is_long_ = false;
+    std::int64_t shared_ns_ = 0;  // that share() took
+    std::int64_t helped_ns_ = 0;  // and would have taken
 };
 
 }  // namespace camdir::director

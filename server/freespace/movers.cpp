@@ -259,7 +259,7 @@ std::optional<Movers::Stretch> Movers::stretch_at(std::uint32_t mover, double ti
                                         [](double at, const Sample& sample) { return at < sample.time; });
     if (later == known.begin()) return std::nullopt;
     const Sample& last = *(later - 1);
-    const Stretch stands{&last, &last, last.time, 0.0F};
+    const Stretch stands{&last, &last, 0.0F};
     const bool foreseen = later == known.end();
     if (foreseen && (last.time < newest_ || later - known.begin() < 2)) return stands;
     const Sample& from = foreseen ? *(later - 2) : last;
@@ -267,7 +267,7 @@ std::optional<Movers::Stretch> Movers::stretch_at(std::uint32_t mover, double ti
     const double frame = to.time - from.time;
     if (foreseen && frame > longest_frame) return stands;
     const double at = foreseen ? std::min(time, to.time + prediction) : time;
-    return Stretch{&from, &to, at, static_cast<float>((at - from.time) / frame)};
+    return Stretch{&from, &to, static_cast<float>((at - from.time) / frame)};
 }
 
 Quatf Movers::Stretch::orientation() const {

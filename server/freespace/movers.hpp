@@ -120,7 +120,6 @@ class Movers {
     struct Stretch {
         const Sample* from;
         const Sample* to;
-        double at;
         float share;  // of the way; more than 1: foreseen
 
         [[nodiscard]] Vec3f position() const {

@@ -1,5 +1,5 @@
 // The server's log on standard error: plain text, or one JSON object per line; at most 200 lines in a second,
-// and none that would have to wait for whoever reads it.
+// and none of up to 4 kB that would have to wait for whoever reads it.
 #pragma once
 
 #include "config/config.hpp"

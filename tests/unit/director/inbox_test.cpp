@@ -367,6 +367,27 @@ TEST_F(InboxTest, WhatWaitedOfABurstWhileItRestedIsReplaced) {
     EXPECT_FALSE(content_.leaves_more);
 }
 
+TEST_F(InboxTest, WhileFramesOfABurstArePutAsideMessagesDoNotWait) {
+    for (std::uint32_t number = 1; number <= 3; ++number) {
+        PoseFrame poses = frame(1, number);
+        inbox_.put(poses, 10, true);
+    }
+    inbox_.take(content_, false);
+    EXPECT_FALSE(content_.has_frame);
+    EXPECT_FALSE(content_.leaves_more);
+    inbox_.put(ServerLost{});
+    inbox_.take(content_);
+    EXPECT_EQ(content_.messages.size(), 1U);
+    EXPECT_FALSE(content_.has_frame);
+}
+
+TEST_F(InboxTest, AFrameThatIsPutAsideDoesNotOutlastItsMatch) {
+    EXPECT_TRUE(put(frame(10, 1), 10));
+    inbox_.put(MatchEnded{});
+    inbox_.take(content_, false);
+    EXPECT_TRUE(put(frame(1, 1), 50)) << "of the next match, whatever its epoch";
+}
+
 TEST_F(InboxTest, AtASlowerPaceTheLastFrameOfAMatchDoesNotOutlastIt) {
     slow_down_to(3);
     EXPECT_FALSE(put(frame(10, 1), 10));

@@ -7,35 +7,42 @@
 namespace camdir::director {
 namespace {
 
+LongTurns::Turn turn_of(std::int64_t time_ms) {
+    return {time_ms * ms, time_ms * ms};
+}
+
 TEST(LongTurns, ShortOnesAreNoneWhateverTheyFollow) {
     LongTurns turns;
     for (int i = 0; i < 20; ++i) {
-        turns.add(i % 5 == 0 ? 60 * ms : 5 * ms, true);
-        EXPECT_EQ(turns.usual(), 0);
+        turns.moved(turn_of(i % 5 == 0 ? 60 : 5));
+        EXPECT_FALSE(turns.is_long());
+        EXPECT_EQ(turns.worked(), 0);
     }
 }
 
 TEST(LongTurns, TwoInARowSayAll) {
     LongTurns turns;
-    turns.add(100 * ms, true);
-    EXPECT_EQ(turns.usual(), 0);
-    turns.add(80 * ms, true);
-    EXPECT_EQ(turns.usual(), 80 * ms);
-    EXPECT_EQ(turns.interval(), 160 * ms);
+    turns.moved(turn_of(100));
+    EXPECT_FALSE(turns.is_long());
+    turns.moved(turn_of(80));
+    EXPECT_TRUE(turns.is_long());
+    EXPECT_EQ(turns.worked(), 80 * ms);
 }
 
 TEST(LongTurns, AVeryLongOneSaysSomethingAtOnce) {
     LongTurns turns;
-    turns.add(4000 * ms, true);
-    EXPECT_EQ(turns.usual(), 500 * ms);
+    turns.moved(turn_of(4000));
+    EXPECT_EQ(turns.worked(), 4000 * ms);
+    turns.moved(turn_of(1));
+    EXPECT_FALSE(turns.is_long());
 }
 
 TEST(LongTurns, WhoIsLongMostOfTheTimeIsLong) {
     LongTurns turns;
     for (int i = 0; i < 20; ++i) {
-        turns.add(i % 3 == 0 ? 1 * ms : 50 * ms, true);
+        turns.moved(turn_of(i % 3 == 0 ? 1 : 50));
         if (i < 5) continue;
-        EXPECT_EQ(turns.usual(), 50 * ms);
+        EXPECT_TRUE(turns.is_long());
     }
 }
 
@@ -43,19 +50,30 @@ TEST(LongTurns, WhatIsPreparedForAFrameCountsToo) {
     LongTurns turns;
     for (int i = 0; i < 2; ++i) {
         for (int k = 0; k < 3; ++k)
-            turns.add(10 * ms, false);
-        turns.add(1 * ms, true);
+            turns.prepared(turn_of(10));
+        turns.moved(turn_of(1));
     }
-    EXPECT_EQ(turns.usual(), 31 * ms);
+    EXPECT_EQ(turns.worked(), 31 * ms);
 }
 
 TEST(LongTurns, TheyAreForgottenWhenTheyAreOver) {
     LongTurns turns;
     for (int i = 0; i < 5; ++i)
-        turns.add(100 * ms, true);
+        turns.moved(turn_of(100));
     for (int i = 0; i < 3; ++i)
-        turns.add(1 * ms, true);
-    EXPECT_EQ(turns.usual(), 0);
+        turns.moved(turn_of(1));
+    EXPECT_FALSE(turns.is_long());
+}
+
+// Once long it has no help: the same work must not count as more then.
+TEST(LongTurns, WhoWouldBeShortWithHelpIsNotLongForWantOfIt) {
+    LongTurns turns;
+    for (int i = 0; i < 2; ++i)
+        turns.moved({.took = 100 * ms, .helped = 100 * ms});
+    ASSERT_TRUE(turns.is_long());
+    for (int i = 0; i < 3; ++i)
+        turns.moved({.took = 60 * ms, .helped = 8 * ms});
+    EXPECT_FALSE(turns.is_long());
 }
 
 }  // namespace

@@ -123,22 +123,26 @@ TEST(PaceTest, StepsThatHoldAreTakenFaster) {
     EXPECT_EQ(intervals, (std::vector{60, 60, 30, 15, 7, 5, 5}));
 }
 
-// Takes its time over cameras while it is slow.
+// Takes its time over the cameras of the match `m` while it is slow.
 class SlowPublisher final : public MemoryPublisher {
   public:
+    explicit SlowPublisher(std::chrono::milliseconds time) : time_(time) {}
     using MemoryPublisher::publish;
     void publish(const std::string& match_id, const CameraFrame& frame) override {
-        if (is_slow) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        if (is_slow && match_id == "m") std::this_thread::sleep_for(time_);
         MemoryPublisher::publish(match_id, frame);
     }
 
-    [[nodiscard]] float rate_hz() const { return shown()->rate_hz; }
+    [[nodiscard]] float rate_hz(const std::string& match_id = "m") const { return shown(match_id)->rate_hz; }
 
     std::atomic<bool> is_slow{true};
+
+  private:
+    const std::chrono::milliseconds time_;
 };
 
 TEST(PaceTest, AnOverloadedDirectorDeclaresALowerRateAndSpeedsUpAgain) {
-    SlowPublisher publisher;
+    SlowPublisher publisher(std::chrono::milliseconds(5));
     MapLibrary maps;
     maps.set_ready("square", Stage::square());
     Director director(Stage::default_config(), maps, publisher);
@@ -147,10 +151,12 @@ TEST(PaceTest, AnOverloadedDirectorDeclaresALowerRateAndSpeedsUpAgain) {
     std::uint32_t number = 0;
     const auto plays_until = [&](const auto& condition) {
         return test::eventually([&] {
-            PoseFrame frame = Stage::poses(++number);
-            frame.source_time =
-                std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch()).count();
-            receive(director, "m", frame);
+            for (int i = 0; i < 4; ++i) {
+                PoseFrame frame = Stage::poses(++number);
+                frame.source_time =
+                    std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch()).count();
+                receive(director, "m", frame);
+            }
             return condition();
         });
     };
@@ -170,6 +176,41 @@ TEST(PaceTest, AnOverloadedDirectorDeclaresALowerRateAndSpeedsUpAgain) {
         const float frames = publisher.rate_hz() * static_cast<float>(pace());
         return pace() < slowest && std::abs(frames - Stage::info().rate_hz) < 0.01F;
     }));
+}
+
+TEST(PaceTest, AMatchWhoseCamerasTakeLongIsSlowedDownAlone) {
+    SlowPublisher publisher(std::chrono::milliseconds(200));
+    MapLibrary maps;
+    maps.set_ready("square", Stage::square());
+    config::Config config = Stage::default_config();
+    config.limits.workers = 2;
+    Director director(config, maps, publisher);
+    for (const char* match : {"m", "other"}) {
+        director.receive(Stage::info(match));
+        ObserverRequest request = Stage::request("a");
+        request.match_id = match;
+        director.receive(request);
+    }
+    std::uint32_t number = 0;
+    const auto plays_until = [&](const auto& condition) {
+        return test::eventually([&] {
+            ++number;
+            for (const char* match : {"m", "other"}) {
+                PoseFrame frame = Stage::poses(number);
+                receive(director, match, frame);
+            }
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+            return condition();
+        });
+    };
+    ASSERT_TRUE(plays_until([&] { return publisher.rate_hz() < publisher.rate_hz("other"); }));
+    const auto before = director.statistics();
+    ASSERT_TRUE(plays_until(
+        [&] { return director.statistics()[Counter::drop_paced] > before[Counter::drop_paced] + 20; }));
+    EXPECT_LT(publisher.rate_hz(), publisher.rate_hz("other"));
+    EXPECT_EQ(director.statistics()[Counter::silences], 0U);
+    publisher.is_slow = false;
+    EXPECT_TRUE(plays_until([&] { return publisher.rate_hz() == publisher.rate_hz("other"); }));
 }
 
 }  // namespace
