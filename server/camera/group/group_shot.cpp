@@ -106,7 +106,7 @@ class GroupStep {
                               (members_.is_recorded ? share_by_a_recording : 1.0F);
         const Standpoint from = standpoint();
         const ViewpointSearch search(space_, profile_, members_, all, from, outlook_);
-        const float staying = search.worth_of_going_on(state_.goal, from.cut_in);
+        const float staying = search.worth_of_going_on(state_.goal);
         const auto near = search.glide();
         const bool glides = near && near->worth > staying + worth_a_move;
         if (from.cut_in <= 0.0F) {
@@ -118,17 +118,17 @@ class GroupStep {
         }
         if (glides) glide_to(*near);
         if (complete || glides) return false;
-        const bool loses = search.worth_of_going_on(state_.goal, shortest_group_shot) < staying;
-        return !loses && show_those_who_matter_more();
+        return show_those_who_matter_more(search);
     }
 
-    // Where not everyone can be shown.
-    bool show_those_who_matter_more() {
+    // Where not everyone can be shown, unless that keeps the camera from showing everyone soon.
+    bool show_those_who_matter_more(const ViewpointSearch& everyone) {
         if (state_.since_cut < shortest_partial_shot || state_.incomplete_for < patience) return false;
         for (MemberSet set = without_the_last(members_.now().living); set > shown_;
              set = without_the_last(set))
             if (const auto found =
                     ViewpointSearch(space_, profile_, members_, set, standpoint(), outlook_).cut()) {
+                if (everyone.loses_by_cutting_to(found->position, state_.goal)) return false;
                 cut_to(*found);
                 return true;
             }

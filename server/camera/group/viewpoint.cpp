@@ -132,8 +132,19 @@ float ViewpointSearch::time_with_a_cut(Shows shows, float cut_in) const {
     return most;
 }
 
-float ViewpointSearch::worth_of_going_on(const Vec3f& goal, float cut_in) const {
-    return time_with_a_cut(shows_along(way_to(Approach::glide, goal)), cut_in) - picture_cost(goal);
+float ViewpointSearch::worth_of_going_on(const Vec3f& goal) const {
+    return time_with_a_cut(shows_along(way_to(Approach::glide, goal)), from_.cut_in) - picture_cost(goal);
+}
+
+// What is foreseen from the place may come otherwise: a moment that needs another cut soon is not risked for
+// it.
+bool ViewpointSearch::loses_by_cutting_to(const Vec3f& place, const Vec3f& goal) const {
+    constexpr float rounding = 1e-3F;  // s
+    const Shows stays = shows_along(way_to(Approach::glide, goal));
+    const Shows after = shows_along(way_to(Approach::cut, place));
+    const float at_most =
+        std::min(time_with_a_cut(stays, shortest_group_shot), time_with_a_cut(after, shortest_group_shot));
+    return at_most + rounding < time_with_a_cut(stays, from_.cut_in);
 }
 
 std::optional<Viewpoint> ViewpointSearch::cut() const {

@@ -59,7 +59,10 @@ class ViewpointSearch {
                     MemberSet set, const Standpoint& from, Outlook& outlook);
 
     // Of going on to `goal`, where the camera may be already.
-    [[nodiscard]] float worth_of_going_on(const Vec3f& goal, float cut_in) const;
+    [[nodiscard]] float worth_of_going_on(const Vec3f& goal) const;
+
+    // Whether all are shown for less time after a cut to the place than by going on to `goal`.
+    [[nodiscard]] bool loses_by_cutting_to(const Vec3f& place, const Vec3f& goal) const;
 
     // The best lookout to cut to.
     [[nodiscard]] std::optional<Viewpoint> cut() const;

@@ -340,6 +340,34 @@ TEST(GroupShot, KeepsWhoIsAboutToJumpInThePicture) {
     }
 }
 
+// A cut to one of them, who are all hidden now, may not keep the camera from where they all are soon.
+TEST(GroupShot, WaitsWhereAllAreShownSoonRatherThanCutToWhoMattersMore) {
+    const test::Plan plan({"##############",  //
+                           "#..#......#..#",  //
+                           "#..#......#..#",  //
+                           "#..#......#..#",  //
+                           "##############"});
+    const freespace::Freespace freespace = plan.freespace();
+    constexpr int away = 160;
+    constexpr int back = 230;  // 0.5 s after the camera would cut to the one who matters more
+    std::vector<TimedPose> first;
+    std::vector<TimedPose> second;
+    for (int i = 0; i < 460; ++i) {
+        const bool together = i < away || i >= back;
+        first.push_back({group_frame * i, pose_at(together ? plan.eye(2, 5) : plan.eye(2, 1), 0.0F), true});
+        second.push_back({group_frame * i, pose_at(together ? plan.eye(2, 7) : plan.eye(2, 12), 0.0F), true});
+        first.back().pose.discontinuity = second.back().pose.discontinuity = i == away || i == back;
+    }
+    GroupState state;
+    Outlook outlook;
+    for (std::size_t i = 0; i < 270; ++i) {
+        const std::array<Window, 2> windows = {Window(first).first(i + 180), Window(second).first(i + 180)};
+        const Camera camera =
+            step(freespace, {}, windows, group_frame * static_cast<double>(i), state, outlook);
+        EXPECT_EQ(flagged(camera, target_visible), i < away || i >= back) << "frame " << i;
+    }
+}
+
 TEST(Members, OfARecordedFutureAreThoseOfWholeTenths) {
     const test::Plan plan = hall();
     const freespace::Freespace freespace = plan.freespace();
