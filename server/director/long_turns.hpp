@@ -17,11 +17,11 @@ class LongTurns {
     static constexpr std::int64_t long_ns = 20'000'000;  // other matches hardly notice shorter ones
 
     // ns. What decides is `helped`: who has help and who has none must not be judged by different measures.
-    struct Turn {
+    struct Cost {
         std::int64_t took = 0;
         std::int64_t helped = 0;  // that it would have taken with all help that it may have at best
 
-        Turn& operator+=(const Turn& other) {
+        Cost& operator+=(const Cost& other) {
             took += other.took;
             helped += other.helped;
             return *this;
@@ -29,20 +29,20 @@ class LongTurns {
     };
 
     // Part of the work for the next frame is done.
-    void prepared(const Turn& turn) { since_frame_ += turn; }
+    void prepared(const Cost& cost) { since_frame_ += cost; }
     // The cameras have moved with a frame.
-    void moved(const Turn& turn) {
-        const Turn all = std::exchange(since_frame_, {}) += turn;
+    void moved(const Cost& cost) {
+        const Cost all = std::exchange(since_frame_, {}) += cost;
         const std::int64_t before = last_[count_ % last_.size()];
         std::int64_t& last = last_[++count_ % last_.size()];
         last = all.helped;
-        worked_ = all.took;
+        worked_ = std::min(all.took, std::exchange(last_took_, all.took));  // a stall is no work
         // A single long one, as when a group shot begins, says little, two in a row say all.
         is_long_ = std::max({median(last_), std::min(before, last), last / 8}) >= long_ns;
     }
 
     [[nodiscard]] bool is_long() const { return is_long_; }
-    // For the last frame, ns; 0 where turns are not long.
+    // For a frame, of the last two the less, ns; 0 where turns are not long.
     [[nodiscard]] std::int64_t worked() const { return is_long_ ? worked_ : 0; }
 
   private:
@@ -54,9 +54,10 @@ class LongTurns {
         return *middle;
     }
 
-    Turn since_frame_;
+    Cost since_frame_;
     Last last_{};
     std::size_t count_ = 0;
+    std::int64_t last_took_ = 0;
     std::int64_t worked_ = 0;
     bool is_long_ = false;
 };
