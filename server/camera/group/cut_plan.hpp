@@ -9,8 +9,8 @@
 namespace camdir::camera {
 
 // By instant a bit: all who are wanted are shown then.
-using Shows = std::uint32_t;
-static_assert(Members::most <= 32);
+using Shows = std::uint64_t;
+static_assert(Members::most <= 64);
 
 struct CutPlace {
     std::uint32_t lookout;

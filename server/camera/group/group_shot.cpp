@@ -57,7 +57,10 @@ class GroupStep {
             cuts = is_threatened() ? make_way() : (glide(), false);
             turn();
         }
+        const bool was_complete = state_.incomplete_for == 0.0F;
         judge();
+        if (members_.is_recorded && was_complete && shown_ != members_.now().living)
+            state_.until_choice = 0.0F;
         if (!cuts && state_.until_choice <= 0.0F && members_.now().living != 0 && choose()) {
             cuts = true;
             judge();
@@ -106,12 +109,13 @@ class GroupStep {
                               (members_.is_recorded ? share_by_a_recording : 1.0F);
         const Standpoint from = standpoint();
         const ViewpointSearch search(space_, profile_, members_, all, from, outlook_);
-        const float staying = search.worth_of_going_on(state_.goal);
+        const float staying = search.worth_of_going_on();
         const auto near = search.glide();
         const bool glides = near && near->worth > staying + worth_a_move;
         if (from.cut_in <= 0.0F) {
             const auto far = search.cut();
-            if (far && far->worth > (glides ? near->worth : staying) + worth_a_move) {
+            if (far && (far->worth > (glides ? near->worth : staying) + worth_a_move ||
+                        (!complete && search.is_due(*far, glides ? near : std::nullopt)))) {
                 cut_to(*far);
                 return true;
             }
@@ -128,7 +132,7 @@ class GroupStep {
              set = without_the_last(set))
             if (const auto found =
                     ViewpointSearch(space_, profile_, members_, set, standpoint(), outlook_).cut()) {
-                if (everyone.loses_by_cutting_to(found->position, state_.goal)) return false;
+                if (everyone.loses_by_cutting_to(found->position)) return false;
                 cut_to(*found);
                 return true;
             }
@@ -137,7 +141,7 @@ class GroupStep {
 
     [[nodiscard]] Standpoint standpoint() const {
         return {state_.position, state_.side, std::max(shortest_group_shot - state_.since_cut, 0.0F),
-                state_.velocity};
+                state_.velocity, state_.goal};
     }
 
     void begin() {

@@ -7,7 +7,7 @@
 namespace camdir::camera {
 namespace {
 
-constexpr double tick = 0.1;            // s: between recorded instants
+constexpr double tick = 0.05;           // s: between recorded instants
 constexpr double tick_rounding = 1e-6;  // of a tick: times that are whole ones, but for rounding
 constexpr double least_recorded = 0.7;
 constexpr std::size_t foreseen_instants = 4;

@@ -21,7 +21,7 @@ using MemberSet = std::uint32_t;
 }
 
 struct Members {
-    static constexpr std::size_t most = 25;  // instants
+    static constexpr std::size_t most = 49;  // instants
 
     struct Instant {
         std::array<Vec3f, max_members> eyes;  // of those who are present
@@ -31,8 +31,8 @@ struct Members {
     std::array<Instant, most> at;     // now and soon
     std::array<float, most> ahead{};  // s, from now; ascending from 0
     std::size_t known = 0;            // instants
-    // at[i] of i > 0 is whole tenth of a second `first` + i of the recorded future, by any clock that does
-    // not change; otherwise the players are taken to run on.
+    // at[i] of i > 0 is whole twentieth of a second `first` + i of the recorded future, by any clock that
+    // does not change; otherwise the players are taken to run on.
     bool is_recorded = false;
     std::int64_t first = 0;
 

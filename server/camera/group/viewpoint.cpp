@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace camdir::camera {
 namespace {
@@ -13,9 +14,9 @@ constexpr float longest_glide = 500.0F;        // units
 constexpr float time_after_the_known = 0.6F;   // s
 constexpr float far_enough_of_some = 0.6F;     // s
 constexpr float worth_of_the_others = 0.3F;    // while a member is dead
-constexpr std::size_t numbers_of_a_set = 7;    // spreads sets over what an outlook remembers
-
-constexpr Shows within_a_moment = 7;  // 0.1 to 0.2 s
+constexpr std::size_t numbers_of_a_set = 13;   // spreads sets over what an outlook remembers
+constexpr float time_rounding = 1e-3F;         // s, of times
+constexpr float never = std::numeric_limits<float>::infinity();
 
 // Costs, s.
 constexpr float cost_of_a_cut = 0.01F;
@@ -71,19 +72,17 @@ ViewpointSearch::ViewpointSearch(const freespace::Space& space, const MapProfile
     if (candidate_count_ > 0)
         plan_cuts(std::span(candidates_).first(candidate_count_), std::span(members.ahead).first(known_),
                   weight_, shortest_group_shot, after_a_cut_);
+    going_on_ = shows_along(way_to(Approach::glide, from.goal));
 }
 
-// What is recorded of the next tenth of a second stands for now, so that every instant is asked about once.
 void ViewpointSearch::ask(Outlook& outlook) {
-    const bool now_as_soon = members_.is_recorded && known_ > 1;
+    if (members_.is_recorded)
+        ask_about_the_recorded(outlook);
+    else
+        ask_about_the_foreseen(outlook);
     freespace::Lookouts::Set any;
-    for (std::size_t i = now_as_soon ? 1 : 0; i < known_; ++i) {
-        const Eyes eyes(members_.at[i], set_);
-        const std::size_t number = members_.is_recorded ? static_cast<std::size_t>(members_.first) + i : i;
-        showing_[i] = outlook.showing(space_.map(), picture_, eyes.span(), set_ * numbers_of_a_set + number);
+    for (std::size_t i = 0; i < known_; ++i)
         any |= showing_[i];
-    }
-    if (now_as_soon) showing_[0] = showing_[1];
     const auto positions = space_.map().lookouts().positions();
     for (std::uint32_t i = 0; i < positions.size(); ++i)
         if (any.test(i))
@@ -91,10 +90,32 @@ void ViewpointSearch::ask(Outlook& outlook) {
                 i, shows_from(i), picture_cost(positions[i]) + way_cost(Approach::cut, positions[i])};
 }
 
+void ViewpointSearch::ask_about_the_foreseen(Outlook& outlook) {
+    for (std::size_t i = 0; i < known_; ++i)
+        showing_[i] = outlook.showing(space_.map(), picture_, Eyes(members_.at[i], set_).span(),
+                                      set_ * numbers_of_a_set + i);
+}
+
+// Every other instant is asked about, once, and those between for what these leave open. The first and the
+// last of them stand for what is before and after.
+void ViewpointSearch::ask_about_the_recorded(Outlook& outlook) {
+    const std::size_t first = static_cast<std::size_t>(members_.first);
+    const std::size_t number = set_ * numbers_of_a_set + first;
+    first_asked_ = first % 2 == 0 ? 2 : 1;
+    for (std::size_t i = first_asked_; i < known_; i += 2)
+        showing_[i] = outlook.showing(space_.map(), picture_, Eyes(members_.at[i], set_).span(), number + i);
+    for (std::size_t i = first_asked_ + 1; i < known_; i += 2)
+        showing_[i] = i + 1 == known_
+                          ? showing_[i - 1]
+                          : outlook.showing_between(showing_[i - 1], showing_[i + 1], space_.map(), picture_,
+                                                    Eyes(members_.at[i], set_).span(), number + i);
+    std::fill_n(showing_.begin(), first_asked_, showing_[first_asked_]);
+}
+
 Shows ViewpointSearch::shows_from(std::uint32_t lookout) const {
     Shows shows = 0;
     for (std::size_t i = 0; i < known_; ++i)
-        if (showing_[i].test(lookout)) shows |= 1U << i;
+        if (showing_[i].test(lookout)) shows |= Shows{1} << i;
     return shows;
 }
 
@@ -102,7 +123,18 @@ Shows ViewpointSearch::shows_along(Glide glide) const {
     Shows shows = 0;
     for (std::size_t i = 0; i < known_; ++i) {
         if (i > 0) glide = after(glide, members_.ahead[i] - members_.ahead[i - 1], profile_.unit);
-        if (shows_at(glide.position, i)) shows |= 1U << i;
+        if (shows_at(glide.position, i)) shows |= Shows{1} << i;
+    }
+    return shows;
+}
+
+// What was asked about the instant itself is known, but for movers.
+Shows ViewpointSearch::shows_after_cut(const Hope& hope) const {
+    const Vec3f& position = space_.map().lookouts().positions()[hope.lookout];
+    Shows shows = 0;
+    for (std::size_t i = 0; i < known_; ++i) {
+        const bool is_known = i >= first_asked_ && !space_.has_movers();
+        if (is_known ? (hope.shows >> i & 1U) != 0 : shows_at(position, i)) shows |= Shows{1} << i;
     }
     return shows;
 }
@@ -118,33 +150,35 @@ freespace::Space ViewpointSearch::at_instant(std::size_t instant) const {
     return space_.at(space_.time() + static_cast<double>(members_.ahead[instant]));
 }
 
-float ViewpointSearch::time_of(Shows shows, std::size_t first, std::size_t end) const {
-    float time = 0.0F;
-    for (std::size_t i = first; i < end; ++i)
-        if ((shows >> i & 1U) != 0) time += weight_[i];
-    return time;
-}
-
 float ViewpointSearch::time_with_a_cut(Shows shows, float cut_in) const {
-    float most = time_of(shows, 0, known_);
-    for (std::size_t i = 1; i < known_; ++i)
-        if (members_.ahead[i] >= cut_in) most = std::max(most, time_of(shows, 0, i) + after_a_cut_[i]);
-    return most;
+    float until = 0.0F;
+    float most = 0.0F;
+    for (std::size_t i = 0; i < known_; ++i) {
+        if (i > 0 && members_.ahead[i] >= cut_in) most = std::max(most, until + after_a_cut_[i]);
+        if ((shows >> i & 1U) != 0) until += weight_[i];
+    }
+    return std::max(most, until);
 }
 
-float ViewpointSearch::worth_of_going_on(const Vec3f& goal) const {
-    return time_with_a_cut(shows_along(way_to(Approach::glide, goal)), from_.cut_in) - picture_cost(goal);
+float ViewpointSearch::worth_of_going_on() const {
+    return time_with_a_cut(going_on_, from_.cut_in) - picture_cost(from_.goal);
+}
+
+// A moment more shows nothing new, and the sooner the cut comes, the sooner may the next.
+bool ViewpointSearch::is_due(const Viewpoint& cut, const std::optional<Viewpoint>& glide) const {
+    constexpr float worth_a_cut = 0.01F;  // s
+    const float otherwise = std::max(time_with_a_cut(going_on_, from_.cut_in), glide ? glide->time : 0.0F);
+    return cut.time + time_rounding >= otherwise &&
+           cut.time > time_with_a_cut(going_on_, never) + worth_a_cut;
 }
 
 // What is foreseen from the place may come otherwise: a moment that needs another cut soon is not risked for
 // it.
-bool ViewpointSearch::loses_by_cutting_to(const Vec3f& place, const Vec3f& goal) const {
-    constexpr float rounding = 1e-3F;  // s
-    const Shows stays = shows_along(way_to(Approach::glide, goal));
+bool ViewpointSearch::loses_by_cutting_to(const Vec3f& place) const {
     const Shows after = shows_along(way_to(Approach::cut, place));
-    const float at_most =
-        std::min(time_with_a_cut(stays, shortest_group_shot), time_with_a_cut(after, shortest_group_shot));
-    return at_most + rounding < time_with_a_cut(stays, from_.cut_in);
+    const float at_most = std::min(time_with_a_cut(going_on_, shortest_group_shot),
+                                   time_with_a_cut(after, shortest_group_shot));
+    return at_most + time_rounding < time_with_a_cut(going_on_, from_.cut_in);
 }
 
 std::optional<Viewpoint> ViewpointSearch::cut() const {
@@ -169,16 +203,19 @@ std::optional<Viewpoint> ViewpointSearch::find(Approach approach) const {
         if (first == known_ || (approach == Approach::glide && !can_glide(position))) continue;
         ++timed;
         const auto look = look_at_all(position, Eyes(members_.at[first], set_).span(), picture_);
-        const Shows shows = shows_along(way_to(approach, position));
+        const Shows shows =
+            approach == Approach::cut ? shows_after_cut(hope) : shows_along(way_to(approach, position));
         const float worth = time_with_a_cut(shows, shortest_stay(approach)) - hope.cost;
-        if (look && (!best || worth > best->worth)) best = Viewpoint{position, *look, set_, worth};
+        if (look && (!best || worth > best->worth))
+            best = Viewpoint{position, *look, set_, worth + hope.cost, worth};
     }
     return best;
 }
 
-// A cut may come a moment before the set is shown, when that is known.
+// Where it is known that the set will be shown, a cut may come as long before as until the next one.
 Shows ViewpointSearch::beginnings(Approach approach) const {
-    return approach == Approach::cut && members_.is_recorded ? within_a_moment : 1U;
+    if (approach == Approach::glide || !members_.is_recorded) return 1;
+    return (Shows{1} << members_.until(shortest_group_shot)) - 1;
 }
 
 float ViewpointSearch::shortest_stay(Approach approach) const {
@@ -195,7 +232,7 @@ std::size_t ViewpointSearch::collect(Approach approach, Shows begins, Hopes& hop
         if ((shows & begins) == 0 || too_far) continue;
         const float cost =
             approach == Approach::cut ? cost_of_cut : picture_cost(position) + way_cost(approach, position);
-        hopes[count++] = {time_with_a_cut(shows, shortest_stay(approach)) - cost, lookout, cost};
+        hopes[count++] = {time_with_a_cut(shows, shortest_stay(approach)) - cost, lookout, cost, shows};
     }
     std::sort(hopes.begin(), hopes.begin() + static_cast<std::ptrdiff_t>(count),
               [](const Hope& a, const Hope& b) {

@@ -18,8 +18,9 @@ namespace camdir::camera {
 struct Viewpoint {
     Vec3f position = Vec3f::Zero();
     Look look;            // with those shown in the middle
-    MemberSet shown = 0;  // now or, of a cut in a known future, within 0.2 s
-    float worth = 0.0F;   // see ViewpointSearch
+    MemberSet shown = 0;  // now or, of a cut in a known future, within 0.8 s
+    float time = 0.0F;    // s, for which they are shown
+    float worth = 0.0F;   // that, less costs: see ViewpointSearch
 };
 
 // Where the camera comes from.
@@ -28,6 +29,7 @@ struct Standpoint {
     float side = 0.0F;    // of the line of action: see side_of(); 0: any
     float cut_in = 0.0F;  // s: until it may cut
     Vec3f velocity = Vec3f::Zero();
+    Vec3f goal = Vec3f::Zero();  // that it glides to; where it is, when it stands
 };
 
 // No shot between two cuts is shorter, s.
@@ -58,11 +60,14 @@ class ViewpointSearch {
     ViewpointSearch(const freespace::Space& space, const MapProfile& profile, const Members& members,
                     MemberSet set, const Standpoint& from, Outlook& outlook);
 
-    // Of going on to `goal`, where the camera may be already.
-    [[nodiscard]] float worth_of_going_on(const Vec3f& goal) const;
+    // Of going on as it does.
+    [[nodiscard]] float worth_of_going_on() const;
 
-    // Whether all are shown for less time after a cut to the place than by going on to `goal`.
-    [[nodiscard]] bool loses_by_cutting_to(const Vec3f& place, const Vec3f& goal) const;
+    // Whether there is no way but this cut, now or later, and now is as good: of cut() and glide().
+    [[nodiscard]] bool is_due(const Viewpoint& cut, const std::optional<Viewpoint>& glide) const;
+
+    // Whether all are shown for less time after a cut to the place than by going on.
+    [[nodiscard]] bool loses_by_cutting_to(const Vec3f& place) const;
 
     // The best lookout to cut to.
     [[nodiscard]] std::optional<Viewpoint> cut() const;
@@ -79,16 +84,19 @@ class ViewpointSearch {
         float worth;
         std::uint32_t lookout;
         float cost;
+        Shows shows;
     };
     using Hopes = std::array<Hope, freespace::Lookouts::limit>;
 
     void ask(Outlook& outlook);
+    void ask_about_the_foreseen(Outlook& outlook);
+    void ask_about_the_recorded(Outlook& outlook);
     [[nodiscard]] Shows shows_from(std::uint32_t lookout) const;
     // As if nothing were in its way.
     [[nodiscard]] Shows shows_along(Glide glide) const;
+    [[nodiscard]] Shows shows_after_cut(const Hope& hope) const;
     [[nodiscard]] bool shows_at(const Vec3f& position, std::size_t instant) const;
     [[nodiscard]] freespace::Space at_instant(std::size_t instant) const;
-    [[nodiscard]] float time_of(Shows shows, std::size_t first, std::size_t end) const;
     [[nodiscard]] float time_with_a_cut(Shows shows, float cut_in) const;
     [[nodiscard]] float picture_cost(const Vec3f& position) const;
     [[nodiscard]] float way_cost(Approach approach, const Vec3f& position) const;
@@ -107,11 +115,13 @@ class ViewpointSearch {
     MemberSet set_;
     Standpoint from_;
     std::size_t known_;                            // instants that count
+    std::size_t first_asked_ = 0;                  // of these: others stand for those before it
     ByInstant<freespace::Lookouts::Set> showing_;  // the lookouts that show the set
     ByInstant<float> weight_{};                    // s
     ByInstant<float> after_a_cut_{};               // the most time from this instant on, less the cuts' costs
     std::array<CutPlace, freespace::Lookouts::limit> candidates_;  // that show the set at some instant
     std::size_t candidate_count_ = 0;
+    Shows going_on_ = 0;
 };
 
 }  // namespace camdir::camera

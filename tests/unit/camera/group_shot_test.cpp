@@ -368,7 +368,41 @@ TEST(GroupShot, WaitsWhereAllAreShownSoonRatherThanCutToWhoMattersMore) {
     }
 }
 
-TEST(Members, OfARecordedFutureAreThoseOfWholeTenths) {
+// A cut to where all are soon, made early enough that the next one may follow in time: nothing is lost of
+// what lasts for less than the shortest shot.
+TEST(GroupShot, CutsEarlyToWhereAllAreShownForAMoment) {
+    const test::Plan plan({"############################",  //
+                           "#......#..#..#......#......#",  //
+                           "#......#..#..#......#......#",  //
+                           "#......#..#..#......#......#",  //
+                           "############################"});
+    const freespace::Freespace freespace = plan.freespace();
+    struct Stay {
+        int until;  // frame
+        std::size_t first, second;
+    };
+    constexpr Stay stays[] = {{60, 2, 4}, {114, 8, 11}, {138, 15, 17}, {400, 22, 24}};
+    std::vector<TimedPose> first;
+    std::vector<TimedPose> second;
+    for (const Stay& stay : stays)
+        for (bool jumps = true; static_cast<int>(first.size()) < stay.until; jumps = false) {
+            const double time = group_frame * static_cast<double>(first.size());
+            first.push_back({time, pose_at(plan.eye(2, stay.first), 0.0F), true});
+            second.push_back({time, pose_at(plan.eye(2, stay.second), 0.0F), true});
+            first.back().pose.discontinuity = second.back().pose.discontinuity = jumps;
+        }
+    GroupState state;
+    Outlook outlook;
+    for (int i = 0; i < 200; ++i) {
+        const auto known = static_cast<std::size_t>(i) + 180;
+        const std::array<Window, 2> windows = {Window(first).first(known), Window(second).first(known)};
+        const Camera camera = step(freespace, {}, windows, group_frame * i, state, outlook);
+        EXPECT_EQ(flagged(camera, target_visible), i < stays[0].until || i >= stays[1].until)
+            << "frame " << i;
+    }
+}
+
+TEST(Members, OfARecordedFutureAreThoseOfWholeTwentieths) {
     const test::Plan plan = hall();
     const freespace::Freespace freespace = plan.freespace();
     std::vector<TimedPose> poses;
@@ -385,7 +419,7 @@ TEST(Members, OfARecordedFutureAreThoseOfWholeTenths) {
         ASSERT_EQ(members.known, Members::most);
         EXPECT_EQ(members.ahead[0], 0.0F);
         for (std::size_t i = 1; i < members.known; ++i) {
-            const double then = 0.1 * static_cast<double>(members.first + static_cast<std::int64_t>(i));
+            const double then = 0.05 * static_cast<double>(members.first + static_cast<std::int64_t>(i));
             EXPECT_GE(members.ahead[i], members.ahead[i - 1]);
             EXPECT_NEAR(members.ahead[i], then - time, 1e-5);
             EXPECT_NEAR(members.at[i].eyes[0].x(), begin + 10.0 * then, 1e-2);
@@ -396,7 +430,7 @@ TEST(Members, OfARecordedFutureAreThoseOfWholeTenths) {
         const std::array<Window, 1> windows = {Window(poses)};
         const Members members =
             members_at(freespace, windows, static_cast<double>(tenth * 100'000'000) * 1e-9);
-        EXPECT_EQ(members.first, tenth);
+        EXPECT_EQ(members.first, 2 * tenth);
     }
     // 0.5 s are known: after that the player is taken to run on.
     const std::array<Window, 1> windows = {Window(poses).first(31)};

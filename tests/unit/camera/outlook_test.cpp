@@ -87,6 +87,24 @@ TEST_F(OutlookTest, AnswersTheSameWhateverItRemembers) {
     }
 }
 
+TEST_F(OutlookTest, LeavesOutBetweenTwoInstantsWhatIsShownAtNeither) {
+    std::size_t open = 0;
+    for (std::size_t i = 0; i < 200; ++i) {
+        const auto before = random_eyes(2);
+        const std::vector<Vec3f> after = {before[0], random_eyes(1)[0]};
+        const auto at_first = outlook_.showing(freespace_, picture_, before, 4 * i);
+        const auto at_last = outlook_.showing(freespace_, picture_, after, 4 * i + 2);
+        for (const auto& eyes : {before, after}) {
+            const auto full = outlook_.showing(freespace_, picture_, eyes, 4 * i + 3);
+            Outlook fresh;
+            EXPECT_EQ(fresh.showing_between(at_first, at_last, freespace_, picture_, eyes, 4 * i + 1),
+                      (at_first & at_last) | (full & (at_first ^ at_last)));
+        }
+        open += (at_first ^ at_last).count();
+    }
+    EXPECT_GT(open, 1000U);
+}
+
 TEST_F(OutlookTest, NamesAllLookoutsWhereNobodyIsToBeShown) {
     EXPECT_EQ(outlook_.showing(freespace_, picture_, {}, 0).count(),
               freespace_.lookouts().positions().size());
