@@ -16,8 +16,9 @@ namespace {
 
 constexpr float choice_interval = 0.1F;           // s
 constexpr float hurried_choice_interval = 0.03F;  // s: while somebody is not shown
-constexpr float share_by_a_recording = 0.5F;      // of these: each of its instants is looked at once
+constexpr float share_by_a_recording = 0.5F;      // of these: what shows all at its instants is remembered
 constexpr std::uint32_t phases = 8;
+constexpr float a_moment = 0.2F;  // s: a cut to some, or the first, comes no sooner before they are shown
 constexpr float worth_a_move = 0.01F;  // s more that everyone is shown
 constexpr float patience = 0.6F;       // s that somebody is hidden before a cut to others than everyone
 constexpr float shortest_partial_shot = 2.5F;  // s: likewise
@@ -59,7 +60,7 @@ class GroupStep {
         }
         const bool was_complete = state_.incomplete_for == 0.0F;
         judge();
-        if (members_.is_recorded && was_complete && shown_ != members_.now().living)
+        if (!cuts && members_.is_recorded && was_complete && shown_ != members_.now().living)
             state_.until_choice = 0.0F;
         if (!cuts && state_.until_choice <= 0.0F && members_.now().living != 0 && choose()) {
             cuts = true;
@@ -113,9 +114,9 @@ class GroupStep {
         const auto near = search.glide();
         const bool glides = near && near->worth > staying + worth_a_move;
         if (from.cut_in <= 0.0F) {
-            const auto far = search.cut();
+            const auto far = search.cut(shortest_group_shot);
             if (far && (far->worth > (glides ? near->worth : staying) + worth_a_move ||
-                        (!complete && search.is_due(*far, glides ? near : std::nullopt)))) {
+                        (!complete && !glides && search.is_due(*far)))) {
                 cut_to(*far);
                 return true;
             }
@@ -131,7 +132,7 @@ class GroupStep {
         for (MemberSet set = without_the_last(members_.now().living); set > shown_;
              set = without_the_last(set))
             if (const auto found =
-                    ViewpointSearch(space_, profile_, members_, set, standpoint(), outlook_).cut()) {
+                    ViewpointSearch(space_, profile_, members_, set, standpoint(), outlook_).cut(a_moment)) {
                 if (everyone.loses_by_cutting_to(found->position)) return false;
                 cut_to(*found);
                 return true;
@@ -147,7 +148,8 @@ class GroupStep {
     void begin() {
         state_.started = true;
         for (MemberSet set = members_.now().living; set != 0; set = without_the_last(set))
-            if (const auto found = ViewpointSearch(space_, profile_, members_, set, {}, outlook_).cut())
+            if (const auto found =
+                    ViewpointSearch(space_, profile_, members_, set, {}, outlook_).cut(a_moment))
                 return cut_to(*found);
         land_at_the_most_important();
     }

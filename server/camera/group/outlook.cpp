@@ -40,18 +40,19 @@ Set probably_seeing(const freespace::Freespace& freespace, std::span<const Vec3f
 
 }  // namespace
 
-bool Outlook::Answer::is_of(const PictureShape& asked_for, std::span<const Vec3f> asked) const {
-    return count == asked.size() && picture == asked_for &&
+bool Outlook::Answer::is_of(const PictureShape& asked_for, std::span<const Vec3f> asked, bool between) const {
+    return count == asked.size() && is_between == between && picture == asked_for &&
            std::ranges::equal(asked, std::span(eyes).first(count));
 }
 
 template <class Look>
 const Set& Outlook::recall(const PictureShape& picture, std::span<const Vec3f> eyes, std::size_t number,
-                           const Look& look) {
+                           bool between, const Look& look) {
     Answer& answer = answers_[number % remembered];
-    if (answer.is_of(picture, eyes)) return answer.showing;
+    if (answer.is_of(picture, eyes, between)) return answer.showing;
     answer.count = eyes.size();
     answer.picture = picture;
+    answer.is_between = between;
     std::ranges::copy(eyes, answer.eyes.begin());
     answer.showing = look();
     return answer.showing;
@@ -59,14 +60,14 @@ const Set& Outlook::recall(const PictureShape& picture, std::span<const Vec3f> e
 
 const Set& Outlook::showing(const freespace::Freespace& freespace, const PictureShape& picture,
                             std::span<const Vec3f> eyes, std::size_t number) {
-    return recall(picture, eyes, number,
+    return recall(picture, eyes, number, false,
                   [&] { return look(freespace, picture, eyes, probably_seeing(freespace, eyes)); });
 }
 
 const Set& Outlook::showing_between(const Set& before, const Set& after,
                                     const freespace::Freespace& freespace, const PictureShape& picture,
                                     std::span<const Vec3f> eyes, std::size_t number) {
-    return recall(picture, eyes, number,
+    return recall(picture, eyes, number, true,
                   [&] { return (before & after) | look(freespace, picture, eyes, before ^ after); });
 }
 

@@ -14,7 +14,8 @@
 
 namespace camdir::camera {
 
-// What it answers is the same whatever it remembers. One thread at a time. 80 kB.
+// What it answers is the same whatever it remembers, but between instants that have changed. One thread at a
+// time. 80 kB.
 class Outlook {
   public:
     // The lookouts from which a picture can hold the eyes, at most max_members of them, and sights to all are
@@ -40,15 +41,17 @@ class Outlook {
         std::size_t count = max_members + 1;  // of the eyes: there is no answer yet
         PictureShape picture;
         freespace::Lookouts::Set showing;
+        bool is_between = false;
 
-        [[nodiscard]] bool is_of(const PictureShape& asked_for, std::span<const Vec3f> asked) const;
+        [[nodiscard]] bool is_of(const PictureShape& asked_for, std::span<const Vec3f> asked,
+                                 bool between) const;
     };
     static constexpr std::size_t remembered = 256;
 
     // `look` says what is not remembered.
     template <class Look>
     const freespace::Lookouts::Set& recall(const PictureShape& picture, std::span<const Vec3f> eyes,
-                                           std::size_t number, const Look& look);
+                                           std::size_t number, bool between, const Look& look);
 
     std::array<Answer, remembered> answers_;  // by number
 };

@@ -14,7 +14,7 @@ constexpr float longest_glide = 500.0F;        // units
 constexpr float time_after_the_known = 0.6F;   // s
 constexpr float far_enough_of_some = 0.6F;     // s
 constexpr float worth_of_the_others = 0.3F;    // while a member is dead
-constexpr std::size_t numbers_of_a_set = 13;   // spreads sets over what an outlook remembers
+constexpr std::size_t numbers_of_a_set = 14;   // spreads sets over what an outlook remembers
 constexpr float time_rounding = 1e-3F;         // s, of times
 constexpr float never = std::numeric_limits<float>::infinity();
 
@@ -54,6 +54,18 @@ MemberSet seen_from(const freespace::Space& space, const Vec3f& position, const 
     return seen;
 }
 
+// Of a recorded future, the last is one that is asked about in full.
+std::size_t ViewpointSearch::instants_that_count(const Members& members, MemberSet set) {
+    const std::size_t known =
+        set == members.soon_living() ? members.known : members.until(far_enough_of_some);
+    return members.is_recorded && !is_asked_in_full(members, known - 1) ? known - 1 : known;
+}
+
+// Directors' clocks differ by whole tenths of a second, so that they ask about the same instants.
+bool ViewpointSearch::is_asked_in_full(const Members& members, std::size_t instant) {
+    return (static_cast<std::size_t>(members.first) + instant) % 2 == 0;
+}
+
 // Who dies or leaves meanwhile need not be seen then.
 ViewpointSearch::ViewpointSearch(const freespace::Space& space, const MapProfile& profile,
                                  const Members& members, MemberSet set, const Standpoint& from,
@@ -64,7 +76,7 @@ ViewpointSearch::ViewpointSearch(const freespace::Space& space, const MapProfile
       members_(members),
       set_(set),
       from_(from),
-      known_(set == members.soon_living() ? members.known : members.until(far_enough_of_some)) {
+      known_(instants_that_count(members, set)) {
     for (std::size_t i = 0; i < known_; ++i)
         weight_[i] = (i + 1 < known_ ? members.ahead[i + 1] - members.ahead[i] : time_after_the_known) *
                      ((members.at[i].living & set) == set ? 1.0F : worth_of_the_others);
@@ -96,19 +108,15 @@ void ViewpointSearch::ask_about_the_foreseen(Outlook& outlook) {
                                       set_ * numbers_of_a_set + i);
 }
 
-// Every other instant is asked about, once, and those between for what these leave open. The first and the
-// last of them stand for what is before and after.
+// Every other instant is asked about in full, once, and those between for what these leave open.
 void ViewpointSearch::ask_about_the_recorded(Outlook& outlook) {
-    const std::size_t first = static_cast<std::size_t>(members_.first);
-    const std::size_t number = set_ * numbers_of_a_set + first;
-    first_asked_ = first % 2 == 0 ? 2 : 1;
+    const std::size_t number = set_ * numbers_of_a_set + static_cast<std::size_t>(members_.first);
+    first_asked_ = is_asked_in_full(members_, 1) ? 1 : 2;
     for (std::size_t i = first_asked_; i < known_; i += 2)
         showing_[i] = outlook.showing(space_.map(), picture_, Eyes(members_.at[i], set_).span(), number + i);
     for (std::size_t i = first_asked_ + 1; i < known_; i += 2)
-        showing_[i] = i + 1 == known_
-                          ? showing_[i - 1]
-                          : outlook.showing_between(showing_[i - 1], showing_[i + 1], space_.map(), picture_,
-                                                    Eyes(members_.at[i], set_).span(), number + i);
+        showing_[i] = outlook.showing_between(showing_[i - 1], showing_[i + 1], space_.map(), picture_,
+                                              Eyes(members_.at[i], set_).span(), number + i);
     std::fill_n(showing_.begin(), first_asked_, showing_[first_asked_]);
 }
 
@@ -128,13 +136,13 @@ Shows ViewpointSearch::shows_along(Glide glide) const {
     return shows;
 }
 
-// What was asked about the instant itself is known, but for movers.
+// What was answered about the instant itself holds, but for movers.
 Shows ViewpointSearch::shows_after_cut(const Hope& hope) const {
     const Vec3f& position = space_.map().lookouts().positions()[hope.lookout];
     Shows shows = 0;
     for (std::size_t i = 0; i < known_; ++i) {
-        const bool is_known = i >= first_asked_ && !space_.has_movers();
-        if (is_known ? (hope.shows >> i & 1U) != 0 : shows_at(position, i)) shows |= Shows{1} << i;
+        const bool is_answered = i >= first_asked_ && !space_.has_movers();
+        if (is_answered ? (hope.shows >> i & 1U) != 0 : shows_at(position, i)) shows |= Shows{1} << i;
     }
     return shows;
 }
@@ -164,12 +172,12 @@ float ViewpointSearch::worth_of_going_on() const {
     return time_with_a_cut(going_on_, from_.cut_in) - picture_cost(from_.goal);
 }
 
-// A moment more shows nothing new, and the sooner the cut comes, the sooner may the next.
-bool ViewpointSearch::is_due(const Viewpoint& cut, const std::optional<Viewpoint>& glide) const {
-    constexpr float worth_a_cut = 0.01F;  // s
-    const float otherwise = std::max(time_with_a_cut(going_on_, from_.cut_in), glide ? glide->time : 0.0F);
-    return cut.time + time_rounding >= otherwise &&
-           cut.time > time_with_a_cut(going_on_, never) + worth_a_cut;
+// The sooner a cut that must come is made, the sooner may the next one.
+bool ViewpointSearch::is_due(const Viewpoint& cut) const {
+    constexpr float worth_being_early = 0.03F;  // s
+    constexpr float worth_a_cut = 0.01F;        // s
+    return cut.worth + worth_being_early >= time_with_a_cut(going_on_, from_.cut_in) &&
+           cut.worth > time_with_a_cut(going_on_, never) + worth_a_cut;
 }
 
 // What is foreseen from the place may come otherwise: a moment that needs another cut soon is not risked for
@@ -181,17 +189,16 @@ bool ViewpointSearch::loses_by_cutting_to(const Vec3f& place) const {
     return at_most + time_rounding < time_with_a_cut(going_on_, from_.cut_in);
 }
 
-std::optional<Viewpoint> ViewpointSearch::cut() const {
-    return find(Approach::cut);
+std::optional<Viewpoint> ViewpointSearch::cut(float within) const {
+    return find(Approach::cut, members_.is_recorded ? (Shows{1} << members_.until(within)) - 1 : 1);
 }
 
 std::optional<Viewpoint> ViewpointSearch::glide() const {
-    return find(Approach::glide);
+    return find(Approach::glide, 1);
 }
 
-std::optional<Viewpoint> ViewpointSearch::find(Approach approach) const {
+std::optional<Viewpoint> ViewpointSearch::find(Approach approach, Shows begins) const {
     Hopes hopes;
-    const Shows begins = beginnings(approach);
     const std::size_t count = collect(approach, begins, hopes);
     std::optional<Viewpoint> best;
     std::size_t timed = 0;
@@ -199,23 +206,17 @@ std::optional<Viewpoint> ViewpointSearch::find(Approach approach) const {
         const Hope& hope = hopes[i];
         if (best && hope.worth <= best->worth) break;
         const Vec3f& position = space_.map().lookouts().positions()[hope.lookout];
-        const std::size_t first = first_shown(position, begins);
+        const Shows unasked = (Shows{1} << first_asked_) - 1;
+        const std::size_t first = first_shown(position, begins & (hope.shows | unasked));
         if (first == known_ || (approach == Approach::glide && !can_glide(position))) continue;
         ++timed;
         const auto look = look_at_all(position, Eyes(members_.at[first], set_).span(), picture_);
         const Shows shows =
             approach == Approach::cut ? shows_after_cut(hope) : shows_along(way_to(approach, position));
         const float worth = time_with_a_cut(shows, shortest_stay(approach)) - hope.cost;
-        if (look && (!best || worth > best->worth))
-            best = Viewpoint{position, *look, set_, worth + hope.cost, worth};
+        if (look && (!best || worth > best->worth)) best = Viewpoint{position, *look, set_, worth};
     }
     return best;
-}
-
-// Where it is known that the set will be shown, a cut may come as long before as until the next one.
-Shows ViewpointSearch::beginnings(Approach approach) const {
-    if (approach == Approach::glide || !members_.is_recorded) return 1;
-    return (Shows{1} << members_.until(shortest_group_shot)) - 1;
 }
 
 float ViewpointSearch::shortest_stay(Approach approach) const {

@@ -18,9 +18,8 @@ namespace camdir::camera {
 struct Viewpoint {
     Vec3f position = Vec3f::Zero();
     Look look;            // with those shown in the middle
-    MemberSet shown = 0;  // now or, of a cut in a known future, within 0.8 s
-    float time = 0.0F;    // s, for which they are shown
-    float worth = 0.0F;   // that, less costs: see ViewpointSearch
+    MemberSet shown = 0;  // now or, of a cut in a known future, soon
+    float worth = 0.0F;   // see ViewpointSearch
 };
 
 // Where the camera comes from.
@@ -63,14 +62,14 @@ class ViewpointSearch {
     // Of going on as it does.
     [[nodiscard]] float worth_of_going_on() const;
 
-    // Whether there is no way but this cut, now or later, and now is as good: of cut() and glide().
-    [[nodiscard]] bool is_due(const Viewpoint& cut, const std::optional<Viewpoint>& glide) const;
+    // Whether it must cut sooner or later, and this cut is as good as a later one.
+    [[nodiscard]] bool is_due(const Viewpoint& cut) const;
 
     // Whether all are shown for less time after a cut to the place than by going on.
     [[nodiscard]] bool loses_by_cutting_to(const Vec3f& place) const;
 
-    // The best lookout to cut to.
-    [[nodiscard]] std::optional<Viewpoint> cut() const;
+    // The best lookout to cut to, that shows the set now or, in a known future, within so many seconds.
+    [[nodiscard]] std::optional<Viewpoint> cut(float within) const;
 
     // The best lookout to glide to, on a straight way that is free.
     [[nodiscard]] std::optional<Viewpoint> glide() const;
@@ -88,6 +87,8 @@ class ViewpointSearch {
     };
     using Hopes = std::array<Hope, freespace::Lookouts::limit>;
 
+    [[nodiscard]] static std::size_t instants_that_count(const Members& members, MemberSet set);
+    [[nodiscard]] static bool is_asked_in_full(const Members& members, std::size_t instant);
     void ask(Outlook& outlook);
     void ask_about_the_foreseen(Outlook& outlook);
     void ask_about_the_recorded(Outlook& outlook);
@@ -100,8 +101,7 @@ class ViewpointSearch {
     [[nodiscard]] float time_with_a_cut(Shows shows, float cut_in) const;
     [[nodiscard]] float picture_cost(const Vec3f& position) const;
     [[nodiscard]] float way_cost(Approach approach, const Vec3f& position) const;
-    [[nodiscard]] std::optional<Viewpoint> find(Approach approach) const;
-    [[nodiscard]] Shows beginnings(Approach approach) const;
+    [[nodiscard]] std::optional<Viewpoint> find(Approach approach, Shows begins) const;
     [[nodiscard]] float shortest_stay(Approach approach) const;
     std::size_t collect(Approach approach, Shows begins, Hopes& hopes) const;
     [[nodiscard]] std::size_t first_shown(const Vec3f& position, Shows instants) const;
@@ -115,13 +115,13 @@ class ViewpointSearch {
     MemberSet set_;
     Standpoint from_;
     std::size_t known_;                            // instants that count
-    std::size_t first_asked_ = 0;                  // of these: others stand for those before it
+    std::size_t first_asked_ = 0;                  // of these: it stands for those before it
     ByInstant<freespace::Lookouts::Set> showing_;  // the lookouts that show the set
     ByInstant<float> weight_{};                    // s
     ByInstant<float> after_a_cut_{};               // the most time from this instant on, less the cuts' costs
     std::array<CutPlace, freespace::Lookouts::limit> candidates_;  // that show the set at some instant
     std::size_t candidate_count_ = 0;
-    Shows going_on_ = 0;
+    Shows going_on_ = 0;  // of going on to the goal
 };
 
 }  // namespace camdir::camera

@@ -255,7 +255,7 @@ TEST(GroupShot, StaysOnItsSideOfTheLineWherePillarsHideThePlayers) {
     for (const float side : {1.0F, -1.0F}) {
         const ViewpointSearch search(freespace, profile, members, members.at[0].living,
                                      {plan.eye(2, 5), side, 0.0F}, outlook);
-        const auto found = search.cut();
+        const auto found = search.cut(0.0F);
         ASSERT_TRUE(found);
         EXPECT_GT(side * side_of(members.now(), found->position), 0.0F);
     }
