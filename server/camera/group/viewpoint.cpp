@@ -8,7 +8,7 @@ namespace camdir::camera {
 namespace {
 
 constexpr float safe_share = 0.895F;           // of the picture
-constexpr std::size_t most_looked_at = 100;    // lookouts that are confirmed for now
+constexpr std::size_t most_looked_at = 100;    // lookouts that are confirmed to show the set soon
 constexpr std::size_t most_timed_sights = 32;  // lookouts that are confirmed for all instants
 constexpr float longest_glide = 500.0F;        // units
 constexpr float time_after_the_known = 0.6F;   // s
@@ -172,7 +172,8 @@ float ViewpointSearch::worth_of_going_on() const {
     return time_with_a_cut(going_on_, from_.cut_in) - picture_cost(from_.goal);
 }
 
-// The sooner a cut that must come is made, the sooner may the next one.
+// The sooner a cut that must come is made, the sooner may the next one: that is worth a little of its
+// pictures.
 bool ViewpointSearch::is_due(const Viewpoint& cut) const {
     constexpr float worth_being_early = 0.03F;  // s
     constexpr float worth_a_cut = 0.01F;        // s
