@@ -12,6 +12,9 @@ namespace {
 constexpr std::size_t max_events = 256;
 constexpr std::size_t max_view_requests = 64;
 constexpr std::ptrdiff_t max_infos = 8;  // of different epochs
+// Of so many frames one may come while another waits: hiccups, and too few to hide an overload.
+constexpr std::uint32_t frames_per_wait = 40;
+constexpr std::uint32_t most_punctual = frames_per_wait * (Inbox::max_frames - 1);
 
 // By epoch, then by frame number, which may wrap. Equal frames count as older.
 bool older(const PoseFrame& a, const PoseFrame& b) {
@@ -129,7 +132,9 @@ bool Inbox::put(PoseFrame& frame, std::int64_t received_ns, bool in_burst) {
     const bool was_due = is_due();
     const bool stalled = in_burst || (frame_count_ > 0 && frames().back().in_burst && !was_late_);
     if (!in_burst) was_late_ = frame_count_ > 0;
-    if (!in_burst || frames_per_camera > 1 || !was_due) {
+    if (frame_count_ == 0) punctual_ = std::min(punctual_ + 1, most_punctual);
+    const bool waits = was_due && frames_per_camera == 1 && (in_burst || let_hiccup());
+    if (!waits) {
         replace(frame_count_, frame,
                 !was_due || !wanted ? Counter::drop_paced
                 : stalled           ? Counter::drop_burst
@@ -145,6 +150,14 @@ bool Inbox::put(PoseFrame& frame, std::int64_t received_ns, bool in_burst) {
     place.in_burst = in_burst;
     place.is_due = wanted || was_due;
     return place.is_due;
+}
+
+// Whether the workers were punctual until a moment ago, which is used up by and by. Behind a burst nothing
+// waits: cameras would be older still.
+bool Inbox::let_hiccup() {
+    if (frames().back().in_burst || punctual_ < frames_per_wait) return false;
+    punctual_ -= frames_per_wait;
+    return true;
 }
 
 void Inbox::rest_until(std::int64_t ns) {
@@ -170,7 +183,7 @@ void Inbox::replace(std::size_t count, PoseFrame& by, Counter reason) {
 
 // Of a burst that the workers did not get to, one frame counts as their fault.
 void Inbox::count_dropped(std::size_t count, Counter reason) {
-    const bool of_burst = reason == Counter::drop_superseded && count > 1;
+    const bool of_burst = reason == Counter::drop_superseded && count > 1 && frames().back().in_burst;
     counters_.add(reason, of_burst ? 1 : count);
     if (of_burst) counters_.add(Counter::drop_burst, count - 1);
 }

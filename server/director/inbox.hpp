@@ -43,14 +43,15 @@ using Message =
                  RequestEnded, MapsChanged, DelayChanged, Reconfigured, ViewRequest>;
 
 // Keeps messages in their order of arrival, and only the newest pose frame, which waits until the pace lets
-// one of its match be taken; of a burst the newest few. Whatever others send, what waits is bounded. Of each
-// observer, of an epoch's descriptions with one map, of losses of the game server, and of refusals only the
-// newest waits. Of the match that begins after an end that waits, nothing is left once it ends. Few epochs
-// wait, a bounded number of events and of view requests: drops of these are counted. Each match has its own
-// inbox. Thread-safe. Frames do not allocate once its buffers have grown.
+// one of its match be taken; of a burst, and of a hiccup of punctual workers, the newest few. Whatever others
+// send, what waits is bounded. Of each observer, of an epoch's descriptions with one map, of losses of the
+// game server, and of refusals only the newest waits. Of the match that begins after an end that waits,
+// nothing is left once it ends. Few epochs wait, a bounded number of events and of view requests: drops of
+// these are counted. Each match has its own inbox. Thread-safe. Frames do not allocate once its buffers have
+// grown.
 class Inbox {
   public:
-    // Frames of a burst that wait: what a stall of 60 ms holds up at 60 Hz.
+    // Frames of a burst or hiccup that wait: what a stall of 60 ms holds up at 60 Hz.
     static constexpr std::size_t max_frames = 4;
     // Requests of so many observers are taken at once: what they do delays a frame no more than that.
     static constexpr std::size_t max_observers_taken = 32;
@@ -60,8 +61,8 @@ class Inbox {
     void put(Message message);
 
     // Takes the frame and leaves other memory to its caller. Returns whether a frame is due, for which a
-    // turn is wanted. In a burst it waits behind those that no turn has taken; else it replaces all of them,
-    // and their discontinuities are carried over to it.
+    // turn is wanted. In a burst it waits behind those that no turn has taken, and so may one in forty
+    // others; else it replaces all of them, and their discontinuities are carried over to it.
     bool put(PoseFrame& frame, std::int64_t received_ns, bool in_burst = false);
 
     // Frames that wait, or come before that time, steady clock, are not due: a later one takes their place.
@@ -84,8 +85,8 @@ class Inbox {
         CameraFrame shown;  // by the director that leads the match
     };
 
-    // Moves what waits into `content`, whose memory is reused; not a frame that is not due, of a burst one
-    // frame with the messages around it, and not the requests of more observers than max_observers_taken.
+    // Moves what waits into `content`, whose memory is reused; not a frame that is not due, of several one
+    // with the messages around it, and not the requests of more observers than max_observers_taken.
     // Without a frame: those that wait are not due from then on.
     void take(Content& content, bool with_frame = true);
 
@@ -108,6 +109,7 @@ class Inbox {
     // Makes one of an end and of that which waits. Returns false when none does.
     [[nodiscard]] bool merge_end();
     void forget_frame_that_is_not_due();
+    [[nodiscard]] bool let_hiccup();
     void put_aside();
     // The frames that wait, the oldest first.
     [[nodiscard]] std::span<Frame> frames() { return std::span(frame_memory_).first(frame_count_); }
@@ -125,6 +127,7 @@ class Inbox {
     std::array<Frame, max_frames> frame_memory_;
     std::size_t frame_count_ = 0;
     bool was_late_ = false;          // the last frame in no burst found one that waited
+    std::uint32_t punctual_ = 0;     // frames that found none waiting, less those spent on hiccups
     std::uint32_t left_out_ = 0;     // frames since one was due
     std::int64_t rests_until_ = 0;   // see rest_until()
     std::size_t events_ = 0;         // in messages_

@@ -103,6 +103,40 @@ TEST_F(InboxTest, TheNewestFrameWins) {
     EXPECT_FALSE(content_.has_frame);
 }
 
+TEST_F(InboxTest, AHiccupOfPunctualWorkersLosesNoFrame) {
+    std::uint32_t number = 0;
+    const auto put_next = [&] {
+        ++number;
+        return put(frame(1, number, number == 122 ? pose_discontinuity : 0U), number);
+    };
+    for (int i = 0; i < 120; ++i) {
+        EXPECT_TRUE(put_next());
+        inbox_.take(content_);
+    }
+    constexpr std::uint32_t most = Inbox::max_frames;
+    for (std::uint32_t i = 0; i < most; ++i)
+        EXPECT_TRUE(put_next());
+    for (std::uint32_t i = 1; i <= most; ++i) {
+        inbox_.take(content_);
+        ASSERT_TRUE(content_.has_frame);
+        EXPECT_EQ(content_.frame.frame_number, 120 + i);
+        EXPECT_EQ(content_.received_ns, 120 + i);
+        EXPECT_EQ(content_.frame.poses.at(0).flags, i == 2 ? pose_discontinuity : 0U);
+        EXPECT_EQ(content_.leaves_more, i < most);
+    }
+    EXPECT_EQ(dropped(), 0U);
+}
+
+TEST_F(InboxTest, WorkersThatAreLateAgainAndAgainLeaveTheNewestFrame) {
+    for (std::uint32_t number = 1; number <= 8000; ++number) {
+        put(frame(1, number), number);
+        if (number % 2 == 0) inbox_.take(content_);
+    }
+    EXPECT_GE(counted(Counter::drop_superseded), 3900U) << "no more than one in forty waits";
+    EXPECT_EQ(content_.frame.frame_number, 8000U);
+    EXPECT_EQ(counted(Counter::drop_burst), 0U);
+}
+
 TEST_F(InboxTest, AFrameIsTakenAndMemoryLeftInItsPlace) {
     PoseFrame taken = frame(1, 1);
     const PlayerPose* poses = taken.poses.data();
