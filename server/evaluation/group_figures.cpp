@@ -53,6 +53,10 @@ class GroupSight {
     [[nodiscard]] bool shows_all(const CameraSample& camera, const Together& together) const {
         return std::ranges::all_of(together, [&](const TracePose* pose) { return shows(camera, pose->eye); });
     }
+    [[nodiscard]] bool shows_none(const CameraSample& camera, const Together& together) const {
+        return std::ranges::none_of(together,
+                                    [&](const TracePose* pose) { return shows(camera, pose->eye); });
+    }
 
   private:
     const oracle::Oracle& oracle_;
@@ -185,6 +189,7 @@ struct GroupFigure {
 constexpr GroupFigure group_figures[] = {
     {"together", "%", &GroupFigures::together},
     {"first", "%", &GroupFigures::first},
+    {"empty", "%", &GroupFigures::empty},
     {"possible", "%", &GroupFigures::possible},
     {"together_of_possible", "%", &GroupFigures::together_of_possible},
     {"comfort", "%", &GroupFigures::comfort},
@@ -223,6 +228,7 @@ Result<GroupFigures> judge_group(const oracle::Oracle& oracle, double metres_per
     GroupFigures figures;
     std::size_t together = 0;
     std::size_t first = 0;
+    std::size_t empty = 0;
     std::size_t possible_count = 0;
     std::size_t both = 0;
     for (std::size_t f = 0; f < counted.size(); ++f) {
@@ -232,11 +238,13 @@ Result<GroupFigures> judge_group(const oracle::Oracle& oracle, double metres_per
         ++figures.frames;
         together += all;
         first += sight.shows(cameras[f], counted[f].front()->eye);
+        empty += sight.shows_none(cameras[f], counted[f]);
         possible_count += possible[f];
         both += all && possible[f] != 0;
     }
     figures.together = percent(together, figures.frames);
     figures.first = percent(first, figures.frames);
+    figures.empty = percent(empty, figures.frames);
     figures.possible = percent(possible_count, figures.frames);
     figures.together_of_possible = percent(both, possible_count);
     judge_group_motion(trace, counted, cameras, figures);

@@ -27,6 +27,7 @@ struct GroupFigures {
     std::size_t frames = 0;        // counted
     double together = unmeasured;  // of them: the camera shows every member
     double first = unmeasured;     // of them: the camera shows the first member
+    double empty = unmeasured;     // of them: the camera shows none of them
     double possible = unmeasured;  // of them: from some place a camera shows every member, wherever it looks
     double together_of_possible = unmeasured;  // of the possible ones: the camera shows every member
     Spread acc;                                // as in Metrics, within counted frames

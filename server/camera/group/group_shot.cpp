@@ -22,9 +22,15 @@ constexpr float a_moment = 0.2F;  // s: a cut to some, or the first, comes no so
 constexpr float worth_a_move = 0.01F;  // s more that everyone is shown
 constexpr float patience = 0.6F;       // s that somebody is hidden before a cut to others than everyone
 constexpr float shortest_partial_shot = 2.5F;  // s: likewise
+constexpr float patience_while_empty = 0.3F;   // s: likewise, where nobody is shown
+constexpr float shortest_empty_shot = 1.5F;
+constexpr float known_patience_while_empty = 0.1F;  // s: likewise, where the future is known
+constexpr float worth_being_early = 0.03F;          // s: of a cut that must come
+constexpr float as_good = 1e-3F;                    // s: worths that differ by rounding
 
 constexpr float zone_share = 0.55F;  // of the picture: the dead zone
 constexpr float kept_ahead = 0.4F;   // s, for which they are kept in it
+constexpr float soon = 0.3F;         // s: for those who are seen by then the look waits
 constexpr float pan_time = 0.09F;    // s, at the least: time constant of the rotation
 constexpr float pan_lag = 0.2F;      // s: of the rotation
 constexpr float kept_share = 0.89F;  // of the picture: within what counts as shown, in spite of rounding
@@ -97,6 +103,7 @@ class GroupStep {
         shown_ &= seen_from(space_, state_.position, now);
         const bool complete = shown_ == now.living;
         state_.incomplete_for = complete ? 0.0F : state_.incomplete_for + dt_;
+        state_.empty_for = shown_ != 0 ? 0.0F : state_.empty_for + dt_;
         flags_ = now.living == 0 ? std::uint32_t{held}
                  : complete      ? std::uint32_t{target_visible}
                                  : std::uint32_t{searching} | (shown_ == 0 ? std::uint32_t{held} : 0U);
@@ -116,7 +123,7 @@ class GroupStep {
         if (from.cut_in <= 0.0F) {
             const auto far = search.cut(shortest_group_shot);
             if (far && (far->worth > (glides ? near->worth : staying) + worth_a_move ||
-                        (!complete && !glides && search.is_due(*far)))) {
+                        (!glides && is_due(*far, search)))) {
                 cut_to(*far);
                 return true;
             }
@@ -126,9 +133,16 @@ class GroupStep {
         return show_those_who_matter_more(search);
     }
 
+    // The sooner a cut that must come is made, the sooner may the next one: that is worth a little of the
+    // pictures that show not all. What is foreseen may come otherwise: it is no reason to leave the others.
+    [[nodiscard]] bool is_due(const Viewpoint& cut, const ViewpointSearch& search) const {
+        if (shown_ != members_.now().living) return search.is_due(cut, worth_being_early);
+        return members_.is_recorded && search.is_due(cut, as_good);
+    }
+
     // Where not everyone can be shown, unless that keeps the camera from showing everyone soon.
     bool show_those_who_matter_more(const ViewpointSearch& everyone) {
-        if (state_.since_cut < shortest_partial_shot || state_.incomplete_for < patience) return false;
+        if (!has_waited_enough()) return false;
         for (MemberSet set = without_the_last(members_.now().living); set > shown_;
              set = without_the_last(set))
             if (const auto found =
@@ -138,6 +152,15 @@ class GroupStep {
                 return true;
             }
         return false;
+    }
+
+    // Less for an empty picture, of which a known future says that nobody comes into it by chance.
+    [[nodiscard]] bool has_waited_enough() const {
+        if (shown_ != 0)
+            return state_.since_cut >= shortest_partial_shot && state_.incomplete_for >= patience;
+        return members_.is_recorded
+                   ? state_.since_cut >= shortest_group_shot && state_.empty_for >= known_patience_while_empty
+                   : state_.since_cut >= shortest_empty_shot && state_.empty_for >= patience_while_empty;
     }
 
     [[nodiscard]] Standpoint standpoint() const {
@@ -196,6 +219,7 @@ class GroupStep {
         state_.framed = viewpoint.shown;
         state_.since_cut = 0.0F;
         state_.incomplete_for = 0.0F;
+        state_.empty_for = 0.0F;
         state_.until_choice = choice_interval;
     }
 
@@ -232,14 +256,31 @@ class GroupStep {
     }
 
     // The members that are to stay in the picture: those that the viewpoint was chosen for, and whoever else
-    // is seen and finds room.
+    // is seen and finds room; of those who find no room together, while they are not all seen soon, who is
+    // seen.
     [[nodiscard]] MemberSet wanted_in_picture() const {
         const Members::Instant& now = members_.now();
         const MemberSet seen = seen_from(space_, state_.position, now);
-        const MemberSet more = (state_.framed & now.living) | seen;
         if (seen == 0) return 0;
-        if (look_at_all(state_.position, Eyes(now, more).span(), safe_area(profile_))) return more;
-        return state_.framed & now.living;
+        const MemberSet framed = state_.framed & now.living;
+        if (fit_one_picture(framed | seen)) return framed | seen;
+        if (framed != 0 && sees_soon(framed)) return framed;
+        MemberSet wanted = (framed & seen) != 0 ? framed & seen : seen;
+        while (!fit_one_picture(wanted) && (wanted & (wanted - 1)) != 0)
+            wanted = without_the_last(wanted);
+        return wanted;
+    }
+
+    [[nodiscard]] bool sees_soon(MemberSet set) const {
+        for (std::size_t i = 0; i < members_.until(soon); ++i) {
+            const freespace::Space then = space_.at(space_.time() + static_cast<double>(members_.ahead[i]));
+            if ((seen_from(then, state_.position, members_.at[i]) & set) == set) return true;
+        }
+        return false;
+    }
+
+    [[nodiscard]] bool fit_one_picture(MemberSet set) const {
+        return fits_one_picture(state_.position, Eyes(members_.now(), set).span(), safe_area(profile_));
     }
 
     // Towards the look that keeps them in the dead zone soon, above all when it will be reached; critically

@@ -27,6 +27,7 @@ struct GroupState {
     float side = 0.0F;            // of the line of action
     float since_cut = 0.0F;       // s
     float incomplete_for = 0.0F;  // s: for so long somebody who lives is not shown
+    float empty_for = 0.0F;       // s: likewise nobody
     float until_choice = 0.0F;    // s
     std::uint32_t phase = 0;      // any number: shots that begin together choose in different frames by it
     double time = 0.0;            // s: of the last step
@@ -39,8 +40,9 @@ struct GroupState {
 //
 // The camera stands or glides at lookouts that see all living members, with all of them in the picture: while
 // it does, it moves and turns as little as keeps them there. Where it stops to do, it glides to another one
-// nearby or cuts, but for some time after a cut. Where no lookout sees all it shows those that matter more.
-// Of two it stays on one side of the line between them, as long as anything else shows them.
+// nearby or cuts, but for some time after a cut. Where no lookout sees all it keeps who is seen in the
+// picture and, soon after nobody is, cuts to those that matter more. Of two it stays on one side of the line
+// between them, as long as anything else shows them.
 //
 // Guarantees: as step() of the tracker, but that a step may ask for the freespace's lookouts for the first
 // time, which makes them and allocates, and what some of them see, which takes milliseconds each, once for a

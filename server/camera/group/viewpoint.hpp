@@ -53,7 +53,7 @@ inline constexpr float shortest_group_shot = 0.8F;
 // best sequence of cuts. What is not known yet counts as if it went on a little as it is. A cut, and what
 // makes a picture worse (members far or very near, steep views, a crossed line of action), costs a part of a
 // second each. While a member of the set is dead, the others count for less. Of less than all members only
-// the next 0.6 s count: it is asked for where there is no better.
+// the next 1.2 s count: it is asked for where there is no better.
 class ViewpointSearch {
   public:
     ViewpointSearch(const freespace::Space& space, const MapProfile& profile, const Members& members,
@@ -62,8 +62,9 @@ class ViewpointSearch {
     // Of going on as it does.
     [[nodiscard]] float worth_of_going_on() const;
 
-    // Whether it must cut sooner or later, and this cut is as good as a later one.
-    [[nodiscard]] bool is_due(const Viewpoint& cut) const;
+    // Whether it must cut sooner or later, and this cut is as good as a later one, or worth so many seconds
+    // less.
+    [[nodiscard]] bool is_due(const Viewpoint& cut, float worth_being_early) const;
 
     // Whether all are shown for less time after a cut to the place than by going on.
     [[nodiscard]] bool loses_by_cutting_to(const Vec3f& place) const;

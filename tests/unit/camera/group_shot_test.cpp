@@ -340,6 +340,63 @@ TEST(GroupShot, KeepsWhoIsAboutToJumpInThePicture) {
     }
 }
 
+// Where the picture cannot hold a hidden one as well.
+TEST(GroupShot, KeepsWhoIsSeenInThePictureWhereAnotherOneHides) {
+    const test::Plan plan({"############################",  //
+                           "#......##........##........#",  //
+                           "#......##........##........#",  //
+                           "#......##........##........#",  //
+                           "############################"});
+    CheckedGroup shot(plan);
+    Poses poses = {pose_at(plan.eye(2, 13), 0.0F), pose_at(plan.eye(2, 12), 0.0F)};
+    Camera camera;
+    for (int i = 0; i < 30; ++i)
+        camera = shot.step(poses);
+    ASSERT_TRUE(flagged(camera, target_visible));
+    const bool is_left = camera.position.x() < poses[0]->eye.x();
+    poses[1] = pose_at(plan.eye(2, is_left ? 2 : 24), 0.0F);  // behind it
+    for (int i = 0; i < 60; ++i) {
+        poses[0]->eye.y() += 0.5F;
+        poses[1]->discontinuity = i == 0;
+        camera = shot.step(poses);
+        EXPECT_TRUE(flagged(camera, searching) && !flagged(camera, held)) << "frame " << i;
+    }
+    EXPECT_EQ(shot.cuts(), 1);
+}
+
+class EmptyPicture : public testing::TestWithParam<bool> {};
+INSTANTIATE_TEST_SUITE_P(GroupShot, EmptyPicture, testing::Bool(),
+                         [](const auto& info) { return info.param ? "Known" : "Live"; });
+
+// For whoever matters more, where nobody is left in it: sooner where that is known to last.
+TEST_P(EmptyPicture, IsSoonLeft) {
+    const test::Plan plan({"##############",  //
+                           "#..#......#..#",  //
+                           "#..#......#..#",  //
+                           "#..#......#..#",  //
+                           "##############"});
+    const freespace::Freespace freespace = plan.freespace();
+    constexpr int away = 100;
+    const int at_last = away + (GetParam() ? 9 : 21);  // 0.1 or 0.3 s later, by the next decision
+    std::vector<TimedPose> first;
+    std::vector<TimedPose> second;
+    for (int i = 0; i < 400; ++i) {
+        first.push_back({group_frame * i, pose_at(i < away ? plan.eye(2, 5) : plan.eye(2, 1), 0.0F), true});
+        second.push_back({group_frame * i, pose_at(i < away ? plan.eye(2, 7) : plan.eye(2, 12), 0.0F), true});
+        first.back().pose.discontinuity = second.back().pose.discontinuity = i == away;
+    }
+    GroupState state;
+    Outlook outlook;
+    for (int i = 0; i < 180; ++i) {
+        const auto known = static_cast<std::size_t>(i) + (GetParam() ? 180 : 1);
+        const std::array<Window, 2> windows = {Window(first).first(known), Window(second).first(known)};
+        const Camera camera = step(freespace, {}, windows, group_frame * i, state, outlook);
+        if (i >= away && i < at_last) continue;
+        EXPECT_FALSE(flagged(camera, held)) << "frame " << i;
+        EXPECT_TRUE(plan.segment_clear(camera.position, first[static_cast<std::size_t>(i)].pose.eye));
+    }
+}
+
 // A cut to one of them, who are all hidden now, may not keep the camera from where they all are soon.
 TEST(GroupShot, WaitsWhereAllAreShownSoonRatherThanCutToWhoMattersMore) {
     const test::Plan plan({"##############",  //

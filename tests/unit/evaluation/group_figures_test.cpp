@@ -58,6 +58,7 @@ TEST(GroupFigures, SayWhatIsShownAndWhatCouldBe) {
     EXPECT_EQ(figures.frames, 4U) << "not while one is dead";
     EXPECT_DOUBLE_EQ(figures.together, 50.0);
     EXPECT_DOUBLE_EQ(figures.first, 75.0);
+    EXPECT_DOUBLE_EQ(figures.empty, 25.0);
     EXPECT_DOUBLE_EQ(figures.possible, 75.0);
     EXPECT_NEAR(figures.together_of_possible, 100.0 * 2 / 3, 1e-9);
     EXPECT_DOUBLE_EQ(figures.fly_through, 0.0);
