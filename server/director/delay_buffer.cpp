@@ -174,7 +174,7 @@ DelayBuffer::Released DelayBuffer::release(std::int64_t now, Inbox& inbox) {
         Entry& entry = entries_[released_];
         if (const auto* frame = std::get_if<PoseFrame>(&entry.item)) {
             leaving_ = *frame;  // which is kept
-            released.any |= inbox.put(leaving_, entry.due);
+            released.any |= inbox.put(leaving_, entry.due, Inbox::Arrival::delayed);
             last_left_ = frame->frame_time;
         } else {
             inbox.put(std::move(std::get<Message>(entry.item)));

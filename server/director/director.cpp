@@ -136,7 +136,8 @@ void Director::Impl::deliver(const std::string& match_id, Match& match, PoseFram
     const auto receipt = match.arrivals().judge(frame, now_ns());
     if (!receipt) return leave_out(match_id, match);
     if (!passes(match, match.delay().put(frame, receipt->punctual), true)) return;
-    if (match.inbox().put(frame, receipt->received, receipt->in_burst)) turns.schedule(match);
+    const auto arrival = receipt->in_burst ? Inbox::Arrival::in_burst : Inbox::Arrival::alone;
+    if (match.inbox().put(frame, receipt->received, arrival)) turns.schedule(match);
 }
 
 void Director::Impl::leave_out(const std::string& match_id, Match& match) {

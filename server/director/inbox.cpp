@@ -12,9 +12,10 @@ namespace {
 constexpr std::size_t max_events = 256;
 constexpr std::size_t max_view_requests = 64;
 constexpr std::ptrdiff_t max_infos = 8;  // of different epochs
-// Of so many frames one may come while another waits: hiccups, and too few to hide an overload.
+// Of so many frames one may wait behind another. An overload is heard of for that from 4.3 % of late frames
+// on instead of 2 %: see Pace.
 constexpr std::uint32_t frames_per_wait = 40;
-constexpr std::uint32_t most_punctual = frames_per_wait * (Inbox::max_frames - 1);
+constexpr std::uint32_t most_credit = frames_per_wait * (Inbox::max_frames - 1);
 
 // By epoch, then by frame number, which may wrap. Equal frames count as older.
 bool older(const PoseFrame& a, const PoseFrame& b) {
@@ -120,7 +121,7 @@ void Inbox::forget_frame_that_is_not_due() {
     left_out_ = 0;
 }
 
-bool Inbox::put(PoseFrame& frame, std::int64_t received_ns, bool in_burst) {
+bool Inbox::put(PoseFrame& frame, std::int64_t received_ns, Arrival arrival) {
     const std::lock_guard lock(mutex_);
     if (frame_count_ > 0 && older(frame, frames().back().poses)) {
         counters_.add(frame.epoch < frames().back().poses.epoch ? Counter::drop_old_epoch
@@ -128,12 +129,14 @@ bool Inbox::put(PoseFrame& frame, std::int64_t received_ns, bool in_burst) {
         return false;
     }
     const std::uint32_t frames_per_camera = pace_.frames_per_camera();
+    const bool in_burst = arrival == Arrival::in_burst;
     const bool wanted = left_out_ + 1 >= frames_per_camera && received_ns >= rests_until_;
     const bool was_due = is_due();
     const bool stalled = in_burst || (frame_count_ > 0 && frames().back().in_burst && !was_late_);
     if (!in_burst) was_late_ = frame_count_ > 0;
-    if (frame_count_ == 0) punctual_ = std::min(punctual_ + 1, most_punctual);
-    const bool waits = was_due && frames_per_camera == 1 && (in_burst || let_hiccup());
+    const bool may_wait = frames_per_camera == 1 && wanted;
+    if (may_wait && frame_count_ == 0) credit_ = std::min(credit_ + 1, most_credit);
+    const bool waits = may_wait && was_due && (in_burst || (arrival == Arrival::alone && take_credit()));
     if (!waits) {
         replace(frame_count_, frame,
                 !was_due || !wanted ? Counter::drop_paced
@@ -152,11 +155,11 @@ bool Inbox::put(PoseFrame& frame, std::int64_t received_ns, bool in_burst) {
     return place.is_due;
 }
 
-// Whether the workers were punctual until a moment ago, which is used up by and by. Behind a burst nothing
-// waits: cameras would be older still.
-bool Inbox::let_hiccup() {
-    if (frames().back().in_burst || punctual_ < frames_per_wait) return false;
-    punctual_ -= frames_per_wait;
+// For a hiccup of the workers, where they were punctual until a moment ago. Behind a burst nothing waits:
+// cameras would be older still.
+bool Inbox::take_credit() {
+    if (frames().back().in_burst || credit_ < frames_per_wait) return false;
+    credit_ -= frames_per_wait;
     return true;
 }
 

@@ -60,10 +60,15 @@ class Inbox {
 
     void put(Message message);
 
+    // How a pose frame comes: in its time, with others that a stall on the way held up, or through the delay,
+    // which holds back what comes while another waits.
+    enum class Arrival { alone, in_burst, delayed };
+
     // Takes the frame and leaves other memory to its caller. Returns whether a frame is due, for which a
-    // turn is wanted. In a burst it waits behind those that no turn has taken, and so may one in forty
-    // others; else it replaces all of them, and their discontinuities are carried over to it.
-    bool put(PoseFrame& frame, std::int64_t received_ns, bool in_burst = false);
+    // turn is wanted. In a burst it waits behind those that no turn has taken, and so may one that comes
+    // alone while punctual workers hiccup; else it replaces all of them, and their discontinuities are
+    // carried over to it.
+    bool put(PoseFrame& frame, std::int64_t received_ns, Arrival arrival = Arrival::alone);
 
     // Frames that wait, or come before that time, steady clock, are not due: a later one takes their place.
     void rest_until(std::int64_t ns);
@@ -109,7 +114,7 @@ class Inbox {
     // Makes one of an end and of that which waits. Returns false when none does.
     [[nodiscard]] bool merge_end();
     void forget_frame_that_is_not_due();
-    [[nodiscard]] bool let_hiccup();
+    [[nodiscard]] bool take_credit();
     void put_aside();
     // The frames that wait, the oldest first.
     [[nodiscard]] std::span<Frame> frames() { return std::span(frame_memory_).first(frame_count_); }
@@ -127,7 +132,7 @@ class Inbox {
     std::array<Frame, max_frames> frame_memory_;
     std::size_t frame_count_ = 0;
     bool was_late_ = false;          // the last frame in no burst found one that waited
-    std::uint32_t punctual_ = 0;     // frames that found none waiting, less those spent on hiccups
+    std::uint32_t credit_ = 0;       // frames that found none waiting, less those spent on hiccups
     std::uint32_t left_out_ = 0;     // frames since one was due
     std::int64_t rests_until_ = 0;   // see rest_until()
     std::size_t events_ = 0;         // in messages_

@@ -7,7 +7,7 @@
 namespace camdir::director {
 namespace {
 
-constexpr double late_share = 0.02;  // of the frames: fewer are the hiccups of any machine
+constexpr double late_share = 0.02;  // of the frames, beside those that wait: hiccups of any machine
 constexpr double headroom = 1.15;    // of the pace that would just do
 constexpr double most_busy = 0.7;    // share of the workers' time, at the pace to come
 

@@ -21,12 +21,10 @@ constexpr std::uint32_t phases = 8;
 constexpr float a_moment = 0.2F;  // s: a cut to some, or the first, comes no sooner before they are shown
 constexpr float worth_a_move = 0.01F;  // s more that everyone is shown
 constexpr float patience = 0.6F;       // s that somebody is hidden before a cut to others than everyone
-constexpr float shortest_partial_shot = 2.5F;  // s: likewise
-constexpr float patience_while_empty = 0.3F;   // s: likewise, where nobody is shown
-constexpr float shortest_empty_shot = 1.5F;
+constexpr float shortest_partial_shot = 2.5F;       // s: likewise
+constexpr float patience_while_empty = 0.3F;        // s: likewise, where nobody is shown
+constexpr float shortest_empty_shot = 1.5F;         // s: likewise
 constexpr float known_patience_while_empty = 0.1F;  // s: likewise, where the future is known
-constexpr float worth_being_early = 0.03F;          // s: of a cut that must come
-constexpr float as_good = 1e-3F;                    // s: worths that differ by rounding
 
 constexpr float zone_share = 0.55F;  // of the picture: the dead zone
 constexpr float kept_ahead = 0.4F;   // s, for which they are kept in it
@@ -103,7 +101,7 @@ class GroupStep {
         shown_ &= seen_from(space_, state_.position, now);
         const bool complete = shown_ == now.living;
         state_.incomplete_for = complete ? 0.0F : state_.incomplete_for + dt_;
-        state_.empty_for = shown_ != 0 ? 0.0F : state_.empty_for + dt_;
+        state_.empty_for = shown_ != 0 || now.living == 0 ? 0.0F : state_.empty_for + dt_;
         flags_ = now.living == 0 ? std::uint32_t{held}
                  : complete      ? std::uint32_t{target_visible}
                                  : std::uint32_t{searching} | (shown_ == 0 ? std::uint32_t{held} : 0U);
@@ -123,7 +121,7 @@ class GroupStep {
         if (from.cut_in <= 0.0F) {
             const auto far = search.cut(shortest_group_shot);
             if (far && (far->worth > (glides ? near->worth : staying) + worth_a_move ||
-                        (!glides && is_due(*far, search)))) {
+                        (!complete && !glides && search.is_due(*far)))) {
                 cut_to(*far);
                 return true;
             }
@@ -133,28 +131,24 @@ class GroupStep {
         return show_those_who_matter_more(search);
     }
 
-    // The sooner a cut that must come is made, the sooner may the next one: that is worth a little of the
-    // pictures that show not all. What is foreseen may come otherwise: it is no reason to leave the others.
-    [[nodiscard]] bool is_due(const Viewpoint& cut, const ViewpointSearch& search) const {
-        if (shown_ != members_.now().living) return search.is_due(cut, worth_being_early);
-        return members_.is_recorded && search.is_due(cut, as_good);
-    }
-
     // Where not everyone can be shown, unless that keeps the camera from showing everyone soon.
     bool show_those_who_matter_more(const ViewpointSearch& everyone) {
         if (!has_waited_enough()) return false;
         for (MemberSet set = without_the_last(members_.now().living); set > shown_;
-             set = without_the_last(set))
-            if (const auto found =
-                    ViewpointSearch(space_, profile_, members_, set, standpoint(), outlook_).cut(a_moment)) {
-                if (everyone.loses_by_cutting_to(found->position)) return false;
-                cut_to(*found);
-                return true;
-            }
+             set = without_the_last(set)) {
+            const ViewpointSearch some(space_, profile_, members_, set, standpoint(), outlook_);
+            const auto found = some.cut(a_moment);
+            if (!found) continue;
+            if (found->worth <= some.worth_of_going_on() + worth_a_move ||
+                everyone.loses_by_cutting_to(found->position))
+                return false;
+            cut_to(*found);
+            return true;
+        }
         return false;
     }
 
-    // Less for an empty picture, of which a known future says that nobody comes into it by chance.
+    // Less in an empty picture, and there less where the future is known.
     [[nodiscard]] bool has_waited_enough() const {
         if (shown_ != 0)
             return state_.since_cut >= shortest_partial_shot && state_.incomplete_for >= patience;
@@ -264,17 +258,19 @@ class GroupStep {
         if (seen == 0) return 0;
         const MemberSet framed = state_.framed & now.living;
         if (fit_one_picture(framed | seen)) return framed | seen;
-        if (framed != 0 && sees_soon(framed)) return framed;
-        MemberSet wanted = (framed & seen) != 0 ? framed & seen : seen;
+        if (framed != 0 && shows_soon(framed)) return framed;
+        MemberSet wanted = fit_one_picture(seen) || (framed & seen) == 0 ? seen : framed & seen;
         while (!fit_one_picture(wanted) && (wanted & (wanted - 1)) != 0)
             wanted = without_the_last(wanted);
         return wanted;
     }
 
-    [[nodiscard]] bool sees_soon(MemberSet set) const {
-        for (std::size_t i = 0; i < members_.until(soon); ++i) {
+    [[nodiscard]] bool shows_soon(MemberSet set) const {
+        for (std::size_t i = 1; i < members_.until(soon); ++i) {
             const freespace::Space then = space_.at(space_.time() + static_cast<double>(members_.ahead[i]));
-            if ((seen_from(then, state_.position, members_.at[i]) & set) == set) return true;
+            if (fits_one_picture(state_.position, Eyes(members_.at[i], set).span(), safe_area(profile_)) &&
+                (seen_from(then, state_.position, members_.at[i]) & set) == set)
+                return true;
         }
         return false;
     }

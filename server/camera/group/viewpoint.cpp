@@ -14,7 +14,7 @@ constexpr float longest_glide = 500.0F;        // units
 constexpr float time_after_the_known = 0.6F;   // s
 constexpr float far_enough_of_some = 1.2F;     // s
 constexpr float worth_of_the_others = 0.3F;    // while a member is dead
-constexpr std::size_t numbers_of_a_set = 14;   // spreads sets over what an outlook remembers
+constexpr std::size_t numbers_of_a_set = 26;   // more instants than far_enough_of_some has: see Outlook
 constexpr float time_rounding = 1e-3F;         // s, of times
 constexpr float never = std::numeric_limits<float>::infinity();
 
@@ -172,8 +172,11 @@ float ViewpointSearch::worth_of_going_on() const {
     return time_with_a_cut(going_on_, from_.cut_in) - picture_cost(from_.goal);
 }
 
-bool ViewpointSearch::is_due(const Viewpoint& cut, float worth_being_early) const {
-    constexpr float worth_a_cut = 0.01F;  // s
+// The sooner a cut that must come is made, the sooner may the next one: that is worth a little of its
+// pictures.
+bool ViewpointSearch::is_due(const Viewpoint& cut) const {
+    constexpr float worth_being_early = 0.03F;  // s
+    constexpr float worth_a_cut = 0.01F;        // s
     return cut.worth + worth_being_early >= time_with_a_cut(going_on_, from_.cut_in) &&
            cut.worth > time_with_a_cut(going_on_, never) + worth_a_cut;
 }

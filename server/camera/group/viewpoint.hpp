@@ -62,9 +62,8 @@ class ViewpointSearch {
     // Of going on as it does.
     [[nodiscard]] float worth_of_going_on() const;
 
-    // Whether it must cut sooner or later, and this cut is as good as a later one, or worth so many seconds
-    // less.
-    [[nodiscard]] bool is_due(const Viewpoint& cut, float worth_being_early) const;
+    // Whether it must cut sooner or later, and this cut is as good as a later one.
+    [[nodiscard]] bool is_due(const Viewpoint& cut) const;
 
     // Whether all are shown for less time after a cut to the place than by going on.
     [[nodiscard]] bool loses_by_cutting_to(const Vec3f& place) const;

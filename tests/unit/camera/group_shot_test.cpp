@@ -364,6 +364,52 @@ TEST(GroupShot, KeepsWhoIsSeenInThePictureWhereAnotherOneHides) {
     EXPECT_EQ(shot.cuts(), 1);
 }
 
+TEST(GroupShot, KeepsOneOfTwoWhoAreTooFarApartForThePicture) {
+    const test::Plan plan = hall();
+    CheckedGroup shot(plan);
+    Poses poses = {pose_at(plan.eye(2, 4), 0.0F), pose_at(plan.eye(2, 5), 0.0F)};
+    for (int i = 0; i < 20; ++i)
+        ASSERT_TRUE(flagged(shot.step(poses), target_visible));
+    poses = {pose_at(plan.eye(1, 1), 0.0F), pose_at(plan.eye(4, 8), 0.0F)};
+    constexpr int turned = 15;  // frames
+    for (int i = 0; i < 60; ++i) {
+        for (auto& pose : poses)
+            pose->discontinuity = i == 0;
+        const Camera camera = shot.step(poses);
+        EXPECT_TRUE(i < turned || !flagged(camera, held)) << "frame " << i;
+    }
+}
+
+// The first one hides for a moment, the second one for long.
+TEST(GroupShot, WaitsForWhoIsKnownToComeBackAtOnce) {
+    const test::Plan plan({"############################",  //
+                           "#..#......#......#.....#...#",  //
+                           "#..#......#......#.....#...#",  //
+                           "#..#......#......#.....#...#",  //
+                           "############################"});
+    const freespace::Freespace freespace = plan.freespace();
+    constexpr int leaves = 60;
+    constexpr int hides = 120;
+    constexpr int is_back = 132;
+    std::vector<TimedPose> first;
+    std::vector<TimedPose> second;
+    for (int i = 0; i < 400; ++i) {
+        const bool is_hidden = i >= hides && i < is_back;
+        first.push_back({group_frame * i, pose_at(plan.eye(2, is_hidden ? 2 : 5), 0.0F), true});
+        second.push_back({group_frame * i, pose_at(plan.eye(2, i < leaves ? 7 : 25), 0.0F), true});
+        first.back().pose.discontinuity = i == hides || i == is_back;
+        second.back().pose.discontinuity = i == leaves;
+    }
+    GroupState state;
+    Outlook outlook;
+    for (int i = 0; i < 200; ++i) {
+        const auto known = static_cast<std::size_t>(i) + 180;
+        const std::array<Window, 2> windows = {Window(first).first(known), Window(second).first(known)};
+        const Camera camera = step(freespace, {}, windows, group_frame * i, state, outlook);
+        EXPECT_EQ(flagged(camera, cut), i == 0) << "frame " << i;
+    }
+}
+
 class EmptyPicture : public testing::TestWithParam<bool> {};
 INSTANTIATE_TEST_SUITE_P(GroupShot, EmptyPicture, testing::Bool(),
                          [](const auto& info) { return info.param ? "Known" : "Live"; });

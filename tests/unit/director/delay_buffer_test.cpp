@@ -300,6 +300,29 @@ TEST_F(DelayBufferTest, OfTurnsThatAreALittleTooSlowSomeFramesAreLeftOutInEveryS
     }
 }
 
+// Frames wait in the buffer, however punctual the turns were before.
+TEST_F(DelayBufferTest, AStallOfTurnsLosesWhatIsTooLateAlone) {
+    buffer_.announce(1, 1.0, 0);
+    for (std::uint32_t number = 0; number < 200; ++number)
+        put(number, number * 20 * ms);
+    for (std::uint32_t number = 0; number <= 150; ++number)
+        ASSERT_EQ(release(one_s + number * 20 * ms).frame.frame_number, number);
+    const std::int64_t begun = one_s + 151 * 20 * ms;
+    const std::int64_t ended = begun + 110 * ms;
+    for (std::int64_t now = begun; now <= ended; now += 5 * ms)
+        buffer_.release(now, inbox_);
+    for (std::uint32_t number = 152; number <= 156; ++number) {
+        inbox_.take(content_);
+        ASSERT_TRUE(content_.has_frame);
+        EXPECT_EQ(content_.frame.frame_number, number);
+        EXPECT_GE(content_.received_ns, ended - 100 * ms);
+        buffer_.release(ended, inbox_);
+    }
+    Statistics sum;
+    counters_.add_to(sum);
+    EXPECT_EQ(sum[Counter::drop_superseded], 1U);
+}
+
 TEST_F(DelayBufferTest, AFrameWaitsUntilTheOneBeforeIsTaken) {
     buffer_.announce(1, 1.0, 0);
     put(0, 0);

@@ -50,7 +50,8 @@ class InboxTest : public testing::Test {
         frame.source_time = 1000 * ms + sent_ns;
         const auto receipt = arrivals_.judge(frame, received_ns);
         ASSERT_TRUE(receipt);
-        inbox_.put(frame, receipt->received, receipt->in_burst);
+        inbox_.put(frame, receipt->received,
+                   receipt->in_burst ? Inbox::Arrival::in_burst : Inbox::Arrival::alone);
     }
 
     // A frame that tells how long they are on their way.
@@ -125,6 +126,34 @@ TEST_F(InboxTest, AHiccupOfPunctualWorkersLosesNoFrame) {
         EXPECT_EQ(content_.leaves_more, i < most);
     }
     EXPECT_EQ(dropped(), 0U);
+}
+
+TEST_F(InboxTest, OfALongerHiccupTheNewestFrameIsShown) {
+    for (std::uint32_t number = 1; number <= 120; ++number) {
+        put(frame(1, number), number);
+        inbox_.take(content_);
+    }
+    constexpr std::uint32_t last = 121 + Inbox::max_frames;
+    for (std::uint32_t number = 121; number <= last; ++number)
+        put(frame(1, number), number);
+    inbox_.take(content_);
+    ASSERT_TRUE(content_.has_frame);
+    EXPECT_EQ(content_.frame.frame_number, last);
+    EXPECT_FALSE(content_.leaves_more);
+    EXPECT_EQ(counted(Counter::drop_superseded), std::uint64_t{Inbox::max_frames});
+}
+
+TEST_F(InboxTest, FramesThatRestEarnNoCredit) {
+    inbox_.rest_until(1000);
+    for (std::uint32_t number = 1; number <= 120; ++number) {
+        put(frame(1, number), number);
+        inbox_.take(content_, false);
+    }
+    put(frame(1, 121), 1001);
+    put(frame(1, 122), 1002);
+    inbox_.take(content_);
+    EXPECT_EQ(content_.frame.frame_number, 122U);
+    EXPECT_EQ(counted(Counter::drop_superseded), 1U);
 }
 
 TEST_F(InboxTest, WorkersThatAreLateAgainAndAgainLeaveTheNewestFrame) {
@@ -390,11 +419,11 @@ TEST_F(InboxTest, WhileItRestsAFrameWaitsForALaterOne) {
 TEST_F(InboxTest, WhatWaitedOfABurstWhileItRestedIsReplaced) {
     for (std::uint32_t number = 1; number <= 3; ++number) {
         PoseFrame poses = frame(1, number);
-        EXPECT_TRUE(inbox_.put(poses, 10, true));
+        EXPECT_TRUE(inbox_.put(poses, 10, Inbox::Arrival::in_burst));
     }
     inbox_.rest_until(40);
     PoseFrame next = frame(1, 4);
-    EXPECT_TRUE(inbox_.put(next, 50, true));
+    EXPECT_TRUE(inbox_.put(next, 50, Inbox::Arrival::in_burst));
     inbox_.take(content_);
     EXPECT_TRUE(content_.has_frame);
     EXPECT_EQ(content_.frame.frame_number, 4U);
@@ -404,7 +433,7 @@ TEST_F(InboxTest, WhatWaitedOfABurstWhileItRestedIsReplaced) {
 TEST_F(InboxTest, WhileFramesOfABurstArePutAsideMessagesDoNotWait) {
     for (std::uint32_t number = 1; number <= 3; ++number) {
         PoseFrame poses = frame(1, number);
-        inbox_.put(poses, 10, true);
+        inbox_.put(poses, 10, Inbox::Arrival::in_burst);
     }
     inbox_.take(content_, false);
     EXPECT_FALSE(content_.has_frame);
