@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t max_events = 256;
 constexpr std::size_t max_view_requests = 64;
 constexpr std::ptrdiff_t max_infos = 8;  // of different epochs
-// Of so many frames one may wait behind another. An overload is heard of for that from 4.3 % of late frames
+// Of so many frames one may wait behind another. An overload is heard of for that from 4.4 % of late frames
 // on instead of 2 %: see Pace.
 constexpr std::uint32_t frames_per_wait = 40;
 constexpr std::uint32_t most_credit = frames_per_wait * (Inbox::max_frames - 1);
@@ -155,7 +155,7 @@ bool Inbox::put(PoseFrame& frame, std::int64_t received_ns, Arrival arrival) {
     return place.is_due;
 }
 
-// For a hiccup of the workers, where they were punctual until a moment ago. Behind a burst nothing waits:
+// For a hiccup of the workers, where they have been punctual for long enough. Behind a burst nothing waits:
 // cameras would be older still.
 bool Inbox::take_credit() {
     if (frames().back().in_burst || credit_ < frames_per_wait) return false;

@@ -134,18 +134,25 @@ class GroupStep {
     // Where not everyone can be shown, unless that keeps the camera from showing everyone soon.
     bool show_those_who_matter_more(const ViewpointSearch& everyone) {
         if (!has_waited_enough()) return false;
-        for (MemberSet set = without_the_last(members_.now().living); set > shown_;
-             set = without_the_last(set)) {
+        for (MemberSet set = next_choice(members_.now().living); set > shown_; set = next_choice(set)) {
             const ViewpointSearch some(space_, profile_, members_, set, standpoint(), outlook_);
             const auto found = some.cut(a_moment);
             if (!found) continue;
-            if (found->worth <= some.worth_of_going_on() + worth_a_move ||
-                everyone.loses_by_cutting_to(found->position))
-                return false;
-            cut_to(*found);
-            return true;
+            const float waiting = some.worth_without_a_cut();
+            if (found->worth > waiting + worth_a_move) {
+                if (everyone.loses_by_cutting_to(found->position)) return false;
+                cut_to(*found);
+                return true;
+            }
+            if (waiting > worth_a_move) return false;
         }
         return false;
+    }
+
+    // Fewer of those who matter more; when none of them can be shown, each of the others.
+    [[nodiscard]] MemberSet next_choice(MemberSet set) const {
+        const MemberSet fewer = without_the_last(set);
+        return fewer != 0 ? fewer : std::bit_floor(members_.now().living & (set - 1));
     }
 
     // Less in an empty picture, and there less where the future is known.

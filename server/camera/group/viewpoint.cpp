@@ -172,6 +172,10 @@ float ViewpointSearch::worth_of_going_on() const {
     return time_with_a_cut(going_on_, from_.cut_in) - picture_cost(from_.goal);
 }
 
+float ViewpointSearch::worth_without_a_cut() const {
+    return time_with_a_cut(going_on_, never) - picture_cost(from_.goal);
+}
+
 // The sooner a cut that must come is made, the sooner may the next one: that is worth a little of its
 // pictures.
 bool ViewpointSearch::is_due(const Viewpoint& cut) const {

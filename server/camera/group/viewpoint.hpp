@@ -62,6 +62,9 @@ class ViewpointSearch {
     // Of going on as it does.
     [[nodiscard]] float worth_of_going_on() const;
 
+    // Likewise without any cut.
+    [[nodiscard]] float worth_without_a_cut() const;
+
     // Whether it must cut sooner or later, and this cut is as good as a later one.
     [[nodiscard]] bool is_due(const Viewpoint& cut) const;
 

@@ -354,6 +354,8 @@ TEST(GroupShot, KeepsWhoIsSeenInThePictureWhereAnotherOneHides) {
         camera = shot.step(poses);
     ASSERT_TRUE(flagged(camera, target_visible));
     const bool is_left = camera.position.x() < poses[0]->eye.x();
+    ASSERT_GT(std::abs(camera.position.x() - poses[0]->eye.x()),
+              std::abs(camera.position.y() - poses[0]->eye.y()));
     poses[1] = pose_at(plan.eye(2, is_left ? 2 : 24), 0.0F);  // behind it
     for (int i = 0; i < 60; ++i) {
         poses[0]->eye.y() += 0.5F;
@@ -377,6 +379,7 @@ TEST(GroupShot, KeepsOneOfTwoWhoAreTooFarApartForThePicture) {
             pose->discontinuity = i == 0;
         const Camera camera = shot.step(poses);
         EXPECT_TRUE(i < turned || !flagged(camera, held)) << "frame " << i;
+        EXPECT_TRUE(i != turned || flagged(camera, searching)) << "one of them";
     }
 }
 
@@ -410,37 +413,65 @@ TEST(GroupShot, WaitsForWhoIsKnownToComeBackAtOnce) {
     }
 }
 
-class EmptyPicture : public testing::TestWithParam<bool> {};
-INSTANTIATE_TEST_SUITE_P(GroupShot, EmptyPicture, testing::Bool(),
-                         [](const auto& info) { return info.param ? "Known" : "Live"; });
+struct Clock {
+    const char* name;
+    double frame, first;  // s
+    bool is_known;        // the future
+    double patience;      // s: until the empty picture is left, with the next decision
+};
+class EmptyPicture : public testing::TestWithParam<Clock> {};
+INSTANTIATE_TEST_SUITE_P(GroupShot, EmptyPicture,
+                         testing::Values(Clock{"Live", group_frame, 0.0, false, 0.35},
+                                         Clock{"Known", group_frame, 0.0, true, 0.15},
+                                         // Always just before an instant that is asked about.
+                                         Clock{"KnownAt20Hz", 0.05, 0.045, true, 0.21}),
+                         [](const auto& info) { return info.param.name; });
 
-// For whoever matters more, where nobody is left in it: sooner where that is known to last.
-TEST_P(EmptyPicture, IsSoonLeft) {
+// Two are shown until they jump at 2 s, one to `first` and the other to `second`, where no place shows both.
+void expect_left_for(const Vec3f& seen_then, const test::Plan& plan, const Vec3f& first,
+                     const Vec3f& second) {
+    const freespace::Freespace freespace = plan.freespace();
+    const Clock& clock = EmptyPicture::GetParam();
+    constexpr double jump = 2.0;  // s
+    std::vector<TimedPose> one;
+    std::vector<TimedPose> other;
+    for (double time = clock.first; time < 7.0; time += clock.frame) {
+        const bool is_before = time < jump;
+        one.push_back({time, pose_at(is_before ? plan.eye(2, 5) : first, 0.0F), true});
+        other.push_back({time, pose_at(is_before ? plan.eye(2, 7) : second, 0.0F), true});
+        one.back().pose.discontinuity = other.back().pose.discontinuity =
+            !is_before && time < jump + clock.frame;
+    }
+    const auto ahead = clock.is_known ? static_cast<std::size_t>(3.0 / clock.frame) : 1;
+    GroupState state;
+    Outlook outlook;
+    for (std::size_t i = 0; one[i].time < jump + 1.5; ++i) {
+        const std::array<Window, 2> windows = {Window(one).first(i + ahead), Window(other).first(i + ahead)};
+        const Camera camera = step(freespace, {}, windows, one[i].time, state, outlook);
+        if (one[i].time >= jump && one[i].time < jump + clock.patience) continue;
+        EXPECT_FALSE(flagged(camera, held)) << one[i].time;
+        const Vec3f& seen = one[i].time < jump ? one[i].pose.eye : seen_then;
+        EXPECT_TRUE(plan.segment_clear(camera.position, seen)) << one[i].time;
+    }
+}
+
+// Where nobody is left in it: sooner where that is known to last.
+TEST_P(EmptyPicture, IsSoonLeftForWhoMattersMore) {
     const test::Plan plan({"##############",  //
                            "#..#......#..#",  //
                            "#..#......#..#",  //
                            "#..#......#..#",  //
                            "##############"});
-    const freespace::Freespace freespace = plan.freespace();
-    constexpr int away = 100;
-    const int at_last = away + (GetParam() ? 9 : 21);  // 0.1 or 0.3 s later, by the next decision
-    std::vector<TimedPose> first;
-    std::vector<TimedPose> second;
-    for (int i = 0; i < 400; ++i) {
-        first.push_back({group_frame * i, pose_at(i < away ? plan.eye(2, 5) : plan.eye(2, 1), 0.0F), true});
-        second.push_back({group_frame * i, pose_at(i < away ? plan.eye(2, 7) : plan.eye(2, 12), 0.0F), true});
-        first.back().pose.discontinuity = second.back().pose.discontinuity = i == away;
-    }
-    GroupState state;
-    Outlook outlook;
-    for (int i = 0; i < 180; ++i) {
-        const auto known = static_cast<std::size_t>(i) + (GetParam() ? 180 : 1);
-        const std::array<Window, 2> windows = {Window(first).first(known), Window(second).first(known)};
-        const Camera camera = step(freespace, {}, windows, group_frame * i, state, outlook);
-        if (i >= away && i < at_last) continue;
-        EXPECT_FALSE(flagged(camera, held)) << "frame " << i;
-        EXPECT_TRUE(plan.segment_clear(camera.position, first[static_cast<std::size_t>(i)].pose.eye));
-    }
+    expect_left_for(plan.eye(2, 1), plan, plan.eye(2, 1), plan.eye(2, 12));
+}
+
+TEST_P(EmptyPicture, IsSoonLeftForTheOtherWhereNothingShowsWhoMattersMore) {
+    const test::Plan plan({"##############",  //
+                           "####......#..#",  //
+                           "####......#..#",  //
+                           "####......#..#",  //
+                           "##############"});
+    expect_left_for(plan.eye(2, 12), plan, plan.eye(2, 1), plan.eye(2, 12));  // in the wall
 }
 
 // A cut to one of them, who are all hidden now, may not keep the camera from where they all are soon.
@@ -452,7 +483,7 @@ TEST(GroupShot, WaitsWhereAllAreShownSoonRatherThanCutToWhoMattersMore) {
                            "##############"});
     const freespace::Freespace freespace = plan.freespace();
     constexpr int away = 160;
-    constexpr int back = 230;  // 0.5 s after the camera would cut to the one who matters more
+    constexpr int back = 196;  // 0.5 s after the camera would cut to the one who matters more
     std::vector<TimedPose> first;
     std::vector<TimedPose> second;
     for (int i = 0; i < 460; ++i) {
@@ -468,6 +499,7 @@ TEST(GroupShot, WaitsWhereAllAreShownSoonRatherThanCutToWhoMattersMore) {
         const Camera camera =
             step(freespace, {}, windows, group_frame * static_cast<double>(i), state, outlook);
         EXPECT_EQ(flagged(camera, target_visible), i < away || i >= back) << "frame " << i;
+        EXPECT_EQ(flagged(camera, cut), i == 0) << "frame " << i;
     }
 }
 
