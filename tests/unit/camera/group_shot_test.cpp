@@ -7,6 +7,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <ostream>
 #include <random>
 #include <vector>
 
@@ -418,6 +419,8 @@ struct Clock {
     double frame, first;  // s
     bool is_known;        // the future
     double patience;      // s: until the empty picture is left, with the next decision
+
+    friend void PrintTo(const Clock& clock, std::ostream* out) { *out << clock.name; }
 };
 class EmptyPicture : public testing::TestWithParam<Clock> {};
 INSTANTIATE_TEST_SUITE_P(GroupShot, EmptyPicture,
