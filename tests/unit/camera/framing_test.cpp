@@ -61,5 +61,30 @@ TEST(Framing, WhatFitsIsWhatCanBeLookedAt) {
     EXPECT_FALSE(fits_one_picture(Vec3f::Zero(), {}, PictureShape::of(1.0F, 0.9F)));
 }
 
+TEST(Framing, LooksAtAllFromTheMiddle) {
+    const Vec3f points[] = {{100.0F, 60.0F, 0.0F}, {100.0F, -20.0F, 40.0F}, {300.0F, 10.0F, -30.0F}};
+    const PictureShape shape = PictureShape::of(1.0F, 0.9F);
+    const auto look = look_at_all(Vec3f::Zero(), points, shape);
+    ASSERT_TRUE(look);
+    const auto extent = extent_of(Vec3f::Zero(), *look, points);
+    ASSERT_TRUE(extent);
+    EXPECT_NEAR(extent->left, -extent->right, 1e-3F);
+    EXPECT_NEAR(extent->bottom, -extent->top, 1e-3F);
+    const Vec3f opposite[] = {{100.0F, 0.0F, 0.0F}, {-100.0F, 0.0F, 0.0F}};
+    EXPECT_FALSE(look_at_all(Vec3f::Zero(), opposite, shape));
+}
+
+TEST(Framing, TurnsNoFurtherThanTheDeadZoneAsks) {
+    const PictureShape zone = PictureShape::of(1.0F, 0.6F);
+    const Look ahead{0.0F, 0.0F};
+    const Vec3f inside[] = {{100.0F, 20.0F, 10.0F}};
+    EXPECT_EQ(look_within(Vec3f::Zero(), ahead, inside, zone).yaw, 0.0F);
+    const Vec3f outside[] = {{100.0F, 90.0F, 0.0F}};
+    const Look turned = look_within(Vec3f::Zero(), ahead, outside, zone);
+    const auto extent = extent_of(Vec3f::Zero(), turned, outside);
+    ASSERT_TRUE(extent);
+    EXPECT_NEAR(extent->left, -zone.half_width, 1e-3F) << "at its edge";
+}
+
 }  // namespace
 }  // namespace camdir::camera
