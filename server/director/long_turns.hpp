@@ -14,7 +14,8 @@ namespace camdir::director {
 // worked.
 class LongTurns {
   public:
-    static constexpr std::int64_t long_ns = 20'000'000;  // other matches hardly notice shorter ones
+    static constexpr std::int64_t long_ns = 20'000'000;          // other matches hardly notice shorter ones
+    static constexpr std::int64_t very_long_ns = 2'000'000'000;  // a stall is shorter
 
     // ns. What decides is `helped`: who has help and who has none must not be judged by different measures.
     struct Cost {
@@ -37,8 +38,9 @@ class LongTurns {
         std::int64_t& last = last_[++count_ % last_.size()];
         last = all.helped;
         worked_ = std::min(all.took, std::exchange(last_took_, all.took));  // a stall is no work
-        // A single long one, as when a group shot begins, says little, two in a row say all.
-        is_long_ = std::max({median(last_), std::min(before, last), last / 8}) >= long_ns;
+        // A single long one, as when a group shot begins or the machine stalls, says little, two in a row say
+        // all.
+        is_long_ = std::max(median(last_), std::min(before, last)) >= long_ns || last >= very_long_ns;
     }
 
     [[nodiscard]] bool is_long() const { return is_long_; }

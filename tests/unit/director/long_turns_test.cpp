@@ -29,6 +29,14 @@ TEST(LongTurns, TwoInARowSayAll) {
     EXPECT_EQ(turns.worked(), 80 * ms);
 }
 
+TEST(LongTurns, AStallOfTheMachineIsNone) {
+    LongTurns turns;
+    for (int i = 0; i < 20; ++i) {
+        turns.moved(turn_of(i % 5 == 0 ? 500 : 8));
+        EXPECT_FALSE(turns.is_long());
+    }
+}
+
 TEST(LongTurns, AVeryLongOneSaysSomethingAtOnce) {
     LongTurns turns;
     turns.moved(turn_of(1));
