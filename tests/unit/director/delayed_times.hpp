@@ -26,7 +26,9 @@ constexpr std::int64_t due(std::uint32_t number) {
 // A match with a delay of 3 s and made-up times, in ns after its description was received.
 class DelayedTimes {
   public:
-    explicit DelayedTimes(Audiences audiences = {}) : audiences_(std::move(audiences)) {
+    // Begins long ago, even if this machine has just started: the answers to requests read the clock.
+    explicit DelayedTimes(Audiences audiences = {}, std::int64_t start = ms)
+        : start_(start), audiences_(std::move(audiences)) {
         maps_.add("square", false);
         maps_.set_ready("square", Stage::square());
         EXPECT_TRUE(pool_.attach(match_));
@@ -74,8 +76,7 @@ class DelayedTimes {
         WorkerPool::wait_idle(match_);
     }
 
-    // Long ago, even if this machine has just started: the answers to requests read the clock.
-    const std::int64_t start_ = ms;
+    const std::int64_t start_;
     MapLibrary maps_;
     Pace pace_;
     const Audiences audiences_;
