@@ -131,7 +131,8 @@ class GroupStep {
         return show_those_who_matter_more(search);
     }
 
-    // Where not everyone can be shown, unless that keeps the camera from showing everyone soon.
+    // Where not everyone can be shown, unless that keeps the camera from showing everyone soon, or those are
+    // seen again by waiting.
     bool show_those_who_matter_more(const ViewpointSearch& everyone) {
         if (!has_waited_enough()) return false;
         for (MemberSet set = next_choice(members_.now().living); set > shown_; set = next_choice(set)) {
@@ -267,7 +268,7 @@ class GroupStep {
         if (fit_one_picture(framed | seen)) return framed | seen;
         if (framed != 0 && shows_soon(framed)) return framed;
         MemberSet wanted = fit_one_picture(seen) || (framed & seen) == 0 ? seen : framed & seen;
-        while (!fit_one_picture(wanted) && (wanted & (wanted - 1)) != 0)
+        while (!fit_one_picture(wanted) && without_the_last(wanted) != 0)
             wanted = without_the_last(wanted);
         return wanted;
     }

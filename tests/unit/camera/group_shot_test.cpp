@@ -473,7 +473,8 @@ TEST_P(EmptyPicture, IsSoonLeftForTheOtherWhereNothingShowsWhoMattersMore) {
                            "####......#..#",  //
                            "####......#..#",  //
                            "##############"});
-    expect_left_for(plan.eye(2, 12), plan, plan.eye(2, 1), plan.eye(2, 12));  // in the wall
+    const Vec3f in_the_wall = plan.eye(2, 1);
+    expect_left_for(plan.eye(2, 12), plan, in_the_wall, plan.eye(2, 12));
 }
 
 // A cut to one of them, who are all hidden now, may not keep the camera from where they all are soon.
