@@ -262,11 +262,14 @@ TEST_F(HalfLife, SettingsTakeEffectDuringAMap) {
            "director_enable",
            "1",
            "expect",
-           "director directors: 1\n"});
+           "director directors: 1\n",
+           "wait",
+           file("back")});
     EXPECT_TRUE(eventually([&] { return director_->take_poses().has_value(); }));
     EXPECT_TRUE(eventually([&] { return director_->info_has_ended(); }));
     create("seen");
     EXPECT_TRUE(eventually([&] { return !director_->info_has_ended(); }));
+    create("back");
     expect_end();
 }
 
