@@ -44,6 +44,9 @@ class LongTurns {
     }
 
     [[nodiscard]] bool is_long() const { return is_long_; }
+    // Whether one of the last took long: what the next cost is to be said in processor time. Whoever was only
+    // held up, by a busy machine or a write that waits, does not become long.
+    [[nodiscard]] bool is_suspect() const { return *std::ranges::max_element(last_) >= long_ns; }
     // For a frame, of the last two the less, ns; 0 where turns are not long.
     [[nodiscard]] std::int64_t worked() const { return is_long_ ? worked_ : 0; }
 

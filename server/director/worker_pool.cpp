@@ -142,15 +142,14 @@ void WorkerPool::call_helpers(std::size_t count) {
 }
 
 void Turn::share(std::size_t count, std::size_t share, const SharedWork::Item& item) {
-    const std::int64_t begun = now_ns();
+    const std::int64_t begun = clock_();
     std::atomic<std::int64_t> work{0};
     const SharedWork::Item timed = [&](std::size_t lane, std::size_t i) {
-        const std::int64_t item_begun = now_ns();
+        const std::int64_t item_begun = clock_();
         item(lane, i);
-        const std::int64_t item_ended = now_ns();
-        work.fetch_add(item_ended - item_begun, std::memory_order_relaxed);
+        work.fetch_add(clock_() - item_begun, std::memory_order_relaxed);
         (lane == 0 ? worker_ : *pool_.workers_[lane - 1]).turn.go_on();
-        pool_.went_on_ns_.store(item_ended, std::memory_order_relaxed);
+        pool_.went_on_ns_.store(now_ns(), std::memory_order_relaxed);
     };
     const std::size_t worth = std::min((count + share - 1) / share, workers());
     if (is_long_) {
@@ -161,7 +160,7 @@ void Turn::share(std::size_t count, std::size_t share, const SharedWork::Item& i
         if (worth > 1) pool_.call_helpers(worth - 1);
         worker_.shared.finish();
     }
-    shared_ns_ += now_ns() - begun;
+    shared_ns_ += clock_() - begun;
     helped_ns_ += work / std::max<std::int64_t>(static_cast<std::int64_t>(worth), 1);
 }
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "base/turn_timer.hpp"
+#include "director/clock.hpp"
 #include "director/shared_work.hpp"
 
 namespace camdir::director {
@@ -144,6 +145,11 @@ class BriefTurns {
 // What a strand may ask of the pool during its turn.
 class Turn {
   public:
+    // In ns, such as now_ns() and processor_ns().
+    using Clock = std::int64_t (*)();
+    // What share() takes is measured by this one, before it is called; by now_ns() otherwise.
+    void measure_by(Clock clock) { clock_ = clock; }
+
     // Does `item` for every number below `count`, with the help of idle workers, of which each should find
     // `share` > 0 items to do. Every lane is less than lanes().
     void share(std::size_t count, std::size_t share, const SharedWork::Item& item);
@@ -152,7 +158,8 @@ class Turn {
     // workers, one at the least, are in such turns. False: it is none, because too many go on.
     [[nodiscard]] bool begin_long();
 
-    // How long a turn that took `ns` would have taken if all whom share() may call had helped.
+    // How long a turn that took `ns`, by the clock that share() is measured by, would have taken if all whom
+    // share() may call had helped.
     [[nodiscard]] std::int64_t helped(std::int64_t ns) const { return ns - shared_ns_ + helped_ns_; }
 
     [[nodiscard]] std::size_t lanes() const { return workers() + 1; }
@@ -170,6 +177,7 @@ class Turn {
     WorkerPool::Worker& worker_;
     Strand& strand_;
     bool is_long_ = false;
+    Clock clock_ = now_ns;
     std::int64_t shared_ns_ = 0;  // that share() took
     std::int64_t helped_ns_ = 0;  // and would have taken
 };

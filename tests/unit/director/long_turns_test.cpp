@@ -37,6 +37,18 @@ TEST(LongTurns, AStallOfTheMachineIsNone) {
     }
 }
 
+TEST(LongTurns, OfALongOneTheNextAreMeasuredCloser) {
+    LongTurns turns;
+    turns.moved(turn_of(19));
+    EXPECT_FALSE(turns.is_suspect());
+    turns.moved(turn_of(20));
+    for (int i = 0; i < 5; ++i) {
+        EXPECT_TRUE(turns.is_suspect()) << i;
+        turns.moved(turn_of(19));
+    }
+    EXPECT_FALSE(turns.is_suspect());
+}
+
 TEST(LongTurns, AVeryLongOneSaysSomethingAtOnce) {
     LongTurns turns;
     turns.moved(turn_of(1));
