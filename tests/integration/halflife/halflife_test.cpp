@@ -251,6 +251,8 @@ TEST_F(HalfLife, SettingsTakeEffectDuringAMap) {
            "0",
            "expect",
            "director directors: 1\n",
+           "wait",
+           file("known"),
            "set",
            "director_enable",
            "0",
@@ -266,6 +268,7 @@ TEST_F(HalfLife, SettingsTakeEffectDuringAMap) {
            "wait",
            file("back")});
     EXPECT_TRUE(eventually([&] { return director_->take_poses().has_value(); }));
+    create("known");
     EXPECT_TRUE(eventually([&] { return director_->info_has_ended(); }));
     create("seen");
     EXPECT_TRUE(eventually([&] { return !director_->info_has_ended(); }));
@@ -299,6 +302,8 @@ TEST_F(HalfLife, TheMatchIsPublishedAgainOnceItsRateIsRightAgain) {
            "0",
            "expect",
            "director directors: 1\n",
+           "wait",
+           file("known"),
            "set",
            "director_max_rate",
            "fast",
@@ -318,6 +323,7 @@ TEST_F(HalfLife, TheMatchIsPublishedAgainOnceItsRateIsRightAgain) {
            file("seen")});
     const auto before = next_info();
     ASSERT_TRUE(before);
+    create("known");
     EXPECT_TRUE(eventually([&] { return director_->info_has_ended(); })) << "nothing is published";
     create("ended");
     EXPECT_TRUE(next_poses([&](const ReceivedPoses& poses) { return poses.epoch > before->epoch; }));

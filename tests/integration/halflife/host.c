@@ -376,15 +376,23 @@ static int run_command(char** words, int count, void* library) {
     return command->arguments;
 }
 
-/* Exit handlers run last to first: this one after those of the plugin, which has ended all its threads. */
-static void expect_one_thread(void) {
+static int count_threads(void) {
     int entries = 0;
     DIR* tasks = opendir("/proc/self/task");
     while (tasks != NULL && readdir(tasks) != NULL)
         ++entries;
     if (tasks != NULL) closedir(tasks);
-    if (entries == 3) return; /* with . and .. */
-    fprintf(stderr, "halflife-host: %d threads at the end\n", entries - 2);
+    return entries - 2; /* without . and .. */
+}
+
+/* Exit handlers run last to first: this one after those of the plugin, which has ended all its threads. One
+ * that is joined may be listed for a moment longer. */
+static void expect_one_thread(void) {
+    const struct timespec pause = {0, 1000 * 1000};
+    for (int i = 0; i < 10 * 1000 && count_threads() != 1; ++i)
+        nanosleep(&pause, NULL);
+    if (count_threads() == 1) return;
+    fprintf(stderr, "halflife-host: %d threads at the end\n", count_threads());
     _exit(1);
 }
 

@@ -98,6 +98,12 @@ TEST_F(QtvPublisher, PublishesPosesNamesTeamsAndEvents) {
     EXPECT_THAT(std::vector(poses.eye.begin(), poses.eye.begin() + 3), ElementsAre(8.0F, 16.0F, 46.0F));
     EXPECT_NEAR(poses.orientation[2], std::sqrt(0.5F), 1e-6F);
 
+    ASSERT_TRUE(eventually([&] {
+        (void)streams(frame(8, true));
+        (void)streams(frame(8, false));
+        return director_->take_event().has_value();
+    })) << "no spawn"
+        << log();
     server_.send(DemoWriter().to_everyone(0, DemoMessages().print(1, "bert rides anna's rocket\n")).bytes());
     (void)streams(frame(8, true));
     for (int i = 0; i < 4; ++i)

@@ -47,7 +47,11 @@ TEST_F(SecureMatchTest, IsServedAndHandedOver) {
     Observer anna = Observer::open(observer_context, "cup-1", "anna").value();
     anna.request({.target = 1}).value();
     EXPECT_TRUE(sees_own_camera(anna)) << leader_.log();
-    EXPECT_EQ(anna.match_info().value()->map_name, "hall");
+    EXPECT_TRUE(eventually([&] {
+        anna.poll().value();
+        const auto info = anna.match_info().value();
+        return info && info->map_name == "hall";
+    })) << leader_.log();
 
     Server standby(domain_.id(), {.participant_index = 1, .director_id = 2, .security = standby_identity_});
     ASSERT_TRUE(standby.ready()) << standby.log();

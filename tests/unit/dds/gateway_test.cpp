@@ -421,13 +421,14 @@ TEST_F(GatewayTest, DisposingEndsAMatchAndForgettingItRemovesItsEndpoints) {
 
 TEST_F(GatewayTest, AForgottenMatchWithAPausedServerReturnsWithItsPoses) {
     RawPeer& raw = game("cup");
+    ASSERT_TRUE(last_arrives(raw, "cup", 0)) << "the reception is done with the description";
     gateway_->forget("cup");
-    RawPoseFrame frame("cup", 1, 7, 1);
+    RawPoseFrame frame("cup", 1, 1000, 1);
     ASSERT_TRUE(eventually([&] {
         raw.write(frame.sample());
         return recorder_.count("info cup 1") == 2;
     }));
-    EXPECT_TRUE(arrives(raw, frame, "pose cup 7"));
+    EXPECT_TRUE(arrives(raw, frame, "pose cup 1000"));
 }
 
 TEST_F(GatewayTest, AMatchThatWasGivenUpKeepsItsEndpointsAndReturnsWithItsPoses) {

@@ -76,7 +76,13 @@ TEST(Bounds, ClosesIdleConnections) {
     const auto finished = client_in_time(server);
     ASSERT_TRUE(finished);
     EXPECT_TRUE(eventually([&] { return finished->closed(); }));
-    EXPECT_TRUE(eventually([&] { return times_reached(server, "idle_time") >= 2; }));
+    EXPECT_TRUE(eventually([&] {
+        try {
+            return times_reached(server, "idle_time") >= 2;
+        } catch (const std::runtime_error&) {  // who asks may have been idle for too long as well
+            return false;
+        }
+    }));
 }
 
 TEST(Bounds, ClosesConnectionsWhoseRequestTakesLong) {
