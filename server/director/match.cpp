@@ -49,9 +49,7 @@ Match::Match(std::string match_id, std::shared_ptr<const config::Config> config,
 
 // Only running out of memory throws in here, and that ends the process.
 void Match::turn(Turn& turn) noexcept {  // NOLINT(bugprone-exception-escape)
-    const Turn::Clock clock = long_turns_.is_suspect() ? processor_ns : now_ns;
-    turn.measure_by(clock);
-    const std::int64_t begun_ns = clock();
+    if (long_turns_.is_suspect()) turn.measure_processor();
     const bool is_long = long_turns_.is_long();
     const bool may_move = !is_long || turn.begin_long();
     inbox_.take(content_, may_move);
@@ -68,11 +66,10 @@ void Match::turn(Turn& turn) noexcept {  // NOLINT(bugprone-exception-escape)
     if (content_.leaves_more) turn.again();
     follow_leader();
     const bool prepared = !is_long && prepare(turn);
-    const std::int64_t took_ns = clock() - begun_ns;
     if (content_.has_frame)
-        long_turns_.moved({took_ns, turn.helped(took_ns)});
+        long_turns_.moved(turn.cost());
     else if (prepared)
-        long_turns_.prepared({took_ns, turn.helped(took_ns)});
+        long_turns_.prepared(turn.cost());
     if (is_long_of_frame) rest();
     // A lookout that is asked for the first time takes milliseconds.
     if (std::ranges::any_of(requests_.shots(), &Shot::is_of_group)) expect_long_turns();

@@ -142,14 +142,19 @@ void WorkerPool::call_helpers(std::size_t count) {
 }
 
 void Turn::share(std::size_t count, std::size_t share, const SharedWork::Item& item) {
-    const std::int64_t begun = clock_();
+    const std::int64_t begun = now_ns();
+    const std::int64_t processor_begun = processor_now();
     std::atomic<std::int64_t> work{0};
+    std::atomic<std::int64_t> processor_work{0};
     const SharedWork::Item timed = [&](std::size_t lane, std::size_t i) {
-        const std::int64_t item_begun = clock_();
+        const std::int64_t item_begun = now_ns();
+        const std::int64_t item_processor_begun = processor_now();
         item(lane, i);
-        work.fetch_add(clock_() - item_begun, std::memory_order_relaxed);
+        processor_work.fetch_add(processor_now() - item_processor_begun, std::memory_order_relaxed);
+        const std::int64_t item_ended = now_ns();
+        work.fetch_add(item_ended - item_begun, std::memory_order_relaxed);
         (lane == 0 ? worker_ : *pool_.workers_[lane - 1]).turn.go_on();
-        pool_.went_on_ns_.store(now_ns(), std::memory_order_relaxed);
+        pool_.went_on_ns_.store(item_ended, std::memory_order_relaxed);
     };
     const std::size_t worth = std::min((count + share - 1) / share, workers());
     if (is_long_) {
@@ -160,8 +165,15 @@ void Turn::share(std::size_t count, std::size_t share, const SharedWork::Item& i
         if (worth > 1) pool_.call_helpers(worth - 1);
         worker_.shared.finish();
     }
-    shared_ns_ += clock_() - begun;
-    helped_ns_ += work / std::max<std::int64_t>(static_cast<std::int64_t>(worth), 1);
+    const auto helpers = std::max<std::int64_t>(static_cast<std::int64_t>(worth), 1);
+    saved_ += {.helped = now_ns() - begun - work / helpers,
+               .processor = processor_now() - processor_begun - processor_work / helpers};
+}
+
+Turn::Cost Turn::cost() const {
+    const std::int64_t took = now_ns() - begun_ns_;
+    const std::int64_t processor = processor_begun_ns_ ? processor_ns() - *processor_begun_ns_ : 0;
+    return {.took = took, .helped = took - saved_.helped, .processor = processor - saved_.processor};
 }
 
 bool Turn::begin_long() {
@@ -175,11 +187,10 @@ bool Turn::begin_long() {
 void WorkerPool::run(Worker& worker, Strand& strand) {
     const std::size_t slot = strand.slot_;
     const std::uint32_t seen = strand.pending_.load(std::memory_order_acquire);
-    const std::int64_t begun = now_ns();
     Turn turn(*this, worker, strand);
     strand.turn(turn);
     if (turn.is_long_) long_turns_.fetch_sub(1);
-    strand.expect(now_ns() - begun);
+    strand.expect(now_ns() - turn.begun_ns_);
     // As soon as nothing is pending the strand may be destroyed.
     if (strand.pending_.fetch_sub(seen, std::memory_order_acq_rel) != seen) mark_ready(slot);
 }

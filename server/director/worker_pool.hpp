@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <vector>
 
@@ -145,10 +146,24 @@ class BriefTurns {
 // What a strand may ask of the pool during its turn.
 class Turn {
   public:
-    // In ns, such as now_ns() and processor_ns().
-    using Clock = std::int64_t (*)();
-    // What share() takes is measured by this one, before it is called; by now_ns() otherwise.
-    void measure_by(Clock clock) { clock_ = clock; }
+    // In ns, of a turn or a part of one.
+    struct Cost {
+        std::int64_t took = 0;
+        std::int64_t helped = 0;     // that it would have taken if all whom share() may call had helped
+        std::int64_t processor = 0;  // the same, in processor time: without what waited; 0 where not measured
+
+        Cost& operator+=(const Cost& other) {
+            took += other.took;
+            helped += other.helped;
+            processor += other.processor;
+            return *this;
+        }
+    };
+
+    // From here on its processor time is measured too, which costs a call of the kernel for every item.
+    void measure_processor() { processor_begun_ns_ = processor_ns(); }
+    // Until now.
+    [[nodiscard]] Cost cost() const;
 
     // Does `item` for every number below `count`, with the help of idle workers, of which each should find
     // `share` > 0 items to do. Every lane is less than lanes().
@@ -157,10 +172,6 @@ class Turn {
     // For a turn that will take long, before it shares anything: nobody helps in it, and at most half of the
     // workers, one at the least, are in such turns. False: it is none, because too many go on.
     [[nodiscard]] bool begin_long();
-
-    // How long a turn that took `ns`, by the clock that share() is measured by, would have taken if all whom
-    // share() may call had helped.
-    [[nodiscard]] std::int64_t helped(std::int64_t ns) const { return ns - shared_ns_ + helped_ns_; }
 
     [[nodiscard]] std::size_t lanes() const { return workers() + 1; }
     [[nodiscard]] std::size_t workers() const { return pool_.workers(); }
@@ -176,10 +187,12 @@ class Turn {
     WorkerPool& pool_;
     WorkerPool::Worker& worker_;
     Strand& strand_;
+    [[nodiscard]] std::int64_t processor_now() const { return processor_begun_ns_ ? processor_ns() : 0; }
+
+    const std::int64_t begun_ns_ = now_ns();
+    std::optional<std::int64_t> processor_begun_ns_;  // where it is measured
     bool is_long_ = false;
-    Clock clock_ = now_ns;
-    std::int64_t shared_ns_ = 0;  // that share() took
-    std::int64_t helped_ns_ = 0;  // and would have taken
+    Cost saved_;  // by the helpers that share() would have had
 };
 
 }  // namespace camdir::director

@@ -268,6 +268,7 @@ TEST_F(HalfLife, SettingsTakeEffectDuringAMap) {
            "wait",
            file("back")});
     EXPECT_TRUE(eventually([&] { return director_->take_poses().has_value(); }));
+    EXPECT_TRUE(next_info());
     create("known");
     EXPECT_TRUE(eventually([&] { return director_->info_has_ended(); }));
     create("seen");

@@ -389,10 +389,13 @@ static int count_threads(void) {
  * that is joined may be listed for a moment longer. */
 static void expect_one_thread(void) {
     const struct timespec pause = {0, 1000 * 1000};
-    for (int i = 0; i < 10 * 1000 && count_threads() != 1; ++i)
+    int threads = count_threads();
+    for (int i = 0; i < 1000 && threads != 1; ++i) {
         nanosleep(&pause, NULL);
-    if (count_threads() == 1) return;
-    fprintf(stderr, "halflife-host: %d threads at the end\n", count_threads());
+        threads = count_threads();
+    }
+    if (threads == 1) return;
+    fprintf(stderr, "halflife-host: %d threads at the end\n", threads);
     _exit(1);
 }
 

@@ -101,9 +101,9 @@ TEST_F(QtvPublisher, PublishesPosesNamesTeamsAndEvents) {
     ASSERT_TRUE(eventually([&] {
         (void)streams(frame(8, true));
         (void)streams(frame(8, false));
-        return director_->take_event().has_value();
-    })) << "no spawn"
-        << log();
+        const auto event = director_->take_event();
+        return event && event->kind == CDIR_EVENT_SPAWN;
+    })) << log();
     server_.send(DemoWriter().to_everyone(0, DemoMessages().print(1, "bert rides anna's rocket\n")).bytes());
     (void)streams(frame(8, true));
     for (int i = 0; i < 4; ++i)

@@ -389,13 +389,11 @@ TEST_F(HandOverTest, TheShotGoesOnWithoutACutWhenTheLeaderIsStopped) {
     leader_->process().send_signal(SIGTERM);
     EXPECT_TRUE(sees(*observer_, [&](const auto& frame, auto /*cameras*/) {
         is_late = is_late || came_late(frame);
-        if (!is_late) {
-            EXPECT_EQ(frame.frame_number, last + 1);
-        }
+        EXPECT_TRUE(frame.frame_number == last + 1 || came_late(frame));
         last = frame.frame_number;
         return frame.director_id == 20;
     })) << standby_->log();
-    if (is_late) return;  // this process lost frames, perhaps
+    if (is_late && observer_->counters().value().gaps != gaps) return;  // this process was too slow
     EXPECT_EQ(observer_->newest_camera().value()->segment, segment);
     EXPECT_EQ(observer_->counters().value().gaps, gaps);
 }

@@ -190,8 +190,7 @@ TEST(PaceTest, AnOverloadedDirectorDeclaresALowerRateAndSpeedsUpAgain) {
     }));
 }
 
-TEST(PaceTest, AMatchWhoseCamerasTakeLongIsSlowedDownAlone) {
-    SlowPublisher publisher(work_for, std::chrono::milliseconds(200));
+void expect_that_it_is_slowed_down_alone(SlowPublisher& publisher) {
     MapLibrary maps;
     maps.set_ready("square", Stage::square());
     config::Config config = Stage::default_config();
@@ -223,6 +222,16 @@ TEST(PaceTest, AMatchWhoseCamerasTakeLongIsSlowedDownAlone) {
     EXPECT_EQ(director.statistics()[Counter::silences], 0U);
     publisher.is_slow = false;
     EXPECT_TRUE(plays_until([&] { return publisher.rate_hz() == publisher.rate_hz("other"); }));
+}
+
+TEST(PaceTest, AMatchWhoseCamerasTakeLongIsSlowedDownAlone) {
+    SlowPublisher publisher(work_for, std::chrono::milliseconds(200));
+    expect_that_it_is_slowed_down_alone(publisher);
+}
+
+TEST(PaceTest, AMatchWhoseWritesWaitLongIsSlowedDownAlone) {
+    SlowPublisher publisher(wait_for, std::chrono::milliseconds(200));
+    expect_that_it_is_slowed_down_alone(publisher);
 }
 
 // As when its thread gets no processor.

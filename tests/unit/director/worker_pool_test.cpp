@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "director/clock.hpp"
 #include "support/eventually.hpp"
 
 namespace camdir::director {
@@ -250,6 +251,43 @@ TEST(WorkerPool, IdleWorkersHelp) {
     WorkerPool::wait_idle(strand);
     EXPECT_EQ(missed, 0) << "not three threads at once";
     pool.detach(strand);
+}
+
+TEST(WorkerPool, TheCostOfATurnIsToldAsIfAllHadHelped) {
+    constexpr std::int64_t item_ns = 10'000'000;
+    WorkerPool pool(4, 1);
+    Turn::Cost waited;
+    Turn::Cost worked;
+    const auto measure = [](Turn& turn, const std::function<void()>& item, Turn::Cost& cost) {
+        turn.measure_processor();
+        turn.share(8, 2, [&](std::size_t /*lane*/, std::size_t /*item*/) { item(); });
+        cost = turn.cost();
+    };
+    FunctionStrand waits([&](Turn& turn) {
+        measure(
+            turn, [&] { std::this_thread::sleep_for(std::chrono::nanoseconds(item_ns)); }, waited);
+    });
+    FunctionStrand works([&](Turn& turn) {
+        ASSERT_TRUE(turn.begin_long()) << "without help";
+        const auto item = [&] {
+            for (const std::int64_t end = processor_ns() + item_ns; processor_ns() < end;) {
+            }
+        };
+        measure(turn, item, worked);
+    });
+    for (FunctionStrand* strand : {&waits, &works}) {
+        ASSERT_TRUE(pool.attach(*strand));
+        pool.schedule(*strand);
+        WorkerPool::wait_idle(*strand);
+        pool.detach(*strand);
+    }
+    EXPECT_GE(waited.helped, 2 * item_ns);
+    EXPECT_GE(waited.processor, 0);
+    EXPECT_LT(waited.processor, item_ns) << "sleep is none";
+    EXPECT_GE(worked.took, 8 * item_ns);
+    EXPECT_GE(worked.processor, 2 * item_ns);
+    EXPECT_LT(worked.processor, 3 * item_ns) << "four at a time";
+    EXPECT_LE(worked.processor, worked.helped);
 }
 
 TEST(WorkerPool, LongTurnsLeaveHalfOfTheWorkersToOthers) {

@@ -18,10 +18,15 @@ using test::http_request;
 using test::HttpClient;
 using Clients = std::vector<std::unique_ptr<HttpClient>>;
 
-// How often the server says that a bound was reached.
+// How often the server says that a bound was reached; -1 where whoever asks reaches it too.
 int times_reached(const TestServer& server, const std::string& bound) {
     const std::string series = "camera_director_http_bounds_total{bound=\"" + bound + "\"} ";
-    const std::string text = server.ask("GET", "/metrics").body;
+    std::string text;
+    try {
+        text = server.ask("GET", "/metrics").body;
+    } catch (const std::runtime_error&) {
+        return -1;
+    }
     const auto found = text.find(series);
     return found == std::string::npos ? -1 : std::stoi(text.substr(found + series.size()));
 }
@@ -76,13 +81,7 @@ TEST(Bounds, ClosesIdleConnections) {
     const auto finished = client_in_time(server);
     ASSERT_TRUE(finished);
     EXPECT_TRUE(eventually([&] { return finished->closed(); }));
-    EXPECT_TRUE(eventually([&] {
-        try {
-            return times_reached(server, "idle_time") >= 2;
-        } catch (const std::runtime_error&) {  // who asks may have been idle for too long as well
-            return false;
-        }
-    }));
+    EXPECT_TRUE(eventually([&] { return times_reached(server, "idle_time") >= 2; }));
 }
 
 TEST(Bounds, ClosesConnectionsWhoseRequestTakesLong) {
@@ -92,7 +91,7 @@ TEST(Bounds, ClosesConnectionsWhoseRequestTakesLong) {
     const HttpClient slow(server.port());
     ASSERT_TRUE(slow.send("GET /-/healthy HTTP/1.1\r\nSlow: "));
     EXPECT_TRUE(eventually([&] { return !slow.send("x") || slow.closed(); }));
-    EXPECT_TRUE(eventually([&] { return times_reached(server, "request_time") == 1; }));
+    EXPECT_TRUE(eventually([&] { return times_reached(server, "request_time") >= 1; }));
 }
 
 TEST(Bounds, PagesThatAreNotReadDoNotStay) {
