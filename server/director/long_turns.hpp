@@ -13,13 +13,13 @@ namespace camdir::director {
 
 // Of one match: whether its turns usually take long for a pose frame, with those that prepare it. Who asks
 // for much, such as cameras among hundreds of movers, pays for it alone: it rests for as long as it has
-// worked. Whoever is held up, as on a busy machine, is none of them, unless it is so for long again and
-// again.
+// worked. Whoever is held up, as on a busy machine, is none of them, unless it is so frame after frame.
 class LongTurns {
   public:
     // With all help that the turns may have at best: who has it and who has none are judged alike.
-    static constexpr std::int64_t long_ns = 20'000'000;     // of processor time; others hardly notice less
-    static constexpr std::int64_t held_up_ns = 50'000'000;  // most times, as by writes that wait
+    static constexpr std::int64_t long_ns = 20'000'000;        // other matches hardly notice less
+    static constexpr std::int64_t very_long_ns = 500'000'000;  // a single one says all
+    static constexpr int held_up = 40;  // frames in a row whose turns last long, as where writes wait
 
     // Part of the work for the next frame is done.
     void prepared(const Turn::Cost& cost) { since_frame_ += cost; }
@@ -31,12 +31,14 @@ class LongTurns {
         processor_[last] = all.processor;
         helped_[last] = all.helped;
         worked_ = std::min(all.took, std::exchange(last_took_, all.took));  // a stall is no work
+        held_up_ = all.helped >= long_ns ? std::min(held_up_ + 1, held_up) : 0;
         // A single long one, as when a group shot begins, says little, two in a row say all.
         is_long_ = std::max(median(processor_), std::min(before, all.processor)) >= long_ns ||
-                   median(helped_) >= held_up_ns;
+                   all.processor >= very_long_ns || held_up_ == held_up;
     }
 
-    // Whether one of the last took long, or was held up: of the next the processor time decides.
+    // Whether one of the last lasted long, or none is known: of the next the processor time is to be
+    // measured.
     [[nodiscard]] bool is_suspect() const { return *std::ranges::max_element(helped_) >= long_ns; }
     [[nodiscard]] bool is_long() const { return is_long_; }
     // For a frame, of the last two the less, ns; 0 where turns are not long.
@@ -52,8 +54,9 @@ class LongTurns {
     }
 
     Turn::Cost since_frame_;
-    Last helped_{};
+    Last helped_{long_ns, long_ns, long_ns, long_ns, long_ns};
     Last processor_{};
+    int held_up_ = 0;
     std::size_t count_ = 0;
     std::int64_t last_took_ = 0;
     std::int64_t worked_ = 0;

@@ -116,9 +116,9 @@ void Match::rest() {
     inbox_.rest_until(now_ns() + worked);
     if (worked > 0 && long_turns_logged_.due())
         spdlog::warn(
-            "match {}: its {} cameras take {} ms a pose frame: they move half of the time, for other matches "
-            "to have theirs",
-            match_id_, requests_.shots().size(), worked / 1'000'000);
+            "match {}: its turns take {} ms a pose frame: its {} cameras move half of the time, for other "
+            "matches to have theirs",
+            match_id_, worked / 1'000'000, requests_.shots().size());
 }
 
 // Of so many pose frames one moves the cameras. What long turns take varies: by powers of two.

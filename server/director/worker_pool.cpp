@@ -150,7 +150,8 @@ void Turn::share(std::size_t count, std::size_t share, const SharedWork::Item& i
         const std::int64_t item_begun = now_ns();
         const std::int64_t item_processor_begun = processor_now();
         item(lane, i);
-        processor_work.fetch_add(processor_now() - item_processor_begun, std::memory_order_relaxed);
+        if (processor_begun_ns_)
+            processor_work.fetch_add(processor_ns() - item_processor_begun, std::memory_order_relaxed);
         const std::int64_t item_ended = now_ns();
         work.fetch_add(item_ended - item_begun, std::memory_order_relaxed);
         (lane == 0 ? worker_ : *pool_.workers_[lane - 1]).turn.go_on();

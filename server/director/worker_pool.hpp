@@ -160,7 +160,7 @@ class Turn {
         }
     };
 
-    // From here on its processor time is measured too, which costs a call of the kernel for every item.
+    // From here on its processor time is measured too, which costs two calls of the kernel for every item.
     void measure_processor() { processor_begun_ns_ = processor_ns(); }
     // Until now.
     [[nodiscard]] Cost cost() const;
@@ -184,11 +184,11 @@ class Turn {
     Turn(WorkerPool& pool, WorkerPool::Worker& worker, Strand& strand)
         : pool_(pool), worker_(worker), strand_(strand) {}
 
+    [[nodiscard]] std::int64_t processor_now() const { return processor_begun_ns_ ? processor_ns() : 0; }
+
     WorkerPool& pool_;
     WorkerPool::Worker& worker_;
     Strand& strand_;
-    [[nodiscard]] std::int64_t processor_now() const { return processor_begun_ns_ ? processor_ns() : 0; }
-
     const std::int64_t begun_ns_ = now_ns();
     std::optional<std::int64_t> processor_begun_ns_;  // where it is measured
     bool is_long_ = false;

@@ -419,7 +419,7 @@ TEST_F(OnePlaceTest, IsAParticipants) {
 
 class RateTest : public LimitsTest {
   protected:
-    RateTest() { limits_.participant_match_rate = 0.05; }  // the first two matches take less than 20 s
+    RateTest() { limits_.participant_match_rate = 0.1; }  // the first two matches take less than 10 s
 };
 
 TEST_F(RateTest, AParticipantThatBeginsMatchesTooFastWaits) {

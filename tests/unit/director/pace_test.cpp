@@ -225,12 +225,12 @@ void expect_that_it_is_slowed_down_alone(SlowPublisher& publisher) {
 }
 
 TEST(PaceTest, AMatchWhoseCamerasTakeLongIsSlowedDownAlone) {
-    SlowPublisher publisher(work_for, std::chrono::milliseconds(200));
+    SlowPublisher publisher(work_for, std::chrono::milliseconds(35));
     expect_that_it_is_slowed_down_alone(publisher);
 }
 
 TEST(PaceTest, AMatchWhoseWritesWaitLongIsSlowedDownAlone) {
-    SlowPublisher publisher(wait_for, std::chrono::milliseconds(200));
+    SlowPublisher publisher(wait_for, std::chrono::milliseconds(60));
     expect_that_it_is_slowed_down_alone(publisher);
 }
 
