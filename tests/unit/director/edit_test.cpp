@@ -48,6 +48,8 @@ Recorded random_match(std::uint32_t seed) {
         if (random() % 25 == 0) match.events.push_back({1, frame.frame_time, 99, player(), player(), 1.0F});
         match.frames.push_back(std::move(frame));
     }
+    // Before the first poses nobody knows who an event is about.
+    std::erase_if(match.events, [](const MatchEvent& event) { return event.frame_time == 0; });
     return match;
 }
 
@@ -165,7 +167,7 @@ class EditTest : public testing::TestWithParam<double> {
 
 TEST_P(EditTest, ShowsTheProgrammeOfThePureEditor) {
     std::set<bool> kinds;
-    for (const std::uint32_t seed : {1U, 2U, 7U}) {
+    for (std::uint32_t seed = 1; seed <= 8; ++seed) {
         const Recorded match = random_match(seed);
         const auto cuts = shown(match, GetParam(), 1);
         EXPECT_GT(cuts.size(), 1U);
