@@ -59,6 +59,11 @@ void Gateway::stop_receiving() {
         match->resign();
 }
 
+bool Gateway::leads(const std::string& match_id) const {
+    const auto match = table_.find(match_id);
+    return match && match->is_leading();
+}
+
 Gateway::HandOver Gateway::hand_over() {
     HandOver done;
     for (const auto& match : table_.all()) {

@@ -97,12 +97,13 @@ json page_of(const std::string& name, const director::MapEntry& map) {
 
 }  // namespace
 
-std::string status_page(const director::View& view, const std::map<std::string, director::MapEntry>& maps) {
+std::string status_page(const director::View& view, const std::map<std::string, director::MapEntry>& maps,
+                        const std::function<bool(const std::string&)>& leads) {
     json page = {{"maps", json::array()}, {"matches", json::array()}};
     for (const auto& [name, map] : maps)
         page["maps"].push_back(page_of(name, map));
     for (const auto& match : view.matches)
-        page["matches"].push_back(page_of(match));
+        page["matches"].emplace_back(page_of(match))["leads"] = leads(match.match_id);
     return config::format_json(page);
 }
 

@@ -1,6 +1,7 @@
 // What runs, as JSON: for operators, and for viewers.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
 
@@ -9,8 +10,10 @@
 
 namespace camdir::http {
 
+// `leads`: whether this director leads the match of an id.
 [[nodiscard]] std::string status_page(const director::View& view,
-                                      const std::map<std::string, director::MapEntry>& maps);
+                                      const std::map<std::string, director::MapEntry>& maps,
+                                      const std::function<bool(const std::string&)>& leads);
 
 // What there is to watch: what observers know, and nothing of them. `broadcasts`: whether there may be
 // something at /broadcast, too.

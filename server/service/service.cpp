@@ -136,7 +136,10 @@ http::Sources Service::sources() {
     sources.broadcast = [this](std::string_view path) {
         return recorder_ ? viewers_resource(recorder_->broadcast(), path) : std::nullopt;
     };
-    sources.status = [this] { return http::status_page(director_.view(view_timeout), maps_.entries()); };
+    sources.status = [this] {
+        return http::status_page(director_.view(view_timeout), maps_.entries(),
+                                 [this](const std::string& match_id) { return gateway_->leads(match_id); });
+    };
     sources.live = [this] { return live_list_.at(http::KeptAnswer::Clock::now()); };
     sources.model = [this](const std::string& map, live::ModelKind kind) { return models_.find(map, kind); };
     sources.join = [this](const std::string& match_id, const std::shared_ptr<live::Viewer>& viewer) {

@@ -217,6 +217,7 @@ class TakeOverTest : public StandbyTest {
             other.write(encoder.encode(camera_of_pose(0), 0, 40));
             return recorder_.has("follow cup 0");
         }));
+        EXPECT_FALSE(gateway_->leads("cup"));
         for (std::uint32_t i = 0; i <= count; ++i)  // that of pose 0 was shown
             gateway_->publish("cup", camera_of_pose(i));
         leader.reset();
@@ -230,6 +231,8 @@ class TakeOverTest : public StandbyTest {
             }
             return is_last;
         }));
+        EXPECT_TRUE(gateway_->leads("cup"));
+        EXPECT_FALSE(gateway_->leads("another match"));
         return numbers;
     }
 

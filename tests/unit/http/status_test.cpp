@@ -31,7 +31,8 @@ TEST(Status, ShowsMapsMatchesShotsAndObservers) {
     failed.state = director::LoadState::failed;
     failed.reason = "damaged";
 
-    const json page = json::parse(status_page({{match, busy}}, {{"dm1", failed}}));
+    const json page = json::parse(
+        status_page({{match, busy}}, {{"dm1", failed}}, [](const std::string& id) { return id == "busy"; }));
     EXPECT_EQ(page["maps"][0]["name"], "dm1");
     EXPECT_EQ(page["maps"][0]["state"], "failed");
     EXPECT_EQ(page["maps"][0]["reason"], "damaged");
@@ -57,6 +58,8 @@ TEST(Status, ShowsMapsMatchesShotsAndObservers) {
     EXPECT_EQ(page["matches"][0]["shots"][1]["since"], 77);
     EXPECT_EQ(page["matches"][0]["observers"][0]["state"], "waiting for player");
     EXPECT_EQ(page["matches"][1]["state"], "no answer");
+    EXPECT_EQ(page["matches"][0]["leads"], false);
+    EXPECT_EQ(page["matches"][1]["leads"], true);
 }
 
 TEST(Status, NamesTheKindsOfEventsAndCarriesOthersAlong) {
@@ -64,7 +67,8 @@ TEST(Status, NamesTheKindsOfEventsAndCarriesOthersAlong) {
         director::MatchView match;
         match.answered = true;
         match.last_event = director::MatchEvent{.kind = kind};
-        return json::parse(status_page({{match}}, {}))["matches"][0]["last_event"]["kind"];
+        return json::parse(status_page(
+            {{match}}, {}, [](const std::string&) { return true; }))["matches"][0]["last_event"]["kind"];
     };
     EXPECT_EQ(shown(2), "flag taken");
     EXPECT_EQ(shown(10), "weapon");
@@ -76,7 +80,7 @@ TEST(Status, AcceptsNamesThatAreNotUtf8) {
     director::MatchView match;
     match.match_id = "\xff\xfe";
     match.answered = true;
-    EXPECT_TRUE(json::accept(status_page({{match}}, {})));
+    EXPECT_TRUE(json::accept(status_page({{match}}, {}, [](const std::string&) { return true; })));
 }
 
 }  // namespace
