@@ -166,7 +166,8 @@ void add_inspect(CLI::App& root, Run& run) {
     const auto options = std::make_shared<InspectOptions>();
     CLI::App* command = root.add_subcommand("inspect", "Show the contents of a baked map.");
     command->add_option("FILE.vfs", options->file, "Baked map")->required();
-    command->add_option("--json", options->json, "Write the same as JSON to this file; - is standard output");
+    command->add_option("--json", options->json,
+                        "Write the same as JSON to this file, angles in radians; - is standard output");
     command->callback([options, &run] { run = [options] { return inspect(options->file, options->json); }; });
 }
 
