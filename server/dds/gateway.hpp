@@ -40,12 +40,12 @@ class Gateway final : public director::Publisher {
     [[nodiscard]] bool responsive(std::chrono::nanoseconds limit) const {
         return subscriber_.responsive(limit);
     }
+    // Whether this director leads the match; else it stands by, or does not serve it. Thread-safe.
+    [[nodiscard]] bool leads(const std::string& match_id) const;
     struct HandOver {
         std::size_t led = 0;   // matches that this director led
         std::size_t kept = 0;  // of these, for want of another that could serve them
     };
-    // Whether this director leads the match; else it stands by, or does not serve it. Thread-safe.
-    [[nodiscard]] bool leads(const std::string& match_id) const;
     // Leaves every match to a standby that has cameras, if it has some, and stands by. Thread-safe.
     HandOver hand_over();
     // Takes effect soon: matches of other shards go on here until they do there. Thread-safe.

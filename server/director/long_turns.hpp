@@ -19,7 +19,7 @@ class LongTurns {
     // With all help that the turns may have at best: who has it and who has none are judged alike.
     static constexpr std::int64_t long_ns = 20'000'000;        // other matches hardly notice less
     static constexpr std::int64_t very_long_ns = 500'000'000;  // a single one says all
-    static constexpr int held_up = 40;  // frames in a row whose turns last long, as where writes wait
+    static constexpr int held_up_limit = 40;  // frames in a row whose turns last long, as where writes wait
 
     // Part of the work for the next frame is done.
     void prepared(const Turn::Cost& cost) { since_frame_ += cost; }
@@ -31,10 +31,10 @@ class LongTurns {
         processor_[last] = all.processor;
         helped_[last] = all.helped;
         worked_ = std::min(all.took, std::exchange(last_took_, all.took));  // a stall is no work
-        held_up_ = all.helped >= long_ns ? std::min(held_up_ + 1, held_up) : 0;
+        held_up_frames_ = all.helped >= long_ns ? std::min(held_up_frames_ + 1, held_up_limit) : 0;
         // A single long one, as when a group shot begins, says little, two in a row say all.
         is_long_ = std::max(median(processor_), std::min(before, all.processor)) >= long_ns ||
-                   all.processor >= very_long_ns || held_up_ == held_up;
+                   all.processor >= very_long_ns || held_up_frames_ == held_up_limit;
     }
 
     // Whether one of the last lasted long, or none is known: of the next the processor time is to be
@@ -56,7 +56,7 @@ class LongTurns {
     Turn::Cost since_frame_;
     Last helped_{long_ns, long_ns, long_ns, long_ns, long_ns};
     Last processor_{};
-    int held_up_ = 0;
+    int held_up_frames_ = 0;  // in a row
     std::size_t count_ = 0;
     std::int64_t last_took_ = 0;
     std::int64_t worked_ = 0;

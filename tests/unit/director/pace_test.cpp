@@ -9,9 +9,9 @@
 #include <thread>
 #include <vector>
 
-#include "director/clock.hpp"
 #include "stage.hpp"
 #include "support/eventually.hpp"
+#include "work_for.hpp"
 
 namespace camdir::director {
 namespace {
@@ -124,18 +124,14 @@ TEST(PaceTest, StepsThatHoldAreTakenFaster) {
     EXPECT_EQ(intervals, (std::vector{60, 60, 30, 15, 7, 5, 5}));
 }
 
-void wait_for(std::chrono::milliseconds time) {
+void wait_for(std::chrono::nanoseconds time) {
     std::this_thread::sleep_for(time);
-}
-void work_for(std::chrono::milliseconds time) {
-    for (const std::int64_t end = processor_ns() + time.count() * ms; processor_ns() < end;) {
-    }
 }
 
 // Takes its time over the cameras of the match `m` while it is slow.
 class SlowPublisher final : public MemoryPublisher {
   public:
-    explicit SlowPublisher(void (*take)(std::chrono::milliseconds), std::chrono::milliseconds time)
+    explicit SlowPublisher(void (*take)(std::chrono::nanoseconds), std::chrono::milliseconds time)
         : take_(take), time_(time) {}
     using MemoryPublisher::publish;
     void publish(const std::string& match_id, const CameraFrame& frame) override {
@@ -148,7 +144,7 @@ class SlowPublisher final : public MemoryPublisher {
     std::atomic<bool> is_slow{true};
 
   private:
-    void (*const take_)(std::chrono::milliseconds);
+    void (*const take_)(std::chrono::nanoseconds);
     const std::chrono::milliseconds time_;
 };
 

@@ -10,8 +10,8 @@
 #include <thread>
 #include <vector>
 
-#include "director/clock.hpp"
 #include "support/eventually.hpp"
+#include "work_for.hpp"
 
 namespace camdir::director {
 namespace {
@@ -272,10 +272,7 @@ Turn::Cost cost_of(bool is_long, const std::function<void()>& item) {
 
 TEST(WorkerPool, TheCostOfATurnIsToldAsIfAllHadHelped) {
     const std::int64_t item_ns = 10'000'000;
-    const auto works = [item_ns] {
-        for (const std::int64_t end = processor_ns() + item_ns; processor_ns() < end;) {
-        }
-    };
+    const auto works = [item_ns] { work_for(std::chrono::nanoseconds(item_ns)); };
     const auto waits = [item_ns] { std::this_thread::sleep_for(std::chrono::nanoseconds(item_ns)); };
     for (const bool is_long : {false, true}) {
         const Turn::Cost worked = cost_of(is_long, works);
