@@ -2,14 +2,17 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <chrono>
 #include <set>
+#include <utility>
 
 #include "maps/bake_map.hpp"
 #include "maps/guarded.hpp"
 #include "maps/memory.hpp"
 #include "maps/progress.hpp"
 #include "maps/source.hpp"
+#include "scene/load.hpp"
 
 namespace camdir::maps {
 namespace {
@@ -38,64 +41,120 @@ Result<void> check_map(const config::Map& map) {
 }
 
 void Loader::load(const std::vector<config::Map>& maps) {
-    stop();
-    std::set<std::string> listed;
-    for (const config::Map& map : maps)
-        listed.insert(map.name);
-    for (const std::string& name : listed_) {
-        if (listed.contains(name)) continue;
-        loaded_.erase(name);
-        sink_.removed(name);
-    }
-    listed_ = std::move(listed);
+    stop_opening();
     std::vector<config::Map> changed;
-    for (const config::Map& map : maps) {
-        if (is_unchanged(map)) continue;
-        loaded_.erase(map.name);  // until it is loaded again, which another call may stop
-        sink_.added(map);
-        changed.push_back(map);
+    std::optional<config::Map> kept;
+    {
+        const std::lock_guard lock(mutex_);
+        to_bake_.clear();
+        if (baking_ && goes_on(maps))
+            kept = baking_->map;
+        else if (baking_)
+            baking_->stop.request_stop();
+        std::set<std::string> listed;
+        for (const config::Map& map : maps)
+            listed.insert(map.name);
+        for (const std::string& name : listed_) {
+            if (listed.contains(name)) continue;
+            loaded_.erase(name);
+            sink_.removed(name);
+        }
+        listed_ = std::move(listed);
+        for (const config::Map& map : maps) {
+            if (is_unchanged(map) || map == kept) continue;
+            loaded_.erase(map.name);  // until it is loaded again, which another call may stop
+            sink_.added(map);
+            changed.push_back(map);
+        }
     }
-    thread_ = std::jthread([this, changed](const std::stop_token& token) { run(token, changed); });
+    if (!baker_.joinable()) baker_ = std::jthread([this](const std::stop_token& token) { bake_all(token); });
+    opener_ = std::jthread([this, changed, kept](const std::stop_token& token) {
+        if (kept) bake_again_if_replaced(*kept);
+        open_all(token, changed);
+    });
 }
 
 void Loader::stop() {
-    if (!thread_.joinable()) return;
-    thread_.request_stop();
-    thread_.join();
+    stop_opening();
+    if (!baker_.joinable()) return;
+    {
+        const std::lock_guard lock(mutex_);
+        to_bake_.clear();
+        if (baking_) baking_->stop.request_stop();
+    }
+    baker_.request_stop();
+    baker_.join();
 }
 
-void Loader::run(const std::stop_token& stop, const std::vector<config::Map>& maps) {
+void Loader::stop_opening() {
+    if (!opener_.joinable()) return;
+    opener_.request_stop();
+    opener_.join();
+}
+
+// As far as can be told without reading the source.
+bool Loader::goes_on(const std::vector<config::Map>& maps) const {
+    return !baking_->stop.stop_requested() && std::ranges::find(maps, baking_->map) != maps.end();
+}
+
+void Loader::bake_again_if_replaced(const config::Map& map) {
+    const auto hash = guarded(map.source, [&] { return scene::hash_source(map.source); });
+    const std::lock_guard lock(mutex_);
+    if (!hash || !baking_ || baking_->map != map || !baking_->source_hash) return;
+    if (*hash == *baking_->source_hash) return;
+    spdlog::info("map {}: {} has changed: its bake begins anew", map.name, map.source);
+    baking_->stop.request_stop();
+    to_bake_.push_back(map);
+}
+
+void Loader::open_all(const std::stop_token& stop, const std::vector<config::Map>& maps) {
     std::vector<config::Map> to_bake;
     for (const config::Map& map : maps)
-        if (!stop.stop_requested() && !open_if_current(map)) to_bake.push_back(map);
-    for (const config::Map& map : to_bake)
-        if (!stop.stop_requested()) bake_and_open(map, stop);
+        if (!stop.stop_requested() && !open_if_current(map, stop)) to_bake.push_back(map);
+    unless_stopped(stop, [&] {
+        to_bake_.insert(to_bake_.end(), to_bake.begin(), to_bake.end());
+        bake_wanted_.notify_one();
+    });
 }
 
 // False: the map must be baked.
-bool Loader::open_if_current(const config::Map& map) {
+bool Loader::open_if_current(const config::Map& map, const std::stop_token& stop) {
     if (map.source.empty()) {
-        open(map, 0.0);
+        open(map, 0.0, stop);
         return true;
     }
     const auto freshness = examine(map);
     if (!freshness) {
-        set_failed(map, freshness.error());
+        set_failed(map, freshness.error(), stop);
         return true;
     }
     if (!freshness->warning.empty()) spdlog::warn("map {}: {}", map.name, freshness->warning);
     if (freshness->stale.empty()) {
-        open(map, 0.0);
+        open(map, 0.0, stop);
         return true;
     }
     spdlog::info("map {}: will be baked: {}", map.name, freshness->stale);
-    sink_.loading(map.name, "waiting to be baked");
+    unless_stopped(stop, [&] { sink_.loading(map.name, "waiting to be baked"); });
     return false;
+}
+
+void Loader::bake_all(const std::stop_token& stop) {
+    std::unique_lock lock(mutex_);
+    while (bake_wanted_.wait(lock, stop, [&] { return !to_bake_.empty(); })) {
+        const config::Map map = to_bake_.front();
+        to_bake_.pop_front();
+        const std::stop_token stop_bake = baking_.emplace(Bake{map, {}, {}}).stop.get_token();
+        lock.unlock();
+        bake_and_open(map, stop_bake);
+        lock.lock();
+        baking_.reset();
+    }
 }
 
 void Loader::bake_and_open(const config::Map& map, const std::stop_token& stop) {
     spdlog::info("map {}: baking {}", map.name, map.source);
-    sink_.loading(map.name, "baking");
+    note_source_hash(map);
+    unless_stopped(stop, [&] { sink_.loading(map.name, "baking"); });
     const auto begin = std::chrono::steady_clock::now();
     const auto seconds = [&] {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -103,17 +162,17 @@ void Loader::bake_and_open(const config::Map& map, const std::stop_token& stop) 
     BakeProgress progress;
     const auto show = [&](const bake::Progress& stage) {
         progress.update(stage, seconds());
-        sink_.loading(map.name, activity_of(progress, seconds()));
+        unless_stopped(stop, [&] { sink_.loading(map.name, activity_of(progress, seconds())); });
     };
     const auto baked = bake_map(map, {.memory = available_memory()}, show, stop);
     if (!baked && baked.error().code == ErrorCode::interrupted) return;
-    if (!baked) return set_failed(map, baked.error());
+    if (!baked) return set_failed(map, baked.error(), stop);
     const double bake_seconds = seconds();
     spdlog::info("map {}: baked in {:.1f} s", map.name, bake_seconds);
-    open(map, bake_seconds);
+    open(map, bake_seconds, stop);
 }
 
-void Loader::open(const config::Map& map, double bake_seconds) {
+void Loader::open(const config::Map& map, double bake_seconds, const std::stop_token& stop) {
     const auto file = state_of(map.file);  // before it is read: it may be replaced meanwhile
     // With what its queries look up: no match's worker must wait for that, or run out of memory.
     auto opened = guarded(map.file, [&] {
@@ -125,17 +184,35 @@ void Loader::open(const config::Map& map, double bake_seconds) {
         }
         return freespace;
     });
-    if (!opened) return set_failed(map, opened.error());
+    if (!opened) return set_failed(map, opened.error(), stop);
     spdlog::info("map {}: {} vertices, {} triangles", map.name, opened->vertices().size(),
                  opened->triangles().size());
-    loaded_[map.name] = {map, file};
-    sink_.ready(map.name, std::move(*opened), bake_seconds);
+    unless_stopped(stop, [&] {
+        loaded_[map.name] = {map, file};
+        sink_.ready(map.name, std::move(*opened), bake_seconds);
+    });
 }
 
-void Loader::set_failed(const config::Map& map, const Error& error) {
-    spdlog::error("map {}: {}", map.name, error.message);
-    loaded_.erase(map.name);
-    sink_.failed(map.name, error.message);
+void Loader::set_failed(const config::Map& map, const Error& error, const std::stop_token& stop) {
+    unless_stopped(stop, [&] {
+        spdlog::error("map {}: {}", map.name, error.message);
+        loaded_.erase(map.name);
+        sink_.failed(map.name, error.message);
+    });
+}
+
+// What is stopped says nothing any more of a map that load() has removed or begun anew.
+template <class Tell>
+void Loader::unless_stopped(const std::stop_token& stop, const Tell& tell) {
+    const std::lock_guard lock(mutex_);
+    if (!stop.stop_requested()) tell();
+}
+
+// Before it is read to be baked: where it is replaced between, the next load() bakes it again.
+void Loader::note_source_hash(const config::Map& map) {
+    const auto hash = guarded(map.source, [&] { return scene::hash_source(map.source); });
+    const std::lock_guard lock(mutex_);
+    if (hash) baking_->source_hash = *hash;
 }
 
 bool Loader::is_unchanged(const config::Map& map) const {

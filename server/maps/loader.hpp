@@ -1,11 +1,16 @@
 // Opens the configured maps, and bakes those whose file is missing or stale.
 #pragma once
 
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <mutex>
 #include <optional>
 #include <set>
+#include <stop_token>
 #include <string>
 #include <thread>
 #include <vector>
@@ -20,8 +25,8 @@ namespace camdir::maps {
 // for it that are right.
 [[nodiscard]] Result<void> check_map(const config::Map& map);
 
-// Receives the state of each map; all are set. Called from load() and from the loader's thread, never from
-// both at once.
+// Receives the state of each map; all are set. Called from load() and from the loader's threads, by one at a
+// time.
 struct LoaderSink {
     std::function<void(const config::Map& map)> added;  // new or changed: will be loaded
     std::function<void(const std::string& map)> removed;
@@ -31,15 +36,16 @@ struct LoaderSink {
     std::function<void(const std::string& map, const std::string& reason)> failed;
 };
 
-// Works on its own thread, one map after the other, those that need no bake first. load and stop: one thread
-// at a time.
+// Opens maps on a thread of its own, one after the other, and bakes on another what must be baked. load and
+// stop: one thread at a time.
 class Loader {
   public:
     explicit Loader(LoaderSink sink) : sink_(std::move(sink)) {}
     ~Loader() { stop(); }
 
-    // Replaces the list of maps: stops the bake of an earlier call, removes maps that are no longer listed,
-    // and skips those that are loaded and whose entry and file did not change.
+    // Replaces the list of maps: removes those that are no longer listed, and skips those that are loaded and
+    // whose entry and file did not change. A bake goes on whose map's entry and source did not change; what
+    // else an earlier call has begun is stopped.
     void load(const std::vector<config::Map>& maps);
 
     // Stops the running bake; maps that are not loaded yet stay so.
@@ -58,19 +64,37 @@ class Loader {
         std::optional<FileState> file;
     };
 
-    void run(const std::stop_token& stop, const std::vector<config::Map>& maps);
-    bool open_if_current(const config::Map& map);
+    struct Bake {
+        config::Map map;
+        std::optional<std::uint64_t> source_hash;  // of what is baked; nothing: not read yet
+        std::stop_source stop;
+    };
+
+    void stop_opening();
+    [[nodiscard]] bool goes_on(const std::vector<config::Map>& maps) const;
+    void open_all(const std::stop_token& stop, const std::vector<config::Map>& maps);
+    void bake_again_if_replaced(const config::Map& map);
+    void bake_all(const std::stop_token& stop);
+    bool open_if_current(const config::Map& map, const std::stop_token& stop);
+    void note_source_hash(const config::Map& map);
     void bake_and_open(const config::Map& map, const std::stop_token& stop);
-    void open(const config::Map& map, double bake_seconds);
-    void set_failed(const config::Map& map, const Error& error);
+    void open(const config::Map& map, double bake_seconds, const std::stop_token& stop);
+    void set_failed(const config::Map& map, const Error& error, const std::stop_token& stop);
+    template <class Tell>
+    void unless_stopped(const std::stop_token& stop, const Tell& tell);
     [[nodiscard]] bool is_unchanged(const config::Map& map) const;
     // None: it cannot be told.
     [[nodiscard]] static std::optional<FileState> state_of(const std::string& file);
 
     const LoaderSink sink_;
     std::set<std::string> listed_;
-    std::map<std::string, LoadedFile> loaded_;  // of the thread while it runs
-    std::jthread thread_;
+    std::mutex mutex_;  // of what follows, and of calls of the sink
+    std::map<std::string, LoadedFile> loaded_;
+    std::deque<config::Map> to_bake_;
+    std::optional<Bake> baking_;
+    std::condition_variable_any bake_wanted_;
+    std::jthread opener_;
+    std::jthread baker_;
 };
 
 }  // namespace camdir::maps

@@ -5,7 +5,9 @@
 
 #include <chrono>
 #include <filesystem>
+#include <mutex>
 #include <thread>
+#include <utility>
 
 #include "base/file.hpp"
 #include "support/eventually.hpp"
@@ -34,6 +36,27 @@ class LoaderTest : public testing::Test {
         return map;
     }
 
+    // Begins to bake a map, and stays at the begin for as long as what it returns exists: as if another
+    // process baked it.
+    [[nodiscard]] PendingFile begin_bake(const config::Map& map) {
+        auto held = PendingFile::begin(map.file);
+        EXPECT_TRUE(held && *held);
+        loader_.load({map});
+        EXPECT_TRUE(test::eventually([&] {
+            const std::scoped_lock lock(mutex_);
+            return activity_.starts_with(map.name + " baking: waiting for another bake");
+        }));
+        return std::move(**held);
+    }
+
+    void wait_for_end_of(std::size_t maps) {
+        EXPECT_TRUE(test::eventually([&] {
+            const std::scoped_lock lock(mutex_);
+            return ended_ >= maps;
+        }));
+        loader_.stop();
+    }
+
     // Loads the maps to the end; what the sink received, without the activities.
     std::vector<std::string> load(const std::vector<config::Map>& maps) {
         events_.clear();
@@ -48,11 +71,7 @@ class LoaderTest : public testing::Test {
             for (const std::string& event : events_)
                 pending += event.starts_with("added ") ? 1 : 0;
         }
-        EXPECT_TRUE(test::eventually([&] {
-            const std::scoped_lock lock(mutex_);
-            return ended_ >= pending;
-        }));
-        loader_.stop();
+        wait_for_end_of(pending);
         return events_;
     }
 
@@ -66,7 +85,11 @@ class LoaderTest : public testing::Test {
         LoaderSink sink;
         sink.added = [this](const config::Map& map) { note("added " + map.name); };
         sink.removed = [this](const std::string& map) { note("removed " + map); };
-        sink.loading = [](const std::string&, const std::string&) {};
+        sink.loading = [this](const std::string& map, const std::string& activity) {
+            const std::scoped_lock lock(mutex_);
+            if (activity == "baking") bakes_.push_back(map);
+            activity_ = map + " " + activity;
+        };
         sink.ready = [this](const std::string& map, const freespace::Freespace& freespace, double seconds) {
             EXPECT_FALSE(freespace.triangles().empty());
             vertices_ = freespace.vertices().size();
@@ -81,6 +104,8 @@ class LoaderTest : public testing::Test {
     test::TemporaryFolder folder_;
     std::mutex mutex_;
     std::vector<std::string> events_;
+    std::vector<std::string> bakes_;  // in the order of their begin
+    std::string activity_;            // the last one
     std::size_t ended_ = 0;
     std::size_t vertices_ = 0;  // of the map that was ready last
     Loader loader_{sink()};
@@ -147,6 +172,60 @@ TEST_F(LoaderTest, AMapThatFailsDoesNotStopTheOthers) {
     EXPECT_THAT(
         load({missing, add_room("a")}),
         ElementsAre("added missing", "added a", StartsWith("failed missing: " + missing.file), "baked a"));
+}
+
+TEST_F(LoaderTest, ABakeGoesOnWhereItsMapIsListedAsBefore) {
+    const config::Map a = add_room("a");
+    {
+        const PendingFile held = begin_bake(a);
+        loader_.load({a, add_room("b")});
+        EXPECT_THAT(events_, ElementsAre("added a", "added b"));
+    }
+    wait_for_end_of(2);
+    EXPECT_THAT(events_, ElementsAre("added a", "added b", "baked a", "baked b"));
+    EXPECT_THAT(bakes_, ElementsAre("a", "b"));
+}
+
+TEST_F(LoaderTest, FilesAreOpenedBesideABakeThatGoesOn) {
+    const config::Map a = add_room("a");
+    config::Map b = add_room("b");
+    ASSERT_THAT(load({b}), ElementsAre("added b", "baked b"));
+    load({});
+    events_.clear();
+    ended_ = 0;
+    const PendingFile held = begin_bake(a);
+    loader_.load({a, b});
+    wait_for_end_of(1);
+    EXPECT_THAT(events_, ElementsAre("added a", "added b", "opened b"));
+}
+
+TEST_F(LoaderTest, ABakeBeginsAnewWhereItsSourceWasReplaced) {
+    const config::Map a = add_room("a");
+    {
+        const PendingFile held = begin_bake(a);
+        EXPECT_EQ(add_room("a", 768.0), a);
+        loader_.load({a});
+        EXPECT_TRUE(test::eventually([&] {
+            const std::scoped_lock lock(mutex_);
+            return bakes_.size() == 2;
+        }));
+    }
+    wait_for_end_of(1);
+    EXPECT_THAT(events_, ElementsAre("added a", "baked a"));
+    EXPECT_GT(freespace::Freespace::open(a.file)->bounds().max().x(), 512.0F);
+}
+
+TEST_F(LoaderTest, ABakeEndsWhereItsMapIsListedNoMoreOrOtherwise) {
+    config::Map a = add_room("a");
+    {
+        const PendingFile held = begin_bake(a);
+        loader_.load({});
+        a.d0 = 48.0;
+        loader_.load({a});
+    }
+    wait_for_end_of(1);
+    EXPECT_THAT(events_, ElementsAre("added a", "removed a", "added a", "baked a"));
+    EXPECT_EQ(freespace::Freespace::open(a.file)->metadata().d0, 48.0F);
 }
 
 }  // namespace
