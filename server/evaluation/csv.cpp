@@ -1,5 +1,7 @@
 #include "evaluation/csv.hpp"
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -47,13 +49,16 @@ class Table {
     Result<void> read_header(std::string_view line) {
         const auto names = split(line);
         for (const TextColumn& column : columns_) {
-            std::size_t place = 0;
-            while (place < names.size() && names[place] != column.name && names[place] != column.alias)
-                ++place;
-            if (place == names.size() && !column.optional)
+            const auto is_it = [&](std::string_view name) {
+                return name == column.name || name == column.alias;
+            };
+            const auto found = std::ranges::find_if(names, is_it);
+            if (found == names.end() && !column.optional)
                 return fail("the header lacks the column \"" + std::string(column.name) + "\"; found " +
                             quoted(line));
-            places_.push_back(place);
+            if (found != names.end() && std::ranges::count(names, *found) > 1)
+                return fail("the header has the column " + quoted(*found) + " twice, expected once");
+            places_.push_back(static_cast<std::size_t>(found - names.begin()));
         }
         field_count_ = names.size();
         return {};

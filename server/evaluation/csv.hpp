@@ -24,10 +24,10 @@ struct Column {
 // file's name and the line are put before them.
 using RowSink = std::function<Result<void>(std::span<const double>)>;
 
-// Reads the header line, which must name every one of `columns` (others are ignored, the order is free), then
-// hands each row to `sink`. Fields are plain numbers without quotes; lines may end in CR LF; the last line
-// may lack its end; the first may begin with the byte order mark of UTF-8, as spreadsheets write it. Errors
-// name the line, the column, what was found and what was expected.
+// Reads the header line, which must name every one of `columns` once (others are ignored, the order is free),
+// then hands each row to `sink`. Fields are plain numbers without quotes; lines may end in CR LF; the last
+// line may lack its end; the first may begin with the byte order mark of UTF-8, as spreadsheets write it.
+// Errors name the line, the column, what was found and what was expected.
 //
 // `bytes` are text, or gzip of it; the limits are those of for_each_line().
 [[nodiscard]] Result<void> read_csv(std::span<const std::byte> bytes, const std::string& name,
