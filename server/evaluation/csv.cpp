@@ -39,6 +39,12 @@ std::string shown(double value) {
     return {text.data(), end.ptr};
 }
 
+// With its other name, if it has one.
+std::string name_of(const TextColumn& column) {
+    const std::string name = quoted(column.name);
+    return std::string_view(column.name) == column.alias ? name : name + " or " + quoted(column.alias);
+}
+
 class Table {
   public:
     Table(std::span<const TextColumn> columns, const TextRowSink& sink)
@@ -54,10 +60,10 @@ class Table {
             };
             const auto found = std::ranges::find_if(names, is_it);
             if (found == names.end() && !column.optional)
-                return fail("the header lacks the column \"" + std::string(column.name) + "\"; found " +
+                return fail("the header lacks the column " + quoted(column.name) + "; found " + quoted(line));
+            if (std::ranges::count_if(names, is_it) > 1)
+                return fail("the header has the column " + name_of(column) + " more than once; found " +
                             quoted(line));
-            if (found != names.end() && std::ranges::count(names, *found) > 1)
-                return fail("the header has the column " + quoted(*found) + " twice, expected once");
             places_.push_back(static_cast<std::size_t>(found - names.begin()));
         }
         field_count_ = names.size();

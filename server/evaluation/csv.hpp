@@ -33,8 +33,8 @@ using RowSink = std::function<Result<void>(std::span<const double>)>;
 [[nodiscard]] Result<void> read_csv(std::span<const std::byte> bytes, const std::string& name,
                                     std::span<const Column> columns, const RowSink& sink);
 
-// A column whose fields are not all numbers: its name, and another one that some files have for it. Where an
-// optional one is missing, its fields are empty.
+// A column whose fields are not all numbers: its name, and another one that some files have for it instead.
+// Where an optional one is missing, its fields are empty.
 struct TextColumn {
     const char* name;
     const char* alias;

@@ -72,18 +72,18 @@ Result<Freshness> freshness_of(const config::Map& map) {
         std::error_code unreachable;  // as a loop of symbolic links is
         const bool missing = !std::filesystem::exists(map.file, unreachable);
         if (unreachable) return tl::unexpected(opened.error());
-        return Freshness{missing ? map.file + " was not there" : opened.error().message, ""};
+        return Freshness{missing ? map.file + " was not there" : opened.error().message, "", *hash};
     }
-    if (!hash) return Freshness{"", hash.error().message + ": " + map.file + " is used as it is"};
+    if (!hash) return Freshness{"", hash.error().message + ": " + map.file + " is used as it is", {}};
     if (opened->metadata().source_hash != *hash)
         return Freshness{"it was baked from other bytes (" + opened->metadata().source_name + ") than " +
                              map.source + " has",
-                         ""};
+                         "", *hash};
     const auto options = read_options_of(map);
     if (!options) return tl::unexpected(options.error());
     const std::string other =
         difference(opened->metadata().parameters, bake::to_json(parameters_of(map), *options));
-    return Freshness{other.empty() ? "" : "it was baked with " + other, ""};
+    return Freshness{other.empty() ? "" : "it was baked with " + other, "", *hash};
 }
 
 }  // namespace

@@ -17,8 +17,9 @@ namespace camdir::maps {
 
 // Whether a map's file must be baked.
 struct Freshness {
-    std::string stale;    // the reason; empty: the file is up to date
-    std::string warning;  // about a file that is used although its source cannot be read
+    std::string stale;                         // the reason; empty: the file is up to date
+    std::string warning;                       // about a file that is used although its source cannot be read
+    std::optional<std::uint64_t> source_hash;  // scene::hash_source(); nothing: it cannot be read
 };
 
 // For a map with a source. Stale: the file is missing, damaged or of another format version, or was baked

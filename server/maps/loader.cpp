@@ -42,13 +42,12 @@ Result<void> check_map(const config::Map& map) {
 
 void Loader::load(const std::vector<config::Map>& maps) {
     stop_opening();
-    std::vector<config::Map> changed;
-    std::optional<config::Map> kept;
+    Work work;
     {
         const std::lock_guard lock(mutex_);
         to_bake_.clear();
-        if (baking_ && goes_on(maps))
-            kept = baking_->map;
+        if (baking_ && !baking_->stop.stop_requested() && std::ranges::find(maps, baking_->map) != maps.end())
+            work.kept = baking_;
         else if (baking_)
             baking_->stop.request_stop();
         std::set<std::string> listed;
@@ -61,86 +60,117 @@ void Loader::load(const std::vector<config::Map>& maps) {
         }
         listed_ = std::move(listed);
         for (const config::Map& map : maps) {
-            if (is_unchanged(map) || map == kept) continue;
+            if (work.kept && map == work.kept->map) continue;
+            if (is_unchanged(map)) {
+                work.unchanged.push_back(map);
+                continue;
+            }
             loaded_.erase(map.name);  // until it is loaded again, which another call may stop
             sink_.added(map);
-            changed.push_back(map);
+            work.changed.push_back(map);
         }
     }
     if (!baker_.joinable()) baker_ = std::jthread([this](const std::stop_token& token) { bake_all(token); });
-    opener_ = std::jthread([this, changed, kept](const std::stop_token& token) {
-        if (kept) bake_again_if_replaced(*kept);
-        open_all(token, changed);
-    });
+    opener_ = std::jthread([this, work](const std::stop_token& token) { open_all(work, token); });
 }
 
 void Loader::stop() {
-    stop_opening();
-    if (!baker_.joinable()) return;
+    opener_.request_stop();
     {
         const std::lock_guard lock(mutex_);
         to_bake_.clear();
         if (baking_) baking_->stop.request_stop();
     }
+    stop_opening();
+    if (!baker_.joinable()) return;
     baker_.request_stop();
     baker_.join();
 }
 
+// What it has begun to open is opened.
 void Loader::stop_opening() {
     if (!opener_.joinable()) return;
     opener_.request_stop();
     opener_.join();
 }
 
-// As far as can be told without reading the source.
-bool Loader::goes_on(const std::vector<config::Map>& maps) const {
-    return !baking_->stop.stop_requested() && std::ranges::find(maps, baking_->map) != maps.end();
-}
-
-void Loader::bake_again_if_replaced(const config::Map& map) {
-    const auto hash = guarded(map.source, [&] { return scene::hash_source(map.source); });
-    const std::lock_guard lock(mutex_);
-    if (!hash || !baking_ || baking_->map != map || !baking_->source_hash) return;
-    if (*hash == *baking_->source_hash) return;
-    spdlog::info("map {}: {} has changed: its bake begins anew", map.name, map.source);
-    baking_->stop.request_stop();
-    to_bake_.push_back(map);
-}
-
-void Loader::open_all(const std::stop_token& stop, const std::vector<config::Map>& maps) {
+void Loader::open_all(const Work& work, const std::stop_token& stop) {
+    std::vector<config::Map> changed = work.changed;
+    if (work.kept && !goes_on(*work.kept)) changed.insert(changed.begin(), work.kept->map);
+    wait_for_stopped_bake(stop);
     std::vector<config::Map> to_bake;
-    for (const config::Map& map : maps)
-        if (!stop.stop_requested() && !open_if_current(map, stop)) to_bake.push_back(map);
+    for (const config::Map& map : changed)
+        if (!stop.stop_requested() && !open_if_current(map)) to_bake.push_back(map);
+    for (const config::Map& map : work.unchanged)
+        if (!stop.stop_requested() && has_another_source(map)) to_bake.push_back(map);
     unless_stopped(stop, [&] {
         to_bake_.insert(to_bake_.end(), to_bake.begin(), to_bake.end());
-        bake_wanted_.notify_one();
+        bakes_changed_.notify_all();
     });
 }
 
+// False: the map is to be loaded anew, because its source was replaced, what is baked has been put in place,
+// or the bake has failed meanwhile.
+bool Loader::goes_on(const Bake& kept) {
+    const auto freshness = examine(kept.map);
+    const bool there = freshness && freshness->stale.empty() && freshness->warning.empty();
+    const bool replaced =
+        freshness && freshness->source_hash && kept.source_hash && freshness->source_hash != kept.source_hash;
+    const std::lock_guard lock(mutex_);
+    const bool runs = baking_ && baking_->map == kept.map;
+    const bool wanted = runs ? !there : loaded_.contains(kept.map.name);
+    if (wanted && !replaced) return true;
+    if (replaced)
+        spdlog::info("map {}: {} has changed: its bake begins anew", kept.map.name, kept.map.source);
+    if (runs) baking_->stop.request_stop();
+    loaded_.erase(kept.map.name);
+    return false;
+}
+
+// It may still put its result in place, under a file that is about to be opened.
+void Loader::wait_for_stopped_bake(const std::stop_token& stop) {
+    std::unique_lock lock(mutex_);
+    bakes_changed_.wait(lock, stop, [&] { return !baking_ || !baking_->stop.stop_requested(); });
+}
+
 // False: the map must be baked.
-bool Loader::open_if_current(const config::Map& map, const std::stop_token& stop) {
+bool Loader::open_if_current(const config::Map& map) {
+    const std::stop_token never;
     if (map.source.empty()) {
-        open(map, 0.0, stop);
+        open(map, 0.0, never);
         return true;
     }
     const auto freshness = examine(map);
     if (!freshness) {
-        set_failed(map, freshness.error(), stop);
+        set_failed(map, freshness.error(), never);
         return true;
     }
     if (!freshness->warning.empty()) spdlog::warn("map {}: {}", map.name, freshness->warning);
     if (freshness->stale.empty()) {
-        open(map, 0.0, stop);
+        open(map, 0.0, never);
         return true;
     }
     spdlog::info("map {}: will be baked: {}", map.name, freshness->stale);
-    unless_stopped(stop, [&] { sink_.loading(map.name, "waiting to be baked"); });
+    unless_stopped(never, [&] { sink_.loading(map.name, "waiting to be baked"); });
     return false;
+}
+
+// Of a loaded map, which is served as it is until it is baked again.
+bool Loader::has_another_source(const config::Map& map) {
+    if (map.source.empty()) return false;
+    const auto freshness = examine(map);
+    if (!freshness || freshness->stale.empty()) return false;
+    spdlog::info("map {}: will be baked again: {}", map.name, freshness->stale);
+    const std::lock_guard lock(mutex_);
+    loaded_.erase(map.name);
+    sink_.added(map);
+    sink_.loading(map.name, "waiting to be baked");
+    return true;
 }
 
 void Loader::bake_all(const std::stop_token& stop) {
     std::unique_lock lock(mutex_);
-    while (bake_wanted_.wait(lock, stop, [&] { return !to_bake_.empty(); })) {
+    while (bakes_changed_.wait(lock, stop, [&] { return !to_bake_.empty(); })) {
         const config::Map map = to_bake_.front();
         to_bake_.pop_front();
         const std::stop_token stop_bake = baking_.emplace(Bake{map, {}, {}}).stop.get_token();
@@ -148,6 +178,7 @@ void Loader::bake_all(const std::stop_token& stop) {
         bake_and_open(map, stop_bake);
         lock.lock();
         baking_.reset();
+        bakes_changed_.notify_all();
     }
 }
 
@@ -165,10 +196,10 @@ void Loader::bake_and_open(const config::Map& map, const std::stop_token& stop) 
         unless_stopped(stop, [&] { sink_.loading(map.name, activity_of(progress, seconds())); });
     };
     const auto baked = bake_map(map, {.memory = available_memory()}, show, stop);
-    if (!baked && baked.error().code == ErrorCode::interrupted) return;
+    if (stop.stop_requested() || (!baked && baked.error().code == ErrorCode::interrupted)) return;
     if (!baked) return set_failed(map, baked.error(), stop);
-    const double bake_seconds = seconds();
-    spdlog::info("map {}: baked in {:.1f} s", map.name, bake_seconds);
+    const double bake_seconds = *baked ? seconds() : 0.0;  // another process has baked it meanwhile
+    if (*baked) spdlog::info("map {}: baked in {:.1f} s", map.name, bake_seconds);
     open(map, bake_seconds, stop);
 }
 
@@ -201,18 +232,18 @@ void Loader::set_failed(const config::Map& map, const Error& error, const std::s
     });
 }
 
-// What is stopped says nothing any more of a map that load() has removed or begun anew.
+// A stopped bake says nothing any more of a map that load() has removed or begun anew.
 template <class Tell>
 void Loader::unless_stopped(const std::stop_token& stop, const Tell& tell) {
     const std::lock_guard lock(mutex_);
     if (!stop.stop_requested()) tell();
 }
 
-// Before it is read to be baked: where it is replaced between, the next load() bakes it again.
+// Before it is read to be baked: a replacement between costs a needless new bake at the next load().
 void Loader::note_source_hash(const config::Map& map) {
     const auto hash = guarded(map.source, [&] { return scene::hash_source(map.source); });
     const std::lock_guard lock(mutex_);
-    if (hash) baking_->source_hash = *hash;
+    baking_->source_hash = hash.value_or(0);
 }
 
 bool Loader::is_unchanged(const config::Map& map) const {

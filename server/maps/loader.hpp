@@ -26,7 +26,7 @@ namespace camdir::maps {
 [[nodiscard]] Result<void> check_map(const config::Map& map);
 
 // Receives the state of each map; all are set. Called from load() and from the loader's threads, by one at a
-// time.
+// time, which waits for it: it must not call load() or stop().
 struct LoaderSink {
     std::function<void(const config::Map& map)> added;  // new or changed: will be loaded
     std::function<void(const std::string& map)> removed;
@@ -44,8 +44,8 @@ class Loader {
     ~Loader() { stop(); }
 
     // Replaces the list of maps: removes those that are no longer listed, and skips those that are loaded and
-    // whose entry and file did not change. A bake goes on whose map's entry and source did not change; what
-    // else an earlier call has begun is stopped.
+    // whose entry, file and source did not change. A bake goes on whose map's entry and source did not
+    // change, unless somebody has put its result in place; what else an earlier call has begun is stopped.
     void load(const std::vector<config::Map>& maps);
 
     // Stops the running bake; maps that are not loaded yet stay so.
@@ -66,35 +66,46 @@ class Loader {
 
     struct Bake {
         config::Map map;
-        std::optional<std::uint64_t> source_hash;  // of what is baked; nothing: not read yet
+        // Of what is baked; nothing: not read yet; 0: it could not be read.
+        std::optional<std::uint64_t> source_hash;
         std::stop_source stop;
     };
 
-    void stop_opening();
-    [[nodiscard]] bool goes_on(const std::vector<config::Map>& maps) const;
-    void open_all(const std::stop_token& stop, const std::vector<config::Map>& maps);
-    void bake_again_if_replaced(const config::Map& map);
+    // Of a call of load().
+    struct Work {
+        std::vector<config::Map> changed;    // to be loaded
+        std::vector<config::Map> unchanged;  // loaded, with the same entry and file
+        std::optional<Bake> kept;            // goes on
+    };
+
+    void open_all(const Work& work, const std::stop_token& stop);
+    [[nodiscard]] bool goes_on(const Bake& kept);
+    void wait_for_stopped_bake(const std::stop_token& stop);
+    bool open_if_current(const config::Map& map);
+    bool has_another_source(const config::Map& map);
     void bake_all(const std::stop_token& stop);
-    bool open_if_current(const config::Map& map, const std::stop_token& stop);
     void note_source_hash(const config::Map& map);
     void bake_and_open(const config::Map& map, const std::stop_token& stop);
     void open(const config::Map& map, double bake_seconds, const std::stop_token& stop);
     void set_failed(const config::Map& map, const Error& error, const std::stop_token& stop);
     template <class Tell>
     void unless_stopped(const std::stop_token& stop, const Tell& tell);
+    void stop_opening();
+    // With the mutex held.
     [[nodiscard]] bool is_unchanged(const config::Map& map) const;
     // None: it cannot be told.
     [[nodiscard]] static std::optional<FileState> state_of(const std::string& file);
 
     const LoaderSink sink_;
     std::set<std::string> listed_;
+    std::jthread opener_;
+    std::jthread baker_;
+
     std::mutex mutex_;  // of what follows, and of calls of the sink
     std::map<std::string, LoadedFile> loaded_;
     std::deque<config::Map> to_bake_;
     std::optional<Bake> baking_;
-    std::condition_variable_any bake_wanted_;
-    std::jthread opener_;
-    std::jthread baker_;
+    std::condition_variable_any bakes_changed_;  // to_bake_, or whether one runs
 };
 
 }  // namespace camdir::maps

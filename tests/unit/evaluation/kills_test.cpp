@@ -82,6 +82,9 @@ TEST(Kills, ErrorsNameTheLineAndTheReason) {
     EXPECT_EQ(error_of(""), "events.csv: empty, expected a header line");
     EXPECT_EQ(error_of("t_ms,event,player\n"),
               "events.csv:1: the header lacks the column \"other\"; found \"t_ms,event,player\"");
+    EXPECT_EQ(error_of("t_ms,event,kind,player,other\n"),
+              "events.csv:1: the header has the column \"event\" or \"kind\" more than once; found "
+              "\"t_ms,event,kind,player,other\"");
     EXPECT_EQ(error_of(first + "2,kill,4\n"), "events.csv:3: 3 fields, expected 4 as in the header");
     EXPECT_EQ(error_of(first + "2,kill,4,5\n"),
               "events.csv:3: column \"other\" is 5, expected a player of the trace");

@@ -112,7 +112,8 @@ TEST(Trace, ErrorsNameLineColumnAndExpectation) {
     EXPECT_EQ(error_of(""), "match.csv: empty, expected a header line");
     EXPECT_EQ(error_of(header), "match.csv: no rows, expected at least one frame");
     EXPECT_THAT(error_of("t_ms,player\n"), HasSubstr("match.csv:1: the header lacks the column \"x\""));
-    EXPECT_EQ(error_of("x," + start), "match.csv:1: the header has the column \"x\" twice, expected once");
+    EXPECT_THAT(error_of("x," + start),
+                HasSubstr("match.csv:1: the header has the column \"x\" more than once"));
     EXPECT_EQ(error_of(start + "24,0,0,0,0,up,0,0,0,0,0,26,1,0,0,1\n"),
               "match.csv:3: column \"pitch\" is \"up\", expected a number from -1e+06 to 1e+06");
     EXPECT_THAT(error_of(start + "24,0,0,0,0,nan,0,0,0,0,0,26,1,0,0,1\n"), HasSubstr("column \"pitch\""));

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <filesystem>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <utility>
 
@@ -36,18 +37,18 @@ class LoaderTest : public testing::Test {
         return map;
     }
 
-    // Begins to bake a map, and stays at the begin for as long as what it returns exists: as if another
-    // process baked it.
-    [[nodiscard]] PendingFile begin_bake(const config::Map& map) {
-        auto held = PendingFile::begin(map.file);
-        EXPECT_TRUE(held && *held);
+    // Begins to bake a map, and stays at the begin until finish_bake(): as if another process baked it.
+    void begin_bake(const config::Map& map) {
+        auto claimed = PendingFile::begin(map.file);
+        ASSERT_TRUE(claimed && *claimed);
+        held_.emplace(std::move(**claimed));
         loader_.load({map});
-        EXPECT_TRUE(test::eventually([&] {
+        ASSERT_TRUE(test::eventually([&] {
             const std::scoped_lock lock(mutex_);
             return activity_.starts_with(map.name + " baking: waiting for another bake");
         }));
-        return std::move(**held);
     }
+    void finish_bake() { held_.reset(); }
 
     void wait_for_end_of(std::size_t maps) {
         EXPECT_TRUE(test::eventually([&] {
@@ -101,6 +102,11 @@ class LoaderTest : public testing::Test {
         return sink;
     }
 
+    std::vector<std::string> events() {
+        const std::scoped_lock lock(mutex_);
+        return events_;
+    }
+
     test::TemporaryFolder folder_;
     std::mutex mutex_;
     std::vector<std::string> events_;
@@ -109,6 +115,7 @@ class LoaderTest : public testing::Test {
     std::size_t ended_ = 0;
     std::size_t vertices_ = 0;  // of the map that was ready last
     Loader loader_{sink()};
+    std::optional<PendingFile> held_;
 };
 
 TEST_F(LoaderTest, BakesOnceAndThenLoadsOnlyWhatChanged) {
@@ -123,6 +130,16 @@ TEST_F(LoaderTest, BakesOnceAndThenLoadsOnlyWhatChanged) {
     EXPECT_THAT(load({finer}), ElementsAre("added a", "opened a"));
     EXPECT_THAT(load({}), ElementsAre("removed a"));
     EXPECT_THAT(load({finer}), ElementsAre("added a", "opened a"));
+}
+
+TEST_F(LoaderTest, BakesALoadedMapAgainWhoseSourceWasReplaced) {
+    const config::Map a = add_room("a");
+    ASSERT_THAT(load({a}), ElementsAre("added a", "baked a"));
+    EXPECT_EQ(add_room("a", 768.0), a);
+    loader_.load({a});
+    wait_for_end_of(2);
+    EXPECT_THAT(events_, ElementsAre("added a", "baked a", "added a", "baked a"));
+    EXPECT_THAT(load({a}), IsEmpty());
 }
 
 TEST_F(LoaderTest, AMapWhoseBakeWasStoppedIsLoadedAnewAsItWasBefore) {
@@ -176,11 +193,11 @@ TEST_F(LoaderTest, AMapThatFailsDoesNotStopTheOthers) {
 
 TEST_F(LoaderTest, ABakeGoesOnWhereItsMapIsListedAsBefore) {
     const config::Map a = add_room("a");
-    {
-        const PendingFile held = begin_bake(a);
-        loader_.load({a, add_room("b")});
-        EXPECT_THAT(events_, ElementsAre("added a", "added b"));
-    }
+    const config::Map b = add_room("b");
+    begin_bake(a);
+    loader_.load({a, b});
+    EXPECT_THAT(events(), ElementsAre("added a", "added b"));
+    finish_bake();
     wait_for_end_of(2);
     EXPECT_THAT(events_, ElementsAre("added a", "added b", "baked a", "baked b"));
     EXPECT_THAT(bakes_, ElementsAre("a", "b"));
@@ -188,12 +205,12 @@ TEST_F(LoaderTest, ABakeGoesOnWhereItsMapIsListedAsBefore) {
 
 TEST_F(LoaderTest, FilesAreOpenedBesideABakeThatGoesOn) {
     const config::Map a = add_room("a");
-    config::Map b = add_room("b");
+    const config::Map b = add_room("b");
     ASSERT_THAT(load({b}), ElementsAre("added b", "baked b"));
     load({});
     events_.clear();
     ended_ = 0;
-    const PendingFile held = begin_bake(a);
+    begin_bake(a);
     loader_.load({a, b});
     wait_for_end_of(1);
     EXPECT_THAT(events_, ElementsAre("added a", "added b", "opened b"));
@@ -201,31 +218,66 @@ TEST_F(LoaderTest, FilesAreOpenedBesideABakeThatGoesOn) {
 
 TEST_F(LoaderTest, ABakeBeginsAnewWhereItsSourceWasReplaced) {
     const config::Map a = add_room("a");
-    {
-        const PendingFile held = begin_bake(a);
-        EXPECT_EQ(add_room("a", 768.0), a);
-        loader_.load({a});
-        EXPECT_TRUE(test::eventually([&] {
-            const std::scoped_lock lock(mutex_);
-            return bakes_.size() == 2;
-        }));
-    }
+    begin_bake(a);
+    EXPECT_EQ(add_room("a", 768.0), a);
+    loader_.load({a});
+    EXPECT_TRUE(test::eventually([&] {
+        const std::scoped_lock lock(mutex_);
+        return bakes_.size() == 2;
+    }));
+    finish_bake();
     wait_for_end_of(1);
     EXPECT_THAT(events_, ElementsAre("added a", "baked a"));
-    EXPECT_GT(freespace::Freespace::open(a.file)->bounds().max().x(), 512.0F);
+    EXPECT_THAT(load({a}), IsEmpty());
 }
 
-TEST_F(LoaderTest, ABakeEndsWhereItsMapIsListedNoMoreOrOtherwise) {
+TEST_F(LoaderTest, ABakeGoesOnWhereItsSourceIsGone) {
     config::Map a = add_room("a");
-    {
-        const PendingFile held = begin_bake(a);
-        loader_.load({});
-        a.d0 = 48.0;
-        loader_.load({a});
-    }
+    begin_bake(a);
+    std::filesystem::remove(a.source);
+    loader_.load({a});  // nothing is added: the bake may have read it before
+    a.d0 = 48.0;
+    loader_.load({a});
+    wait_for_end_of(1);
+    EXPECT_THAT(events_, ElementsAre("added a", "added a", StartsWith("failed a: " + a.source)));
+    EXPECT_THAT(bakes_, ElementsAre("a"));
+}
+
+TEST_F(LoaderTest, AResultThatIsPutInPlaceIsOpenedInsteadOfBeingBaked) {
+    const config::Map a = add_room("a");
+    ASSERT_THAT(load({a}), ElementsAre("added a", "baked a"));
+    const auto bytes = read_file(a.file).value();
+    std::filesystem::remove(a.file);
+    load({});
+    events_.clear();
+    ended_ = 0;
+    begin_bake(a);
+    ASSERT_TRUE(write_file(folder_ / "a.other", bytes));
+    std::filesystem::rename(folder_ / "a.other", a.file);
+    loader_.load({a});
+    wait_for_end_of(1);
+    EXPECT_THAT(events_, ElementsAre("added a", "opened a"));
+}
+
+TEST_F(LoaderTest, ABakeEndsWhereItsMapIsListedOtherwise) {
+    config::Map a = add_room("a");
+    begin_bake(a);
+    a.d0 = 48.0;
+    loader_.load({a});
+    finish_bake();
+    wait_for_end_of(1);
+    EXPECT_THAT(events_, ElementsAre("added a", "added a", "baked a"));
+    EXPECT_EQ(freespace::Freespace::open(a.file)->metadata().d0, 48.0F);
+}
+
+TEST_F(LoaderTest, ABakeThatWasStoppedBeginsAnewWhereItsMapIsListedAgain) {
+    const config::Map a = add_room("a");
+    begin_bake(a);
+    loader_.load({});
+    loader_.load({a});
+    finish_bake();
     wait_for_end_of(1);
     EXPECT_THAT(events_, ElementsAre("added a", "removed a", "added a", "baked a"));
-    EXPECT_EQ(freespace::Freespace::open(a.file)->metadata().d0, 48.0F);
 }
 
 }  // namespace
