@@ -89,6 +89,15 @@ const Lookouts::Set& Lookouts::seen_from(const Freespace& freespace, std::uint32
     });
 }
 
+Lookouts::Set Lookouts::around(const Freespace& freespace, const Vec3f& point, float radius) const {
+    const Nearest near = nearest(freespace, point);
+    if (near.count == 0) return {};
+    Set around = seen_from(freespace, near.lookouts[0]);
+    for (std::size_t i = 0; i < positions_.size(); ++i)
+        if ((positions_[i] - point).squaredNorm() > radius * radius) around.reset(i);
+    return around;
+}
+
 Lookouts::Set Lookouts::seeing(const Freespace& freespace, const Vec3f& point) const {
     Set seeing;
     const Nearest near = nearest(freespace, point);

@@ -43,6 +43,9 @@ class Lookouts {
     // each: milliseconds.
     [[nodiscard]] const Set& seen_from(const Freespace& freespace, std::uint32_t lookout) const;
 
+    // The lookouts within `radius` of `point`, map units, that its nearest one sees; none where it has none.
+    [[nodiscard]] Set around(const Freespace& freespace, const Vec3f& point, float radius) const;
+
     // The lookouts that probably see `point`: those that one of the nearest sees.
     [[nodiscard]] Set seeing(const Freespace& freespace, const Vec3f& point) const;
 

@@ -16,6 +16,7 @@ constexpr float far_enough_of_some = 1.2F;     // s
 constexpr float worth_of_the_others = 0.3F;    // while a member is dead
 constexpr std::size_t numbers_of_a_set = 26;   // more instants than far_enough_of_some has: see Outlook
 constexpr float time_rounding = 1e-3F;         // s, of times
+constexpr float surroundings = 200.0F;         // units: where members may go next, if that is not known
 constexpr float never = std::numeric_limits<float>::infinity();
 
 // Costs, s.
@@ -30,6 +31,7 @@ constexpr float cost_of_crossing = 0.1F;  // of a cut over the line of action
 constexpr float cost_of_jump = 0.02F;     // of a cut to nearly the same picture
 constexpr float same_place = 120.0F;      // units
 constexpr float cost_of_longest_glide = 0.2F;
+constexpr float cost_of_hidden_surroundings = 0.09F;  // less than that of crossing
 
 }  // namespace
 
@@ -81,6 +83,7 @@ ViewpointSearch::ViewpointSearch(const freespace::Space& space, const MapProfile
         weight_[i] = (i + 1 < known_ ? members.ahead[i + 1] - members.ahead[i] : time_after_the_known) *
                      ((members.at[i].living & set) == set ? 1.0F : worth_of_the_others);
     ask(outlook);
+    if (!members.is_recorded) look_around();
     if (candidate_count_ > 0)
         plan_cuts(std::span(candidates_).first(candidate_count_), std::span(members.ahead).first(known_),
                   weight_, shortest_group_shot, after_a_cut_);
@@ -106,6 +109,24 @@ void ViewpointSearch::ask_about_the_foreseen(Outlook& outlook) {
     for (std::size_t i = 0; i < known_; ++i)
         showing_[i] = outlook.showing(space_.map(), picture_, Eyes(members_.at[i], set_).span(),
                                       set_ * numbers_of_a_set + i);
+}
+
+// From where more of the members' surroundings is seen, they are longer shown, wherever they go.
+void ViewpointSearch::look_around() {
+    std::fill_n(surroundings_seen_.begin(), candidate_count_, 0.0F);
+    const freespace::Lookouts& lookouts = space_.map().lookouts();
+    const Eyes eyes(members_.at[known_ - 1], set_);
+    for (const Vec3f& eye : eyes.span()) {
+        const auto around = lookouts.around(space_.map(), eye, surroundings * profile_.unit);
+        if (around.none()) continue;
+        const float share = 1.0F / static_cast<float>(around.count() * eyes.span().size());
+        for (std::uint32_t place = 0; place < lookouts.positions().size(); ++place) {
+            if (!around.test(place)) continue;
+            const auto& seeing = lookouts.seen_from(space_.map(), place);
+            for (std::size_t i = 0; i < candidate_count_; ++i)
+                if (seeing.test(candidates_[i].lookout)) surroundings_seen_[i] += share;
+        }
+    }
 }
 
 // Every other instant is asked about in full, once, and those between for what these leave open.
@@ -206,10 +227,11 @@ std::optional<Viewpoint> ViewpointSearch::find(Approach approach, Shows begins) 
     Hopes hopes;
     const std::size_t count = collect(approach, begins, hopes);
     std::optional<Viewpoint> best;
+    float best_rank = 0.0F;
     std::size_t timed = 0;
     for (std::size_t i = 0; i < std::min(count, most_looked_at) && timed < most_timed_sights; ++i) {
         const Hope& hope = hopes[i];
-        if (best && hope.worth <= best->worth) break;
+        if (best && hope.rank <= best_rank) break;
         const Vec3f& position = space_.map().lookouts().positions()[hope.lookout];
         const Shows unasked = (Shows{1} << first_asked_) - 1;
         const std::size_t first = first_shown(position, begins & (hope.shows | unasked));
@@ -219,7 +241,10 @@ std::optional<Viewpoint> ViewpointSearch::find(Approach approach, Shows begins) 
         const Shows shows =
             approach == Approach::cut ? shows_after_cut(hope) : shows_along(way_to(approach, position));
         const float worth = time_with_a_cut(shows, shortest_stay(approach)) - hope.cost;
-        if (look && (!best || worth > best->worth)) best = Viewpoint{position, *look, set_, worth};
+        const float rank = worth - hope.hidden_cost;
+        if (!look || (best && rank <= best_rank)) continue;
+        best = Viewpoint{position, *look, set_, worth};
+        best_rank = rank;
     }
     return best;
 }
@@ -231,18 +256,22 @@ float ViewpointSearch::shortest_stay(Approach approach) const {
 // The best first.
 std::size_t ViewpointSearch::collect(Approach approach, Shows begins, Hopes& hopes) const {
     std::size_t count = 0;
-    for (const auto& [lookout, shows, cost_of_cut] : std::span(candidates_).first(candidate_count_)) {
+    for (std::size_t i = 0; i < candidate_count_; ++i) {
+        const auto& [lookout, shows, cost_of_cut] = candidates_[i];
         const Vec3f& position = space_.map().lookouts().positions()[lookout];
         const bool too_far =
             approach == Approach::glide && (position - from_.position).norm() > longest_glide * profile_.unit;
         if ((shows & begins) == 0 || too_far) continue;
         const float cost =
             approach == Approach::cut ? cost_of_cut : picture_cost(position) + way_cost(approach, position);
-        hopes[count++] = {time_with_a_cut(shows, shortest_stay(approach)) - cost, lookout, cost, shows};
+        const float hidden =
+            members_.is_recorded ? 0.0F : cost_of_hidden_surroundings * (1.0F - surroundings_seen_[i]);
+        hopes[count++] = {time_with_a_cut(shows, shortest_stay(approach)) - cost - hidden, lookout, cost,
+                          hidden, shows};
     }
     std::sort(hopes.begin(), hopes.begin() + static_cast<std::ptrdiff_t>(count),
               [](const Hope& a, const Hope& b) {
-                  return a.worth != b.worth ? a.worth > b.worth : a.lookout < b.lookout;
+                  return a.rank != b.rank ? a.rank > b.rank : a.lookout < b.lookout;
               });
     return count;
 }

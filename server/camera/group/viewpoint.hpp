@@ -52,8 +52,10 @@ inline constexpr float shortest_group_shot = 0.8F;
 // to and on the way, and, from the instant on at which the camera may and should cut away from there, by the
 // best sequence of cuts. What is not known yet counts as if it went on a little as it is. A cut, and what
 // makes a picture worse (members far or very near, steep views, a crossed line of action), costs a part of a
-// second each. While a member of the set is dead, the others count for less. Of less than all members only
-// the next 1.2 s count: it is asked for where there is no better.
+// second each. Of places that are worth about the same, that one is taken from which most is seen of what
+// lies around the members, where their future is not known. While a member of the set is dead, the others
+// count for less. Of less than all members only the next 1.2 s count: it is asked for where there is no
+// better.
 class ViewpointSearch {
   public:
     ViewpointSearch(const freespace::Space& space, const MapProfile& profile, const Members& members,
@@ -83,15 +85,17 @@ class ViewpointSearch {
     enum class Approach { cut, glide };
     // What a lookout promises.
     struct Hope {
-        float worth;
+        float rank;  // its worth, less the cost of surroundings that it hides
         std::uint32_t lookout;
         float cost;
+        float hidden_cost;
         Shows shows;
     };
     using Hopes = std::array<Hope, freespace::Lookouts::limit>;
 
     [[nodiscard]] static std::size_t instants_that_count(const Members& members, MemberSet set);
     [[nodiscard]] static bool is_asked_in_full(const Members& members, std::size_t instant);
+    void look_around();
     void ask(Outlook& outlook);
     void ask_about_the_foreseen(Outlook& outlook);
     void ask_about_the_recorded(Outlook& outlook);
@@ -124,6 +128,8 @@ class ViewpointSearch {
     ByInstant<float> after_a_cut_{};               // the most time from this instant on, less the cuts' costs
     std::array<CutPlace, freespace::Lookouts::limit> candidates_;  // that show the set at some instant
     std::size_t candidate_count_ = 0;
+    // By candidate, the share of what lies around the members that it sees; where their future is not known.
+    std::array<float, freespace::Lookouts::limit> surroundings_seen_;
     Shows going_on_ = 0;  // of going on to the goal
 };
 

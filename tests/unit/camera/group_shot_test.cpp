@@ -100,6 +100,43 @@ TEST(GroupShot, ShowsBothFromTheFirstFrame) {
     EXPECT_TRUE(flagged(camera, target_visible));
 }
 
+// The share of the lookouts around a point that a place sees.
+double seen_around(const freespace::Freespace& freespace, const Vec3f& point, const Vec3f& place) {
+    const freespace::Lookouts& lookouts = freespace.lookouts();
+    std::size_t around = 0;
+    std::size_t seen = 0;
+    for (const Vec3f& lookout : lookouts.positions()) {
+        if ((lookout - point).norm() > 200.0F || !freespace::sight(freespace, point, lookout).clear) continue;
+        ++around;
+        seen += freespace::sight(freespace, place, lookout).clear;
+    }
+    return static_cast<double>(seen) / static_cast<double>(around);
+}
+
+// One runs behind the other, round corners.
+TEST(GroupShot, SeesMostOfWhereMembersMayGoWhereTheirFutureIsNotKnown) {
+    const test::Plan plan = test::figure_eight();
+    const freespace::Freespace freespace = plan.freespace();
+    const auto outlook = std::make_unique<Outlook>();
+    double sum = 0.0;
+    int shots = 0;
+    for (std::uint32_t seed = 1; seed <= 24; ++seed) {
+        Runner runner(plan, plan.eye('s'), seed);
+        std::array<TimedPose, 2> poses;
+        for (int frame = 0; frame < 230; ++frame)
+            poses[frame < 200 ? 1 : 0].pose = runner.next(static_cast<float>(group_frame));
+        const std::array<Window, 2> windows{Window(&poses[0], 1), Window(&poses[1], 1)};
+        GroupState state;
+        const Camera camera = step(freespace, {}, windows, 0.0, state, *outlook);
+        if (!flagged(camera, target_visible)) continue;
+        for (const TimedPose& timed : poses)
+            sum += seen_around(freespace, timed.pose.eye, camera.position) / 2.0;
+        ++shots;
+    }
+    ASSERT_GT(shots, 12);
+    EXPECT_GT(sum / shots, 0.9);
+}
+
 // Poses that no game should send: anywhere, in walls, not finite, missing.
 TEST(GroupShot, NonsenseNeverBreaksAPromise) {
     const test::Plan plan = test::two_rooms();
@@ -249,7 +286,7 @@ TEST(GroupShot, StaysOnItsSideOfTheLineWherePillarsHideThePlayers) {
     const MapProfile profile({}, freespace.metadata().metres_per_unit);
     Members members;
     members.known = 1;
-    members.at[0].eyes = {plan.eye(2, 3), plan.eye(2, 8)};
+    members.at[0].eyes = {plan.eye(3, 3), plan.eye(3, 8)};
     members.at[0].living = only(0) | only(1);
     Outlook outlook;
     for (const float side : {1.0F, -1.0F}) {

@@ -67,5 +67,20 @@ TEST(Lookouts, ThoseOfAPointAreTheNearestThatItSees) {
     EXPECT_EQ(lookouts.nearest(freespace, Vec3f(1e6F, 0.0F, 0.0F)).count, 0U);
 }
 
+TEST(Lookouts, ThoseAroundAPointAreSeenByItsNearest) {
+    const test::Plan plan = test::l_corridor();
+    const Freespace freespace = plan.freespace();
+    const Lookouts& lookouts = freespace.lookouts();
+    const Vec3f eye = plan.eye('s');
+    const Lookouts::Set& seen = lookouts.seen_from(freespace, lookouts.nearest(freespace, eye).lookouts[0]);
+    for (const float radius : {0.0F, 150.0F, 400.0F}) {
+        const Lookouts::Set around = lookouts.around(freespace, eye, radius);
+        for (std::uint32_t i = 0; i < lookouts.positions().size(); ++i)
+            EXPECT_EQ(around.test(i), seen.test(i) && (lookouts.positions()[i] - eye).norm() <= radius);
+    }
+    EXPECT_TRUE(lookouts.around(freespace, eye, 400.0F).any());
+    EXPECT_TRUE(lookouts.around(freespace, Vec3f(1e6F, 0.0F, 0.0F), 1e9F).none());
+}
+
 }  // namespace
 }  // namespace camdir::freespace
