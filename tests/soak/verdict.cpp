@@ -174,16 +174,17 @@ class Judge {
         const double settle = timeline_.scenario.settle_s / 2.0;
         std::vector<Life> lives;
         pid_t process = 0;
-        double born = 0.0;
+        double settled = 0.0;
         for (const Slice& slice : timeline_.slices) {
             const auto& usage = slice.directors.at(director);
             if (!usage) continue;
             if (usage->process != process) {
                 lives.emplace_back();
-                born = process == 0 ? slice.begin - settle : slice.begin;
+                // The first one has settled when the scenario begins.
+                const double settling = process == 0 ? 0.0 : settle;
+                settled = slice.begin + std::max(settling, timeline_.scenario.warm_up_s);
                 process = usage->process;
             }
-            const double settled = std::max(born + settle, timeline_.scenario.warm_up_s);
             if (is_quiet(slice, settle) && slice.begin >= settled) lives.back().push_back(&slice);
         }
         return lives;

@@ -151,6 +151,16 @@ TEST(Verdict, AfterAWarmUpTheLevelHolds) {
     expect_failure(grown(timeline, 30.0, 95.0), "memory");
 }
 
+TEST(Verdict, AProcessThatWasStartedLaterIsWarmedUpToo) {
+    Timeline timeline = flooded();
+    timeline.scenario.settle_s = 4.0;
+    for (std::size_t i = 70; i < timeline.slices.size(); ++i)  // from 35 s on; 8 s later it has its level
+        timeline.slices[i].directors[0] = Usage{18, i < 86 ? 30.0 : 50.0, 20, 14};
+    EXPECT_THAT(failures(timeline), testing::ElementsAre(HasSubstr("process 18: memory")));
+    timeline.scenario.warm_up_s = 10.0;
+    EXPECT_THAT(failures(timeline), testing::IsEmpty());
+}
+
 TEST(Verdict, ObserversOfACrowdThatWaitTooLongFail) {
     Timeline timeline = flooded();
     timeline.acts[0].act.kind = ActKind::crowd;
