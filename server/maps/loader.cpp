@@ -97,14 +97,19 @@ void Loader::stop_opening() {
 void Loader::open_all(const Work& work, const std::stop_token& stop) {
     std::vector<config::Map> changed = work.changed;
     if (work.kept && !goes_on(*work.kept)) changed.insert(changed.begin(), work.kept->map);
-    wait_for_stopped_bake(stop);
     std::vector<config::Map> to_bake;
-    for (const config::Map& map : changed)
+    for (const config::Map& map : changed) {
+        wait_for_stopped_bake(map.file, stop);
         if (!stop.stop_requested() && !open_if_current(map)) to_bake.push_back(map);
+    }
+    want_bakes(to_bake, stop);
     for (const config::Map& map : work.unchanged)
-        if (!stop.stop_requested() && has_another_source(map)) to_bake.push_back(map);
+        if (!stop.stop_requested() && begins_anew(map)) want_bakes({map}, stop);
+}
+
+void Loader::want_bakes(const std::vector<config::Map>& maps, const std::stop_token& stop) {
     unless_stopped(stop, [&] {
-        to_bake_.insert(to_bake_.end(), to_bake.begin(), to_bake.end());
+        to_bake_.insert(to_bake_.end(), maps.begin(), maps.end());
         bakes_changed_.notify_all();
     });
 }
@@ -118,7 +123,7 @@ bool Loader::goes_on(const Bake& kept) {
         freshness && freshness->source_hash && kept.source_hash && freshness->source_hash != kept.source_hash;
     const std::lock_guard lock(mutex_);
     const bool runs = baking_ && baking_->map == kept.map;
-    const bool wanted = runs ? !there : loaded_.contains(kept.map.name);
+    const bool wanted = runs ? baking_->is_in_place || !there : loaded_.contains(kept.map.name);
     if (wanted && !replaced) return true;
     if (replaced)
         spdlog::info("map {}: {} has changed: its bake begins anew", kept.map.name, kept.map.source);
@@ -127,10 +132,11 @@ bool Loader::goes_on(const Bake& kept) {
     return false;
 }
 
-// It may still put its result in place, under a file that is about to be opened.
-void Loader::wait_for_stopped_bake(const std::stop_token& stop) {
+// It may still put its result in place of a file that is about to be opened.
+void Loader::wait_for_stopped_bake(const std::string& file, const std::stop_token& stop) {
     std::unique_lock lock(mutex_);
-    bakes_changed_.wait(lock, stop, [&] { return !baking_ || !baking_->stop.stop_requested(); });
+    bakes_changed_.wait(
+        lock, stop, [&] { return !baking_ || !baking_->stop.stop_requested() || baking_->map.file != file; });
 }
 
 // False: the map must be baked.
@@ -155,8 +161,8 @@ bool Loader::open_if_current(const config::Map& map) {
     return false;
 }
 
-// Of a loaded map, which is served as it is until it is baked again.
-bool Loader::has_another_source(const config::Map& map) {
+// A loaded map whose source was replaced: it is served as it is until it is baked again.
+bool Loader::begins_anew(const config::Map& map) {
     if (map.source.empty()) return false;
     const auto freshness = examine(map);
     if (!freshness || freshness->stale.empty()) return false;
@@ -173,7 +179,7 @@ void Loader::bake_all(const std::stop_token& stop) {
     while (bakes_changed_.wait(lock, stop, [&] { return !to_bake_.empty(); })) {
         const config::Map map = to_bake_.front();
         to_bake_.pop_front();
-        const std::stop_token stop_bake = baking_.emplace(Bake{map, {}, {}}).stop.get_token();
+        const std::stop_token stop_bake = baking_.emplace(Bake{map, {}, {}, false}).stop.get_token();
         lock.unlock();
         bake_and_open(map, stop_bake);
         lock.lock();
@@ -198,6 +204,7 @@ void Loader::bake_and_open(const config::Map& map, const std::stop_token& stop) 
     const auto baked = bake_map(map, {.memory = available_memory()}, show, stop);
     if (stop.stop_requested() || (!baked && baked.error().code == ErrorCode::interrupted)) return;
     if (!baked) return set_failed(map, baked.error(), stop);
+    unless_stopped(stop, [&] { baking_->is_in_place = true; });
     const double bake_seconds = *baked ? seconds() : 0.0;  // another process has baked it meanwhile
     if (*baked) spdlog::info("map {}: baked in {:.1f} s", map.name, bake_seconds);
     open(map, bake_seconds, stop);
@@ -232,7 +239,7 @@ void Loader::set_failed(const config::Map& map, const Error& error, const std::s
     });
 }
 
-// A stopped bake says nothing any more of a map that load() has removed or begun anew.
+// What is stopped says nothing any more of a map that load() has removed or begun anew.
 template <class Tell>
 void Loader::unless_stopped(const std::stop_token& stop, const Tell& tell) {
     const std::lock_guard lock(mutex_);

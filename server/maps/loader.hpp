@@ -69,6 +69,7 @@ class Loader {
         // Of what is baked; nothing: not read yet; 0: it could not be read.
         std::optional<std::uint64_t> source_hash;
         std::stop_source stop;
+        bool is_in_place = false;  // what was baked: it is being opened
     };
 
     // Of a call of load().
@@ -80,9 +81,10 @@ class Loader {
 
     void open_all(const Work& work, const std::stop_token& stop);
     [[nodiscard]] bool goes_on(const Bake& kept);
-    void wait_for_stopped_bake(const std::stop_token& stop);
+    void want_bakes(const std::vector<config::Map>& maps, const std::stop_token& stop);
+    void wait_for_stopped_bake(const std::string& file, const std::stop_token& stop);
     bool open_if_current(const config::Map& map);
-    bool has_another_source(const config::Map& map);
+    bool begins_anew(const config::Map& map);
     void bake_all(const std::stop_token& stop);
     void note_source_hash(const config::Map& map);
     void bake_and_open(const config::Map& map, const std::stop_token& stop);

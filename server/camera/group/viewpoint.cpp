@@ -17,6 +17,7 @@ constexpr float worth_of_the_others = 0.3F;    // while a member is dead
 constexpr std::size_t numbers_of_a_set = 26;   // more instants than far_enough_of_some has: see Outlook
 constexpr float time_rounding = 1e-3F;         // s, of times
 constexpr float surroundings = 200.0F;         // units: where members may go next, if that is not known
+constexpr std::size_t most_surroundings = 48;  // lookouts that stand for them, the roomiest
 constexpr float never = std::numeric_limits<float>::infinity();
 
 // Costs, s.
@@ -31,7 +32,7 @@ constexpr float cost_of_crossing = 0.1F;  // of a cut over the line of action
 constexpr float cost_of_jump = 0.02F;     // of a cut to nearly the same picture
 constexpr float same_place = 120.0F;      // units
 constexpr float cost_of_longest_glide = 0.2F;
-constexpr float cost_of_hidden_surroundings = 0.09F;  // less than that of crossing
+constexpr float cost_of_hidden_surroundings = 0.09F;
 
 }  // namespace
 
@@ -111,20 +112,28 @@ void ViewpointSearch::ask_about_the_foreseen(Outlook& outlook) {
                                       set_ * numbers_of_a_set + i);
 }
 
-// From where more of the members' surroundings is seen, they are longer shown, wherever they go.
+// From where more of what lies around the members is seen, they are longer shown, wherever they go. Of the
+// candidates that show them now: no other is taken.
 void ViewpointSearch::look_around() {
-    std::fill_n(surroundings_seen_.begin(), candidate_count_, 0.0F);
+    std::size_t count = 0;
+    std::array<std::uint16_t, freespace::Lookouts::limit> showing_now;
+    for (std::size_t i = 0; i < candidate_count_; ++i) {
+        surroundings_seen_[i] = 0.0F;
+        if ((candidates_[i].shows & 1U) != 0) showing_now[count++] = static_cast<std::uint16_t>(i);
+    }
+    if (count == 0) return;
     const freespace::Lookouts& lookouts = space_.map().lookouts();
     const Eyes eyes(members_.at[known_ - 1], set_);
     for (const Vec3f& eye : eyes.span()) {
         const auto around = lookouts.around(space_.map(), eye, surroundings * profile_.unit);
-        if (around.none()) continue;
-        const float share = 1.0F / static_cast<float>(around.count() * eyes.span().size());
-        for (std::uint32_t place = 0; place < lookouts.positions().size(); ++place) {
+        std::size_t left = std::min(around.count(), most_surroundings);
+        const float share = 1.0F / static_cast<float>(std::max<std::size_t>(left, 1) * eyes.span().size());
+        for (std::uint32_t place = 0; left > 0; ++place) {
             if (!around.test(place)) continue;
+            --left;
             const auto& seeing = lookouts.seen_from(space_.map(), place);
-            for (std::size_t i = 0; i < candidate_count_; ++i)
-                if (seeing.test(candidates_[i].lookout)) surroundings_seen_[i] += share;
+            for (const std::uint16_t i : std::span(showing_now).first(count))
+                surroundings_seen_[i] += seeing.test(candidates_[i].lookout) ? share : 0.0F;
         }
     }
 }
