@@ -46,19 +46,8 @@ void Loader::load(const std::vector<config::Map>& maps) {
     {
         const std::lock_guard lock(mutex_);
         to_bake_.clear();
-        if (baking_ && !baking_->stop.stop_requested() && std::ranges::find(maps, baking_->map) != maps.end())
-            work.kept = baking_;
-        else if (baking_)
-            baking_->stop.request_stop();
-        std::set<std::string> listed;
-        for (const config::Map& map : maps)
-            listed.insert(map.name);
-        for (const std::string& name : listed_) {
-            if (listed.contains(name)) continue;
-            loaded_.erase(name);
-            sink_.removed(name);
-        }
-        listed_ = std::move(listed);
+        work.kept = keep_bake(maps);
+        remove_unlisted(maps);
         for (const config::Map& map : maps) {
             if (work.kept && map == work.kept->map) continue;
             if (is_unchanged(map)) {
@@ -72,6 +61,27 @@ void Loader::load(const std::vector<config::Map>& maps) {
     }
     if (!baker_.joinable()) baker_ = std::jthread([this](const std::stop_token& token) { bake_all(token); });
     opener_ = std::jthread([this, work](const std::stop_token& token) { open_all(work, token); });
+}
+
+// The running bake, where its map is listed as before; else it is stopped.
+std::optional<Loader::Bake> Loader::keep_bake(const std::vector<config::Map>& maps) {
+    if (!baking_) return std::nullopt;
+    const bool is_listed = std::ranges::find(maps, baking_->map) != maps.end();
+    if (is_listed && !baking_->stop.stop_requested()) return baking_;
+    baking_->stop.request_stop();
+    return std::nullopt;
+}
+
+void Loader::remove_unlisted(const std::vector<config::Map>& maps) {
+    std::set<std::string> listed;
+    for (const config::Map& map : maps)
+        listed.insert(map.name);
+    for (const std::string& name : listed_) {
+        if (listed.contains(name)) continue;
+        loaded_.erase(name);
+        sink_.removed(name);
+    }
+    listed_ = std::move(listed);
 }
 
 void Loader::stop() {

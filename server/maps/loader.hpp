@@ -94,6 +94,8 @@ class Loader {
     void unless_stopped(const std::stop_token& stop, const Tell& tell);
     void stop_opening();
     // With the mutex held.
+    [[nodiscard]] std::optional<Bake> keep_bake(const std::vector<config::Map>& maps);
+    void remove_unlisted(const std::vector<config::Map>& maps);
     [[nodiscard]] bool is_unchanged(const config::Map& map) const;
     // None: it cannot be told.
     [[nodiscard]] static std::optional<FileState> state_of(const std::string& file);
