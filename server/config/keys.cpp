@@ -338,20 +338,20 @@ void add_direction(std::vector<Key>& table) {
     add("maximum_shot_s", &Grammar::maximum_shot_s,
         "No shot is longer while another may follow; less than `minimum_shot_s` counts as that.", "s", 0.4,
         600);
-    add("length", &Grammar::length, "Cost of a shot 2.7 times as long, or as short, as preferred.", "kills",
+    add("length", &Grammar::length, "Cost of a shot 2.7 times as long, or as short, as preferred.", "points",
         0, 1000);
-    add("cut", &Grammar::cut, "Cost of a cut.", "kills", 0, 1000);
-    add("hidden", &Grammar::hidden, "Cost of a second in which a camera does not show its player.", "kills",
+    add("cut", &Grammar::cut, "Cost of a cut.", "points", 0, 1000);
+    add("hidden", &Grammar::hidden, "Cost of a second in which a camera does not show its player.", "points",
         0, 1000);
-    add("dead", &Grammar::dead, "Cost of a second on a dead player, after `beat_after_death_s`.", "kills", 0,
+    add("dead", &Grammar::dead, "Cost of a second on a dead player, after `beat_after_death_s`.", "points", 0,
         1000);
-    add("idle", &Grammar::idle, "Cost of a second on a player who stands about.", "kills", 0, 1000);
+    add("idle", &Grammar::idle, "Cost of a second on a player who stands about.", "points", 0, 1000);
     add("inner_cut", &Grammar::inner_cut,
         "Cost of a jump of the camera within its shot, at a respawn, and of a cut within 1.5 s of one.",
-        "kills", 0, 1000);
+        "points", 0, 1000);
     add("beat_after_death_s", &Grammar::beat_after_death_s, "How long a death may be looked at.", "s", 0, 10);
     add("fresh", &Grammar::fresh,
-        "Worth of a second, for each minute since its player was last on the air; at most two.", "kills", 0,
+        "Worth of a second, for each minute since its player was last on the air; at most two.", "points", 0,
         1000);
     add("half_life_s", &Grammar::half_life_s,
         "What is not known yet is worth what is there now, halved every so many seconds.", "s", 0.1, 60);
@@ -395,8 +395,8 @@ void add_moments(std::vector<Key>& table) {
     add("before_s", &Rule::before_s, "How long before the event the moment begins.", "s", 10);
     add("after_s", &Rule::after_s, "How long after the event it ends.", "s", 10);
     add("worth", &Rule::worth,
-        "Of every second in which one of its players is shown; of a `whole` moment, once.", "kills", 1000);
-    add("worth_both", &Rule::worth_both, "More, while both of its players are shown.", "kills", 1000);
+        "Of every second in which one of its players is shown; of a `whole` moment, once.", "points", 1000);
+    add("worth_both", &Rule::worth_both, "More, while both of its players are shown.", "points", 1000);
     table.push_back({section,
                      "whole",
                      in_rule(&Rule::whole),
@@ -614,7 +614,7 @@ const std::vector<Section>& sections() {
         {"/matches", "Lifetime and delay of matches. Reloaded by SIGHUP."},
         {"/direction",
          "How shots follow each other where the director chooses the target, in `serve` and in `direct "
-         "--config`. Costs are counted in kills. Reloaded by SIGHUP."},
+         "--config`. Costs are counted in points, as a moment's `worth`. Reloaded by SIGHUP."},
         {"/moments",
          "What is worth seeing there: rules by name. What a file says of those that ship changes single keys "
          "of them; a rule of another name is a new one and needs a `trigger`. A `worth` and `worth_both` of "

@@ -6,7 +6,7 @@
 
 namespace camdir::direction {
 
-// A shot of so many beats that ends by a cut, in kills; 0 at the preferred length.
+// A shot of so many beats that ends by a cut, in points; 0 at the preferred length.
 [[nodiscard]] double length_cost(const Grammar& grammar, Beat length);
 
 // A cut at `beat` between the two rushes is a jump cut: both show the subject of one of them, from directions

@@ -50,7 +50,7 @@ enum class Trigger : std::uint8_t {
 };
 
 // A sentence: `name`: while (or when) `trigger`, from `before_s` before to `after_s` after, for whoever is in
-// it, `worth` and `worth_both`. Worth counts in kills.
+// it, `worth` and `worth_both`. Worth counts in points, in which the grammar counts its costs.
 struct Rule {
     std::string name;
     Trigger trigger = Trigger::kill;
@@ -65,10 +65,10 @@ struct Rule {
     double facing = 180.0;  // sight: one of them looks this near to the other, degrees
 };
 
-// How shots follow each other. Seconds, and costs in kills.
+// How shots follow each other. Seconds, and costs in points.
 struct Grammar {
-    double minimum_shot_s = 2.0;  // never shorter
-    double preferred_shot_s = 7.0;
+    double minimum_shot_s = 2.2;  // never shorter
+    double preferred_shot_s = 8.0;
     double maximum_shot_s = 14.0;
     double length = 4.5;     // of a shot e times as long, or as short, as preferred
     double cut = 1.5;        // of every cut

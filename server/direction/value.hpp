@@ -23,7 +23,7 @@ struct Credit {
     std::vector<float> worth_both;  // of each rush that shows both players from begin to end, else 0
 };
 
-// Worth in kills, of the beats now .. horizon.
+// Worth in points, of the beats now .. horizon.
 class Value {
   public:
     // `last_shown[rush]`: the beat at which it was on the air last. What lies behind footage.beats() is the
