@@ -614,7 +614,8 @@ const std::vector<Section>& sections() {
         {"/matches", "Lifetime and delay of matches. Reloaded by SIGHUP."},
         {"/direction",
          "How shots follow each other where the director chooses the target, in `serve` and in `direct "
-         "--config`. Costs are counted in points, as a moment's `worth`. Reloaded by SIGHUP."},
+         "--config`. Costs are counted in points, as a moment's `worth`: they mean nothing but beside each "
+         "other, and are not the game's score. Reloaded by SIGHUP."},
         {"/moments",
          "What is worth seeing there: rules by name. What a file says of those that ship changes single keys "
          "of them; a rule of another name is a new one and needs a `trigger`. A `worth` and `worth_both` of "

@@ -13,7 +13,7 @@ namespace camdir::direction {
 namespace {
 
 // More than any plan can be worth: what breaks the grammar is chosen only where everything does.
-constexpr double never = 1e4;
+constexpr double never = 1e6;
 // A shot is rather for its own player's moments than for what is in the picture beside them.
 constexpr double foreign = 0.25;
 constexpr double worst = -std::numeric_limits<double>::infinity();
@@ -191,8 +191,9 @@ class Plan {
         CreditSum credit(whole_[rush], begin, from);
         double most = worst;
         Beat best = horizon_;
-        const double* after = after_end_.data() + at(first, rush);
+        const double* after = after_end_.data();
         if (first < horizon_) {
+            after += at(first, rush);
             most = *after++ - cost_of_length(first - begin) + (credit.at(first) - past);
             best = first;
         }

@@ -50,7 +50,8 @@ enum class Trigger : std::uint8_t {
 };
 
 // A sentence: `name`: while (or when) `trigger`, from `before_s` before to `after_s` after, for whoever is in
-// it, `worth` and `worth_both`. Worth counts in points, in which the grammar counts its costs.
+// it, `worth` and `worth_both`. Worth counts in points, as the grammar's costs
+// do: they mean nothing but beside each other.
 struct Rule {
     std::string name;
     Trigger trigger = Trigger::kill;

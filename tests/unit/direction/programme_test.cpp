@@ -55,7 +55,7 @@ TEST_P(Programme, CoversTheMatchWithShotsThatAreLongEnough) {
         for (std::size_t i = 0; i + 1 < shots.size(); ++i) {
             EXPECT_EQ(shots[i].end, shots[i + 1].begin);
             EXPECT_NE(shots[i].rush, shots[i + 1].rush);
-            EXPECT_GE(shots[i].end - shots[i].begin, 20);
+            EXPECT_GE(shots[i].end - shots[i].begin, beat_of(Grammar().minimum_shot_s));
         }
     }
 }

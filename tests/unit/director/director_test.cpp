@@ -303,7 +303,7 @@ TEST(Director, AFixedCameraStandsStillAndHasNoTarget) {
         EXPECT_EQ(newest().flags, stays == 0 ? std::uint32_t{camera::cut} : 0U);
         send();
     }
-    EXPECT_GE(stays, 40U) << "no shot is shorter than 2 s";
+    EXPECT_GE(stays, 44U) << "no shot is shorter than 2.2 s";
     EXPECT_NE(newest().flags & camera::cut, 0U);
 }
 

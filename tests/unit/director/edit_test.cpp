@@ -71,8 +71,8 @@ class EditTest : public testing::TestWithParam<double> {
         return 0.0254 / static_cast<double>(Stage::square().metadata().metres_per_unit);
     }
 
-    // What is shown, with the delay; `early`: how much sooner than that everything is in the buffer, once
-    // the match has begun.
+    // What is shown, with the delay; `early`: how much sooner than that everything is in the buffer. Without
+    // a delay, what comes before the first poses is not kept.
     [[nodiscard]] std::vector<Cut> shown(const Recorded& match, double delay_s, std::uint32_t early) const {
         DelayBuffer buffer(std::size_t{64} << 20U);
         buffer.announce(1, delay_s, 0);
@@ -94,7 +94,7 @@ class EditTest : public testing::TestWithParam<double> {
                 }
                 static_cast<void>(buffer.put(later, later.frame_time));
             };
-            const std::uint32_t ahead = delay + (frame.frame_number > 0 ? early : 0);
+            const std::uint32_t ahead = delay + (frame.frame_number > 0 || delay_s > 0.0 ? early : 0);
             while (next_frame < match.frames.size() && next_frame <= frame.frame_number + ahead)
                 receive(match.frames[next_frame++]);
             roster.update(frame.poses, 1000);
@@ -216,7 +216,9 @@ TEST_F(EditTest, ShowsNoFixedShotThatAMoverIsInTheWayOf) {
 TEST_P(EditTest, WhatLiesBeyondTheDelayChangesNothing) {
     for (std::uint32_t seed = 1; seed <= 8; ++seed) {
         const Recorded match = random_match(seed);
-        EXPECT_TRUE(shown(match, GetParam(), 0) == shown(match, GetParam(), frames)) << "seed " << seed;
+        const auto cuts = shown(match, GetParam(), 0);
+        EXPECT_GT(cuts.size(), 1U);
+        EXPECT_TRUE(cuts == shown(match, GetParam(), frames)) << "seed " << seed;
     }
 }
 
