@@ -29,7 +29,7 @@ unit=$root/usr/lib/systemd/system/camera-director.service
 
 inside() { foreground chroot "$root" env DEBIAN_FRONTEND=noninteractive PATH=/usr/sbin:/usr/bin:/sbin:/bin "$@"; }
 as_service() { chroot --userspec="$(of_unit User)" "$root" "$@"; }
-of_unit() { sed -n "s/^$1=//p" "$unit"; }
+of_unit() { sed -n "s/^$1=-\?//p" "$unit"; }
 
 # install_package FILE [PACKAGE...]
 install_package() {

@@ -157,7 +157,9 @@ Result<std::optional<PendingFile>> PendingFile::begin(const std::filesystem::pat
     const std::filesystem::path part = part_of(path);
     for (;;) {
         const int fd = ::open(part.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0644);
-        if (fd < 0) return fail(part.string() + ": cannot create: " + reason(errno));
+        if (fd < 0)
+            return fail(part.string() + ": cannot create: " + reason(errno) +
+                        "; expected a folder that this user may write to");
         PendingFile pending(path, fd);
         if (::flock(fd, LOCK_EX | LOCK_NB) != 0) {
             const int error = errno;

@@ -106,7 +106,9 @@ void read_object(const std::string& section, const std::string& pointer, const j
 
 // An absolute form of a path in a configuration in `folder`, the same for every spelling.
 std::string normal(const fs::path& folder, const std::string& path) {
-    return (fs::current_path() / folder / path).lexically_normal().string();
+    const fs::path named = folder / path;
+    // A working directory may be gone: then it is asked for only where it matters.
+    return (named.is_absolute() ? named : fs::current_path() / named).lexically_normal().string();
 }
 
 // The files of the maps' sources, and the archives that may hold them: `archive.pk3` of

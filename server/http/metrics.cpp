@@ -194,13 +194,27 @@ std::vector<MetricFamily> match_metrics(const std::vector<director::MatchStatist
 
 std::vector<MetricFamily> map_metrics(const std::map<std::string, director::MapEntry>& maps) {
     MetricFamily loaded = gauge_family("map_loaded", "1 when the map can be used.");
+    MetricFamily failed = gauge_family(
+        "map_failed", "1 when the map could not be loaded or baked; one that was loaded before is used.");
     MetricFamily bake =
         gauge_family("map_bake_seconds", "Duration of the map's bake by this process, 0 without one.");
     for (const auto& [name, entry] : maps) {
         add_metric(loaded, entry.freespace ? 1.0 : 0.0, {{"map", name}});
+        add_metric(failed, entry.state == director::LoadState::failed ? 1.0 : 0.0, {{"map", name}});
         add_metric(bake, entry.bake_seconds, {{"map", name}});
     }
-    return {loaded, bake};
+    return {loaded, failed, bake};
+}
+
+std::vector<MetricFamily> config_metrics(bool refused, std::size_t keys_for_restart) {
+    MetricFamily file = gauge_family(
+        "config_refused",
+        "1 when the configuration file was refused at the last reload: so it would be at a restart.");
+    MetricFamily keys = gauge_family("config_keys_for_restart",
+                                     "Keys of the configuration file that take effect only after a restart.");
+    add_metric(file, refused ? 1.0 : 0.0);
+    add_metric(keys, static_cast<double>(keys_for_restart));
+    return {file, keys};
 }
 
 std::vector<MetricFamily> live_metrics(const live::RelayStatistics& statistics) {

@@ -31,6 +31,10 @@ void add_metric(prometheus::MetricFamily& family, double value,
     const std::vector<director::MatchStatistics>& matches);
 [[nodiscard]] std::vector<prometheus::MetricFamily> map_metrics(
     const std::map<std::string, director::MapEntry>& maps);
+// Of the configuration file, since the last reload: whether it was refused, and how many of its keys take
+// effect only after a restart.
+[[nodiscard]] std::vector<prometheus::MetricFamily> config_metrics(bool refused,
+                                                                   std::size_t keys_for_restart);
 [[nodiscard]] std::vector<prometheus::MetricFamily> live_metrics(const live::RelayStatistics& statistics);
 [[nodiscard]] prometheus::MetricFamily bound_metrics(const BoundCounters& bounds_reached);
 

@@ -25,13 +25,19 @@ std::string activity_of(const BakeProgress& progress, double seconds) {
            std::to_string(static_cast<int>(100.0 * progress.fraction(seconds))) + " %";
 }
 
+// Of a file that does not open.
+Error with_advice(const config::Map& map, Error error) {
+    if (map.source.empty()) error.message += "; expected a baked map, or a source to bake it from";
+    return error;
+}
+
 }  // namespace
 
 Result<void> check_map(const config::Map& map) {
     if (map.source.empty()) {
         const auto opened = guarded(map.file, [&] { return freespace::Freespace::open(map.file); });
         if (opened) return {};
-        return fail(opened.error().message + "; expected a baked map, or a source to bake it from");
+        return tl::unexpected(with_advice(map, opened.error()));
     }
     const auto options = read_options_of(map);
     if (!options) return tl::unexpected(options.error());
@@ -40,27 +46,51 @@ Result<void> check_map(const config::Map& map) {
     return {};
 }
 
-void Loader::load(const std::vector<config::Map>& maps) {
-    stop_opening();
-    Work work;
-    {
-        const std::lock_guard lock(mutex_);
-        to_bake_.clear();
-        work.kept = keep_bake(maps);
-        remove_unlisted(maps);
-        for (const config::Map& map : maps) {
-            if (work.kept && map == work.kept->map) continue;
-            if (is_unchanged(map)) {
-                work.unchanged.push_back(map);
-                continue;
-            }
-            loaded_.erase(map.name);  // until it is loaded again, which another call may stop
-            sink_.added(map);
-            work.changed.push_back(map);
-        }
+void Loader::load(std::vector<config::Map> maps) {
+    const std::lock_guard lock(mutex_);  // after it, what is stopped says nothing of it any more
+    examining_ = true;
+    opening_.request_stop();
+    to_open_ = std::move(maps);
+    wanted_.notify_all();
+    if (!opener_.joinable())
+        opener_ = std::jthread([this](const std::stop_token& stop) { open_lists(stop); });
+    if (!baker_.joinable()) baker_ = std::jthread([this](const std::stop_token& stop) { bake_all(stop); });
+}
+
+void Loader::open_lists(const std::stop_token& stop) {
+    std::unique_lock lock(mutex_);
+    while (wanted_.wait(lock, stop, [&] { return to_open_.has_value(); })) {
+        const std::vector<config::Map> maps = *std::exchange(to_open_, std::nullopt);
+        opening_ = std::stop_source();
+        const std::stop_token stop_opening = opening_.get_token();
+        lock.unlock();
+        open_list(maps, stop_opening);
+        lock.lock();
     }
-    if (!baker_.joinable()) baker_ = std::jthread([this](const std::stop_token& token) { bake_all(token); });
-    opener_ = std::jthread([this, work](const std::stop_token& token) { open_all(work, token); });
+}
+
+std::optional<Loader::Work> Loader::begin(const std::vector<config::Map>& maps, const std::stop_token& stop) {
+    std::vector<std::optional<FileState>> files;
+    for (const config::Map& map : maps)
+        files.push_back(state_of(map.file));
+    const std::lock_guard lock(mutex_);
+    if (stop.stop_requested()) return std::nullopt;
+    Work work;
+    to_bake_.clear();
+    work.kept = keep_bake(maps);
+    remove_unlisted(maps);
+    for (std::size_t i = 0; i < maps.size(); ++i) {
+        const config::Map& map = maps[i];
+        if (work.kept && map == work.kept->map) continue;
+        if (is_unchanged(map, files[i])) {
+            work.unchanged.push_back(map);
+            continue;
+        }
+        loaded_.erase(map.name);  // until it is loaded again, which another call may stop
+        sink_.added(map);
+        work.changed.push_back(map);
+    }
+    return work;
 }
 
 // The running bake, where its map is listed as before; else it is stopped.
@@ -85,42 +115,41 @@ void Loader::remove_unlisted(const std::vector<config::Map>& maps) {
 }
 
 void Loader::stop() {
-    opener_.request_stop();
     {
         const std::lock_guard lock(mutex_);
+        to_open_.reset();
         to_bake_.clear();
+        opening_.request_stop();
         if (baking_) baking_->stop.request_stop();
     }
-    stop_opening();
-    if (!baker_.joinable()) return;
-    baker_.request_stop();
-    baker_.join();
+    for (std::jthread* thread : {&opener_, &baker_}) {
+        if (!thread->joinable()) continue;
+        thread->request_stop();
+        thread->join();
+    }
 }
 
-// What it has begun to open is opened.
-void Loader::stop_opening() {
-    if (!opener_.joinable()) return;
-    opener_.request_stop();
-    opener_.join();
-}
-
-void Loader::open_all(const Work& work, const std::stop_token& stop) {
-    std::vector<config::Map> changed = work.changed;
-    if (work.kept && !goes_on(*work.kept)) changed.insert(changed.begin(), work.kept->map);
+// A file that it has begun to open is opened though it be stopped.
+void Loader::open_list(const std::vector<config::Map>& maps, const std::stop_token& stop) {
+    const auto work = begin(maps, stop);
+    if (!work) return;
+    std::vector<config::Map> changed = work->changed;
+    if (work->kept && !goes_on(*work->kept)) changed.insert(changed.begin(), work->kept->map);
     std::vector<config::Map> to_bake;
     for (const config::Map& map : changed) {
         wait_for_stopped_bake(map.file, stop);
         if (!stop.stop_requested() && !open_if_current(map)) to_bake.push_back(map);
     }
     want_bakes(to_bake, stop);
-    for (const config::Map& map : work.unchanged)
+    for (const config::Map& map : work->unchanged)
         if (!stop.stop_requested() && begins_anew(map)) want_bakes({map}, stop);
+    unless_stopped(stop, [&] { examining_ = false; });
 }
 
 void Loader::want_bakes(const std::vector<config::Map>& maps, const std::stop_token& stop) {
     unless_stopped(stop, [&] {
         to_bake_.insert(to_bake_.end(), maps.begin(), maps.end());
-        bakes_changed_.notify_all();
+        wanted_.notify_all();
     });
 }
 
@@ -145,8 +174,8 @@ bool Loader::goes_on(const Bake& kept) {
 // It may still put its result in place of a file that is about to be opened.
 void Loader::wait_for_stopped_bake(const std::string& file, const std::stop_token& stop) {
     std::unique_lock lock(mutex_);
-    bakes_changed_.wait(
-        lock, stop, [&] { return !baking_ || !baking_->stop.stop_requested() || baking_->map.file != file; });
+    wanted_.wait(lock, stop,
+                 [&] { return !baking_ || !baking_->stop.stop_requested() || baking_->map.file != file; });
 }
 
 // False: the map must be baked.
@@ -175,6 +204,9 @@ bool Loader::open_if_current(const config::Map& map) {
 bool Loader::begins_anew(const config::Map& map) {
     if (map.source.empty()) return false;
     const auto freshness = examine(map);
+    const std::string warning =
+        freshness ? freshness->warning : freshness.error().message + "; the map is served as it was";
+    if (!warning.empty()) spdlog::warn("map {}: {}", map.name, warning);
     if (!freshness || freshness->stale.empty()) return false;
     spdlog::info("map {}: will be baked again: {}", map.name, freshness->stale);
     const std::lock_guard lock(mutex_);
@@ -186,7 +218,7 @@ bool Loader::begins_anew(const config::Map& map) {
 
 void Loader::bake_all(const std::stop_token& stop) {
     std::unique_lock lock(mutex_);
-    while (bakes_changed_.wait(lock, stop, [&] { return !to_bake_.empty(); })) {
+    while (wanted_.wait(lock, stop, [&] { return !to_bake_.empty(); })) {
         const config::Map map = to_bake_.front();
         to_bake_.pop_front();
         const std::stop_token stop_bake = baking_.emplace(Bake{map, {}, {}, false}).stop.get_token();
@@ -194,7 +226,7 @@ void Loader::bake_all(const std::stop_token& stop) {
         bake_and_open(map, stop_bake);
         lock.lock();
         baking_.reset();
-        bakes_changed_.notify_all();
+        wanted_.notify_all();
     }
 }
 
@@ -232,7 +264,7 @@ void Loader::open(const config::Map& map, double bake_seconds, const std::stop_t
         }
         return freespace;
     });
-    if (!opened) return set_failed(map, opened.error(), stop);
+    if (!opened) return set_failed(map, with_advice(map, opened.error()), stop);
     spdlog::info("map {}: {} vertices, {} triangles", map.name, opened->vertices().size(),
                  opened->triangles().size());
     unless_stopped(stop, [&] {
@@ -263,11 +295,11 @@ void Loader::note_source_hash(const config::Map& map) {
     baking_->source_hash = hash.value_or(0);
 }
 
-bool Loader::is_unchanged(const config::Map& map) const {
+bool Loader::is_unchanged(const config::Map& map, const std::optional<FileState>& file) const {
     const auto found = loaded_.find(map.name);
     if (found == loaded_.end()) return false;
     const LoadedFile& loaded = found->second;
-    return loaded.map == map && loaded.file && state_of(map.file) == loaded.file;
+    return loaded.map == map && loaded.file && file == loaded.file;
 }
 
 std::optional<Loader::FileState> Loader::state_of(const std::string& file) {

@@ -1,6 +1,7 @@
 // Opens the configured maps, and bakes those whose file is missing or stale.
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
@@ -25,8 +26,8 @@ namespace camdir::maps {
 // for it that are right.
 [[nodiscard]] Result<void> check_map(const config::Map& map);
 
-// Receives the state of each map; all are set. Called from load() and from the loader's threads, by one at a
-// time, which waits for it: it must not call load() or stop().
+// Receives the state of each map; all are set. Called from the loader's threads, by one at a time, which
+// waits for it: it must not call load() or stop().
 struct LoaderSink {
     std::function<void(const config::Map& map)> added;  // new or changed: will be loaded
     std::function<void(const std::string& map)> removed;
@@ -43,10 +44,14 @@ class Loader {
     explicit Loader(LoaderSink sink) : sink_(std::move(sink)) {}
     ~Loader() { stop(); }
 
-    // Replaces the list of maps: removes those that are no longer listed, and skips those that are loaded and
-    // whose entry, file and source did not change. A bake goes on whose map's entry and source did not
-    // change, unless somebody has put its result in place; what else an earlier call has begun is stopped.
-    void load(const std::vector<config::Map>& maps);
+    // Replaces the list of maps, and returns at once. Those that are no longer listed are removed, and those
+    // are skipped that are loaded and whose entry, file and source did not change. A bake goes on whose map's
+    // entry and source did not change, unless somebody has put its result in place; what else an earlier call
+    // has begun is stopped.
+    void load(std::vector<config::Map> maps);
+
+    // From load() on until it is known which maps must be baked, also of those that are loaded. Thread-safe.
+    [[nodiscard]] bool is_examining() const { return examining_; }
 
     // Stops the running bake; maps that are not loaded yet stay so.
     void stop();
@@ -72,14 +77,18 @@ class Loader {
         bool is_in_place = false;  // what was baked: it is being opened
     };
 
-    // Of a call of load().
+    // What is to be done for a list of maps.
     struct Work {
         std::vector<config::Map> changed;    // to be loaded
         std::vector<config::Map> unchanged;  // loaded, with the same entry and file
         std::optional<Bake> kept;            // goes on
     };
 
-    void open_all(const Work& work, const std::stop_token& stop);
+    void open_lists(const std::stop_token& stop);
+    void open_list(const std::vector<config::Map>& maps, const std::stop_token& stop);
+    // None: stopped.
+    [[nodiscard]] std::optional<Work> begin(const std::vector<config::Map>& maps,
+                                            const std::stop_token& stop);
     [[nodiscard]] bool goes_on(const Bake& kept);
     void want_bakes(const std::vector<config::Map>& maps, const std::stop_token& stop);
     void wait_for_stopped_bake(const std::string& file, const std::stop_token& stop);
@@ -92,24 +101,27 @@ class Loader {
     void set_failed(const config::Map& map, const Error& error, const std::stop_token& stop);
     template <class Tell>
     void unless_stopped(const std::stop_token& stop, const Tell& tell);
-    void stop_opening();
     // With the mutex held.
     [[nodiscard]] std::optional<Bake> keep_bake(const std::vector<config::Map>& maps);
     void remove_unlisted(const std::vector<config::Map>& maps);
-    [[nodiscard]] bool is_unchanged(const config::Map& map) const;
+    [[nodiscard]] bool is_unchanged(const config::Map& map, const std::optional<FileState>& file) const;
     // None: it cannot be told.
     [[nodiscard]] static std::optional<FileState> state_of(const std::string& file);
 
     const LoaderSink sink_;
-    std::set<std::string> listed_;
     std::jthread opener_;
     std::jthread baker_;
 
-    std::mutex mutex_;  // of what follows, and of calls of the sink
+    // Of what follows, and of calls of the sink. No file is looked at with it held.
+    std::mutex mutex_;
+    std::set<std::string> listed_;
     std::map<std::string, LoadedFile> loaded_;
+    std::optional<std::vector<config::Map>> to_open_;  // the newest list, until it is begun
+    std::stop_source opening_;                         // of the list that was begun last
     std::deque<config::Map> to_bake_;
     std::optional<Bake> baking_;
-    std::condition_variable_any bakes_changed_;  // to_bake_, or whether one runs
+    std::condition_variable_any wanted_;  // to_open_ or to_bake_ has changed, or whether a bake runs
+    std::atomic<bool> examining_{false};  // set with the mutex held
 };
 
 }  // namespace camdir::maps

@@ -1,5 +1,6 @@
 #include "maps/memory.hpp"
 
+#include <malloc.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -28,6 +29,30 @@ std::filesystem::path control_group() {
     return "/";
 }
 
+std::uint64_t page_size() {
+    return static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+}
+
+// Of this process.
+std::uint64_t resident_memory() {
+    std::ifstream pages("/proc/self/statm");
+    std::uint64_t all = 0;
+    std::uint64_t resident = 0;
+    pages >> all >> resident;
+    return resident * page_size();
+}
+
+// The machine's, or the limit of this process's control groups where that is less.
+std::uint64_t total_memory() {
+    std::uint64_t memory = static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) * page_size();
+    for (std::filesystem::path group = control_group();; group = group.parent_path()) {
+        // "max" where there is no limit.
+        std::ifstream file("/sys/fs/cgroup" + group.string() + "/memory.max");
+        if (std::uint64_t limit = 0; file >> limit) memory = std::min(memory, limit);
+        if (!group.has_relative_path()) return memory;
+    }
+}
+
 }  // namespace
 
 std::uint64_t estimate_memory(const scene::Scene& scene, double d0) {
@@ -42,14 +67,9 @@ std::uint64_t estimate_memory(const scene::Scene& scene, double d0) {
 }
 
 std::uint64_t available_memory() {
-    std::uint64_t memory = static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) *
-                           static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
-    for (std::filesystem::path group = control_group();; group = group.parent_path()) {
-        // "max" where there is no limit.
-        std::ifstream file("/sys/fs/cgroup" + group.string() + "/memory.max");
-        if (std::uint64_t limit = 0; file >> limit) memory = std::min(memory, limit);
-        if (!group.has_relative_path()) return memory;
-    }
+    ::malloc_trim(0);  // what is free is not held
+    const std::uint64_t total = total_memory();
+    return total - std::min(total - 1, resident_memory());
 }
 
 }  // namespace camdir::maps

@@ -12,7 +12,8 @@ namespace camdir::maps {
 // and the shell has its own. `d0` in map units. Measured on the maps of OpenArena.
 [[nodiscard]] std::uint64_t estimate_memory(const scene::Scene& scene, double d0);
 
-// The machine's memory, or the limit of this process's control groups where that is less; bytes.
+// The machine's memory, or the limit of this process's control groups where that is less, without what this
+// process holds already; bytes, at least 1.
 [[nodiscard]] std::uint64_t available_memory();
 
 }  // namespace camdir::maps

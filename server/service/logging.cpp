@@ -4,9 +4,12 @@
 #include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <chrono>
+#include <cstdlib>
+#include <memory>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -64,6 +67,49 @@ class JsonLines final : public spdlog::formatter {
     spdlog::pattern_formatter time_{time_pattern, spdlog::pattern_time_type::utc, ""};
 };
 
+// <6>... : as a line is, with its priority before it, which systemd's journal takes off.
+class JournalLines final : public spdlog::formatter {
+  public:
+    explicit JournalLines(std::unique_ptr<spdlog::formatter> lines) : lines_(std::move(lines)) {}
+
+    void format(const spdlog::details::log_msg& message, spdlog::memory_buf_t& line) override {
+        for (const char c : {'<', priority_of(message.level), '>'})
+            line.push_back(c);
+        lines_->format(message, line);
+    }
+
+    [[nodiscard]] std::unique_ptr<spdlog::formatter> clone() const override {
+        return std::make_unique<JournalLines>(lines_->clone());
+    }
+
+  private:
+    // Of syslog.
+    static char priority_of(spdlog::level::level_enum level) {
+        switch (level) {
+            case spdlog::level::critical:
+                return '2';
+            case spdlog::level::err:
+                return '3';
+            case spdlog::level::warn:
+                return '4';
+            case spdlog::level::info:
+                return '6';
+            default:
+                return '7';
+        }
+    }
+
+    std::unique_ptr<spdlog::formatter> lines_;
+};
+
+// Whether systemd's journal reads standard error: it names its stream by device and inode.
+bool is_journal() {
+    const char* const stream = std::getenv("JOURNAL_STREAM");
+    struct stat standard_error {};
+    return stream != nullptr && ::fstat(STDERR_FILENO, &standard_error) == 0 &&
+           std::to_string(standard_error.st_dev) + ":" + std::to_string(standard_error.st_ino) == stream;
+}
+
 // Whether standard error takes a line of PIPE_BUF bytes without a wait: not a pipe that nobody reads.
 bool can_write(std::chrono::milliseconds patience) {
     pollfd standard_error{STDERR_FILENO, POLLOUT, 0};
@@ -112,10 +158,13 @@ class LimitedLines final : public spdlog::sinks::stderr_sink_mt {
 
 void start_logging(const config::Log& config) {
     auto logger = std::make_shared<spdlog::logger>("", std::make_shared<LimitedLines>());
+    std::unique_ptr<spdlog::formatter> lines;
     if (config.format == "json")
-        logger->set_formatter(std::make_unique<JsonLines>());
+        lines = std::make_unique<JsonLines>();
     else
-        logger->set_formatter(std::make_unique<TextLines>());
+        lines = std::make_unique<TextLines>();
+    if (is_journal()) lines = std::make_unique<JournalLines>(std::move(lines));
+    logger->set_formatter(std::move(lines));
     spdlog::set_default_logger(logger);
     set_log_level(config);
 }

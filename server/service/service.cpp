@@ -2,11 +2,13 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <iterator>
 #include <sstream>
 
 #include "http/metrics.hpp"
 #include "http/status.hpp"
+#include "maps/guarded.hpp"
 #include "service/heap.hpp"
 #include "service/logging.hpp"
 #include "service/recording_metrics.hpp"
@@ -122,6 +124,7 @@ http::Sources Service::sources() {
         const auto most = static_cast<std::size_t>(config_.http.match_metrics);
         for (auto& more :
              {http::match_metrics(director_.match_statistics(most)), http::map_metrics(maps_.entries()),
+              http::config_metrics(refused_, keys_for_restart_),
               wire_metrics(gateway_->counters(), config_.dds.strength, gateway_->identity()),
               recording_metrics(recorder_ ? recorder_->statistics() : recording::RecorderStatistics{}),
               http::live_metrics(relay_.statistics())})
@@ -154,6 +157,7 @@ bool Service::healthy() const {
 
 std::vector<std::string> Service::missing() const {
     std::vector<std::string> missing;
+    const bool is_examining = loader_.is_examining();  // before the maps are looked at: they may become stale
     if (draining_) missing.emplace_back("draining");
     const auto& identity = gateway_->identity();
     if (identity && identity->expires <= std::chrono::system_clock::now())
@@ -162,6 +166,7 @@ std::vector<std::string> Service::missing() const {
     for (const auto& [name, map] : maps_.entries())
         if (map.state == director::LoadState::loading)
             missing.push_back("map " + name + ": " + (map.reason.empty() ? "loading" : map.reason));
+    if (is_examining) missing.emplace_back("maps: their sources are compared with what was baked");
     return missing;
 }
 
@@ -170,8 +175,8 @@ void Service::run(Signals& signals) {
     gateway_->start(director_);
     loader_.load(config_.maps);
     auto trimmed = std::chrono::steady_clock::now();
-    for (bool ready = false;;) {
-        watch(ready);
+    for (bool settled = false;;) {
+        watch(settled);
         if (const auto now = std::chrono::steady_clock::now(); now - trimmed >= trim_period) {
             trim_heap();  // of what matches and peers that are gone have left free
             trimmed = now;
@@ -180,26 +185,39 @@ void Service::run(Signals& signals) {
         if (signal == Signal::stop) break;
         if (signal == Signal::reload) {
             reload();
-            ready = false;
+            settled = false;
         }
     }
     drain();
 }
 
-void Service::watch(bool& ready) {
+// A reload has ended for systemd when its configuration is in effect: no other waits for a bake.
+void Service::watch(bool& settled) {
     const bool answers = !http_ || http_->responsive(max_turn);
     if (answers && healthy()) notify_alive();
-    if (ready) return;
+    if (settled) return;
     const auto waits_for = missing();
-    if (!waits_for.empty()) return notify_starting(waits_for.front(), start_extension);
-    ready = true;
+    const std::string status = summary(waits_for);
+    if (!waits_for.empty()) return started_ ? notify_ready(status) : notify_starting(status, start_extension);
+    settled = started_ = true;
     spdlog::info("ready");
-    notify_ready("serving " + std::to_string(config_.maps.size()) + " maps");
+    notify_ready(status);
+}
+
+std::string Service::summary(const std::vector<std::string>& missing) const {
+    const std::string refusal =
+        refused_ ? "the configuration file was refused: a restart with it would fail; " : "";
+    if (!missing.empty()) return refusal + missing.front();
+    const auto maps = maps_.entries();
+    const auto usable =
+        std::ranges::count_if(maps, [](const auto& map) { return map.second.freespace.has_value(); });
+    return refusal + "serving " + std::to_string(usable) + " of " + std::to_string(maps.size()) + " maps";
 }
 
 Result<config::Config> Service::load_again() {
-    auto loaded = config::load(file_, shard_);
-    if (loaded && http_) {
+    auto loaded = maps::guarded(file_.string(), [&] { return config::load(file_, shard_); });
+    // Another file for the token takes effect after a restart.
+    if (loaded && http_ && loaded->http.token_file == config_.http.token_file) {
         const auto token = http_->reload();
         if (!token) return tl::unexpected(token.error());
     }
@@ -209,12 +227,18 @@ Result<config::Config> Service::load_again() {
 void Service::reload() {
     notify_reloading();
     auto loaded = load_again();
+    refused_ = !loaded;
     if (!loaded) {
+        spdlog::error(
+            "{}: not reloaded, the previous configuration stays in effect; correct it and send SIGHUP "
+            "again: a restart with it would fail",
+            file_.string());
         log_lines(spdlog::level::err, loaded.error().message);
-        spdlog::error("{}: not reloaded, the previous configuration stays in effect", file_.string());
         return;
     }
-    for (const std::string& pointer : config::changes_for_restart(config_, *loaded))
+    const auto for_restart = config::changes_for_restart(config_, *loaded);
+    keys_for_restart_ = for_restart.size();
+    for (const std::string& pointer : for_restart)
         spdlog::warn("{}: {} takes effect after a restart", file_.string(), pointer);
     config::reload(config_, std::move(*loaded));
     set_log_level(config_.log);

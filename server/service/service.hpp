@@ -40,7 +40,9 @@ class Service {
     // False: a thread has hung, and a restart would help. Of HTTP's it is not known here: they ask.
     [[nodiscard]] bool healthy() const;
     [[nodiscard]] std::vector<std::string> missing() const;
-    void watch(bool& ready);
+    void watch(bool& settled);
+    // "serving 2 of 3 maps", or what is missing: for systemd.
+    [[nodiscard]] std::string summary(const std::vector<std::string>& missing) const;
     // The configuration, after which nothing of a reload can fail, with the token of HTTP in effect.
     [[nodiscard]] Result<config::Config> load_again();
     void reload();
@@ -50,6 +52,9 @@ class Service {
     const std::string shard_;
     config::Config config_;  // in effect
     std::atomic<bool> draining_{false};
+    std::atomic<bool> refused_{false};  // the file, at the last reload
+    std::atomic<std::size_t> keys_for_restart_{0};
+    bool started_ = false;
     std::unique_ptr<dds::Gateway> gateway_;
     director::MapLibrary maps_;
     std::unique_ptr<recording::Recorder> recorder_;  // null when off

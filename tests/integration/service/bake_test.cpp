@@ -74,6 +74,24 @@ TEST(Bake, UsesFilesOfBakeConfig) {
     EXPECT_THAT(log_of_a_start(folder, with_room()), Not(HasSubstr("baked")));
 }
 
+TEST(Bake, AfterAReloadItIsReadyWhenAReplacedSourceIsBaked) {
+    const Folder folder;
+    write(folder, "room.bsp", room(256.0));
+    Served served(folder, with_room());
+    ASSERT_TRUE(served.logged("\"ready\"")) << served.log();
+    const std::size_t before = served.log().size();
+    write(folder, "room.bsp", room(320.0));
+    served.signal(SIGHUP);
+    const auto next = [&](const char* text) { return served.log().find(text, before); };
+    ASSERT_TRUE(eventually([&] { return next("\"ready\"") != std::string::npos; })) << served.log();
+    EXPECT_LT(next("map room: baked in"), next("\"ready\"")) << served.log();
+    EXPECT_EQ(served.get("/-/ready"), "ready\n");
+
+    std::filesystem::remove(folder / "room.bsp");
+    served.signal(SIGHUP);
+    EXPECT_TRUE(served.logged("is used as it is")) << served.log();
+}
+
 TEST(Bake, IsNotReadyWhileBakingAndStopsAtOnce) {
     const auto map = openarena_map("oa_dm1");
     if (!map) GTEST_SKIP() << needs_openarena_map("oa_dm1");

@@ -60,7 +60,8 @@ TEST(Notifications, TellThatItIsReadyAliveReloadingAndStopping) {
     folder.write("config.json", "no JSON");
     served.signal(SIGHUP);
     EXPECT_TRUE(systemd.told("RELOADING=1"));
-    EXPECT_TRUE(systemd.told("READY=1")) << "the configuration before stays in effect";
+    EXPECT_TRUE(systemd.told("READY=1\nSTATUS=the configuration file was refused"))
+        << "the configuration before stays in effect";
     served.signal(SIGTERM);
     EXPECT_TRUE(systemd.told("STOPPING=1"));
     EXPECT_EQ(served.exit_code(), 0);

@@ -122,9 +122,10 @@ TEST(Service, SighupReloads) {
 
     folder.write("config.json", R"({"maps": [{"name": "other", "file": "other.vfs", "d0": 1}]})");
     served.signal(SIGHUP);
-    ASSERT_TRUE(served.logged("not reloaded")) << served.log();
-    EXPECT_THAT(served.log(), HasSubstr("/maps/0/d0: 1: expected a number from 2 to 256, or 0"));
+    ASSERT_TRUE(served.logged("/maps/0/d0: 1: expected a number from 2 to 256, or 0")) << served.log();
+    EXPECT_THAT(served.log(), HasSubstr("not reloaded"));
     EXPECT_EQ(served.status()["maps"][0]["name"], "square");
+    EXPECT_THAT(served.get("/metrics"), HasSubstr("camera_director_config_refused 1\n"));
 
     json config = with_square();
     config["maps"].push_back({{"name", "other"}, {"file", "other.vfs"}});
@@ -136,6 +137,8 @@ TEST(Service, SighupReloads) {
         return maps.size() == 2 && maps[0]["state"] == "ready" && maps[1]["state"] == "ready";
     })) << served.log();
     EXPECT_THAT(served.log(), HasSubstr("/http/port takes effect after a restart"));
+    EXPECT_THAT(served.get("/metrics"), AllOf(HasSubstr("camera_director_config_refused 0\n"),
+                                              HasSubstr("camera_director_config_keys_for_restart 1\n")));
     served.signal(SIGTERM);
     EXPECT_EQ(served.exit_code(), 0);
 }

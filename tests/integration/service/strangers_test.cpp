@@ -110,8 +110,15 @@ TEST(Strangers, SighupReadsTheTokenAgain) {
 
     write_token("");
     served.signal(SIGHUP);
-    ASSERT_TRUE(served.logged("not reloaded")) << served.log();
-    EXPECT_THAT(served.log(), testing::HasSubstr("expected one line with a token"));
+    ASSERT_TRUE(served.logged("expected one line with a token")) << served.log();
+    EXPECT_THAT(served.log(), testing::HasSubstr("not reloaded"));
+    EXPECT_EQ(status("after"), 405);
+
+    std::filesystem::rename(folder / "token", folder / "moved");
+    config["http"]["token_file"] = "moved";
+    folder.write("config.json", config.dump());
+    served.signal(SIGHUP);
+    ASSERT_TRUE(served.logged("/http/token_file takes effect after a restart")) << served.log();
     EXPECT_EQ(status("after"), 405);
 }
 

@@ -114,9 +114,12 @@ TEST(Metrics, ShowMatchesByTheirIdWhateverItHolds) {
 TEST(Metrics, ShowEveryMap) {
     director::MapEntry entry;
     entry.bake_seconds = 2.5;
+    entry.state = director::LoadState::failed;
     const auto families = map_metrics({{"a", entry}, {"b", {}}});
     ASSERT_EQ(family(families, "map_loaded").metric.size(), 2U);
     EXPECT_EQ(family(families, "map_loaded").metric[0].gauge.value, 0.0);
+    EXPECT_EQ(family(families, "map_failed").metric[0].gauge.value, 1.0);
+    EXPECT_EQ(family(families, "map_failed").metric[1].gauge.value, 0.0);
     EXPECT_EQ(family(families, "map_bake_seconds").metric[0].gauge.value, 2.5);
     EXPECT_EQ(family(families, "map_bake_seconds").metric[1].label.at(0).value, "b");
 }

@@ -50,6 +50,11 @@ class LoaderTest : public testing::Test {
     }
     void finish_bake() { held_.reset(); }
 
+    // What the last load() has to do.
+    void wait_until_it_is_known() {
+        EXPECT_TRUE(test::eventually([&] { return !loader_.is_examining(); }));
+    }
+
     void wait_for_end_of(std::size_t maps) {
         EXPECT_TRUE(test::eventually([&] {
             const std::scoped_lock lock(mutex_);
@@ -67,11 +72,9 @@ class LoaderTest : public testing::Test {
             ended_ = 0;
         }
         loader_.load(maps);
-        {
-            const std::scoped_lock lock(mutex_);
-            for (const std::string& event : events_)
-                pending += event.starts_with("added ") ? 1 : 0;
-        }
+        wait_until_it_is_known();
+        for (const std::string& event : events())
+            pending += event.starts_with("added ") ? 1 : 0;
         wait_for_end_of(pending);
         return events_;
     }
@@ -84,12 +87,18 @@ class LoaderTest : public testing::Test {
 
     LoaderSink sink() {
         LoaderSink sink;
-        sink.added = [this](const config::Map& map) { note("added " + map.name); };
+        sink.added = [this](const config::Map& map) {
+            EXPECT_TRUE(loader_.is_examining());
+            note("added " + map.name);
+        };
         sink.removed = [this](const std::string& map) { note("removed " + map); };
         sink.loading = [this](const std::string& map, const std::string& activity) {
             const std::scoped_lock lock(mutex_);
             if (activity == "baking") bakes_.push_back(map);
-            if (activity == "waiting to be baked") waiting_.push_back(map);
+            if (activity == "waiting to be baked") {
+                EXPECT_TRUE(loader_.is_examining());
+                waiting_.push_back(map);
+            }
             activity_ = map + " " + activity;
         };
         sink.ready = [this](const std::string& map, const freespace::Freespace& freespace, double seconds) {
@@ -144,12 +153,30 @@ TEST_F(LoaderTest, BakesALoadedMapAgainWhoseSourceWasReplaced) {
     EXPECT_GT(freespace::Freespace::open(a.file)->bounds().max().x(), 512.0F);
 }
 
+TEST_F(LoaderTest, IsExaminingUntilItIsKnownWhoseSourceWasReplaced) {
+    const config::Map a = add_room("a");
+    const config::Map b = add_room("b");
+    load({a, b});
+    EXPECT_FALSE(loader_.is_examining());
+    std::size_t ended = 2;
+    for (const double length : {768.0, 640.0, 896.0}) {
+        EXPECT_EQ(add_room("b", length), b);
+        const std::size_t before = events().size();
+        loader_.load({a, b});
+        wait_until_it_is_known();
+        ASSERT_GT(events().size(), before);
+        EXPECT_EQ(events()[before], "added b");
+        wait_for_end_of(++ended);
+    }
+}
+
 TEST_F(LoaderTest, AMapWhoseBakeWasStoppedIsLoadedAnewAsItWasBefore) {
     const config::Map a = add_room("a");
     ASSERT_THAT(load({a}), ElementsAre("added a", "baked a"));
     config::Map finer = a;
     finer.d0 = 4.0;
     loader_.load({finer});
+    wait_until_it_is_known();
     loader_.stop();
     EXPECT_THAT(load({a}), ElementsAre("added a", AnyOf("opened a", "baked a")));
 }
@@ -272,6 +299,7 @@ TEST_F(LoaderTest, ABakeEndsWhereItsMapIsListedOtherwise) {
     begin_bake(a);
     a.d0 = 48.0;
     loader_.load({a});
+    EXPECT_TRUE(test::eventually([&] { return events().size() == 2; }));
     finish_bake();
     wait_for_end_of(1);
     EXPECT_THAT(events_, ElementsAre("added a", "added a", "baked a"));
@@ -282,7 +310,9 @@ TEST_F(LoaderTest, ABakeThatWasStoppedBeginsAnewWhereItsMapIsListedAgain) {
     const config::Map a = add_room("a");
     begin_bake(a);
     loader_.load({});
+    wait_until_it_is_known();
     loader_.load({a});
+    EXPECT_TRUE(test::eventually([&] { return events().size() == 3; }));
     finish_bake();
     wait_for_end_of(1);
     EXPECT_THAT(events_, ElementsAre("added a", "removed a", "added a", "baked a"));

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 #include "support/q3_maps.hpp"
 
 namespace camdir::maps {
@@ -25,6 +27,15 @@ TEST(AvailableMemory, IsThatOfAMachine) {
     const std::uint64_t memory = available_memory();
     EXPECT_GT(memory, 1'000'000U);
     EXPECT_LT(memory, std::uint64_t{1} << 50U);
+}
+
+TEST(AvailableMemory, IsLessByWhatTheProcessHolds) {
+    constexpr std::size_t held = std::size_t{256} << 20U;
+    const std::uint64_t before = available_memory();
+    const std::vector<char> bytes(held, 'x');
+    const std::uint64_t after = available_memory();
+    EXPECT_EQ(bytes.back(), 'x');
+    EXPECT_LT(after, before - held / 2);
 }
 
 }  // namespace

@@ -4,9 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <spdlog/spdlog.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <string>
 
 namespace camdir::service {
@@ -14,6 +16,7 @@ namespace {
 
 using testing::ContainsRegex;
 using testing::HasSubstr;
+using testing::MatchesRegex;
 using testing::Not;
 
 // What is logged at the level "error" by one who logs more errors than fit into seconds, and a critical line.
@@ -86,6 +89,27 @@ TEST(Logging, NobodyWaitsForWhoeverReadsIt) {
     EXPECT_THAT(first, Not(HasSubstr("error: line 189 ")));
     EXPECT_THAT(then, ContainsRegex("error: [0-9]+ lines left out"));
     EXPECT_THAT(then, HasSubstr("error: the last\n"));
+}
+
+TEST(Logging, LinesForTheJournalHaveTheirPriority) {
+    const auto logged = [](const char* format, bool to_the_journal) {
+        const PipedStderr piped;
+        struct stat status {};
+        EXPECT_EQ(::fstat(STDERR_FILENO, &status), 0);
+        const auto inode = status.st_ino + (to_the_journal ? 0 : 1);
+        const std::string stream = std::to_string(status.st_dev) + ":" + std::to_string(inode);
+        ::setenv("JOURNAL_STREAM", stream.c_str(), 1);
+        start_logging({.level = "info", .format = format});
+        ::unsetenv("JOURNAL_STREAM");
+        spdlog::info("well");
+        spdlog::warn("hm");
+        spdlog::error("no");
+        return piped.read();
+    };
+    EXPECT_THAT(logged("text", true),
+                MatchesRegex("<6>2.*Z info: well\n<4>2.*Z warning: hm\n<3>2.*Z error: no\n"));
+    EXPECT_THAT(logged("json", true), MatchesRegex("<6>\\{.*\\}\n<4>\\{.*\\}\n<3>\\{.*\\}\n"));
+    EXPECT_THAT(logged("text", false), Not(HasSubstr("<")));
 }
 
 TEST(Logging, NamesFromOutsideStayOnTheirLineAsUtf8) {
