@@ -50,11 +50,23 @@ bool is_folder(const fs::directory_entry& entry) {
     return entry.symlink_status(error).type() == fs::file_type::directory;
 }
 
+bool may_be_recording(const fs::directory_entry& entry) {
+    return is_folder(entry) && is_folder_name(entry.path().filename().native());
+}
+
 // What is removed must be certain to be one.
-bool is_recording(const fs::directory_entry& entry) {
-    if (!is_folder(entry) || !is_folder_name(entry.path().filename().native())) return false;
-    const auto start = read_file(entry.path() / "start", max_resource);
+bool is_recording(const fs::path& folder) {
+    const auto start = read_file(folder / "start", max_resource);
     return start && has_header(*start, ResourceKind::start, 0);
+}
+
+// When the last fragment was complete, or there was none yet. Names tell when a recording began, by a clock
+// that was perhaps not set yet.
+fs::file_time_type end_of(const fs::path& folder) {
+    std::error_code error;
+    for (const char* file : {"sync", "start"})
+        if (const auto time = fs::last_write_time(folder / file, error); !error) return time;
+    return fs::file_time_type::min();
 }
 
 // Its `start` may be gone.
@@ -115,7 +127,7 @@ Result<void> Archive::list() {
         const std::string name = it->path().filename().string();
         if (is_being_removed(*it))
             removed_.push_back(it->path());
-        else if (is_recording(*it))
+        else if (may_be_recording(*it))
             unmeasured_.push_back(name);
     }
     if (error) return fail(folder_.string() + ": cannot list: " + error.message());
@@ -146,13 +158,17 @@ Archive::~Archive() {
 bool Archive::is_in_place() const {
     struct stat locked {};
     struct stat named {};
-    return ::fstat(descriptor_, &locked) == 0 && ::stat(folder_.c_str(), &named) == 0 &&
-           locked.st_dev == named.st_dev && locked.st_ino == named.st_ino;
+    if (::fstat(descriptor_, &locked) != 0) return false;
+    if (::stat(folder_.c_str(), &named) != 0) return errno != ENOENT && errno != ENOTDIR;
+    return locked.st_dev == named.st_dev && locked.st_ino == named.st_ino;
 }
 
 void Archive::add_ended(const std::string& name, std::uint64_t bytes) {
+    const Ended ended{end_of(path_of(name)), name, bytes};
     const std::lock_guard lock(mutex_);
-    if (ended_.emplace(name, bytes).second) ended_bytes_ += bytes;
+    if (std::ranges::find(ended_, name, &Ended::name) != ended_.end()) return;
+    ended_.insert(ended);
+    ended_bytes_ += bytes;
 }
 
 std::uint64_t Archive::ended_bytes() const {
@@ -160,12 +176,36 @@ std::uint64_t Archive::ended_bytes() const {
     return ended_bytes_;
 }
 
-std::optional<std::string> Archive::remove_oldest() {
+std::vector<std::string> Archive::remove_oldest() {
     const std::lock_guard lock(mutex_);
-    if (ended_.empty()) return std::nullopt;
-    const auto oldest = ended_.extract(ended_.begin());
-    ended_bytes_ -= oldest.mapped();
-    const std::string& name = oldest.key();
+    std::vector<std::string> removed = forget_gone();
+    if (removed.empty() && !ended_.empty()) {
+        const Ended oldest = std::move(ended_.extract(ended_.begin()).value());
+        ended_bytes_ -= oldest.bytes;
+        remove(oldest.name);
+        removed.push_back(oldest.name);
+    }
+    return removed;
+}
+
+// What somebody else has removed or moved away.
+std::vector<std::string> Archive::forget_gone() {
+    std::set<std::string> there;
+    std::error_code error;
+    for (fs::directory_iterator it(folder_, error), end; !error && it != end; it.increment(error))
+        there.insert(it->path().filename().string());
+    std::vector<std::string> gone;
+    if (error) return gone;
+    std::erase_if(ended_, [&](const Ended& ended) {
+        if (there.contains(ended.name)) return false;
+        ended_bytes_ -= ended.bytes;
+        gone.push_back(ended.name);
+        return true;
+    });
+    return gone;
+}
+
+void Archive::remove(const std::string& name) {
     const fs::path removed = path_of(std::string(removed_mark) + name);
     std::error_code error;
     // Of somebody else it would only be hidden.
@@ -180,7 +220,6 @@ std::optional<std::string> Archive::remove_oldest() {
         removed_.push_back(removed);
         wake_.notify_one();
     }
-    return name;
 }
 
 // What is removed goes first: the disk may be full.
@@ -190,7 +229,8 @@ void Archive::run(const std::stop_token& stop) {
         if (const auto folder = next_removed(stop)) {
             remove_files(*folder, stop);
         } else if (!unmeasured_.empty()) {
-            add_ended(unmeasured_.back(), disk_bytes(path_of(unmeasured_.back())));
+            const fs::path folder = path_of(unmeasured_.back());
+            if (is_recording(folder)) add_ended(unmeasured_.back(), disk_bytes(folder));
             unmeasured_.pop_back();
         }
     }

@@ -1,14 +1,15 @@
 // The folder that holds recordings, one folder each.
 #pragma once
 
+#include <compare>
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <stop_token>
 #include <string>
 #include <thread>
@@ -48,12 +49,21 @@ class Archive {
     void add_ended(const std::string& name, std::uint64_t bytes);
     // Of the disk: of those that have ended, as far as they are measured.
     [[nodiscard]] std::uint64_t ended_bytes() const;
-    // Removes the ended recording that began first, of those that are measured, and returns its name;
-    // nothing: there is none. From now on nobody reads it; its files follow. One that cannot be removed is
-    // logged and left.
-    std::optional<std::string> remove_oldest();
+    // Removes the recording that ended first, of those that are measured, and returns its name, or the names
+    // of those that somebody else has removed; none: there is none. From now on nobody reads it; its files
+    // follow. One that cannot be removed is logged and left.
+    std::vector<std::string> remove_oldest();
 
   private:
+    // A recording; the one that ended first sorts first.
+    struct Ended {
+        std::filesystem::file_time_type time;
+        std::string name;
+        std::uint64_t bytes = 0;
+
+        auto operator<=>(const Ended&) const = default;
+    };
+
     Archive(std::filesystem::path folder, int descriptor)
         : folder_(std::move(folder)), descriptor_(descriptor) {}
     [[nodiscard]] std::filesystem::path path_of(const std::string& name) const { return folder_ / name; }
@@ -61,6 +71,9 @@ class Archive {
     // On the thread.
     void run(const std::stop_token& stop);
     [[nodiscard]] std::optional<std::filesystem::path> next_removed(const std::stop_token& stop);
+    // With the mutex held.
+    [[nodiscard]] std::vector<std::string> forget_gone();
+    void remove(const std::string& name);
 
     const std::filesystem::path folder_;
     const int descriptor_;                 // of the folder, locked
@@ -68,7 +81,7 @@ class Archive {
 
     mutable std::mutex mutex_;  // guards the next four
     std::condition_variable_any wake_;
-    std::map<std::string, std::uint64_t> ended_;  // bytes by name
+    std::set<Ended> ended_;
     std::uint64_t ended_bytes_ = 0;
     std::deque<std::filesystem::path> removed_;  // whose files are still there
 

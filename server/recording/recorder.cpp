@@ -24,11 +24,16 @@ std::int64_t wall_clock_ns() {
         .count();
 }
 
+// Each frame's own while something moves.
+std::size_t bytes_of_movers(const director::PoseFrame& frame) {
+    return frame.movers ? frame.movers->frame->poses.size() * sizeof(director::MoverPose) : 0;
+}
+
 // About; what most matches consist of.
 std::size_t bytes_of(const Message& message) {
     std::size_t bytes = sizeof message;
     if (const auto* frame = std::get_if<director::PoseFrame>(&message))
-        bytes += frame->poses.size() * sizeof(director::PlayerPose);
+        bytes += frame->poses.size() * sizeof(director::PlayerPose) + bytes_of_movers(*frame);
     if (const auto* frame = std::get_if<director::CameraFrame>(&message))
         bytes += frame->cameras.size() * sizeof(director::ShotCamera);
     if (const auto* info = std::get_if<director::MatchInfo>(&message))
@@ -234,10 +239,19 @@ void Recorder::finish(const std::string& match_id, Match& match) {
 void Recorder::fail(const std::string& match_id, Match& match, const Error& error) {
     if (!std::exchange(match.failed, true)) {
         ++failures_;
-        spdlog::error("match {}: no longer recorded: {}", match_id, error.message);
+        spdlog::error("match {}: no longer recorded: {}{}", match_id, error.message, advice());
     }
     match.needs_archive = archive_ == nullptr;
     end_recording(match_id, match);
+}
+
+std::string Recorder::advice() const {
+    constexpr std::uintmax_t nearly_full = std::uintmax_t{16} << 20U;
+    std::error_code error;
+    const auto space = std::filesystem::space(options_.folder, error);
+    return error || space.available > nearly_full
+               ? ""
+               : "; free space, or lower /recording/disk_mib, which is more than the disk has for recordings";
 }
 
 void Recorder::end_recording(const std::string& match_id, Match& match) {
@@ -285,9 +299,11 @@ void Recorder::keep_within_bound() {
 }
 
 bool Recorder::remove_oldest_recording() {
-    const auto name = archive_ ? archive_->remove_oldest() : std::nullopt;
-    if (name) broadcast_.remove(options_.folder / *name);
-    return name.has_value();
+    if (!archive_) return false;
+    const std::vector<std::string> names = archive_->remove_oldest();
+    for (const std::string& name : names)
+        broadcast_.remove(options_.folder / name);
+    return !names.empty();
 }
 
 bool Recorder::remove_oldest_fragment() {

@@ -120,6 +120,8 @@ class Recorder final : public director::Audience {
     void end_recording(const std::string& match_id, Match& match);
     void tell_viewers(const std::string& match_id, Match& match);
     void fail(const std::string& match_id, Match& match, const Error& error);
+    // What to do when the disk is nearly full.
+    [[nodiscard]] std::string advice() const;
     void end_due_fragments();
     void keep_within_bound();
     // False when there is none that may be removed.

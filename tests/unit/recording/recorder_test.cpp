@@ -221,6 +221,57 @@ TEST(Recorder, TheBoundCountsWhatEarlierRunsLeft) {
     EXPECT_TRUE(test::eventually([&] { return testing::Value(names_in(folder / "r"), expected); }));
 }
 
+// Its name tells when it began by a clock that was not set yet.
+TEST(Recorder, TheBoundRemovesFirstWhatEndedFirst) {
+    const test::TemporaryFolder folder;
+    {
+        Recorder recorder(options(folder / "r"));
+        for (const char* id : {"old", "new"}) {
+            recorder.show(info(id));
+            recorder.end(id);
+            recorder.wait_until_written();
+        }
+    }
+    const auto is_new = [](const std::string& name) { return name.ends_with("-new"); };
+    const auto names = names_in(folder / "r");
+    const auto newest = std::ranges::find_if(names, is_new);
+    ASSERT_NE(newest, names.end());
+    fs::rename(folder / "r" / *newest, folder / "r" / "19700101T000000.000Z-00000000-new");
+    for (const auto& entry : fs::recursive_directory_iterator(folder / "r"))
+        if (entry.path().string().find("-old") != std::string::npos && entry.is_regular_file())
+            fs::last_write_time(entry, fs::file_time_type::clock::now() - std::chrono::hours(24));
+    RecorderOptions bounded = options(folder / "r");
+    bounded.max_bytes = 60'000;
+    Recorder recorder(bounded);
+    recorder.show(info("now"));
+    recorder.end("now");
+    const auto expected = ElementsAre(testing::EndsWith("-new"), testing::EndsWith("-now"));
+    EXPECT_TRUE(test::eventually([&] { return testing::Value(names_in(folder / "r"), expected); }));
+}
+
+TEST(Recorder, WhatSomebodyHasMovedAwayCountsNoMore) {
+    const test::TemporaryFolder folder;
+    RecorderOptions bounded = options(folder / "r");
+    bounded.max_bytes = 110'000;  // a recording of one fragment takes 6 blocks: four of them, but not five
+    Recorder recorder(bounded);
+    const auto record = [&](const char* id) {
+        recorder.show(info(id));
+        recorder.end(id);
+        recorder.wait_until_written();
+    };
+    for (const char* id : {"final", "b", "c", "d"})
+        record(id);
+    ASSERT_EQ(names_in(folder / "r").size(), 4U);
+    for (const std::string& name : names_in(folder / "r"))
+        if (!name.ends_with("-final")) fs::remove_all(folder / "r" / name);
+    for (const char* id : {"e", "f"})
+        record(id);
+    EXPECT_THAT(names_in(folder / "r"),
+                testing::UnorderedElementsAre(testing::EndsWith("-final"), testing::EndsWith("-e"),
+                                              testing::EndsWith("-f")));
+    EXPECT_LT(recorder.statistics().bytes, 110'000U);
+}
+
 // As a process leaves it that is killed while it removes a recording.
 TEST(Recorder, WhatWasBeingRemovedIsRemovedByTheNextRecorder) {
     const test::TemporaryFolder folder;
