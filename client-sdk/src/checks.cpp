@@ -15,6 +15,7 @@ namespace camdir::sdk {
 namespace {
 
 constexpr float pi = 3.14159265F;
+constexpr float max_abs_position = 1e9F;  // map units: what is computed from such is finite
 // 2^61 ns = 73 years: differences of such times do not overflow.
 constexpr std::int64_t max_abs_time = std::int64_t{1} << 61U;
 
@@ -37,6 +38,11 @@ void check_player(const cdir_player& player) {
 
 bool finite(const dds_sequence_float& sequence) {
     return all_finite(sequence._buffer, sequence._length);
+}
+
+bool is_in_reach(const dds_sequence_float& positions) {
+    return std::all_of(positions._buffer, positions._buffer + positions._length,
+                       [](float x) { return std::abs(x) <= max_abs_position; });
 }
 
 // Names, classes and teams are given for all players or for none.
@@ -140,9 +146,9 @@ bool is_valid(const camera_director_ShownMatch& info, const std::string& match_i
     return info.match_id == match_id && n <= CDIR_MAX_PLAYERS && info.map_name != nullptr &&
            std::strlen(info.map_name) < sizeof cdir_match_info::map_name &&
            std::isfinite(info.metres_per_unit) && info.metres_per_unit >= 0.0F &&
-           std::isfinite(info.rate_hz) && std::isfinite(info.spectator_delay_s) &&
-           is_parallel(info.player_name, n) && is_parallel(info.player_class, n) &&
-           is_parallel(info.player_team, n);
+           std::isfinite(info.rate_hz) && info.rate_hz > 0.0F && std::isfinite(info.spectator_delay_s) &&
+           info.spectator_delay_s >= 0.0F && is_parallel(info.player_name, n) &&
+           is_parallel(info.player_class, n) && is_parallel(info.player_team, n);
 }
 
 bool is_valid(const camera_director_CameraFrame& frame, const std::string& match_id) {
@@ -151,8 +157,8 @@ bool is_valid(const camera_director_CameraFrame& frame, const std::string& match
                          frame.position._length == 3 * n && frame.orientation._length == 4 * n &&
                          frame.vertical_fov._length == n && frame.clearance._length == n &&
                          frame.flags._length == n && frame.reasons._length <= CDIR_MAX_CAMERAS;
-    return lengths && frame.match_id == match_id && is_time(frame.frame_time) && finite(frame.position) &&
-           all_unit(frame.orientation._buffer, n) && finite(frame.clearance) &&
+    return lengths && frame.match_id == match_id && is_time(frame.frame_time) &&
+           is_in_reach(frame.position) && all_unit(frame.orientation._buffer, n) && finite(frame.clearance) &&
            std::all_of(frame.vertical_fov._buffer, frame.vertical_fov._buffer + n,
                        [](float fov) { return fov > 0.0F && fov < pi; });
 }

@@ -2,8 +2,10 @@
 #include <camera_director/camera_director.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <mutex>
+#include <thread>
 
 #include "checks.hpp"
 #include "context.hpp"
@@ -57,24 +59,40 @@ void require_still_open(cdir_context context, const Remove& remove) {
     (void)find(context);  // fails
 }
 
+// Until the calls in progress have let go of what is closed, but for `owners` who do not: so it ends with
+// whoever closes it, unless a thread was killed in a call, or sends for longer than a second.
+template <class T>
+void wait_for_calls(const std::shared_ptr<T>& closed, long owners = 1) {
+    constexpr std::chrono::seconds longest(1);
+    const auto end = std::chrono::steady_clock::now() + longest;
+    while (closed.use_count() > owners && std::chrono::steady_clock::now() < end)
+        std::this_thread::sleep_for(std::chrono::microseconds(100));
+}
+
 void close_children(const Context& context) {
-    (void)handles().matches.remove_if([&](const GameMatch& match) { return &match.context() == &context; });
-    const auto observers =
-        handles().observers.remove_if([&](const Observer& each) { return &each.context() == &context; });
-    for (const auto& observer : observers) {
+    for (const auto& match :
+         handles().matches.remove_if([&](const GameMatch& each) { return &each.context() == &context; }))
+        wait_for_calls(match);
+    for (const auto& observer :
+         handles().observers.remove_if([&](const Observer& each) { return &each.context() == &context; })) {
         observer->end_waits();
+        wait_for_calls(observer);
     }
 }
 
-void close_context(const PendingContext& closed) {
-    if (const auto context = closed.result()) close_children(*context);
+void close_context(const std::shared_ptr<PendingContext>& closed) {
+    if (const auto context = closed->result()) {
+        close_children(*context);
+        wait_for_calls(context, 2);  // its future is the other
+    }
+    wait_for_calls(closed);
 }
 
 // DDS threads that outlive main() would use libraries that are already unloaded.
 void close_all() {
     (void)guarded([] {
         for (const auto& context : handles().contexts.remove_if([](const PendingContext&) { return true; }))
-            close_context(*context);
+            close_context(context);
         return CDIR_OK;
     });
 }
@@ -98,11 +116,12 @@ std::shared_ptr<PendingContext> begin_open(const cdir_context_options* options) 
     (void)network_configuration(read);  // fails when it is malformed
     if (read.security != nullptr) check_identity(read.security);
     end_attempts_at_exit();
-    return make_object<PendingContext>([owned = OwnedOptions(read)]() -> std::shared_ptr<const Context> {
-        const auto context = make_object<Context>(owned.get());
-        close_all_at_exit();
-        return context;
-    });
+    return make_object<PendingContext>(
+        [owned = OwnedOptions(read), allocator = Allocator<Context>()]() -> std::shared_ptr<const Context> {
+            const auto context = make_object_in<Context>(allocator, owned.get());
+            close_all_at_exit();
+            return context;
+        });
 }
 
 std::vector<cdir_player> read_players(const cdir_player* players, std::uint32_t count) {
@@ -152,7 +171,7 @@ cdir_status cdir_context_wait(cdir_context context, int64_t timeout) noexcept {
 cdir_status cdir_context_close(cdir_context context) noexcept {
     return guarded([&] {
         const auto closed = require_open(handles().contexts.remove(context.id), "the context");
-        close_context(*closed);
+        close_context(closed);
         return CDIR_OK;
     });
 }
@@ -235,7 +254,7 @@ cdir_status cdir_match_director_count(cdir_match match, uint32_t* count) noexcep
 
 cdir_status cdir_match_close(cdir_match match) noexcept {
     return guarded([&] {
-        (void)require_open(handles().matches.remove(match.id), "the match");
+        wait_for_calls(require_open(handles().matches.remove(match.id), "the match"));
         return CDIR_OK;
     });
 }
@@ -375,7 +394,9 @@ cdir_status cdir_observer_get_counters(cdir_observer observer, cdir_observer_cou
 
 cdir_status cdir_observer_close(cdir_observer observer) noexcept {
     return guarded([&] {
-        require_open(handles().observers.remove(observer.id), "the observer")->end_waits();
+        const auto closed = require_open(handles().observers.remove(observer.id), "the observer");
+        closed->end_waits();
+        wait_for_calls(closed);
         return CDIR_OK;
     });
 }

@@ -1,10 +1,12 @@
 #include "context.hpp"
 
-#include <fcntl.h>
+#include <sys/eventfd.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <map>
 #include <mutex>
+#include <system_error>
 
 #include "entity.hpp"
 #include "idl/security.hpp"
@@ -39,12 +41,16 @@ std::string identity_of(const cdir_context_options& options) {
 // Cyclone DDS waits with select(), which aborts the process on a descriptor from 1024 on.
 void check_file_descriptors() {
     constexpr int limit = 1000;
-    const int lowest_free = open("/dev/null", O_RDONLY | O_CLOEXEC);
+    const int lowest_free = eventfd(0, EFD_CLOEXEC);
+    const int error = errno;
     if (lowest_free >= 0) close(lowest_free);
-    if (lowest_free < 0 || lowest_free >= limit) {
+    if (lowest_free >= limit || (lowest_free < 0 && error == EMFILE)) {
         throw Failure{CDIR_CONFLICT,
                       "the process holds too many file descriptors: a context needs some below 1000"};
     }
+    if (lowest_free < 0)
+        throw Failure{CDIR_OUT_OF_MEMORY,
+                      "cannot get a file descriptor: " + std::generic_category().message(error)};
 }
 
 Entity join(const cdir_context_options& options, const std::string& configuration) {

@@ -64,8 +64,13 @@ template <class T>
 using Vector = std::vector<T, Allocator<T>>;
 
 template <class T, class... Arguments>
+[[nodiscard]] std::shared_ptr<T> make_object_in(const Allocator<T>& allocator, Arguments&&... arguments) {
+    return std::allocate_shared<T>(allocator, std::forward<Arguments>(arguments)...);
+}
+
+template <class T, class... Arguments>
 [[nodiscard]] std::shared_ptr<T> make_object(Arguments&&... arguments) {
-    return std::allocate_shared<T>(Allocator<T>(), std::forward<Arguments>(arguments)...);
+    return make_object_in<T>(Allocator<T>(), std::forward<Arguments>(arguments)...);
 }
 
 }  // namespace camdir::sdk

@@ -42,6 +42,10 @@ void MoverPlaces::move(const cdir_mover_frame& frame) {
     require(all_unit(orientations.data(), count), "a mover's orientation is not of length 1");
     require(std::all_of(ids.begin(), ids.begin() + count, [this](std::uint32_t id) { return is_known(id); }),
             "a mover is none of those in cdir_match_set_movers()");
+    auto sorted = ids;
+    std::sort(sorted.begin(), sorted.begin() + count);
+    require(std::adjacent_find(sorted.begin(), sorted.begin() + count) == sorted.begin() + count,
+            "a mover is given twice");
     for (std::size_t i = 0; i < count; ++i) {
         Place place;
         std::copy_n(&positions[3 * i], 3, place.position.begin());

@@ -62,7 +62,7 @@ Observer::Observer(std::shared_ptr<const Context> context, const std::string& ma
     }
 }
 
-Observer::Request Observer::checked_request(const cdir_shot_request& request) {
+Observer::Request Observer::checked_request(const cdir_shot_request& request) const {
     require(std::ranges::all_of(request.reserved, [](std::uint8_t byte) { return byte == 0; }),
             "request.reserved is not 0");
     require(request.team == 0 || request.target == CDIR_CHOOSE_TARGET,
@@ -72,7 +72,7 @@ Observer::Request Observer::checked_request(const cdir_shot_request& request) {
     require(request.target != CDIR_SHOW_GROUP ||
                 (request.group_count >= 2 && request.group_count <= CDIR_MAX_GROUP_SHOT),
             "group_count is not 2 to CDIR_MAX_GROUP_SHOT, as CDIR_SHOW_GROUP takes");
-    Request checked;
+    Request checked(allocator_);
     checked.target = request.target;
     checked.team = request.team;
     checked.group.assign(request.group, request.group + request.group_count);

@@ -69,13 +69,15 @@ class Observer {
 
   private:
     struct Request {
+        explicit Request(const Allocator<std::uint32_t>& allocator) : group(allocator) {}
+
         std::uint32_t target = CDIR_NO_PLAYER;
         Vector<std::uint32_t> group;
         std::string profile, overrides;
         std::uint8_t team = 0;
     };
 
-    [[nodiscard]] static Request checked_request(const cdir_shot_request& request);
+    [[nodiscard]] Request checked_request(const cdir_shot_request& request) const;
     [[nodiscard]] dds_return_t write_request();
     // Returns what dds_waitset_wait() does.
     [[nodiscard]] dds_return_t wait_for_news(std::int64_t timeout);
@@ -88,10 +90,11 @@ class Observer {
     std::shared_ptr<const Context> context_;
     std::string match_id_;
     std::string observer_id_;
+    Allocator<std::uint32_t> allocator_;  // in use when it was opened
 
     std::mutex mutex_;
     ReceivedMatch match_;
-    Request request_;               // the last one
+    Request request_{allocator_};   // the last one
     bool unanswered_loss_ = false;  // a director was lost, and the request not written again
     Reminder reminder_;
     WireSample<camera_director_ShownMatch> info_sample_{camera_director_ShownMatch_desc};

@@ -2,13 +2,29 @@
 
 #include <algorithm>
 #include <chrono>
+#include <string>
+#include <system_error>
 #include <utility>
 
 #include "failure.hpp"
 
 namespace camdir::sdk {
 
-PendingContext::PendingContext(Join join) : context_(std::async(std::launch::async, std::move(join))) {}
+namespace {
+
+std::shared_future<std::shared_ptr<const Context>> begin(PendingContext::Join join) {
+    try {
+        return std::async(std::launch::async, std::move(join));
+    } catch (const std::system_error& error) {
+        throw Failure{CDIR_OUT_OF_MEMORY,
+                      std::string("cannot start a thread: ") + error.what() +
+                          ": the process, its user or its container has as many as it may"};
+    }
+}
+
+}  // namespace
+
+PendingContext::PendingContext(Join join) : context_(begin(std::move(join))) {}
 
 cdir_status PendingContext::wait(std::int64_t timeout) const {
     // A longer one would overflow the clock.

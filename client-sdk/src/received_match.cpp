@@ -23,8 +23,9 @@ cdir_player player_at(const camera_director_ShownMatch& info, std::uint32_t inde
     return player;
 }
 
-ReceivedMatch::Info info_from(const camera_director_ShownMatch& sample) {
-    ReceivedMatch::Info info{cdir_match_info_default(), {}};
+ReceivedMatch::Info info_from(const camera_director_ShownMatch& sample,
+                              const Allocator<cdir_player>& allocator) {
+    ReceivedMatch::Info info{cdir_match_info_default(), Vector<cdir_player>(allocator)};
     copy_string(info.match.match_id, sample.match_id);
     copy_string(info.match.map_name, sample.map_name);
     info.match.epoch = sample.epoch;
@@ -122,7 +123,7 @@ void ReceivedMatch::accept(const camera_director_ShownMatch& info) {
     if (!is_valid(info, match_id_)) {
         ++counters_.invalid;
     } else if (enter_epoch(info.epoch)) {
-        info_ = info_from(info);
+        info_ = info_from(info, allocator_);
         described_ = true;
         take_early_status();
     }

@@ -71,6 +71,7 @@ class ReceivedMatch {
 
     std::string match_id_;
     std::string observer_id_;
+    Allocator<cdir_player> allocator_;  // in use when it was made
     bool requested_ = false;
     bool answered_ = false;   // by a director that lives
     bool described_ = false;  // likewise

@@ -23,11 +23,16 @@ std::time_t utc_second_after(std::int64_t ns) {
     return std::chrono::system_clock::to_time_t(std::chrono::ceil<std::chrono::seconds>(then));
 }
 
+// As stated, as far as that is one and may be.
+double pose_rate_hz(const MatchInfo& info, const config::Config& config) {
+    const double stated = std::isfinite(info.rate_hz) && info.rate_hz > 0.0F ? info.rate_hz : default_rate_hz;
+    return std::min(stated, static_cast<double>(config.limits.pose_rate_hz));
+}
+
 }  // namespace
 
 std::int64_t silence_limit_ns(const MatchInfo& info, const config::Config& config) {
-    const double stated = std::isfinite(info.rate_hz) && info.rate_hz > 0.0F ? info.rate_hz : default_rate_hz;
-    const double rate = std::min(stated, static_cast<double>(config.limits.pose_rate_hz));
+    const double rate = pose_rate_hz(info, config);
     const auto frames = static_cast<double>(config.matches.silence_frames);
     return static_cast<std::int64_t>(std::min(frames / rate, 86400.0) * 1e9);
 }
@@ -101,8 +106,7 @@ void Match::handle(MatchInfo& info) {
 }
 
 float Match::camera_rate_hz() const {
-    return std::min(info_->rate_hz, static_cast<float>(config_->limits.pose_rate_hz)) /
-           static_cast<float>(frames_per_camera_);
+    return static_cast<float>(pose_rate_hz(*info_, *config_) / static_cast<double>(frames_per_camera_));
 }
 
 // Of the frames that are let in, some are left out at a slower pace.
@@ -124,7 +128,7 @@ void Match::rest() {
 // Of so many pose frames one moves the cameras. What long turns take varies: by powers of two.
 std::uint32_t Match::wanted_frames_per_camera() const {
     const double interval_s = 2e-9 * static_cast<double>(long_turns_.worked());
-    const double frames = std::min(interval_s * static_cast<double>(info_->rate_hz), 1e6);
+    const double frames = std::min(interval_s * pose_rate_hz(*info_, *config_), 1e6);
     const auto own = std::bit_ceil(static_cast<std::uint32_t>(std::ceil(std::max(frames, 1.0))));
     return std::max(pace_.frames_per_camera(), own);
 }

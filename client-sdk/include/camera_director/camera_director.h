@@ -49,9 +49,11 @@
  * Threads. Every function may be called from any thread at any time. Calls on the same match or observer are
  * serialised; calls on different ones run concurrently. cdir_observer_wait() and cdir_context_wait() block
  * for long, and other calls on the same handle proceed meanwhile; opening and closing a context do where a
- * name server is slow. Closing a match or an observer takes up to 0.3 s where a director does not acknowledge
- * what was sent to it last. All else takes milliseconds at most. Do not call the library from a signal
- * handler or, after fork(), from the child process.
+ * name server is slow. Closing waits, for up to a second, for the calls in progress on what is closed.
+ * Closing a match or an observer takes up to 0.3 s where a director does not acknowledge what was sent to it
+ * last, or, with cyclone_xml, as long as that lets it linger; a context closes its own one after another. All
+ * else takes milliseconds at most. Do not call the library from a signal handler or, after fork(), from the
+ * child process.
  */
 #ifndef CAMERA_DIRECTOR_CAMERA_DIRECTOR_H
 #define CAMERA_DIRECTOR_CAMERA_DIRECTOR_H
@@ -153,8 +155,9 @@ typedef struct cdir_observer {
 
 /* --------------------------------------------------------------------------------------- library */
 
-/* Memory for what handles stand for: contexts, matches and observers. Cyclone DDS and the C++ runtime, which
- * holds what lives during a call only, take theirs from malloc().
+/* Memory for what handles stand for: contexts, matches and observers, with their poses, players and cameras.
+ * Names, the tables of handles, and what lives during a call only are in the C++ runtime's memory, and what
+ * Cyclone DDS holds in malloc()'s.
  * Returns `size` bytes at a multiple of `alignment`, a power of two; null when there are none. */
 typedef void* (*cdir_allocate_function)(void* user_data, size_t size, size_t alignment);
 /* Takes back what cdir_allocate_function has returned for this size and alignment. */
@@ -209,6 +212,7 @@ CDIR_DEFAULTS(cdir_context_options)
 /* Joins the domain. Waits for a name server where `directors` has names.
  * CDIR_CONFLICT: a context of this process has the domain open with other network settings or another
  * identity, or the process holds too many file descriptors: Cyclone DDS needs some below 1000.
+ * CDIR_OUT_OF_MEMORY: also when the system gives no thread or no file descriptor.
  * CDIR_INVALID_ARGUMENT: a file is missing in the folder `security`, or its key is open to everyone.
  * CDIR_NETWORK: no address of `directors` can be resolved, or Cyclone DDS refuses the options, for instance
  * an unknown interface or an expired identity. Later, where the identity is not allowed what it opens: an

@@ -176,6 +176,9 @@ struct ContextOptions {
     std::optional<std::string> security = {};
 };
 
+// Timeout: it is not open yet.
+enum class Joined { open, timeout };
+
 // A connection to the directors of one DDS domain.
 class Context {
   public:
@@ -187,10 +190,10 @@ class Context {
         return open_by(cdir_context_open_async, options);
     }
 
-    // Returns false when the context is not open yet. A negative timeout waits without limit.
-    [[nodiscard]] Result<bool> wait(std::chrono::nanoseconds timeout) const {
+    // A negative timeout waits without limit.
+    [[nodiscard]] Result<Joined> wait(std::chrono::nanoseconds timeout) const {
         const cdir_status status = cdir_context_wait(owner_.get(), timeout.count());
-        return detail::result(status, status == CDIR_OK);
+        return detail::result(status, status == CDIR_OK ? Joined::open : Joined::timeout);
     }
 
     [[nodiscard]] cdir_context handle() const noexcept { return owner_.get(); }

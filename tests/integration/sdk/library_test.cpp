@@ -3,11 +3,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <chrono>
 #include <cstdlib>
 #include <cstring>
+#include <future>
 #include <map>
 #include <mutex>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "support/test_domain.hpp"
@@ -128,6 +132,14 @@ TEST_F(LibraryOptions, WhatIsOpenLivesInTheApplicationsMemory) {
 
     library = cdir_library_options_default();
     ASSERT_EQ(cdir_library_configure(&library), CDIR_OK) << "what is open keeps its allocator";
+    const std::size_t pieces = heap.pieces();
+    const std::uint32_t group[2] = {1, 2};
+    cdir_shot_request request = cdir_shot_request_default();
+    request.target = CDIR_SHOW_GROUP;
+    request.group = group;
+    request.group_count = 2;
+    ASSERT_EQ(cdir_observer_request(observer, &request), CDIR_OK) << cdir_last_error();
+    EXPECT_EQ(heap.pieces(), pieces + 1);
     ASSERT_EQ(cdir_context_close(context_), CDIR_OK);
     EXPECT_EQ(heap.pieces(), 0U);
 }
@@ -210,6 +222,63 @@ TEST_F(LibraryOptions, AContextThatCannotBeOpenedSaysSoWhereItIsUsed) {
     options_.directors = "127.0.0.1,";
     EXPECT_EQ(cdir_context_open_async(&options_, &none), CDIR_INVALID_ARGUMENT) << "malformed";
     EXPECT_EQ(none.id, 0U);
+}
+
+// Memory of which one piece takes long.
+class SlowHeap {
+  public:
+    void set_in(cdir_library_options& options) {
+        options.allocator_data = this;
+        options.allocate = [](void* heap, std::size_t size, std::size_t alignment) {
+            return static_cast<SlowHeap*>(heap)->allocate(size, alignment);
+        };
+        options.free = [](void* heap, void* memory, std::size_t, std::size_t) {
+            --static_cast<SlowHeap*>(heap)->pieces_;
+            std::free(memory);
+        };
+    }
+    void be_slow() { is_slow_ = true; }
+    void wait_until_it_is() { begun_.get_future().wait(); }
+    [[nodiscard]] int pieces() const { return pieces_; }
+
+  private:
+    void* allocate(std::size_t size, std::size_t alignment) {
+        if (is_slow_.exchange(false)) {
+            begun_.set_value();
+            std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        }
+        ++pieces_;
+        return std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+    }
+
+    std::atomic<bool> is_slow_ = false;
+    std::atomic<int> pieces_ = 0;
+    std::promise<void> begun_;
+};
+
+TEST_F(LibraryOptions, WhatIsClosedIsGoneAlthoughACallWasInProgress) {
+    SlowHeap heap;
+    cdir_library_options library = cdir_library_options_default();
+    heap.set_in(library);
+    ASSERT_EQ(cdir_library_configure(&library), CDIR_OK);
+    ASSERT_EQ(cdir_context_open(&options_, &context_), CDIR_OK) << cdir_last_error();
+    cdir_observer observer{};
+    ASSERT_EQ(cdir_observer_open(context_, "cup", "anna", nullptr, &observer), CDIR_OK);
+    heap.be_slow();
+    const std::jthread asks([observer] {
+        const std::uint32_t group[2] = {1, 2};
+        cdir_shot_request request = cdir_shot_request_default();
+        request.target = CDIR_SHOW_GROUP;
+        request.group = group;
+        request.group_count = 2;
+        EXPECT_EQ(cdir_observer_request(observer, &request), CDIR_OK) << cdir_last_error();
+    });
+    heap.wait_until_it_is();
+    ASSERT_EQ(cdir_context_close(context_), CDIR_OK);
+    EXPECT_EQ(heap.pieces(), 0);
+    options_.directors = "127.0.0.1:7777";  // refused where the domain is still open with other settings
+    ASSERT_EQ(cdir_context_open(&options_, &context_), CDIR_OK) << cdir_last_error();
+    ASSERT_EQ(cdir_context_close(context_), CDIR_OK);
 }
 
 TEST_F(LibraryOptions, AContextMayBeClosedWhileItOpens) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <limits>
 #include <numeric>
 #include <span>
 #include <thread>
@@ -36,6 +37,16 @@ TEST(Poses, PosesThatWereHeldUpAllMoveTheCameras) {
         EXPECT_EQ(frames[i].frame_number, i);
         EXPECT_EQ(frames[i].pose_number, i + 1);
         ASSERT_EQ(frames[i].cameras.size(), 1U);
+    }
+}
+
+TEST(Poses, ObserversAreToldARateThoughTheGameServerStatesNone) {
+    for (const float stated : {0.0F, -1.0F, std::numeric_limits<float>::quiet_NaN()}) {
+        Stage stage;
+        MatchInfo info = Stage::info();
+        info.rate_hz = stated;
+        stage.start(info);
+        EXPECT_EQ(stage.publisher.shown()->rate_hz, 30.0F);
     }
 }
 

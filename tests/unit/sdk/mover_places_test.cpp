@@ -111,6 +111,7 @@ TEST_F(MoverPlacesTest, RefuseFramesThatAreWrongAsAWhole) {
     EXPECT_EQ(refusal(movers_at({{1, 2.0F}, {9, 0.0F}}).get()),
               "a mover is none of those in cdir_match_set_movers()");
     EXPECT_EQ(refusal(movers_at({{1, 2.0F}, {2, INFINITY}}).get()), "a mover's position is not finite");
+    EXPECT_EQ(refusal(movers_at({{1, 2.0F}, {2, 0.0F}, {1, 3.0F}}).get()), "a mover is given twice");
     MoverFrameArrays skewed = movers_at({{1, 2.0F}});
     skewed.orientations_[3] = 2.0F;
     EXPECT_EQ(refusal(skewed.get()), "a mover's orientation is not of length 1");

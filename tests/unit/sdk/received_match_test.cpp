@@ -66,12 +66,13 @@ class ReceivedMatchTest : public testing::Test {
     }
 
     // By a director.
-    void describe(std::uint64_t epoch, float metres_per_unit = 1.0F) {
+    void describe(std::uint64_t epoch, float metres_per_unit = 1.0F, float rate_hz = 60.0F) {
         camera_director_ShownMatch info{};
         std::string("cup").copy(info.match_id, 63);
         std::string map = "oa_dm1";
         info.map_name = map.data();
         info.metres_per_unit = metres_per_unit;
+        info.rate_hz = rate_hz;
         info.epoch = epoch;
         match_.accept(info);
     }
@@ -373,6 +374,7 @@ TEST_F(ReceivedMatchTest, MalformedFramesAreDroppedAndCounted) {
         [](auto& frame) { frame.flags.clear(); },
         [=](auto& frame) { frame.position[1] = nan; },
         [=](auto& frame) { frame.position[2] = infinity; },
+        [](auto& frame) { frame.position[0] = -1.1e9F; },
         [=](auto& frame) { frame.orientation[0] = nan; },
         [](auto& frame) { frame.orientation[3] = 1.002F; },
         [](auto& frame) { frame.orientation[3] = 0.0F; },
@@ -448,6 +450,14 @@ TEST_F(ReceivedMatchTest, TheLengthOfAUnitMayBeUnknown) {
     EXPECT_EQ(match_.counters().stale_epoch, 1U) << "the one before counts";
     describe(4, -1.0F);
     EXPECT_EQ(match_.counters().invalid, 1U);
+}
+
+TEST_F(ReceivedMatchTest, ADescriptionWithoutARateIsInvalid) {
+    for (const float rate : {0.0F, -60.0F}) {
+        describe(1, 1.0F, rate);
+        EXPECT_FALSE(match_.info());
+    }
+    EXPECT_EQ(match_.counters().invalid, 2U);
 }
 
 TEST_F(ReceivedMatchTest, UnknownStateIsInvalid) {
