@@ -346,8 +346,7 @@ void add_direction(std::vector<Key>& table) {
     add("dead", &Grammar::dead, "Cost of a second on a dead player, after `beat_after_death_s`.", "points", 0,
         1000);
     add("idle", &Grammar::idle, "Cost of a second on a player who stands about.", "points", 0, 1000);
-    add("inner_cut", &Grammar::inner_cut,
-        "Cost of a jump of the camera within its shot, at a respawn, and of a cut within 1.5 s of one.",
+    add("inner_cut", &Grammar::inner_cut, "Cost of a jump of the camera within its shot, at a respawn.",
         "points", 0, 1000);
     add("beat_after_death_s", &Grammar::beat_after_death_s, "How long a death may be looked at.", "s", 0, 10);
     add("fresh", &Grammar::fresh,

@@ -12,8 +12,6 @@
 namespace camdir::direction {
 namespace {
 
-// More than any plan can be worth: what breaks the grammar is chosen only where everything does.
-constexpr double never = 1e6;
 // A shot is rather for its own player's moments than for what is in the picture beside them.
 constexpr double foreign = 0.25;
 constexpr double worst = -std::numeric_limits<double>::infinity();
@@ -249,7 +247,7 @@ class Plan {
                 if (before - least <= best.worth) break;
                 if (to == from) continue;
                 double worth = before - cost_of_dividing(from, to);
-                if (jumped_[from] || jumps_[to]) worth -= rules_.grammar.inner_cut;
+                if (jumped_[from] || jumps_[to]) worth -= never;
                 if (worth <= best.worth) continue;  // looking at the pictures takes longest
                 if (breaks_continuity(beat, from, to)) worth -= never;
                 if (worth > best.worth) best = ending(worth, beat, to);

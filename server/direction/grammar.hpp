@@ -6,6 +6,9 @@
 
 namespace camdir::direction {
 
+// More than any plan can be worth, in points: what breaks the grammar is chosen only where everything does.
+inline constexpr double never = 1e6;
+
 // A shot of so many beats that ends by a cut, in points; 0 at the preferred length.
 [[nodiscard]] double length_cost(const Grammar& grammar, Beat length);
 
@@ -29,7 +32,8 @@ namespace camdir::direction {
 [[nodiscard]] bool may_cross_line(const Footage& footage, Beat beat, std::size_t from, std::size_t to);
 
 // A cut at `beat` leaves a piece of less than 1.5 s between itself and a jump of either camera: the one
-// before jumped just now, or the one after soon will. What is not known counts as none.
+// before jumped just now, or the one after soon will; so does a second jump of one camera. What is not known
+// counts as none.
 [[nodiscard]] bool jumped_just_before(const Footage& footage, Beat beat, std::size_t rush);
 [[nodiscard]] bool jumps_soon_after(const Footage& footage, Beat beat, std::size_t rush);
 

@@ -76,7 +76,7 @@ struct Grammar {
     double hidden = 3.0;     // a second in which the rush does not show its own player
     double dead = 3.0;       // a second on a dead player after `beat_after_death_s`
     double idle = 1.2;       // a second on a player who stands about
-    double inner_cut = 4.0;  // of a rush's own cut within a shot, and of a cut within 1.5 s of one
+    double inner_cut = 4.0;  // of a rush's own cut within a shot
     double beat_after_death_s = 0.7;
     double fresh = 0.02;  // a second, for each minute since its player was last shown; at most two
     // Of 30 degrees: a player seen from directions nearer to each other is a jump cut.

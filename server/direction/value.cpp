@@ -168,7 +168,9 @@ void Value::fade() {
 void Value::charge_inner_cuts() {
     for (std::size_t rush = 0; rush < rushes_; ++rush)
         for (const Beat beat : footage_.jumps(rush))
-            if (beat >= first_ && beat < known_) rate(beat, rush) -= rules_.grammar.inner_cut;
+            if (beat >= first_ && beat < known_)
+                rate(beat, rush) -=
+                    jumped_just_before(footage_, beat, rush) ? never : rules_.grammar.inner_cut;
 }
 
 void Value::sum_up() {

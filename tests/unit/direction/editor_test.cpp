@@ -45,8 +45,6 @@ OnAir nothing_yet(const Footage& footage) {
     return {{}, std::vector<Beat>(footage.rushes(), 0)};
 }
 
-constexpr double never = 1e6;  // more than any programme is worth
-
 // What a programme is worth, from the definitions.
 class Worth {
   public:
@@ -78,7 +76,8 @@ class Worth {
     [[nodiscard]] double of_beat(Beat beat, std::size_t rush) const {
         const Grammar& grammar = rules_.grammar;
         const Take& take = footage_.take(beat, rush);
-        double worth = take.cut ? -grammar.inner_cut : 0.0;
+        double worth = 0.0;
+        if (take.cut) worth -= jumped_just_before(footage_, beat, rush) ? never : grammar.inner_cut;
         worth -= (take.subject == nobody || !take.shown[take.subject] ? grammar.hidden : 0.0) * beat_s;
         worth -= (is_of_the_dead(take, beat) ? grammar.dead : 0.0) * beat_s;
         for (const Moment& moment : moments_) {
@@ -107,7 +106,7 @@ class Worth {
             may_cross_line(footage_, cut, before.rush, after.rush))
             cost += never;
         if (jumped_just_before(footage_, cut, before.rush) || jumps_soon_after(footage_, cut, after.rush))
-            cost += rules_.grammar.inner_cut;
+            cost += never;
         for (const Moment& moment : moments_) {
             if (!rules_.moments[moment.rule].whole || cut <= moment.begin || cut > moment.peak) continue;
             if (!seen(moment, {before, after})) cost += never;
