@@ -3,15 +3,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <future>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "support/test_domain.hpp"
@@ -35,6 +36,16 @@ cdir_match_info cup_info() {
     std::strcpy(info.match_id, "cup");
     std::strcpy(info.map_name, "oa_dm1");
     return info;
+}
+
+// Players 1 and 2 together.
+cdir_shot_request request_of_a_group() {
+    static constexpr std::uint32_t group[] = {1, 2};
+    cdir_shot_request request = cdir_shot_request_default();
+    request.target = CDIR_SHOW_GROUP;
+    request.group = group;
+    request.group_count = 2;
+    return request;
 }
 
 // Leaves the library as it was.
@@ -66,6 +77,11 @@ class Heap {
         const std::lock_guard lock(mutex_);
         exhausted_ = true;
     }
+    // The next piece takes long; the future is ready when it has been asked for.
+    [[nodiscard]] std::future<void> be_slow_once() {
+        const std::lock_guard lock(mutex_);
+        return asked_slowly_.emplace().get_future();
+    }
     [[nodiscard]] std::size_t used() const {
         const std::lock_guard lock(mutex_);
         std::size_t bytes = 0;
@@ -80,6 +96,10 @@ class Heap {
 
   private:
     void* allocate(std::size_t size, std::size_t alignment) {
+        if (auto asked = take_slow_turn()) {
+            asked->set_value();
+            std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        }
         const std::lock_guard lock(mutex_);
         if (exhausted_) return nullptr;
         void* memory = std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
@@ -95,8 +115,14 @@ class Heap {
         std::free(memory);
     }
 
+    std::optional<std::promise<void>> take_slow_turn() {
+        const std::lock_guard lock(mutex_);
+        return std::exchange(asked_slowly_, std::nullopt);
+    }
+
     mutable std::mutex mutex_;
     bool exhausted_ = false;
+    std::optional<std::promise<void>> asked_slowly_;
     std::map<void*, std::size_t> given_;
 };
 
@@ -133,11 +159,7 @@ TEST_F(LibraryOptions, WhatIsOpenLivesInTheApplicationsMemory) {
     library = cdir_library_options_default();
     ASSERT_EQ(cdir_library_configure(&library), CDIR_OK) << "what is open keeps its allocator";
     const std::size_t pieces = heap.pieces();
-    const std::uint32_t group[2] = {1, 2};
-    cdir_shot_request request = cdir_shot_request_default();
-    request.target = CDIR_SHOW_GROUP;
-    request.group = group;
-    request.group_count = 2;
+    const cdir_shot_request request = request_of_a_group();
     ASSERT_EQ(cdir_observer_request(observer, &request), CDIR_OK) << cdir_last_error();
     EXPECT_EQ(heap.pieces(), pieces + 1);
     ASSERT_EQ(cdir_context_close(context_), CDIR_OK);
@@ -224,58 +246,22 @@ TEST_F(LibraryOptions, AContextThatCannotBeOpenedSaysSoWhereItIsUsed) {
     EXPECT_EQ(none.id, 0U);
 }
 
-// Memory of which one piece takes long.
-class SlowHeap {
-  public:
-    void set_in(cdir_library_options& options) {
-        options.allocator_data = this;
-        options.allocate = [](void* heap, std::size_t size, std::size_t alignment) {
-            return static_cast<SlowHeap*>(heap)->allocate(size, alignment);
-        };
-        options.free = [](void* heap, void* memory, std::size_t, std::size_t) {
-            --static_cast<SlowHeap*>(heap)->pieces_;
-            std::free(memory);
-        };
-    }
-    void be_slow() { is_slow_ = true; }
-    void wait_until_it_is() { begun_.get_future().wait(); }
-    [[nodiscard]] int pieces() const { return pieces_; }
-
-  private:
-    void* allocate(std::size_t size, std::size_t alignment) {
-        if (is_slow_.exchange(false)) {
-            begun_.set_value();
-            std::this_thread::sleep_for(std::chrono::milliseconds(100));
-        }
-        ++pieces_;
-        return std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
-    }
-
-    std::atomic<bool> is_slow_ = false;
-    std::atomic<int> pieces_ = 0;
-    std::promise<void> begun_;
-};
-
 TEST_F(LibraryOptions, WhatIsClosedIsGoneAlthoughACallWasInProgress) {
-    SlowHeap heap;
+    Heap heap;
     cdir_library_options library = cdir_library_options_default();
     heap.set_in(library);
     ASSERT_EQ(cdir_library_configure(&library), CDIR_OK);
     ASSERT_EQ(cdir_context_open(&options_, &context_), CDIR_OK) << cdir_last_error();
     cdir_observer observer{};
     ASSERT_EQ(cdir_observer_open(context_, "cup", "anna", nullptr, &observer), CDIR_OK);
-    heap.be_slow();
+    auto begun = heap.be_slow_once();
     const std::jthread asks([observer] {
-        const std::uint32_t group[2] = {1, 2};
-        cdir_shot_request request = cdir_shot_request_default();
-        request.target = CDIR_SHOW_GROUP;
-        request.group = group;
-        request.group_count = 2;
+        const cdir_shot_request request = request_of_a_group();
         EXPECT_EQ(cdir_observer_request(observer, &request), CDIR_OK) << cdir_last_error();
     });
-    heap.wait_until_it_is();
+    begun.wait();
     ASSERT_EQ(cdir_context_close(context_), CDIR_OK);
-    EXPECT_EQ(heap.pieces(), 0);
+    EXPECT_EQ(heap.pieces(), 0U);
     options_.directors = "127.0.0.1:7777";  // refused where the domain is still open with other settings
     ASSERT_EQ(cdir_context_open(&options_, &context_), CDIR_OK) << cdir_last_error();
     ASSERT_EQ(cdir_context_close(context_), CDIR_OK);
