@@ -80,7 +80,7 @@ class Heap {
     // The next piece takes long; the future is ready when it has been asked for.
     [[nodiscard]] std::future<void> be_slow_once() {
         const std::lock_guard lock(mutex_);
-        return asked_slowly_.emplace().get_future();
+        return slow_turn_.emplace().get_future();
     }
     [[nodiscard]] std::size_t used() const {
         const std::lock_guard lock(mutex_);
@@ -117,12 +117,12 @@ class Heap {
 
     std::optional<std::promise<void>> take_slow_turn() {
         const std::lock_guard lock(mutex_);
-        return std::exchange(asked_slowly_, std::nullopt);
+        return std::exchange(slow_turn_, std::nullopt);
     }
 
     mutable std::mutex mutex_;
     bool exhausted_ = false;
-    std::optional<std::promise<void>> asked_slowly_;
+    std::optional<std::promise<void>> slow_turn_;
     std::map<void*, std::size_t> given_;
 };
 
