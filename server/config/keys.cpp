@@ -334,11 +334,13 @@ void add_direction(std::vector<Key>& table) {
             {"/direction", name, in_grammar(member), help, unit, minimum, maximum, {}, false, true});
     };
     add("minimum_shot_s", &Grammar::minimum_shot_s, "No shot is shorter.", "s", 0.4, 60);
-    add("preferred_shot_s", &Grammar::preferred_shot_s, "The length that costs nothing.", "s", 0.4, 600);
+    add("preferred_shot_s", &Grammar::preferred_shot_s,
+        "The length of a piece that costs nothing: from a cut, or a jump of the camera, to the next.", "s",
+        0.4, 600);
     add("maximum_shot_s", &Grammar::maximum_shot_s,
         "No shot is longer while another may follow; less than `minimum_shot_s` counts as that.", "s", 0.4,
         600);
-    add("length", &Grammar::length, "Cost of a shot 2.7 times as long, or as short, as preferred.", "points",
+    add("length", &Grammar::length, "Cost of a piece 2.7 times as long, or as short, as preferred.", "points",
         0, 1000);
     add("cut", &Grammar::cut, "Cost of a cut.", "points", 0, 1000);
     add("hidden", &Grammar::hidden, "Cost of a second in which a camera does not show its player.", "points",
@@ -346,8 +348,9 @@ void add_direction(std::vector<Key>& table) {
     add("dead", &Grammar::dead, "Cost of a second on a dead player, after `beat_after_death_s`.", "points", 0,
         1000);
     add("idle", &Grammar::idle, "Cost of a second on a player who stands about.", "points", 0, 1000);
-    add("inner_cut", &Grammar::inner_cut, "Cost of a jump of the camera within its shot, at a respawn.",
-        "points", 0, 1000);
+    add("inner_cut", &Grammar::inner_cut,
+        "Cost of a jump of the camera within its shot, at a respawn, beside that of the pieces.", "points", 0,
+        1000);
     add("beat_after_death_s", &Grammar::beat_after_death_s, "How long a death may be looked at.", "s", 0, 10);
     add("fresh", &Grammar::fresh,
         "Worth of a second, for each minute since its player was last on the air; at most two.", "points", 0,
@@ -377,8 +380,9 @@ void add_moments(std::vector<Key>& table) {
          "trigger",
          in_rule(&Rule::trigger),
          "What begins a moment: enemies in mutual sight, wounds of two players each within `after_s` of "
-         "the last, an event, a kill (`killer`: of the killer alone), several kills of one player each "
-         "within 3 s of the last, three kills in one life, a flag until it is captured or its carrier dies, "
+         "the last, an event, a kill (`killer`: of the killer alone), one of several kills by one "
+         "player, each within 3 s of the last, three kills in one life, a flag until it is captured or its "
+         "carrier dies, "
          "more kills than anybody else, who lives, all others of a team dead for 5 s, while an enemy does.",
          "",
          0,

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cassert>
 #include <limits>
+#include <utility>
 
 #include "direction/grammar.hpp"
 #include "direction/value.hpp"
@@ -83,6 +84,28 @@ class CreditSum {
     Beat from_;
     std::size_t next_ = 0;
     double sum_ = 0.0;
+};
+
+// Of a shot, whose end moves on: what its camera's jumps divide.
+class Pieces {
+  public:
+    Pieces(std::span<const Beat> jumps, Beat begin)
+        : next_(std::ranges::upper_bound(jumps, begin)), last_(jumps.end()), begin_(begin) {}
+
+    // Calls `over` with the length of each piece that ends before `end`.
+    void advance(Beat end, auto over) {
+        for (; next_ != last_ && *next_ < end; ++next_)
+            over(*next_ - std::exchange(begin_, *next_));
+    }
+    [[nodiscard]] Beat begin() const { return begin_; }
+    // Of the last beat at which a shot may end in this piece.
+    [[nodiscard]] Beat last_end() const {
+        return next_ != last_ ? *next_ : std::numeric_limits<Beat>::max() - 1;
+    }
+
+  private:
+    std::span<const Beat>::iterator next_, last_;
+    Beat begin_;
 };
 
 class Plan {
@@ -187,19 +210,27 @@ class Plan {
         const Beat last = std::max(first, begin + longest_);
         const double past = value_.until(from, rush);
         CreditSum credit(whole_[rush], begin, from);
+        Pieces pieces(footage_.jumps(rush), begin);
+        double pieces_cost = 0.0;
+        const auto advance = [&](Beat end) {
+            pieces.advance(end, [&](Beat length) { pieces_cost += cost_of_length(length); });
+        };
         double most = worst;
         Beat best = horizon_;
         const double* after = after_end_.data();
         if (first < horizon_) {
+            advance(first);
             after += at(first, rush);
-            most = *after++ - cost_of_length(first - begin) + (credit.at(first) - past);
+            most =
+                *after++ - pieces_cost - cost_of_length(first - pieces.begin()) + (credit.at(first) - past);
             best = first;
         }
         for (Beat end = first + cut_every; end <= last && end < horizon_;) {
-            const double earned = credit.at(end) - past;
-            const Beat stretch = std::min({last + 1, horizon_, credit.next_end()});
+            advance(end);
+            const double earned = credit.at(end) - past - pieces_cost;
+            const Beat stretch = std::min({last + 1, horizon_, credit.next_end(), pieces.last_end() + 1});
             const auto count = static_cast<std::size_t>((stretch - end + cut_every - 1) / cut_every);
-            const double* costs = length_costs_.data() + place_of_length(end - begin);
+            const double* costs = length_costs_.data() + place_of_length(end - pieces.begin());
             const double greatest = greatest_difference(after, costs, count);
             if (greatest + earned > most) {
                 most = greatest + earned;
@@ -209,8 +240,10 @@ class Plan {
             end += cut_every * static_cast<Beat>(count);
         }
         // To the end of the plan: a shot that is not over yet cannot be too short.
-        const Beat open_length = std::max(preferred_, horizon_ - begin);
-        double stay = value_.until(horizon_, rush) - past - cost_of_length(open_length) + credit.at(horizon_);
+        advance(horizon_);
+        const Beat open_length = std::max(preferred_, horizon_ - pieces.begin());
+        double stay = value_.until(horizon_, rush) - past - pieces_cost - cost_of_length(open_length) +
+                      credit.at(horizon_);
         if (horizon_ - begin > longest_) stay -= never;
         return stay >= most ? ending(stay, horizon_, rush) : ending(most, best, rush);
     }

@@ -131,9 +131,12 @@ class Finder {
 
     void find_multi_kills(Index rule) {
         const auto kills = kills_of(recent_);
+        std::vector<bool> is_one_of_several(kills.size());
         for (std::size_t i = 0; i < kills.size(); ++i)
-            if (kills[i].first != i)
-                add(rule, kills[kills[i].first].time, kills[i].time, kills[i].killer, kills[i].victim);
+            if (kills[i].first != i) is_one_of_several[i] = is_one_of_several[kills[i].first] = true;
+        for (std::size_t i = 0; i < kills.size(); ++i)
+            if (is_one_of_several[i])
+                add(rule, kills[i].time, kills[i].time, kills[i].killer, kills[i].victim);
     }
 
     // Those that have ended, and those that go on.

@@ -35,7 +35,7 @@ enum class Trigger : std::uint8_t {
     exchange,    // one hurt the other; while the next wound of the two comes within the time after
     kill,        // one killed another
     killer,      // likewise; of the killer alone
-    multi_kill,  // a kill within 3 s of the same killer's last: from the first one on
+    multi_kill,  // likewise, where the same killer's last or next kill is within 3 s
     flag_taken,
     flag_captured,
     objective,
@@ -69,14 +69,14 @@ struct Rule {
 // How shots follow each other. Seconds, and costs in points.
 struct Grammar {
     double minimum_shot_s = 2.2;  // never shorter
-    double preferred_shot_s = 8.0;
+    double preferred_shot_s = 7.0;
     double maximum_shot_s = 14.0;
-    double length = 4.5;     // of a shot e times as long, or as short, as preferred
+    double length = 5.0;     // of a piece e times as long, or as short, as preferred
     double cut = 1.5;        // of every cut
     double hidden = 3.0;     // a second in which the rush does not show its own player
     double dead = 3.0;       // a second on a dead player after `beat_after_death_s`
     double idle = 1.2;       // a second on a player who stands about
-    double inner_cut = 4.0;  // of a rush's own cut within a shot
+    double inner_cut = 1.0;  // of a rush's own cut within a shot, beside what its pieces cost
     double beat_after_death_s = 0.7;
     double fresh = 0.02;  // a second, for each minute since its player was last shown; at most two
     // Of 30 degrees: a player seen from directions nearer to each other is a jump cut.

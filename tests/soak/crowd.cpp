@@ -1,8 +1,5 @@
 // crowd: observers that all connect at once, each with a participant of its own; how long the last of them
 // waits for its camera.
-#include <unistd.h>
-#include <cerrno>
-
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <camera_director/camera_director.hpp>
@@ -15,6 +12,7 @@
 #include <thread>
 #include <vector>
 
+#include "soak/priority.hpp"
 #include "support/program.hpp"
 
 namespace camdir::soak {
@@ -87,9 +85,7 @@ double wait_for_all(std::vector<Member>& members, Clock::time_point limit) {
 }
 
 void run(const Options& options) {
-    // As if it were not on the directors' machine.
-    errno = 0;  // a priority may be -1
-    if (::nice(10) == -1 && errno != 0) throw std::runtime_error("cannot lower the priority");
+    stand_for_another_machine();
     const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                         std::chrono::duration<double>(options.seconds));
     std::vector<Member> members;

@@ -11,6 +11,7 @@
 #include <random>
 #include <thread>
 
+#include "soak/priority.hpp"
 #include "support/eventually.hpp"
 #include "support/program.hpp"
 #include "support/raw_peer.hpp"
@@ -292,6 +293,7 @@ const std::map<std::string, void (Stranger::*)()> acts = {
 };
 
 void run(const Options& options) {
+    stand_for_another_machine();
     Stranger stranger(options);
     (stranger.*acts.at(options.act))();
     stranger.print();

@@ -5,6 +5,7 @@
 
 #include <limits>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "direction/grammar.hpp"
@@ -56,9 +57,8 @@ class Worth {
         for (std::size_t i = 0; i < shots.size(); ++i) {
             for (Beat beat = shots[i].begin; beat < shots[i].end; ++beat)
                 worth += of_beat(beat, shots[i].rush);
-            const Beat length = shots[i].end - shots[i].begin;
             const bool last = i + 1 == shots.size();
-            worth -= length_cost(rules_.grammar, last ? std::max<Beat>(5, length) : length);
+            worth -= of_pieces(shots[i], last);
             if (!last) worth -= of_cut(shots[i], shots[i + 1]);
         }
         for (const Moment& moment : moments_)
@@ -71,6 +71,18 @@ class Worth {
     [[nodiscard]] bool shown(const Moment& moment, Beat beat, std::size_t rush) const {
         const PlayerSet& shown = footage_.take(beat, rush).shown;
         return shown[moment.actor] || shown[moment.subject];
+    }
+
+    // The last piece of all is not over.
+    [[nodiscard]] double of_pieces(const Shot& shot, bool last) const {
+        double cost = 0.0;
+        Beat begin = shot.begin;
+        for (Beat beat = begin + 1; beat < shot.end; ++beat)
+            if (footage_.take(beat, shot.rush).cut)
+                cost += length_cost(rules_.grammar, beat - std::exchange(begin, beat));
+        const Beat preferred = beat_of(rules_.grammar.preferred_shot_s);
+        return cost +
+               length_cost(rules_.grammar, last ? std::max(preferred, shot.end - begin) : shot.end - begin);
     }
 
     [[nodiscard]] double of_beat(Beat beat, std::size_t rush) const {
@@ -130,16 +142,19 @@ class Worth {
 };
 
 // The greatest worth of all programmes from `shots` on, which end at `begin`.
-double best_of_all(const Footage& footage, const Worth& worth, std::vector<Shot>& shots, Beat begin) {
+double best_of_all(const Footage& footage, const Grammar& grammar, const Worth& worth,
+                   std::vector<Shot>& shots, Beat begin) {
+    const Beat shortest = beat_of(grammar.minimum_shot_s);
+    const Beat longest = beat_of(grammar.maximum_shot_s);
     if (begin == footage.beats()) return worth.of(shots);
     double best = -std::numeric_limits<double>::infinity();
     for (std::size_t rush = 0; rush < footage.rushes(); ++rush) {
         if (!shots.empty() && shots.back().rush == rush) continue;
         if (footage.take(begin, rush).subject == nobody) continue;
-        for (Beat end = begin + 1; end <= std::min(begin + 7, footage.beats()); ++end) {
-            if ((end - begin < 4 || end % cut_every != 0) && end < footage.beats()) continue;
+        for (Beat end = begin + 1; end <= std::min(begin + longest, footage.beats()); ++end) {
+            if ((end - begin < shortest || end % cut_every != 0) && end < footage.beats()) continue;
             shots.push_back({rush, begin, end, {}});
-            best = std::max(best, best_of_all(footage, worth, shots, end));
+            best = std::max(best, best_of_all(footage, grammar, worth, shots, end));
             shots.pop_back();
         }
     }
@@ -157,12 +172,43 @@ TEST(Editor, NoProgrammeIsWorthMore) {
         const Worth worth(footage, moments, rules);
         const auto plan = plan_shots(footage, moments, rules, test::unit, nothing_yet(footage), 0);
         std::vector<Shot> shots;
-        const double best = best_of_all(footage, worth, shots, 0);
+        const double best = best_of_all(footage, rules.grammar, worth, shots, 0);
         if (best < -never / 2.0) continue;  // all break it, and the plan may by a shot that is too long
         ++within_grammar;
         EXPECT_NEAR(worth.of(plan), best, 1e-6) << round;
     }
     EXPECT_GT(within_grammar, 50);
+}
+
+// Shots of 1.6 s and more, which a jump of the camera may divide into pieces of 1.5 s and more.
+TEST(Editor, NoProgrammeIsWorthMoreWhereCamerasJump) {
+    std::mt19937 random(8);
+    int divided = 0;
+    for (int round = 0; round < 40; ++round) {
+        Script script(2, 80);
+        for (std::size_t rush = 0; rush < 2; ++rush) {
+            for (std::size_t beat = random() % 20; beat < 80; beat += 15 + random() % 30)
+                script.take(beat, rush).cut = true;
+            for (std::size_t beat = 0; beat < 80; ++beat)
+                script.take(beat, rush).shown.set(rush, random() % 4 != 0);
+        }
+        const Footage footage = script.footage();
+        Rules rules = small_rules();
+        rules.grammar.minimum_shot_s = 1.6;
+        rules.grammar.preferred_shot_s = 3.0;
+        rules.grammar.maximum_shot_s = 6.0;
+        rules.grammar.inner_cut = 0.2;
+        const Worth worth(footage, {}, rules);
+        const auto plan = plan_shots(footage, {}, rules, test::unit, nothing_yet(footage), 0);
+        std::vector<Shot> shots;
+        const double best = best_of_all(footage, rules.grammar, worth, shots, 0);
+        if (best < -never / 2.0) continue;
+        EXPECT_NEAR(worth.of(plan), best, 1e-6) << round;
+        for (const Shot& shot : plan)
+            for (Beat beat = shot.begin + 1; beat < shot.end; ++beat)
+                divided += footage.take(beat, shot.rush).cut ? 1 : 0;
+    }
+    EXPECT_GT(divided, 20);
 }
 
 TEST(Editor, APlanIsOneSequenceOfShotsWithinTheGrammar) {

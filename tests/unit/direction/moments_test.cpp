@@ -89,11 +89,15 @@ TEST(Moments, KillsInQuickSuccessionAreAMultiKill) {
     EXPECT_EQ(kills[4].first, 4U);  // 3.1 s later
     const auto found = find_moments(Script(3, 120).footage(), events,
                                     only({.name = "tested", .trigger = Trigger::multi_kill}), test::unit, 0);
-    ASSERT_EQ(found.size(), 2U);
+    ASSERT_EQ(found.size(), 3U) << "each of them, with its own victim";
     EXPECT_EQ(found[0].begin, 10);
-    EXPECT_EQ(found[0].end, 36);
-    EXPECT_EQ(found[1].begin, 10);
-    EXPECT_EQ(found[1].end, 65);
+    EXPECT_EQ(found[0].end, 11);
+    EXPECT_EQ(found[0].subject, 1);
+    EXPECT_EQ(found[1].begin, 35);
+    EXPECT_EQ(found[1].end, 36);
+    EXPECT_EQ(found[1].subject, 2);
+    EXPECT_EQ(found[2].begin, 64);
+    EXPECT_EQ(found[2].end, 65);
 }
 
 TEST(Moments, AfterAKillTheKillerIsWorthSeeing) {

@@ -164,7 +164,15 @@ class EditTest : public testing::TestWithParam<double> {
 
     freespace::Freespace space_ = Stage::square();
     freespace::Movers movers_;
-    direction::Rules rules_ = direction::default_rules();
+    direction::Rules rules_ = with_fixed_shots();
+
+  private:
+    // Where jumps cost much, cameras that never jump are chosen, too.
+    [[nodiscard]] static direction::Rules with_fixed_shots() {
+        direction::Rules rules = direction::default_rules();
+        rules.grammar.inner_cut = 4.0;
+        return rules;
+    }
 };
 
 TEST_P(EditTest, ShowsTheProgrammeOfThePureEditor) {

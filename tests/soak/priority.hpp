@@ -1,0 +1,18 @@
+// Who gets the processor of a machine that stands for several.
+#pragma once
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <stdexcept>
+
+namespace camdir::soak {
+
+// Lets the directors and those whom they serve have the processor first: of what this process does they are
+// to feel the messages, not the work of making them.
+inline void stand_for_another_machine() {
+    errno = 0;  // a priority may be -1
+    if (::nice(10) == -1 && errno != 0) throw std::runtime_error("cannot lower the priority");
+}
+
+}  // namespace camdir::soak
