@@ -176,8 +176,7 @@ std::vector<direction::Moment> moments_to_begin_with(std::span<const direction::
     std::vector<direction::Moment> some;
     std::ranges::copy_if(moments, std::back_inserter(some), [&](const direction::Moment& moment) {
         const direction::Rule& rule = rules.moments[moment.rule];
-        return (rule.worth > 0.0 || rule.worth_both > 0.0) &&
-               std::ranges::find(others, rule.trigger) == others.end();
+        return rule.is_on() && std::ranges::find(others, rule.trigger) == others.end();
     });
     return some;
 }
@@ -208,7 +207,8 @@ void print_table(const std::vector<Judged>& judged, std::size_t kills_in_reach) 
             std::fprintf(stderr, "%12.*f", figure.decimals, one.figures.*figure.member);
     }
     std::fprintf(stderr,
-                 "\nbound: the most kills that can be seen; it seeks nothing else, its other figures bound "
+                 "\nbound: the most kills that can be seen within the grammar; it seeks nothing else, its "
+                 "other figures bound "
                  "nothing\n%zu kills are in reach of the cameras, whatever the grammar\n",
                  kills_in_reach);
 }
@@ -287,6 +287,7 @@ std::vector<report::Fact> facts_of(const DirectOptions& options, const Inputs& i
     if (!inputs.events.empty())
         facts.push_back({"Events", options.events.empty() ? options.trace : options.events});
     if (!options.movers.empty()) facts.push_back({"Movers", options.movers});
+    if (!options.config.empty()) facts.push_back({"Rules and lengths of shots", options.config});
     return facts;
 }
 

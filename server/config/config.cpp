@@ -1,6 +1,7 @@
 #include "config/config.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <set>
 
@@ -70,9 +71,13 @@ const Key* find_key(const std::string& section, const std::string& name) {
     return found == keys().end() ? nullptr : &*found;
 }
 
-std::string unknown(const std::string& name, const std::vector<std::string>& known) {
+std::string suggestion(const std::string& name, const std::vector<std::string>& known) {
     const std::string near = nearest_spelling(name, known);
-    return "unknown key" + (near.empty() ? std::string() : ", did you mean \"" + near + "\"?");
+    return near.empty() ? std::string() : ", did you mean \"" + near + "\"?";
+}
+
+std::string unknown(const std::string& name, const std::vector<std::string>& known) {
+    return "unknown key" + suggestion(name, known);
 }
 
 // What took the place of a key of earlier versions; empty where there was none.
@@ -171,6 +176,12 @@ bool is_rule_name(const std::string& name) {
     return !name.empty() && name.size() <= max_profile_name && std::ranges::none_of(name, breaks_a_table);
 }
 
+std::vector<std::string> names_of(const std::vector<direction::Rule>& rules) {
+    std::vector<std::string> names;
+    std::ranges::transform(rules, std::back_inserter(names), &direction::Rule::name);
+    return names;
+}
+
 void read_moments(const json& object, direction::Rules& rules, ValidationErrors& errors) {
     if (!object.is_object()) return errors.add("/moments", object, "an object of rules by name");
     for (const auto& [name, value] : object.items()) {
@@ -183,7 +194,8 @@ void read_moments(const json& object, direction::Rules& rules, ValidationErrors&
         if (rule == rules.moments.end()) {
             if (value.is_object() && !value.contains("trigger"))
                 errors.add(pointer + "/trigger: missing: expected " +
-                           expected(*find_key("/moments/*", "trigger")));
+                           expected(*find_key("/moments/*", "trigger")) + ", for no such rule ships" +
+                           suggestion(name, names_of(rules.moments)));
             rule = rules.moments.insert(rule, direction::Rule{.name = name});
         }
         read_object("/moments/*", pointer, value, {nullptr, nullptr, nullptr, &*rule}, errors);

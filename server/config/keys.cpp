@@ -380,10 +380,10 @@ void add_moments(std::vector<Key>& table) {
          "trigger",
          in_rule(&Rule::trigger),
          "What begins a moment: enemies in mutual sight, wounds of two players each within `after_s` of "
-         "the last, an event, a kill (`killer`: of the killer alone), one of several kills by one "
-         "player, each within 3 s of the last, three kills in one life, a flag until it is captured or its "
-         "carrier dies, "
-         "more kills than anybody else, who lives, all others of a team dead for 5 s, while an enemy does.",
+         "the last, an event, a kill (`killer`: of the killer alone), one of several kills by one player, "
+         "each within 3 s of the last, three kills in one life, a flag until it is captured or its carrier "
+         "dies, more kills than anybody else, who lives, all others of a team dead for 5 s, while an enemy "
+         "does.",
          "",
          0,
          16,
@@ -621,8 +621,11 @@ const std::vector<Section>& sections() {
          "other, and are not the game's score. Reloaded by SIGHUP."},
         {"/moments",
          "What is worth seeing there: rules by name. What a file says of those that ship changes single keys "
-         "of them; a rule of another name is a new one and needs a `trigger`. A `worth` and `worth_both` of "
-         "0 switch a rule off. Reloaded by SIGHUP."},
+         "of them; a rule of another name is a new one and needs a `trigger`: `\"moments\": {\"kill\": "
+         "{\"worth\": 15}, \"late awards\": {\"trigger\": \"award\", \"after_s\": 2, \"worth\": 1}}`. What "
+         "moments of "
+         "several rules are worth adds up: two kills in quick succession have the worth of `kill` and that "
+         "of `multi-kill` each. A `worth` and `worth_both` of 0 switch a rule off. Reloaded by SIGHUP."},
         {"/limits",
          "Matches beyond `matches`, `participant_matches` and `participant_match_rate`, and observers beyond "
          "`observers`, wait for room, first come, first served: as many as may be served, and of one "

@@ -86,19 +86,19 @@ class CreditSum {
     double sum_ = 0.0;
 };
 
-// Of a shot, whose end moves on: what its camera's jumps divide.
+// What its camera's jumps divide a shot into; ends of the shot ascend from call to call.
 class Pieces {
   public:
     Pieces(std::span<const Beat> jumps, Beat begin)
         : next_(std::ranges::upper_bound(jumps, begin)), last_(jumps.end()), begin_(begin) {}
 
-    // Calls `over` with the length of each piece that ends before `end`.
+    // Calls `over` with the length of each further piece that ends before `end`.
     void advance(Beat end, auto over) {
         for (; next_ != last_ && *next_ < end; ++next_)
             over(*next_ - std::exchange(begin_, *next_));
     }
     [[nodiscard]] Beat begin() const { return begin_; }
-    // Of the last beat at which a shot may end in this piece.
+    // The last beat at which the shot may end in this piece.
     [[nodiscard]] Beat last_end() const {
         return next_ != last_ ? *next_ : std::numeric_limits<Beat>::max() - 1;
     }
@@ -121,8 +121,8 @@ class Plan {
           rushes_(footage.rushes()),
           slots_(static_cast<std::size_t>(horizon_ - now + 1) / cut_every + 1),
           shortest_(beat_of(rules.grammar.minimum_shot_s)),
-          preferred_(beat_of(rules.grammar.preferred_shot_s)),
           longest_(beat_of(std::max(rules.grammar.minimum_shot_s, rules.grammar.maximum_shot_s))),
+          preferred_(beat_of(rules.grammar.preferred_shot_s)),
           lengths_((horizon_ - now + longest_) / cut_every + 1),
           value_(footage, moments, rules, unit, on_air.last_shown, now, horizon_),
           shots_(slots_ * rushes_),
@@ -239,7 +239,7 @@ class Plan {
             after += count;
             end += cut_every * static_cast<Beat>(count);
         }
-        // To the end of the plan: a shot that is not over yet cannot be too short.
+        // To the end of the plan: a piece that is not over yet cannot be too short.
         advance(horizon_);
         const Beat open_length = std::max(preferred_, horizon_ - pieces.begin());
         double stay = value_.until(horizon_, rush) - past - pieces_cost - cost_of_length(open_length) +
@@ -437,8 +437,9 @@ class Plan {
     Beat horizon_;
     std::size_t rushes_;
     std::size_t slots_;
-    Beat shortest_, preferred_, longest_;  // shots
-    Beat lengths_;                         // in the table, of each remainder
+    Beat shortest_, longest_;  // shots
+    Beat preferred_;           // pieces
+    Beat lengths_;             // in the table, of each remainder
     Value value_;
     std::vector<Choice> shots_;                    // of a shot that begins at a beat: when it ends
     std::vector<Choice> cuts_;                     // of a shot that ends at a beat: what comes next

@@ -9,8 +9,8 @@ namespace camdir::direction {
 // More than any plan can be worth, in points: what breaks the grammar is chosen only where everything does.
 inline constexpr double never = 1e6;
 
-// A piece of so many beats, between two cuts, of which the camera of a shot makes some itself; in points, 0
-// at the preferred length.
+// A piece of so many beats, from a cut, or a jump of the camera, to the next; in points, 0 at the preferred
+// length.
 [[nodiscard]] double length_cost(const Grammar& grammar, Beat length);
 
 // A cut at `beat` between the two rushes is a jump cut: both show the subject of one of them, from directions

@@ -35,7 +35,7 @@ enum class Trigger : std::uint8_t {
     exchange,    // one hurt the other; while the next wound of the two comes within the time after
     kill,        // one killed another
     killer,      // likewise; of the killer alone
-    multi_kill,  // likewise, where the same killer's last or next kill is within 3 s
+    multi_kill,  // one killed another, and the same killer's last or next kill is within 3 s
     flag_taken,
     flag_captured,
     objective,
@@ -64,6 +64,8 @@ struct Rule {
     bool whole = false;
     double range = 1e9;     // sight: no farther apart, units of 0.0254 m
     double facing = 180.0;  // sight: one of them looks this near to the other, degrees
+
+    [[nodiscard]] bool is_on() const { return worth > 0.0 || worth_both > 0.0; }
 };
 
 // How shots follow each other. Seconds, and costs in points.

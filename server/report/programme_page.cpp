@@ -81,7 +81,7 @@ class Timeline {
                           decimal(seconds(begin), 0) + " s to " + decimal(seconds(end), 0) + " s\">";
         svg += lanes() + seconds_axis(begin, end, height);
         for (const direction::Moment& moment : subject_.moments)
-            svg += moment_bars(moment, begin, end);
+            if (subject_.rules.moments[moment.rule].is_on()) svg += moment_bars(moment, begin, end);
         for (std::size_t i = 0; i < subject_.shots.size(); ++i)
             svg += shot_bar(i, begin, end);
         for (std::size_t i = 0; i < kills_.size(); ++i)

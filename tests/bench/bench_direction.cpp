@@ -43,7 +43,8 @@ bool sees(const Vec3f& from, const Vec3f& to) {
 // Runs to one place after another, looks where they run, is dead for two seconds after a kill.
 class Crowd {
   public:
-    explicit Crowd(std::size_t players) : places_(players), targets_(players), dead_until_(players, 0) {
+    explicit Crowd(std::size_t players)
+        : places_(players), targets_(players), dead_until_(players, 0), respawns_(players) {
         for (std::size_t i = 0; i < players; ++i) {
             places_[i] = anywhere();
             targets_[i] = anywhere();
@@ -61,6 +62,7 @@ class Crowd {
             states[i].speed = 320.0F;
             states[i].present = true;
             states[i].alive = beat >= dead_until_[i];
+            respawns_[i] = beat > 0 && beat == dead_until_[i];
         }
         for (std::size_t i = 0; i < states.size(); ++i)
             for (std::size_t other = 0; other < i; ++other)
@@ -71,6 +73,9 @@ class Crowd {
         if (std::bernoulli_distribution(beat_s / kill_every_s)(random_)) kill(beat, states, events);
         return states;
     }
+
+    // In the last step.
+    [[nodiscard]] bool respawns(std::size_t player) const { return respawns_[player]; }
 
   private:
     Vec3f anywhere() {
@@ -93,6 +98,7 @@ class Crowd {
     std::mt19937 random_{7};
     std::vector<Vec3f> places_, targets_;
     std::vector<Beat> dead_until_;
+    std::vector<bool> respawns_;
 };
 
 Take take_from(const Vec3f& position, const Vec3f& ahead, const std::vector<PlayerState>& players) {
@@ -137,7 +143,10 @@ Match match_of(std::size_t players) {
     Crowd crowd(players);
     for (Beat beat = 0; beat < beats; ++beat) {
         const auto states = crowd.step(beat, match.events);
-        match.footage.append(states, takes_of(states));
+        auto takes = takes_of(states);
+        for (std::size_t i = 0; i < players; ++i)
+            takes[i].cut = crowd.respawns(i);
+        match.footage.append(states, takes);
     }
     return match;
 }

@@ -9,7 +9,7 @@
 namespace camdir::soak {
 
 // Lets the directors and those whom they serve have the processor first: of what this process does they are
-// to feel the messages, not the work of making them.
+// to feel the messages, not the work of making them. Threads inherit it: call it before there are others.
 inline void stand_for_another_machine() {
     errno = 0;  // a priority may be -1
     if (::nice(10) == -1 && errno != 0) throw std::runtime_error("cannot lower the priority");

@@ -37,6 +37,10 @@ bool is_crowd(const Act& act) {
     return act.kind == ActKind::crowd;
 }
 
+bool is_flood(const Act& act) {
+    return act.kind == ActKind::flood_observers || act.kind == ActKind::flood_matches;
+}
+
 class Judge {
   public:
     Judge(const Timeline& timeline, bool sanitized) : timeline_(timeline), sanitized_(sanitized) {}
@@ -49,6 +53,7 @@ class Judge {
         checks.push_back(all_are_answered());
         const auto is_of_crowd = [](const ActRecord& record) { return is_crowd(record.act); };
         if (std::ranges::any_of(timeline_.acts, is_of_crowd)) checks.push_back(crowds_are_served());
+        if (invented_by_floods() > 0.0) checks.push_back(floods_arrive());
         for (int director = 0; director < timeline_.scenario.directors; ++director)
             judge_lives(director, checks);
         return checks;
@@ -159,6 +164,27 @@ class Judge {
             longest = std::max(longest, act.waited_s);
         return {"wait of the last observer of a crowd for its camera, s", text(longest, 1),
                 text(longest_wait_s, 1), cost_verdict_of(longest <= longest_wait_s)};
+    }
+
+    // As planned, for as long as the floods went on.
+    [[nodiscard]] double invented_by_floods() const {
+        double count = 0.0;
+        for (const ActRecord& record : timeline_.acts)
+            if (is_flood(record.act))
+                count += static_cast<double>(record.act.count) *
+                         std::min(1.0, (record.end - record.begin) / record.act.for_s);
+        return count;
+    }
+
+    // A flood that starves, or is not heard, proves nothing.
+    [[nodiscard]] Check floods_arrive() const {
+        double answered = 0.0;
+        for (const ActRecord& record : timeline_.acts)
+            if (is_flood(record.act)) answered += static_cast<double>(record.invented);
+        const double share = answered / invented_by_floods();
+        return {"answered of what the floods invented, %", text(100.0 * share, 1),
+                "at least " + text(100.0 * least_answered_share),
+                cost_verdict_of(share >= least_answered_share)};
     }
 
     [[nodiscard]] Check none(const std::string& what, std::uint64_t Seen::*count) const {

@@ -28,8 +28,9 @@ struct ActFindings {
 
 inline constexpr double longest_gap_s = 0.45;  // the lease and as much again, for a busy machine
 inline constexpr double longest_absence_s = 1.0;
-inline constexpr double longest_wait_s = 10.0;  // of an observer of a crowd, for its first camera
-inline constexpr double max_growth = 0.05;      // of resident memory
+inline constexpr double least_answered_share = 0.95;  // of what floods invent
+inline constexpr double longest_wait_s = 10.0;        // of an observer of a crowd, for its first camera
+inline constexpr double max_growth = 0.05;            // of resident memory
 inline constexpr double slack_mib =
     8.0;  // more without a warm-up: the first acts need it, and the next again
 

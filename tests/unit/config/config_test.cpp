@@ -285,6 +285,8 @@ TEST(Moments, ErrorsSayWhatARuleNeeds) {
                 HasSubstr("/moments: []: expected an object of rules by name"));
     EXPECT_THAT(problem(R"({"moments": {"duel": {"worth": 1}}})"),
                 HasSubstr("/moments/duel/trigger: missing: expected one of \"sight\""));
+    EXPECT_THAT(problem(R"({"moments": {"multi_kill": {"worth": 1}}})"),
+                HasSubstr(", for no such rule ships, did you mean \"multi-kill\"?"));
     EXPECT_THAT(problem(R"({"moments": {"kill": {"trigger": "boredom"}}})"),
                 HasSubstr("/moments/kill/trigger: \"boredom\": expected one of \"sight\""));
     EXPECT_THAT(problem(R"({"moments": {"kill": {"wort": 1}}})"), HasSubstr("did you mean \"worth\"?"));

@@ -180,35 +180,88 @@ TEST(Editor, NoProgrammeIsWorthMore) {
     EXPECT_GT(within_grammar, 50);
 }
 
-// Shots of 1.6 s and more, which a jump of the camera may divide into pieces of 1.5 s and more.
+// Two players for 8 s, whose cameras jump at times.
+Footage jumping_match(std::mt19937& random) {
+    constexpr Beat beats = 80;
+    Script script(2, beats);
+    for (std::size_t rush = 0; rush < 2; ++rush) {
+        for (std::size_t beat = random() % 20; beat < beats; beat += 15 + random() % 30)
+            script.take(beat, rush).cut = true;
+        for (std::size_t beat = 0; beat < beats; ++beat)
+            script.take(beat, rush).shown.set(rush, random() % 4 != 0);
+    }
+    return script.footage();
+}
+
+// Shots of 1.6 s and more, which a jump may divide into pieces of 1.5 s and more.
+Rules rules_of_long_shots() {
+    Rules rules = small_rules();
+    rules.grammar.minimum_shot_s = 1.6;
+    rules.grammar.preferred_shot_s = 3.0;
+    rules.grammar.maximum_shot_s = 6.0;
+    rules.grammar.inner_cut = 0.2;
+    return rules;
+}
+
+int jumps_in(const std::vector<Shot>& shots, const Footage& footage) {
+    int jumps = 0;
+    for (const Shot& shot : shots)
+        for (Beat beat = shot.begin + 1; beat < shot.end; ++beat)
+            jumps += footage.take(beat, shot.rush).cut ? 1 : 0;
+    return jumps;
+}
+
 TEST(Editor, NoProgrammeIsWorthMoreWhereCamerasJump) {
     std::mt19937 random(8);
-    int divided = 0;
-    for (int round = 0; round < 40; ++round) {
-        Script script(2, 80);
-        for (std::size_t rush = 0; rush < 2; ++rush) {
-            for (std::size_t beat = random() % 20; beat < 80; beat += 15 + random() % 30)
-                script.take(beat, rush).cut = true;
-            for (std::size_t beat = 0; beat < 80; ++beat)
-                script.take(beat, rush).shown.set(rush, random() % 4 != 0);
-        }
-        const Footage footage = script.footage();
-        Rules rules = small_rules();
-        rules.grammar.minimum_shot_s = 1.6;
-        rules.grammar.preferred_shot_s = 3.0;
-        rules.grammar.maximum_shot_s = 6.0;
-        rules.grammar.inner_cut = 0.2;
-        const Worth worth(footage, {}, rules);
-        const auto plan = plan_shots(footage, {}, rules, test::unit, nothing_yet(footage), 0);
+    int within_grammar = 0;
+    int jumps = 0;
+    const Rules rules = rules_of_long_shots();
+    for (int round = 0; round < 60; ++round) {
+        const Footage footage = jumping_match(random);
+        const auto events = random_kills(2, 8.0, 8, random);
+        const auto moments = find_moments(footage, events, rules, test::unit, 0);
+        const Worth worth(footage, moments, rules);
+        const auto plan = plan_shots(footage, moments, rules, test::unit, nothing_yet(footage), 0);
         std::vector<Shot> shots;
         const double best = best_of_all(footage, rules.grammar, worth, shots, 0);
         if (best < -never / 2.0) continue;
+        ++within_grammar;
         EXPECT_NEAR(worth.of(plan), best, 1e-6) << round;
-        for (const Shot& shot : plan)
-            for (Beat beat = shot.begin + 1; beat < shot.end; ++beat)
-                divided += footage.take(beat, shot.rush).cut ? 1 : 0;
+        jumps += jumps_in(plan, footage);
     }
-    EXPECT_GT(divided, 20);
+    EXPECT_GT(within_grammar, 15);
+    EXPECT_GT(jumps, 10);
+}
+
+// Of which a jump, before now or later, has divided some.
+TEST(Editor, NoProgrammeIsWorthMoreThatGoesOnWithTheShotOnTheAir) {
+    constexpr Beat now = 30;
+    std::mt19937 random(9);
+    int within_grammar = 0;
+    int divided_before = 0;
+    const Rules rules = rules_of_long_shots();
+    for (int round = 0; round < 100; ++round) {
+        const Footage footage = jumping_match(random);
+        const auto events = random_kills(2, 8.0, 8, random);
+        const auto moments = find_moments(footage, events, rules, test::unit, 0);
+        const Worth worth(footage, moments, rules);
+        OnAir on_air = nothing_yet(footage);
+        on_air.shot = Shot{0, 4, 0, {}};
+        const auto plan = plan_shots(footage, moments, rules, test::unit, on_air, now);
+        double best = -std::numeric_limits<double>::infinity();
+        for (Beat end = now; end <= 64; end += cut_every) {
+            std::vector<Shot> shots = {{0, 4, end, {}}};
+            best = std::max(best, best_of_all(footage, rules.grammar, worth, shots, end));
+        }
+        if (best < -never / 2.0) continue;
+        ++within_grammar;
+        std::vector<Shot> shown = plan;
+        if (shown.front().rush != 0) shown.insert(shown.begin(), {0, 4, now, {}});
+        EXPECT_NEAR(worth.of(shown), best, 1e-6) << round;
+        divided_before += jumps_in({{0, 4, now, {}}}, footage);
+    }
+    EXPECT_GT(within_grammar, 15);
+    EXPECT_GT(divided_before, 5);
 }
 
 TEST(Editor, APlanIsOneSequenceOfShotsWithinTheGrammar) {

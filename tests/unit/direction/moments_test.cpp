@@ -87,17 +87,24 @@ TEST(Moments, KillsInQuickSuccessionAreAMultiKill) {
     EXPECT_EQ(kills[2].first, 0U);
     EXPECT_EQ(kills[3].first, 0U);
     EXPECT_EQ(kills[4].first, 4U);  // 3.1 s later
-    const auto found = find_moments(Script(3, 120).footage(), events,
-                                    only({.name = "tested", .trigger = Trigger::multi_kill}), test::unit, 0);
-    ASSERT_EQ(found.size(), 3U) << "each of them, with its own victim";
-    EXPECT_EQ(found[0].begin, 10);
-    EXPECT_EQ(found[0].end, 11);
-    EXPECT_EQ(found[0].subject, 1);
-    EXPECT_EQ(found[1].begin, 35);
-    EXPECT_EQ(found[1].end, 36);
-    EXPECT_EQ(found[1].subject, 2);
-    EXPECT_EQ(found[2].begin, 64);
-    EXPECT_EQ(found[2].end, 65);
+    const auto found = [&](Beat from) {
+        const Rules rules =
+            only({.name = "tested", .trigger = Trigger::multi_kill, .before_s = 1.0, .after_s = 0.5});
+        return find_moments(Script(3, 120).footage(), events, rules, test::unit, from);
+    };
+    const auto each = found(0);
+    ASSERT_EQ(each.size(), 3U);
+    const std::vector<std::pair<Beat, Index>> expected = {{10, 1}, {35, 2}, {64, 1}};
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        const auto& [peak, victim] = expected[i];
+        EXPECT_EQ(each[i].begin, peak - 10);
+        EXPECT_EQ(each[i].peak, peak);
+        EXPECT_EQ(each[i].end, peak + 6);
+        EXPECT_EQ(each[i].actor, 0);
+        EXPECT_EQ(each[i].subject, victim);
+    }
+    ASSERT_EQ(found(50).size(), 1U) << "the others are over";
+    EXPECT_EQ(found(50)[0].peak, 64);
 }
 
 TEST(Moments, AfterAKillTheKillerIsWorthSeeing) {

@@ -164,18 +164,23 @@ class EditTest : public testing::TestWithParam<double> {
 
     freespace::Freespace space_ = Stage::square();
     freespace::Movers movers_;
-    direction::Rules rules_ = with_fixed_shots();
+    direction::Rules rules_ = direction::default_rules();
+};
 
-  private:
-    // Where jumps cost much, cameras that never jump are chosen, too.
-    [[nodiscard]] static direction::Rules with_fixed_shots() {
-        direction::Rules rules = direction::default_rules();
-        rules.grammar.inner_cut = 4.0;
-        return rules;
-    }
+// Cameras that never jump are chosen, too.
+class EditWhereJumpsCostMuchTest : public EditTest {
+  protected:
+    EditWhereJumpsCostMuchTest() { rules_.grammar.inner_cut = 4.0; }
 };
 
 TEST_P(EditTest, ShowsTheProgrammeOfThePureEditor) {
+    for (std::uint32_t seed = 1; seed <= 8; ++seed) {
+        const Recorded match = random_match(seed);
+        EXPECT_TRUE(shown(match, GetParam(), 1) == directed(match, GetParam())) << "seed " << seed;
+    }
+}
+
+TEST_P(EditWhereJumpsCostMuchTest, ShowsTheProgrammeOfThePureEditor) {
     std::set<bool> kinds;
     for (std::uint32_t seed = 1; seed <= 8; ++seed) {
         const Recorded match = random_match(seed);
@@ -200,7 +205,7 @@ TEST_P(EditTest, FollowsPlayersAloneWhereSetSo) {
 }
 
 // The only fixed shot of the map: none begins beside a mover, nor one whose player a mover hides.
-TEST_F(EditTest, ShowsNoFixedShotThatAMoverIsInTheWayOf) {
+TEST_F(EditWhereJumpsCostMuchTest, ShowsNoFixedShotThatAMoverIsInTheWayOf) {
     const freespace::FixedShot& shot = space_.fixed_shots()[0];
     const Quatf yaw(Eigen::AngleAxisf(shot.yaw, Vec3f::UnitZ()));
     const auto fixed_cuts = [&](const Vec3f& min, const Vec3f& max, double arrives = 0.0) {
@@ -231,6 +236,7 @@ TEST_P(EditTest, WhatLiesBeyondTheDelayChangesNothing) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Delays, EditTest, testing::Values(0.0, 1.0, 5.0));
+INSTANTIATE_TEST_SUITE_P(Delays, EditWhereJumpsCostMuchTest, testing::Values(0.0, 1.0, 5.0));
 
 TEST_F(EditTest, WhatIsForeseenHasTheTeamsOfItsTime) {
     const auto team_of = [](std::uint8_t team) {

@@ -69,7 +69,9 @@ Timeline flooded() {
     act.act.kind = ActKind::flood_observers;
     act.begin = 20.0;
     act.end = 30.0;
-    act.invented = 10'000;
+    act.act.for_s = 10.0;
+    act.act.count = 10'000;
+    act.invented = 9'900;
     return timeline;
 }
 
@@ -93,6 +95,12 @@ TEST(Verdict, FramesLostInAFloodFail) {
     Timeline timeline = flooded();
     timeline.slices[50].seen.lost = 1;
     expect_failure(timeline, "frames lost");
+}
+
+TEST(Verdict, AFloodThatDoesNotArriveFails) {
+    Timeline timeline = flooded();
+    timeline.acts[0].invented = 9'000;
+    expect_failure(timeline, "floods invented");
 }
 
 TEST(Verdict, FramesLostWhileTheMachineStallsAreNotJudged) {
