@@ -208,8 +208,7 @@ void print_table(const std::vector<Judged>& judged, std::size_t kills_in_reach) 
     }
     std::fprintf(stderr,
                  "\nbound: the most kills that can be seen within the grammar; it seeks nothing else, its "
-                 "other figures bound "
-                 "nothing\n%zu kills are in reach of the cameras, whatever the grammar\n",
+                 "other figures bound nothing\n%zu kills are in reach of the cameras, whatever the grammar\n",
                  kills_in_reach);
 }
 

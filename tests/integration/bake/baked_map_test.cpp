@@ -209,7 +209,7 @@ TEST_F(DividedMap, CamerasOfADirectedMatchAndOfAGroupKeepOutOfADoor) {
     EXPECT_GT(smallest_x(group, true), 394.0);
 }
 
-// A fixed shot shows both players.
+// Of shots that are preferred to be short, one is fixed, which shows both players.
 TEST_F(DividedMap, ADirectedMatchShowsNoFixedShotThatADoorIsOver) {
     std::string trace = "t_ms,player,x,y,z,pitch,yaw,roll,vx,vy,vz,viewheight,team,teleport_bit,alive\n";
     for (int t = 0; t <= 8000; t += 50)
@@ -217,12 +217,14 @@ TEST_F(DividedMap, ADirectedMatchShowsNoFixedShotThatADoorIsOver) {
                  ",2,256,470,40,0,270,0,0,0,0,26,2,0,1\n";
     ASSERT_TRUE(write_file(folder_ / "trace.csv", trace));
     ASSERT_TRUE(write_file(folder_ / "events.csv", "t_ms,event,player,other\n4000,kill,1,2\n"));
+    ASSERT_TRUE(write_file(folder_ / "config.json", R"({"direction": {"preferred_shot_s": 4}})"));
     // Frames from each fixed camera, by its x.
     const auto fixed_with = [&](const std::vector<std::string>& more) {
         std::vector<std::string> command = {"direct",    baked_,
                                             "--map",     map_,
                                             "--trace",   folder_ / "trace.csv",
                                             "--events",  folder_ / "events.csv",
+                                            "--config",  folder_ / "config.json",
                                             "--delay",   "5",
                                             "--cameras", "-"};
         command.insert(command.end(), more.begin(), more.end());
