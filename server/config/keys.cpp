@@ -623,9 +623,9 @@ const std::vector<Section>& sections() {
          "What is worth seeing there: rules by name. What a file says of those that ship changes single keys "
          "of them; a rule of another name is a new one and needs a `trigger`: `\"moments\": {\"kill\": "
          "{\"worth\": 15}, \"late awards\": {\"trigger\": \"award\", \"after_s\": 2, \"worth\": 1}}`. What "
-         "moments of "
-         "several rules are worth adds up: two kills in quick succession have the worth of `kill` and that "
-         "of `multi-kill` each. A `worth` and `worth_both` of 0 switch a rule off. Reloaded by SIGHUP."},
+         "moments of several rules are worth adds up: two kills in quick succession have the worth of "
+         "`kill` and that of `multi-kill` each. A `worth` and `worth_both` of 0 switch a rule off. Reloaded "
+         "by SIGHUP."},
         {"/limits",
          "Matches beyond `matches`, `participant_matches` and `participant_match_rate`, and observers beyond "
          "`observers`, wait for room, first come, first served: as many as may be served, and of one "

@@ -86,28 +86,6 @@ class CreditSum {
     double sum_ = 0.0;
 };
 
-// What its camera's jumps divide a shot into; ends of the shot ascend from call to call.
-class Pieces {
-  public:
-    Pieces(std::span<const Beat> jumps, Beat begin)
-        : next_(std::ranges::upper_bound(jumps, begin)), last_(jumps.end()), begin_(begin) {}
-
-    // Calls `over` with the length of each further piece that ends before `end`.
-    void advance(Beat end, auto over) {
-        for (; next_ != last_ && *next_ < end; ++next_)
-            over(*next_ - std::exchange(begin_, *next_));
-    }
-    [[nodiscard]] Beat begin() const { return begin_; }
-    // The last beat at which the shot may end in this piece.
-    [[nodiscard]] Beat last_end() const {
-        return next_ != last_ ? *next_ : std::numeric_limits<Beat>::max() - 1;
-    }
-
-  private:
-    std::span<const Beat>::iterator next_, last_;
-    Beat begin_;
-};
-
 class Plan {
   public:
     Plan(const Footage& footage, std::span<const Moment> moments, const Rules& rules, double unit,
@@ -204,30 +182,55 @@ class Plan {
                 shots_[at(begin, rush)] = best_end(begin, begin, rush);
     }
 
+    // What its camera's jumps divide a shot into; ends of the shot ascend from call to call.
+    class Pieces {
+      public:
+        Pieces(const Plan& plan, std::size_t rush, Beat begin)
+            : plan_(plan),
+              jumps_(plan.footage_.jumps(rush)),
+              next_(std::ranges::upper_bound(jumps_, begin)),
+              begin_(begin) {}
+
+        void advance(Beat end) {
+            for (; next_ != jumps_.end() && *next_ < end; ++next_)
+                cost_ += plan_.cost_of_length(*next_ - std::exchange(begin_, *next_));
+        }
+        // Of those that end before that.
+        [[nodiscard]] double cost() const { return cost_; }
+        // Of the one in which that lies, and the last beat at which the shot may end in it.
+        [[nodiscard]] Beat begin() const { return begin_; }
+        [[nodiscard]] Beat last_end() const {
+            return next_ != jumps_.end() ? *next_ : std::numeric_limits<Beat>::max() - 1;
+        }
+
+      private:
+        const Plan& plan_;
+        const std::vector<Beat>& jumps_;
+        std::vector<Beat>::const_iterator next_;
+        Beat begin_;
+        double cost_ = 0.0;
+    };
+
     // When a shot ends that began at `begin` and is on the air at `from`.
     [[nodiscard]] Choice best_end(Beat begin, Beat from, std::size_t rush) const {
         const Beat first = first_cut_from(std::max(from, begin + shortest_));
         const Beat last = std::max(first, begin + longest_);
         const double past = value_.until(from, rush);
         CreditSum credit(whole_[rush], begin, from);
-        Pieces pieces(footage_.jumps(rush), begin);
-        double pieces_cost = 0.0;
-        const auto advance = [&](Beat end) {
-            pieces.advance(end, [&](Beat length) { pieces_cost += cost_of_length(length); });
-        };
+        Pieces pieces(*this, rush, begin);
         double most = worst;
         Beat best = horizon_;
         const double* after = after_end_.data();
         if (first < horizon_) {
-            advance(first);
+            pieces.advance(first);
             after += at(first, rush);
             most =
-                *after++ - pieces_cost - cost_of_length(first - pieces.begin()) + (credit.at(first) - past);
+                *after++ - pieces.cost() - cost_of_length(first - pieces.begin()) + (credit.at(first) - past);
             best = first;
         }
         for (Beat end = first + cut_every; end <= last && end < horizon_;) {
-            advance(end);
-            const double earned = credit.at(end) - past - pieces_cost;
+            pieces.advance(end);
+            const double earned = credit.at(end) - past - pieces.cost();
             const Beat stretch = std::min({last + 1, horizon_, credit.next_end(), pieces.last_end() + 1});
             const auto count = static_cast<std::size_t>((stretch - end + cut_every - 1) / cut_every);
             const double* costs = length_costs_.data() + place_of_length(end - pieces.begin());
@@ -240,9 +243,9 @@ class Plan {
             end += cut_every * static_cast<Beat>(count);
         }
         // To the end of the plan: a piece that is not over yet cannot be too short.
-        advance(horizon_);
+        pieces.advance(horizon_);
         const Beat open_length = std::max(preferred_, horizon_ - pieces.begin());
-        double stay = value_.until(horizon_, rush) - past - pieces_cost - cost_of_length(open_length) +
+        double stay = value_.until(horizon_, rush) - past - pieces.cost() - cost_of_length(open_length) +
                       credit.at(horizon_);
         if (horizon_ - begin > longest_) stay -= never;
         return stay >= most ? ending(stay, horizon_, rush) : ending(most, best, rush);
