@@ -32,7 +32,7 @@ struct Standpoint {
 };
 
 // No shot between two cuts is shorter, s.
-inline constexpr float shortest_group_shot = 0.8F;
+inline constexpr float shortest_group_shot = 0.75F;
 
 // The part of the picture in which members count as shown.
 [[nodiscard]] PictureShape safe_area(const MapProfile& profile);
