@@ -182,20 +182,25 @@ class Plan {
                 shots_[at(begin, rush)] = best_end(begin, begin, rush);
     }
 
-    // What its camera's jumps divide a shot into; ends of the shot ascend from call to call.
+    // What its camera's jumps divide a shot into; ends of the shot ascend from call to call. A jump where it
+    // begins is no other cut than that.
     class Pieces {
       public:
         Pieces(const Plan& plan, std::size_t rush, Beat begin)
             : plan_(plan),
               jumps_(plan.footage_.jumps(rush)),
               next_(std::ranges::upper_bound(jumps_, begin)),
+              first_(next_),
               begin_(begin) {}
 
         void advance(Beat end) {
-            for (; next_ != jumps_.end() && *next_ < end; ++next_)
-                cost_ += plan_.cost_of_length(*next_ - std::exchange(begin_, *next_));
+            for (; next_ != jumps_.end() && *next_ < end; ++next_) {
+                const Beat length = *next_ - std::exchange(begin_, *next_);
+                const bool too_short = next_ != first_ && length < shortest_piece;
+                cost_ += plan_.cost_of_length(length) + (too_short ? never : plan_.rules_.grammar.inner_cut);
+            }
         }
-        // Of those that end before that.
+        // Of those that end before that, and of the jumps between.
         [[nodiscard]] double cost() const { return cost_; }
         // Of the one in which that lies, and the last beat at which the shot may end in it.
         [[nodiscard]] Beat begin() const { return begin_; }
@@ -206,7 +211,7 @@ class Plan {
       private:
         const Plan& plan_;
         const std::vector<Beat>& jumps_;
-        std::vector<Beat>::const_iterator next_;
+        std::vector<Beat>::const_iterator next_, first_;
         Beat begin_;
         double cost_ = 0.0;
     };
@@ -297,6 +302,7 @@ class Plan {
     // words of all rushes come first.
     struct Spanning {
         std::vector<const Credit*> credits;
+        std::vector<double> worths;  // of showing them, the cut notwithstanding
         std::vector<Footage::Word> until, from;
         std::vector<Footage::Word> coming_kills;
     };
@@ -304,9 +310,13 @@ class Plan {
     void span_at(Beat beat) {
         Spanning& spanning = spanning_;
         spanning.credits.clear();
+        spanning.worths.clear();
         for (const Credit& credit : value_.credits()) {
             if (beat <= credit.begin || beat >= credit.end) continue;
             spanning.credits.push_back(&credit);
+            // It counts once: no other cut may divide it.
+            const bool is_divided_once = beat - credit.begin <= shortest_ && credit.end - beat <= shortest_;
+            spanning.worths.push_back(is_divided_once ? credit.worth : 0.0);
         }
         const std::size_t words = (spanning.credits.size() + Footage::word_bits - 1) / Footage::word_bits;
         spanning.until.assign(words * rushes_, 0);
@@ -347,7 +357,7 @@ class Plan {
         double cost = missed == 0 ? 0.0 : never * std::popcount(missed);
         for (; seen != 0; seen &= seen - 1) {
             const auto bit = static_cast<std::size_t>(std::countr_zero(seen));
-            cost -= spanning_.credits[word * Footage::word_bits + bit]->worth;
+            cost -= spanning_.worths[word * Footage::word_bits + bit];
         }
         return cost;
     }

@@ -8,7 +8,6 @@ namespace camdir::direction {
 namespace {
 
 constexpr Beat idle_after = 20;
-constexpr Beat shortest_piece = 15;
 // Sine: a camera that moves and is foreseen to be no farther off the line of action may come to be on its
 // other side.
 constexpr float uncertain_side = 0.5F;

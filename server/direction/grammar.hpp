@@ -32,9 +32,10 @@ inline constexpr double never = 1e6;
 // Likewise.
 [[nodiscard]] bool may_cross_line(const Footage& footage, Beat beat, std::size_t from, std::size_t to);
 
-// A cut at `beat` leaves a piece of less than 1.5 s between itself and a jump of either camera: the one
-// before jumped just now, or the one after soon will; so does a second jump of one camera. What is not known
-// counts as none.
+inline constexpr Beat shortest_piece = 15;
+
+// A cut at `beat` leaves a shorter piece between itself and a jump of either camera: the one before jumped
+// just now, or the one after soon will. What is not known counts as none.
 [[nodiscard]] bool jumped_just_before(const Footage& footage, Beat beat, std::size_t rush);
 [[nodiscard]] bool jumps_soon_after(const Footage& footage, Beat beat, std::size_t rush);
 

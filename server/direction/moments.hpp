@@ -65,7 +65,7 @@ inline constexpr double memory_s = 30.0;
                                                const Rules& rules, double unit, Beat from,
                                                const Tally& tally = {});
 
-// A kill, and how many of the same killer's kills it ends, each within 3 s of the one before.
+// A kill, and which one began its chain: of the same killer's kills, each within 3 s of the one before.
 struct Kill {
     double time = 0.0;
     Index killer = nobody;

@@ -45,7 +45,6 @@ Value::Value(const Footage& footage, std::span<const Moment> moments, const Rule
     }
     add_players();
     fade();
-    charge_inner_cuts();
     sum_up();
 }
 
@@ -163,14 +162,6 @@ void Value::fade() {
         for (std::size_t rush = 0; rush < rushes_; ++rush)
             rate(beat, rush) = means[rush] * (footage_.is_fixed(rush) ? left_of_fixed : left);
     }
-}
-
-void Value::charge_inner_cuts() {
-    for (std::size_t rush = 0; rush < rushes_; ++rush)
-        for (const Beat beat : footage_.jumps(rush))
-            if (beat >= first_ && beat < known_)
-                rate(beat, rush) -=
-                    jumped_just_before(footage_, beat, rush) ? never : rules_.grammar.inner_cut;
 }
 
 void Value::sum_up() {

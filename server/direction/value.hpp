@@ -47,7 +47,6 @@ class Value {
     void add_credit(std::size_t index, const Moment& moment, const Rule& rule);
     void look_through(const Moment& moment, std::size_t word, double worth_both, Credit& credit) const;
     void fade();
-    void charge_inner_cuts();
     void sum_up();
     double& worth_of_showing(Beat beat, Index player) {
         return worth_of_showing_[static_cast<std::size_t>(beat - first_) * footage_.players() + player];

@@ -194,8 +194,8 @@ class Stranger {
             RawPeer peer(options_.domain, ids.front(), partitions);
             for (const std::string& id : ids)
                 attempt([&] { peer.write(match_info(id, 1, "map")); });
-            (void)test::eventually([&] { return peer.directors() >= ids.size(); }, answer_limit);
-            answered_ += std::min<std::uint64_t>(peer.directors(), ids.size());
+            (void)test::eventually([&] { return peer.served_matches() == ids.size(); }, answer_limit);
+            answered_ += peer.served_matches();
             for (const std::string& id : ids) {
                 attempt([&] { peer.write(RawPoseFrame(id, 1, 0, players).sample()); });
                 attempt([&] { peer.dispose(match_info(id, 1, "map")); });

@@ -1,10 +1,14 @@
 #include "usage.hpp"
 
+#include <sched.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <system_error>
 #include <utility>
 
 namespace camdir::soak {
@@ -36,14 +40,25 @@ std::optional<Usage> usage_of(pid_t process) {
     return usage;
 }
 
-Metronome::Metronome() : ticking_([this](const std::stop_token& stop) { tick(stop); }) {}
+Metronome::Metronome() {
+    cpu_set_t allowed;
+    if (::sched_getaffinity(0, sizeof allowed, &allowed) != 0)
+        throw std::system_error(errno, std::generic_category(), "sched_getaffinity");
+    for (int processor = 0; processor < CPU_SETSIZE; ++processor)
+        if (CPU_ISSET(processor, &allowed))
+            ticking_.emplace_back([this, processor](const std::stop_token& stop) { tick(processor, stop); });
+}
 
 double Metronome::take_stall() {
     const std::lock_guard lock(mutex_);
     return std::exchange(stall_, 0.0);
 }
 
-void Metronome::tick(const std::stop_token& stop) {
+void Metronome::tick(int processor, const std::stop_token& stop) {
+    cpu_set_t own;
+    CPU_ZERO(&own);
+    CPU_SET(processor, &own);
+    ::sched_setaffinity(0, sizeof own, &own);  // fails where the processor has just been taken away
     using Clock = std::chrono::steady_clock;
     constexpr std::chrono::milliseconds interval(5);
     while (!stop.stop_requested()) {

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <optional>
 #include <thread>
+#include <vector>
 
 #include "timeline.hpp"
 
@@ -14,7 +15,8 @@ namespace camdir::soak {
 // None when the process has ended.
 [[nodiscard]] std::optional<Usage> usage_of(pid_t process);
 
-// A thread that wants to run every 5 ms: for how long it does not is the machine's fault. Thread-safe.
+// A thread on each processor that wants to run every 5 ms: for how long one does not is the machine's fault.
+// One alone would be run wherever there is room, while others wait. Thread-safe.
 class Metronome {
   public:
     Metronome();
@@ -23,11 +25,11 @@ class Metronome {
     [[nodiscard]] double take_stall();
 
   private:
-    void tick(const std::stop_token& stop);
+    void tick(int processor, const std::stop_token& stop);
 
     std::mutex mutex_;
     double stall_ = 0.0;
-    std::jthread ticking_;
+    std::vector<std::jthread> ticking_;
 };
 
 }  // namespace camdir::soak

@@ -37,10 +37,6 @@ bool is_crowd(const Act& act) {
     return act.kind == ActKind::crowd;
 }
 
-bool is_flood(const Act& act) {
-    return act.kind == ActKind::flood_observers || act.kind == ActKind::flood_matches;
-}
-
 class Judge {
   public:
     Judge(const Timeline& timeline, bool sanitized) : timeline_(timeline), sanitized_(sanitized) {}
@@ -53,7 +49,8 @@ class Judge {
         checks.push_back(all_are_answered());
         const auto is_of_crowd = [](const ActRecord& record) { return is_crowd(record.act); };
         if (std::ranges::any_of(timeline_.acts, is_of_crowd)) checks.push_back(crowds_are_served());
-        if (invented_by_floods() > 0.0) checks.push_back(floods_arrive());
+        for (const ActKind flood : {ActKind::flood_observers, ActKind::flood_matches})
+            judge_floods(flood, checks);
         for (int director = 0; director < timeline_.scenario.directors; ++director)
             judge_lives(director, checks);
         return checks;
@@ -166,25 +163,20 @@ class Judge {
                 text(longest_wait_s, 1), cost_verdict_of(longest <= longest_wait_s)};
     }
 
-    // As planned, for as long as the floods went on.
-    [[nodiscard]] double invented_by_floods() const {
-        double count = 0.0;
-        for (const ActRecord& record : timeline_.acts)
-            if (is_flood(record.act))
-                count += static_cast<double>(record.act.count) *
-                         std::min(1.0, (record.end - record.begin) / record.act.for_s);
-        return count;
-    }
-
-    // A flood that starves, or is not heard, proves nothing.
-    [[nodiscard]] Check floods_arrive() const {
+    // A flood that starves, or is not heard, proves nothing. Of one that was stopped nobody knows.
+    void judge_floods(ActKind kind, std::vector<Check>& checks) const {
+        double invented = 0.0;
         double answered = 0.0;
-        for (const ActRecord& record : timeline_.acts)
-            if (is_flood(record.act)) answered += static_cast<double>(record.invented);
-        const double share = answered / invented_by_floods();
-        return {"answered of what the floods invented, %", text(100.0 * share, 1),
-                "at least " + text(100.0 * least_answered_share),
-                cost_verdict_of(share >= least_answered_share)};
+        for (const ActRecord& record : timeline_.acts) {
+            if (record.act.kind != kind || record.end - record.begin < record.act.for_s) continue;
+            invented += static_cast<double>(record.act.count);
+            answered += static_cast<double>(record.invented);
+        }
+        if (invented == 0.0) return;
+        const double share = answered / invented;
+        checks.push_back({name_of(kind) + ": answered of what was invented, %", text(100.0 * share, 1),
+                          "at least " + text(100.0 * least_answered_share),
+                          cost_verdict_of(share >= least_answered_share)});
     }
 
     [[nodiscard]] Check none(const std::string& what, std::uint64_t Seen::*count) const {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <set>
 #include <stdexcept>
 
 namespace camdir::test {
@@ -264,6 +265,28 @@ std::uint32_t RawPeer::directors() {
     dds_subscription_matched_status_t status{};
     check(dds_get_subscription_matched_status(camera_frame_, &status), "counting directors");
     return status.current_count;
+}
+
+std::size_t RawPeer::served_matches() {
+    std::vector<dds_instance_handle_t> writers(directors());
+    const dds_return_t count = dds_get_matched_publications(camera_frame_, writers.data(), writers.size());
+    check(count, "looking for directors");
+    writers.resize(std::min(writers.size(), static_cast<std::size_t>(count)));
+    std::set<std::string> partitions;
+    for (const dds_instance_handle_t writer : writers) {
+        dds_builtintopic_endpoint_t* endpoint = dds_get_matched_publication_data(camera_frame_, writer);
+        if (endpoint == nullptr) continue;  // it has just gone
+        std::uint32_t names = 0;
+        char** name = nullptr;
+        dds_qget_partition(endpoint->qos, &names, &name);
+        for (std::uint32_t i = 0; i < names; ++i) {
+            partitions.insert(name[i]);
+            dds_free(name[i]);
+        }
+        dds_free(name);
+        dds_builtintopic_free_endpoint(endpoint);
+    }
+    return partitions.size();
 }
 
 bool RawPeer::signs_are_known() {

@@ -59,6 +59,8 @@ class RawPeer {
 
     // Directors whose camera writers are matched.
     [[nodiscard]] std::uint32_t directors();
+    // Of its partitions, in how many there is one.
+    [[nodiscard]] std::size_t served_matches();
     // The ownership strength of the strongest of them.
     [[nodiscard]] std::int32_t camera_strength();
     // A director has received all signs that this peer has written.

@@ -62,7 +62,7 @@ class Worth {
             if (!last) worth -= of_cut(shots[i], shots[i + 1]);
         }
         for (const Moment& moment : moments_)
-            if (rules_.moments[moment.rule].whole && seen(moment, shots))
+            if (rules_.moments[moment.rule].whole && seen(moment, shots) && may_count(moment, shots))
                 worth += rules_.moments[moment.rule].worth;
         return worth;
     }
@@ -77,9 +77,12 @@ class Worth {
     [[nodiscard]] double of_pieces(const Shot& shot, bool last) const {
         double cost = 0.0;
         Beat begin = shot.begin;
-        for (Beat beat = begin + 1; beat < shot.end; ++beat)
-            if (footage_.take(beat, shot.rush).cut)
-                cost += length_cost(rules_.grammar, beat - std::exchange(begin, beat));
+        for (Beat beat = begin + 1; beat < shot.end; ++beat) {
+            if (!footage_.take(beat, shot.rush).cut) continue;
+            const bool second_in_short = begin != shot.begin && beat - begin < 15;
+            cost += second_in_short ? never : rules_.grammar.inner_cut;
+            cost += length_cost(rules_.grammar, beat - std::exchange(begin, beat));
+        }
         const Beat preferred = beat_of(rules_.grammar.preferred_shot_s);
         return cost +
                length_cost(rules_.grammar, last ? std::max(preferred, shot.end - begin) : shot.end - begin);
@@ -89,7 +92,6 @@ class Worth {
         const Grammar& grammar = rules_.grammar;
         const Take& take = footage_.take(beat, rush);
         double worth = 0.0;
-        if (take.cut) worth -= jumped_just_before(footage_, beat, rush) ? never : grammar.inner_cut;
         worth -= (take.subject == nobody || !take.shown[take.subject] ? grammar.hidden : 0.0) * beat_s;
         worth -= (is_of_the_dead(take, beat) ? grammar.dead : 0.0) * beat_s;
         for (const Moment& moment : moments_) {
@@ -120,7 +122,8 @@ class Worth {
         if (jumped_just_before(footage_, cut, before.rush) || jumps_soon_after(footage_, cut, after.rush))
             cost += never;
         for (const Moment& moment : moments_) {
-            if (!rules_.moments[moment.rule].whole || cut <= moment.begin || cut > moment.peak) continue;
+            const bool is_kill = rules_.moments[moment.rule].trigger == Trigger::kill;
+            if (!is_kill || cut <= moment.begin || cut > moment.peak) continue;
             if (!seen(moment, {before, after})) cost += never;
         }
         return cost;
@@ -134,6 +137,16 @@ class Worth {
             if (shot == shots.end() || !shown(moment, beat, shot->rush)) return false;
         }
         return true;
+    }
+
+    // Of the moments that a cut divides only those that no other could divide too.
+    [[nodiscard]] bool may_count(const Moment& moment, const std::vector<Shot>& shots) const {
+        const Beat end = std::min(moment.end, footage_.beats());
+        const Beat shortest = beat_of(rules_.grammar.minimum_shot_s);
+        return std::ranges::all_of(shots, [&](const Shot& shot) {
+            return shot.begin <= moment.begin || shot.begin >= end ||
+                   (shot.begin - moment.begin <= shortest && end - shot.begin <= shortest);
+        });
     }
 
     const Footage& footage_;
@@ -178,6 +191,38 @@ TEST(Editor, NoProgrammeIsWorthMore) {
         EXPECT_NEAR(worth.of(plan), best, 1e-6) << round;
     }
     EXPECT_GT(within_grammar, 50);
+}
+
+// Longer than two of the shortest shots: of all the cuts that divide one none counts, or that in its middle.
+TEST(Editor, NoProgrammeIsWorthMoreOfLongMoments) {
+    std::mt19937 random(11);
+    int within_grammar = 0;
+    int divided = 0;
+    for (int round = 0; round < 120; ++round) {
+        const Footage footage = random_script(3, 16, random).footage();
+        const auto events = random_kills(3, 1.6, 4, random);
+        Rules rules = small_rules();
+        rules.moments.push_back({.name = "several",
+                                 .trigger = Trigger::multi_kill,
+                                 .before_s = round % 2 == 0 ? 0.4 : 0.6,
+                                 .after_s = 0.3,
+                                 .worth = 5.0,
+                                 .whole = true});
+        const auto moments = find_moments(footage, events, rules, test::unit, 0);
+        const Worth worth(footage, moments, rules);
+        const auto plan = plan_shots(footage, moments, rules, test::unit, nothing_yet(footage), 0);
+        std::vector<Shot> shots;
+        const double best = best_of_all(footage, rules.grammar, worth, shots, 0);
+        if (best < -never / 2.0) continue;
+        ++within_grammar;
+        EXPECT_NEAR(worth.of(plan), best, 1e-6) << round;
+        for (const Moment& moment : moments)
+            divided += moment.rule == 2 && std::ranges::any_of(plan, [&](const Shot& shot) {
+                           return shot.begin > moment.begin && shot.begin < moment.end;
+                       });
+    }
+    EXPECT_GT(within_grammar, 50);
+    EXPECT_GT(divided, 20);
 }
 
 // Two players for 8 s, whose cameras jump at times.
@@ -235,30 +280,32 @@ TEST(Editor, NoProgrammeIsWorthMoreWhereCamerasJump) {
 
 // Of which a jump, before now or later, has divided some.
 TEST(Editor, NoProgrammeIsWorthMoreThatGoesOnWithTheShotOnTheAir) {
-    constexpr Beat now = 30;
     std::mt19937 random(9);
     int within_grammar = 0;
     int divided_before = 0;
     const Rules rules = rules_of_long_shots();
     for (int round = 0; round < 100; ++round) {
+        const Beat begin = round % 2 == 0 ? 4 : 5;
+        const Beat now = round % 4 < 2 ? 30 : 10;
         const Footage footage = jumping_match(random);
         const auto events = random_kills(2, 8.0, 8, random);
         const auto moments = find_moments(footage, events, rules, test::unit, 0);
         const Worth worth(footage, moments, rules);
         OnAir on_air = nothing_yet(footage);
-        on_air.shot = Shot{0, 4, 0, {}};
+        on_air.shot = Shot{0, begin, 0, {}};
         const auto plan = plan_shots(footage, moments, rules, test::unit, on_air, now);
         double best = -std::numeric_limits<double>::infinity();
-        for (Beat end = now; end <= 64; end += cut_every) {
-            std::vector<Shot> shots = {{0, 4, end, {}}};
+        const Beat first = std::max(now, (begin + 17) / cut_every * cut_every);
+        for (Beat end = first; end <= begin + 60; end += cut_every) {
+            std::vector<Shot> shots = {{0, begin, end, {}}};
             best = std::max(best, best_of_all(footage, rules.grammar, worth, shots, end));
         }
         if (best < -never / 2.0) continue;
         ++within_grammar;
         std::vector<Shot> shown = plan;
-        if (shown.front().rush != 0) shown.insert(shown.begin(), {0, 4, now, {}});
+        if (shown.front().rush != 0) shown.insert(shown.begin(), {0, begin, now, {}});
         EXPECT_NEAR(worth.of(shown), best, 1e-6) << round;
-        divided_before += jumps_in({{0, 4, now, {}}}, footage);
+        divided_before += jumps_in({{0, begin, now, {}}}, footage);
     }
     EXPECT_GT(within_grammar, 15);
     EXPECT_GT(divided_before, 5);

@@ -176,7 +176,9 @@ class EditWhereJumpsCostMuchTest : public EditTest {
 TEST_P(EditTest, ShowsTheProgrammeOfThePureEditor) {
     for (std::uint32_t seed = 1; seed <= 8; ++seed) {
         const Recorded match = random_match(seed);
-        EXPECT_TRUE(shown(match, GetParam(), 1) == directed(match, GetParam())) << "seed " << seed;
+        const auto cuts = shown(match, GetParam(), 1);
+        EXPECT_GT(cuts.size(), 1U);
+        EXPECT_TRUE(cuts == directed(match, GetParam())) << "seed " << seed;
     }
 }
 

@@ -100,7 +100,25 @@ TEST(Verdict, FramesLostInAFloodFail) {
 TEST(Verdict, AFloodThatDoesNotArriveFails) {
     Timeline timeline = flooded();
     timeline.acts[0].invented = 9'000;
-    expect_failure(timeline, "floods invented");
+    expect_failure(timeline, "flood_observers: answered");
+}
+
+TEST(Verdict, AFloodOfMatchesThatDoesNotArriveFailsBesideOneOfObservers) {
+    Timeline timeline = flooded();
+    timeline.acts.push_back(timeline.acts[0]);
+    timeline.acts[1].act.kind = ActKind::flood_matches;
+    timeline.acts[1].act.count = 100;
+    timeline.acts[1].invented = 96;
+    EXPECT_THAT(failures(timeline), testing::IsEmpty());
+    timeline.acts[1].invented = 0;
+    expect_failure(timeline, "flood_matches: answered");
+}
+
+TEST(Verdict, WhatAFloodThatWasStoppedWasAnsweredIsNotJudged) {
+    Timeline timeline = flooded();
+    timeline.acts[0].end = 25.0;
+    timeline.acts[0].invented = 0;
+    EXPECT_THAT(failures(timeline), testing::IsEmpty());
 }
 
 TEST(Verdict, FramesLostWhileTheMachineStallsAreNotJudged) {
