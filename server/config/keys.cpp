@@ -403,7 +403,9 @@ void add_moments(std::vector<Key>& table) {
     table.push_back({section,
                      "whole",
                      in_rule(&Rule::whole),
-                     "Counts only when it is shown from its begin to its end.",
+                     "Counts only when it is shown from its begin to its end, with at most one cut, no "
+                     "farther from either end "
+                     "than `minimum_shot_s`.",
                      "",
                      0,
                      0,

@@ -15,8 +15,8 @@ constexpr dds_duration_t max_blocking_time = DDS_MSECS(100);
 constexpr dds_duration_t min_slow_lease = DDS_SECS(1);
 
 // Of one match or observer: several participants may write, and one must not replace what another has
-// written.
-constexpr std::int32_t kept_until_taken = 8;
+// written while the reception is busy or held up.
+constexpr std::int32_t kept_until_taken = 16;
 constexpr std::int32_t events_kept_until_taken = 256;
 
 }  // namespace

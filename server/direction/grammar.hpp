@@ -35,7 +35,8 @@ inline constexpr double never = 1e6;
 inline constexpr Beat shortest_piece = 15;
 
 // A cut at `beat` leaves a shorter piece between itself and a jump of either camera: the one before jumped
-// just now, or the one after soon will. What is not known counts as none.
+// just now, or the one after soon will; of shots that are not shorter themselves. What is not known counts as
+// none.
 [[nodiscard]] bool jumped_just_before(const Footage& footage, Beat beat, std::size_t rush);
 [[nodiscard]] bool jumps_soon_after(const Footage& footage, Beat beat, std::size_t rush);
 

@@ -24,6 +24,7 @@ using MayShow = std::function<bool(std::size_t rush, Beat now, bool on_air)>;
 
 // The programme that shows the most kills by the same grammar, as Figures::kills_seen counts them, for an
 // editor who wants nothing else and knows the whole match; what the rules say of moments does not matter.
+// Of shots that may be shorter than 1.5 s others may show more: see Rule::worth.
 // Precondition: a beat.
 [[nodiscard]] std::vector<Shot> direct_for_kills(const Footage& footage, std::span<const Event> events,
                                                  const Rules& rules, double unit);

@@ -57,8 +57,9 @@ struct Rule {
     Trigger trigger = Trigger::kill;
     double before_s = 0.0;
     double after_s = 0.0;
-    // Of a whole moment, once, when it is shown from its begin to its end; else of every second of it that is
-    // shown. Shown is whoever of its players is.
+    // Of a whole moment, once, when it is shown from its begin to its end, by one shot or by two with the cut
+    // no farther from either end than the shortest shot is long; else of every second of it that is shown.
+    // Shown is whoever of its players is.
     double worth = 0.0;
     double worth_both = 0.0;  // more, while both are shown
     bool whole = false;

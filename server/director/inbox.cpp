@@ -15,7 +15,7 @@ constexpr std::ptrdiff_t max_infos = 8;  // of different epochs
 // Of so many frames one may wait behind another. An overload is heard of for that from 4.4 % of late frames
 // on instead of 2 %: see Pace.
 constexpr std::uint32_t frames_per_wait = 40;
-constexpr std::uint32_t most_credit = frames_per_wait * (Inbox::max_frames - 1);
+constexpr std::uint32_t most_credit = frames_per_wait * (Inbox::max_late_frames - 1);
 
 // By epoch, then by frame number, which may wrap. Equal frames count as older.
 bool older(const PoseFrame& a, const PoseFrame& b) {
@@ -155,10 +155,10 @@ bool Inbox::put(PoseFrame& frame, std::int64_t received_ns, Arrival arrival) {
     return place.is_due;
 }
 
-// For a hiccup of the workers, where they have been punctual for long enough. Behind a burst nothing waits:
-// cameras would be older still.
+// For a hiccup of the workers, where they have been punctual for long enough; also one in which they have not
+// got through a burst.
 bool Inbox::take_credit() {
-    if (frames().back().in_burst || credit_ < frames_per_wait) return false;
+    if (credit_ < frames_per_wait) return false;
     credit_ -= frames_per_wait;
     return true;
 }

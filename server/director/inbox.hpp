@@ -51,8 +51,9 @@ using Message =
 // grown.
 class Inbox {
   public:
-    // Frames of a burst or hiccup that wait: what a stall of 60 ms holds up at 60 Hz.
-    static constexpr std::size_t max_frames = 4;
+    // Frames that wait: of a burst what a stall of 130 ms holds up at 60 Hz; of a hiccup one of 60 ms.
+    static constexpr std::size_t max_frames = 8;
+    static constexpr std::size_t max_late_frames = 4;
     // Requests of so many observers are taken at once: what they do delays a frame no more than that.
     static constexpr std::size_t max_observers_taken = 32;
 
