@@ -26,7 +26,7 @@ using test::RawPoseFrame;
 constexpr std::chrono::milliseconds frame_interval(33);
 constexpr std::uint32_t players = 4;
 constexpr std::uint64_t batches_a_peer = 20;  // then it leaves, and another comes
-constexpr std::chrono::milliseconds answer_limit(500);
+constexpr std::chrono::milliseconds answer_limit(1000);
 constexpr std::size_t passing_frames = 30;  // that each passing match is watched for
 
 struct Options {

@@ -15,8 +15,8 @@ namespace camdir::soak {
 // None when the process has ended.
 [[nodiscard]] std::optional<Usage> usage_of(pid_t process);
 
-// A thread on each processor that wants to run every 5 ms: for how long one does not, others had to wait there,
-// too. One alone would be run wherever there is room. Thread-safe.
+// A thread on each processor that wants to run every 5 ms: for how long one does not, others had to wait
+// there, too. One alone would be run wherever there is room. Thread-safe.
 class Metronome {
   public:
     Metronome();
