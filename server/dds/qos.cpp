@@ -14,9 +14,6 @@ constexpr dds_duration_t max_blocking_time = DDS_MSECS(100);
 // busy machine delays the director.
 constexpr dds_duration_t min_slow_lease = DDS_SECS(1);
 
-// Of one match or observer: several participants may write, and one must not replace what another has
-// written while the reception is busy or held up.
-constexpr std::int32_t kept_until_taken = 16;
 constexpr std::int32_t events_kept_until_taken = 256;
 
 }  // namespace

@@ -24,6 +24,10 @@ struct Leadership {
     std::chrono::milliseconds lease{200};  // silence after which the director counts as dead
 };
 
+// Samples of one match or observer that a reader keeps until they are taken: several participants may write,
+// and one must not replace what another has written while the reception is busy or held up.
+inline constexpr std::int32_t kept_until_taken = 16;
+
 // For a reader. It accepts writers with any lease.
 [[nodiscard]] Qos reader_qos(Topic topic);
 // For a writer of ShownMatch, CameraFrame or ObserverStatus, without its strength.

@@ -11,6 +11,7 @@
 
 #include "dds/decode.hpp"
 #include "dds/ownership.hpp"
+#include "dds/qos.hpp"
 #include "director/messages.hpp"
 
 namespace camdir::dds {
@@ -21,7 +22,8 @@ namespace camdir::dds {
 class SentMovers {
   public:
     static constexpr std::size_t max_senders = 8;
-    static constexpr std::size_t max_waiting = 8;  // mover frames of a sender whose poses are awaited
+    // Mover frames of a sender whose poses are awaited: all that come to be read before these.
+    static constexpr std::size_t max_waiting = kept_until_taken;
 
     [[nodiscard]] bool empty() const { return senders_.empty(); }
 

@@ -132,11 +132,13 @@ bool Inbox::put(PoseFrame& frame, std::int64_t received_ns, Arrival arrival) {
     const bool in_burst = arrival == Arrival::in_burst;
     const bool wanted = left_out_ + 1 >= frames_per_camera && received_ns >= rests_until_;
     const bool was_due = is_due();
-    const bool stalled = in_burst || (frame_count_ > 0 && frames().back().in_burst && !was_late_);
-    if (!in_burst) was_late_ = frame_count_ > 0;
+    const bool behind_burst = frame_count_ > 0 && frames().back().in_burst;
+    const bool stalled = in_burst || (behind_burst && !was_late_);
     const bool may_wait = frames_per_camera == 1 && wanted;
     if (may_wait && frame_count_ == 0) credit_ = std::min(credit_ + 1, most_credit);
     const bool waits = may_wait && was_due && (in_burst || (arrival == Arrival::alone && take_credit()));
+    const bool joins_burst = in_burst || (waits && behind_burst);
+    if (!joins_burst) was_late_ = frame_count_ > 0;
     if (!waits) {
         replace(frame_count_, frame,
                 !was_due || !wanted ? Counter::drop_paced
@@ -150,7 +152,7 @@ bool Inbox::put(PoseFrame& frame, std::int64_t received_ns, Arrival arrival) {
     std::swap(place.poses, frame);
     place.received_ns = received_ns;
     place.messages_before = messages_.size();
-    place.in_burst = in_burst;
+    place.in_burst = joins_burst;
     place.is_due = wanted || was_due;
     return place.is_due;
 }

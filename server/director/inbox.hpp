@@ -102,8 +102,8 @@ class Inbox {
         PoseFrame poses;
         std::int64_t received_ns = 0;
         std::size_t messages_before = 0;
-        bool in_burst = false;
-        bool is_due = false;  // when several wait, all are
+        bool in_burst = false;  // or behind one
+        bool is_due = false;    // when several wait, all are
     };
 
     // The first of the same kind that waits.

@@ -116,6 +116,14 @@ TEST_F(SentMoversTest, AnotherEpochForgetsThem) {
     EXPECT_EQ(time_at(30, 2), 5);
 }
 
+TEST_F(SentMoversTest, EachOfThePosesThatAStallHeldUpHasItsOwn) {
+    sends(owner, movers_in(1));
+    for (std::int64_t i = 1; i <= kept_until_taken; ++i)
+        sends(owner, places_in(1, 20 * i));
+    for (std::int64_t i = 1; i <= kept_until_taken; ++i)
+        EXPECT_EQ(time_at(20 * i), 20 * i);
+}
+
 TEST_F(SentMoversTest, FramesOfAClockThatPosesNeverReachWaitInABoundedQueue) {
     sends(owner, movers_in(1));
     for (std::int64_t i = 0; i < 20; ++i)

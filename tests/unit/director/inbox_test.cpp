@@ -277,6 +277,24 @@ TEST_F(InboxTest, AFrameWaitsBehindABurstThatPunctualWorkersHaveNotGotThrough) {
     EXPECT_EQ(dropped(), 0U);
 }
 
+TEST_F(InboxTest, AStallIsNoOverloadWhereAFrameHasWaitedBehindIt) {
+    for (std::int64_t i = 0; i <= 40; ++i) {
+        put_sent_at(static_cast<std::uint32_t>(i), 33 * ms * i, 33 * ms * i);
+        inbox_.take(content_);
+    }
+    for (std::int64_t i = 41; i <= 43; ++i)
+        put_sent_at(static_cast<std::uint32_t>(i), 33 * ms * i, 33 * ms * 43);
+    put_sent_at(44, 33 * ms * 44, 33 * ms * 44);
+    put_sent_at(45, 33 * ms * 45, 33 * ms * 45);
+    inbox_.take(content_);
+    EXPECT_EQ(content_.frame.frame_number, 45U);
+    EXPECT_EQ(counted(Counter::drop_superseded), 0U);
+    EXPECT_EQ(counted(Counter::drop_burst), 4U);
+    put_sent_at(46, 33 * ms * 46, 33 * ms * 46);
+    put_sent_at(47, 33 * ms * 47, 33 * ms * 47);
+    EXPECT_EQ(counted(Counter::drop_superseded), 1U) << "but what follows is";
+}
+
 TEST_F(InboxTest, StallsNowAndThenAreNoOverload) {
     begin_punctually();
     std::uint32_t number = 0;
