@@ -404,8 +404,7 @@ void add_moments(std::vector<Key>& table) {
                      "whole",
                      in_rule(&Rule::whole),
                      "Counts only when it is shown from its begin to its end, with at most one cut, no "
-                     "farther from either end "
-                     "than `minimum_shot_s`.",
+                     "farther from either end than `minimum_shot_s`.",
                      "",
                      0,
                      0,

@@ -178,6 +178,11 @@ double best_of_all(const Footage& footage, const Grammar& grammar, const Worth& 
     return best;
 }
 
+double best_of_all(const Footage& footage, const Grammar& grammar, const Worth& worth) {
+    std::vector<Shot> shots;
+    return best_of_all(footage, grammar, worth, shots, 0);
+}
+
 TEST(Editor, NoProgrammeIsWorthMore) {
     std::mt19937 random(5);
     int within_grammar = 0;
@@ -188,8 +193,7 @@ TEST(Editor, NoProgrammeIsWorthMore) {
         const auto moments = find_moments(footage, events, rules, test::unit, 0);
         const Worth worth(footage, moments, rules);
         const auto plan = plan_shots(footage, moments, rules, test::unit, nothing_yet(footage), 0);
-        std::vector<Shot> shots;
-        const double best = best_of_all(footage, rules.grammar, worth, shots, 0);
+        const double best = best_of_all(footage, rules.grammar, worth);
         if (best < -never / 2.0) continue;  // all break it, and the plan may by a shot that is too long
         ++within_grammar;
         EXPECT_NEAR(worth.of(plan), best, 1e-6) << round;
@@ -215,8 +219,7 @@ TEST(Editor, NoProgrammeIsWorthMoreOfLongMoments) {
         const auto moments = find_moments(footage, events, rules, test::unit, 0);
         const Worth worth(footage, moments, rules);
         const auto plan = plan_shots(footage, moments, rules, test::unit, nothing_yet(footage), 0);
-        std::vector<Shot> shots;
-        const double best = best_of_all(footage, rules.grammar, worth, shots, 0);
+        const double best = best_of_all(footage, rules.grammar, worth);
         if (best < -never / 2.0) continue;
         ++within_grammar;
         EXPECT_NEAR(worth.of(plan), best, 1e-6) << round;
@@ -272,8 +275,7 @@ TEST(Editor, NoProgrammeIsWorthMoreWhereCamerasJump) {
         const auto moments = find_moments(footage, events, rules, test::unit, 0);
         const Worth worth(footage, moments, rules);
         const auto plan = plan_shots(footage, moments, rules, test::unit, nothing_yet(footage), 0);
-        std::vector<Shot> shots;
-        const double best = best_of_all(footage, rules.grammar, worth, shots, 0);
+        const double best = best_of_all(footage, rules.grammar, worth);
         if (best < -never / 2.0) continue;
         ++within_grammar;
         EXPECT_NEAR(worth.of(plan), best, 1e-6) << round;

@@ -67,6 +67,17 @@ class InboxTest : public testing::Test {
         while (content_.leaves_more);
     }
 
+    // Frames 0 to 40 are taken in time; 41 to 43 come together, and then 44.
+    void put_one_behind_a_burst() {
+        for (std::int64_t i = 0; i <= 40; ++i) {
+            put_sent_at(static_cast<std::uint32_t>(i), 33 * ms * i, 33 * ms * i);
+            inbox_.take(content_);
+        }
+        for (std::int64_t i = 41; i <= 43; ++i)
+            put_sent_at(static_cast<std::uint32_t>(i), 33 * ms * i, 33 * ms * 43);
+        put_sent_at(44, 33 * ms * 44, 33 * ms * 44);
+    }
+
     void slow_down_to(std::uint32_t frames_per_camera) {
         const std::uint64_t superseded = frames_per_camera == 2 ? 70 : 200;
         for (int interval = 0; interval < 3; ++interval)
@@ -262,13 +273,7 @@ TEST_F(InboxTest, CamerasAreNoOlderWhereABurstMeetsBusyWorkers) {
 }
 
 TEST_F(InboxTest, AFrameWaitsBehindABurstThatPunctualWorkersHaveNotGotThrough) {
-    for (std::int64_t i = 0; i <= 40; ++i) {
-        put_sent_at(static_cast<std::uint32_t>(i), 33 * ms * i, 33 * ms * i);
-        inbox_.take(content_);
-    }
-    for (std::int64_t i = 41; i <= 43; ++i)
-        put_sent_at(static_cast<std::uint32_t>(i), 33 * ms * i, 33 * ms * 43);
-    put_sent_at(44, 33 * ms * 44, 33 * ms * 44);
+    put_one_behind_a_burst();
     for (std::uint32_t number = 41; number <= 44; ++number) {
         inbox_.take(content_);
         ASSERT_TRUE(content_.has_frame);
@@ -278,13 +283,7 @@ TEST_F(InboxTest, AFrameWaitsBehindABurstThatPunctualWorkersHaveNotGotThrough) {
 }
 
 TEST_F(InboxTest, AStallIsNoOverloadWhereAFrameHasWaitedBehindIt) {
-    for (std::int64_t i = 0; i <= 40; ++i) {
-        put_sent_at(static_cast<std::uint32_t>(i), 33 * ms * i, 33 * ms * i);
-        inbox_.take(content_);
-    }
-    for (std::int64_t i = 41; i <= 43; ++i)
-        put_sent_at(static_cast<std::uint32_t>(i), 33 * ms * i, 33 * ms * 43);
-    put_sent_at(44, 33 * ms * 44, 33 * ms * 44);
+    put_one_behind_a_burst();
     put_sent_at(45, 33 * ms * 45, 33 * ms * 45);
     inbox_.take(content_);
     EXPECT_EQ(content_.frame.frame_number, 45U);
