@@ -32,7 +32,8 @@ constexpr float soon = 0.3F;         // s: for those who are seen by then the lo
 constexpr float pan_time = 0.09F;    // s, at the least: time constant of the rotation
 constexpr float pan_lag = 0.2F;      // s: of the rotation
 constexpr float kept_share = 0.89F;  // of the picture: within what counts as shown, in spite of rounding
-constexpr float fastest_correction = 2.8F;  // rad/s: of the look, where somebody would leave that
+constexpr float fastest_correction = 2.8F;     // rad/s: of the look, where somebody would leave that
+constexpr float fastest_partial_turn = 3.49F;  // rad/s: for some of the members, who may pass close by
 
 // Without the member who matters least; `set` is not empty.
 MemberSet without_the_last(MemberSet set) {
@@ -291,6 +292,9 @@ class GroupStep {
     // damped, but as fast as keeps them in the picture now.
     void turn() {
         const MemberSet wanted = wanted_in_picture();
+        const float fastest = wanted == members_.now().living
+                                  ? profile_.turn_limit
+                                  : std::min(profile_.turn_limit, fastest_partial_turn);
         Look look = state_.look;
         const std::size_t nearest = members_.until(pan_lag) - 1;
         const PictureShape zone = PictureShape::of(profile_.vertical_fov, zone_share);
@@ -303,6 +307,7 @@ class GroupStep {
         const auto accelerate = [&](float& speed, float way) {
             // Implicit: stable for every frame.
             speed = (speed + rate * rate * way * dt_) / (1.0F + 2.0F * rate * dt_ + rate * rate * dt_ * dt_);
+            speed = std::clamp(speed, -fastest, fastest);
         };
         accelerate(state_.look_rate.yaw, wrapped(look.yaw - state_.look.yaw));
         accelerate(state_.look_rate.pitch, look.pitch - state_.look.pitch);
@@ -311,7 +316,7 @@ class GroupStep {
         const PictureShape kept_area = PictureShape::of(profile_.vertical_fov, kept_share);
         const Look kept = look_within(state_.position, next, Eyes(members_.now(), wanted).span(), kept_area);
         const Look corrected = turned(next, kept, 1.0F, fastest_correction * dt_);
-        state_.look = turned(state_.look, corrected, 1.0F, profile_.turn_limit * dt_);
+        state_.look = turned(state_.look, corrected, 1.0F, fastest * dt_);
     }
 
     [[nodiscard]] float gliding_clearance() const { return 0.5F * profile_.minimum_clearance; }

@@ -41,8 +41,9 @@ struct GroupState {
 // The camera stands or glides at lookouts that see all living members, with all of them in the picture: while
 // it does, it moves and turns as little as keeps them there. Where it stops to do, it glides to another one
 // nearby or cuts, but for some time after a cut. Where no lookout sees all it keeps who is seen in the
-// picture and, soon after nobody is, cuts to those that matter more. Of two it stays on one side of the line
-// between them, as long as anything else shows them.
+// picture, but never turns faster than 200 degrees a second for some of the members, and, soon after nobody
+// is seen, cuts to those that matter more. Of two it stays on one side of the line between them, as long as
+// anything else shows them.
 //
 // Guarantees: as step() of the tracker, but that a step may ask for the freespace's lookouts for the first
 // time, which makes them and allocates, and what some of them see, which takes milliseconds each, once for a

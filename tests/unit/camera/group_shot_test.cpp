@@ -403,6 +403,34 @@ TEST(GroupShot, KeepsWhoIsSeenInThePictureWhereAnotherOneHides) {
     EXPECT_EQ(shot.cuts(), 1);
 }
 
+// One runs to and fro, close by where the camera stands, and the other is in a room of their own.
+TEST(GroupShot, DoesNotWhirlRoundForOneOfTwoWhoPassesCloseBy) {
+    const test::Plan plan({"##############",  //
+                           "#........##..#",  //
+                           "#........##..#",  //
+                           "#........##..#",  //
+                           "##############"});
+    CheckedGroup shot(plan);
+    Poses poses = {pose_at(plan.eye(2, 2), 0.0F), pose_at(plan.eye(2, 11), 0.0F)};
+    Camera before = shot.step(poses);
+    float fastest = 0.0F;  // rad/s: he, seen from the camera
+    for (int i = 1; i < 600; ++i) {
+        const Vec3f eye_before = poses[0]->eye;
+        poses[0]->eye.x() = plan.eye(2, 4).x() + 180.0F * std::sin(0.03F * static_cast<float>(i));
+        const Camera camera = shot.step(poses);
+        if (!flagged(camera, cut)) {
+            fastest = std::max(
+                fastest,
+                angle_between(poses[0]->eye - camera.position, eye_before - camera.position) * 60.0F);
+            EXPECT_LE(before.orientation.angularDistance(camera.orientation) * 60.0F,
+                      201.0F * radians_of_a_degree<float>)
+                << "frame " << i;
+        }
+        before = camera;
+    }
+    EXPECT_GT(fastest, 300.0F * radians_of_a_degree<float>);
+}
+
 TEST(GroupShot, KeepsOneOfTwoWhoAreTooFarApartForThePicture) {
     const test::Plan plan = hall();
     CheckedGroup shot(plan);
