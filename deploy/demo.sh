@@ -120,8 +120,8 @@ if $openarena; then
     exit 0
 fi
 
-run "$work/replay.log" "$bin/pose-replay" deploy/demo/match.csv.gz --domain "$domain" --match-prefix demo \
-    --map-name oa_dm1
+run "$work/replay.log" "$bin/pose-replay" deploy/demo/match.csv.gz --events deploy/demo/events.csv --domain "$domain" \
+    --match-prefix demo --map-name oa_dm1
 
 step "Live: one row for each player, and the camera that follows them"
 cat >&2 <<LEGEND

@@ -12,15 +12,32 @@
 
 #include "connection.h"
 
-/* Prints the director's answer when it has changed. */
-static void report_status(cdir_observer observer, uint32_t* last_state) {
+/* Prints the director's answer when it has changed since `last`, which becomes it. */
+static void report_status(cdir_observer observer, cdir_shot_status* last) {
     cdir_shot_status status = cdir_shot_status_default();
     check("reading the status", cdir_observer_shot_status(observer, &status));
-    if (status.state != *last_state) {
+    if (status.state != last->state) {
         fprintf(stderr, "shot: %s%s%s\n", cdir_shot_state_name(status.state), status.reason[0] ? ": " : "",
                 status.reason);
     }
-    *last_state = status.state;
+    *last = status;
+}
+
+/* The name of a player of the match; NULL when nobody in it has this number. */
+static const char* name_of(uint32_t id, const cdir_player* players, uint32_t count) {
+    for (uint32_t i = 0; i < count; ++i)
+        if (players[i].id == id) return players[i].name;
+    return NULL;
+}
+
+/* The reason of a cut, and of whom it speaks: "kill, player 3 and player 1". */
+static void print_reason(const cdir_camera* camera, const cdir_player* players, uint32_t count) {
+    const char* actor = name_of(camera->reason_actor, players, count);
+    const char* subject = name_of(camera->reason_subject, players, count);
+    if (camera->reason[0] != '\0') fprintf(stderr, ": %s", camera->reason);
+    if (actor != NULL) fprintf(stderr, ", %s", actor);
+    if (subject != NULL) fprintf(stderr, "%s %s", actor != NULL ? " and" : ",", subject);
+    fputc('\n', stderr);
 }
 
 /* Says who is shown, and why, when that differs from the last camera of which it was said; NULL: there is
@@ -35,14 +52,13 @@ static bool report_target(cdir_observer observer, const cdir_camera* camera, con
     const cdir_status status = cdir_observer_match_info(observer, &info, players, CDIR_MAX_PLAYERS, &count);
     check("reading the match", status);
     if (status == CDIR_NO_DATA) return false;
-    const char* name = NULL;
+    const char* name = name_of(camera->target, players, count);
     if (camera->target == CDIR_CHOOSE_TARGET && (camera->flags & CDIR_CAMERA_TARGET_ABSENT) == 0)
         name = "none, a fixed camera";
-    for (uint32_t i = 0; i < count; ++i) {
-        if (players[i].id == camera->target) name = players[i].name;
+    if (name != NULL) {
+        fprintf(stderr, "target: %s", name);
+        print_reason(camera, players, count);
     }
-    if (name != NULL)
-        fprintf(stderr, "target: %s%s%s\n", name, camera->reason[0] ? ": " : "", camera->reason);
     return true;
 }
 
@@ -54,10 +70,14 @@ static void print_camera(const cdir_camera* camera, const cdir_view* view) {
            (double)camera->clearance, camera->flags, view->segment);
 }
 
-static void end_without_camera(double seconds) {
-    fprintf(stderr,
-            "no camera after %.1f s: is a director at --directors, and does it know the match and its map?\n",
-            seconds);
+static void end_without_camera(double seconds, const cdir_shot_status* status) {
+    fprintf(stderr, "no camera after %.1f s: ", seconds);
+    if (status->state == CDIR_SHOT_UNANSWERED)
+        fprintf(stderr, "is a director at --directors, and does it know the match and its map?\n");
+    else
+        fprintf(stderr,
+                "the director's last answer: %s%s%s. A longer --seconds or --patience waits for more.\n",
+                cdir_shot_state_name(status->state), status->reason[0] ? ": " : "", status->reason);
     exit(EXIT_FAILURE);
 }
 
@@ -66,19 +86,20 @@ static void end_without_camera(double seconds) {
 static void watch(cdir_observer observer, double rate, double seconds, double patience) {
     const int64_t start = monotonic_ns();
     const int64_t period = (int64_t)(1e9 / rate);
-    uint32_t last_state = CDIR_SHOT_NOT_REQUESTED;
+    cdir_shot_status status = cdir_shot_status_default();
+    status.state = CDIR_SHOT_NOT_REQUESTED;
     cdir_camera last = cdir_camera_default();
     bool seen = false, told = false;
     printf("frame_time,target,x,y,z,qx,qy,qz,qw,vertical_fov,clearance,flags,segment\n");
     for (int64_t number = 0; !stop_requested; ++number) {
         const double elapsed = (double)(number * period) / 1e9;
         if (seconds > 0 && elapsed > seconds) {
-            if (!seen) end_without_camera(elapsed);
+            if (!seen) end_without_camera(elapsed, &status);
             break;
         }
 
         check("receiving", cdir_observer_poll(observer, NULL));
-        report_status(observer, &last_state);
+        report_status(observer, &status);
 
         /* A spectator client would draw the scene with this camera now. */
         int64_t display_time;
@@ -97,7 +118,7 @@ static void watch(cdir_observer observer, double rate, double seconds, double pa
             perror("standard output");
             exit(EXIT_FAILURE);
         }
-        if (!seen && elapsed > patience) end_without_camera(elapsed);
+        if (!seen && elapsed > patience) end_without_camera(elapsed, &status);
         sleep_until(start + (number + 1) * period);
     }
 }
@@ -110,30 +131,51 @@ static void report_counters(cdir_observer observer) {
             counters.frames, counters.gaps, counters.stale_epoch, counters.invalid);
 }
 
-/* A player's number, or auto; ends the program when the value is neither. */
-static uint32_t target_option(const char* value) {
-    if (strcmp(value, "auto") == 0) return CDIR_CHOOSE_TARGET;
-    char* end = NULL;
-    const unsigned long long number = strtoull(value, &end, 10);
-    if (*value < '0' || *value > '9' || *end != '\0' || number >= CDIR_SHOW_GROUP) {
-        fprintf(stderr, "--target: expected a player's number or auto, not '%s'\n", value);
-        exit(EXIT_USAGE);
+/* auto, a player's number, or those of a group separated by commas: of a group shot. Ends the program when
+ * the value is none of these. `group` has room for CDIR_MAX_GROUP_SHOT, and has to live as long as the
+ * request. */
+static void target_option(const char* value, cdir_shot_request* request, uint32_t* group) {
+    request->group_count = 0;
+    request->target = CDIR_CHOOSE_TARGET;
+    if (strcmp(value, "auto") == 0) return;
+    for (const char* at = value;; ++at) {
+        char* end = NULL;
+        const unsigned long long number = strtoull(at, &end, 10);
+        if (*at < '0' || *at > '9' || (*end != '\0' && *end != ',') || number >= CDIR_SHOW_GROUP ||
+            request->group_count == CDIR_MAX_GROUP_SHOT) {
+            fprintf(stderr,
+                    "--target: expected auto, a player's number, or those of a group of at most %u such as "
+                    "0,3, not '%s'\n",
+                    CDIR_MAX_GROUP_SHOT, value);
+            exit(EXIT_USAGE);
+        }
+        group[request->group_count++] = (uint32_t)number;
+        at = end;
+        if (*at == '\0') break;
     }
-    return (uint32_t)number;
+    if (request->group_count == 1) {
+        request->target = group[0];
+        request->group_count = 0;
+    } else {
+        request->target = CDIR_SHOW_GROUP;
+        request->group = group;
+    }
 }
 
 static void print_usage(FILE* to) {
-    fprintf(to,
-            "Usage: example-observer [options]\n"
-            "Requests a shot and prints its camera once per display frame, as CSV.\n\n"
-            "  --match ID            match id (default example)\n"
-            "  --id ID               observer id, unique within the match (default example-observer)\n"
-            "  --target N            a player's number, or auto (default auto)\n"
-            "  --profile NAME        camera profile (default: the director's)\n"
-            "  --overrides JSON      changes to the profile, such as {\"distance\": 90}\n"
-            "  --rate HZ             display frames per second (default 60)\n"
-            "  --seconds S           duration (default 0: until Ctrl-C)\n"
-            "  --patience S          time limit for the first camera (default 30)\n" CONNECTION_USAGE);
+    fprintf(
+        to,
+        "Usage: example-observer [options]\n"
+        "Requests a shot and prints its camera once per display frame, as CSV.\n\n"
+        "  --match ID            match id (default example)\n"
+        "  --id ID               observer id, unique within the match (default example-observer)\n"
+        "  --target N            a player's number, or auto (default auto), or the numbers of a group that\n"
+        "                        one camera shows together, such as 0,3\n"
+        "  --profile NAME        camera profile (default: the director's)\n"
+        "  --overrides JSON      changes to the profile, such as {\"distance\": 90}\n"
+        "  --rate HZ             display frames per second (default 60)\n"
+        "  --seconds S           duration (default 0: until Ctrl-C)\n"
+        "  --patience S          time limit for the first camera (default 30)\n" CONNECTION_USAGE);
 }
 
 int main(int argc, char** argv) {
@@ -148,6 +190,7 @@ int main(int argc, char** argv) {
 
     cdir_context_options options = cdir_context_options_default();
     cdir_shot_request request = cdir_shot_request_default();
+    uint32_t group[CDIR_MAX_GROUP_SHOT];
     double rate = 60;
     double seconds = 0;
     double patience = 30;
@@ -170,7 +213,7 @@ int main(int argc, char** argv) {
         if (strcmp(name, "rate") == 0) rate = number_option(name, optarg, 1, 1000);
         if (strcmp(name, "seconds") == 0) seconds = number_option(name, optarg, 0, 1e9);
         if (strcmp(name, "patience") == 0) patience = number_option(name, optarg, 0, 1e9);
-        if (strcmp(name, "target") == 0) request.target = target_option(optarg);
+        if (strcmp(name, "target") == 0) target_option(optarg, &request, group);
     }
     if (optind < argc) {
         fprintf(stderr, "unexpected argument '%s'\n", argv[optind]);

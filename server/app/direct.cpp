@@ -73,6 +73,7 @@ Result<Inputs> read_inputs(const DirectOptions& options, ProgressLine& line) {
     if (!options.events.empty()) {
         auto events = evaluation::read_events(options.events, match->trace, directs_by);
         if (!events) return tl::unexpected(events.error());
+        warn_of_another_match(options.events, *events, options.trace, match->trace);
         match->events = std::move(*events);
     }
     if (!match->events) warn_of_no_events(options.trace);
@@ -234,13 +235,15 @@ std::string reason_text(const direction::Reason& reason, const direction::Rules&
     return text;
 }
 
-// "fixed near spawn point 3: kill 1-0"; of a shot that follows its player the reason alone.
+// "fixed camera 2, near spawn point 3: kill 1-0"; of a shot that follows its player the reason alone.
 std::string shot_text(const Inputs& inputs, const Rushes& rushes, const direction::Shot& shot) {
     const std::string reason = reason_text(shot.reason, inputs.rules, inputs.trace);
     if (!rushes.edited.is_fixed(shot.rush)) return reason;
-    const freespace::FixedShot& place = rushes.fixed[shot.rush - inputs.trace.players.size()];
-    if (place.spawn_point == freespace::none) return "fixed: " + reason;
-    return "fixed near spawn point " + std::to_string(place.spawn_point) + ": " + reason;
+    const std::size_t number = shot.rush - inputs.trace.players.size();
+    const std::uint32_t spawn_point = rushes.fixed[number].spawn_point;
+    const std::string place =
+        spawn_point == freespace::none ? "" : ", near spawn point " + std::to_string(spawn_point);
+    return "fixed camera " + std::to_string(number) + place + ": " + reason;
 }
 
 // A row for each frame: the camera on the air, whether it begins a shot or jumps, whom it shows and why.

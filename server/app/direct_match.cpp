@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "base/parallel.hpp"
+#include "director/clock.hpp"
 #include "director/scout.hpp"
 #include "evaluation/picture.hpp"
 #include "evaluation/recording.hpp"
@@ -35,7 +36,7 @@ Index index_of(const Trace& trace, std::uint32_t player) {
 }
 
 double seconds_from_start(const Trace& trace, std::int64_t time) {
-    return static_cast<double>(time - trace.frames.front().time) * 1e-9;
+    return director::seconds_between(trace.frames.front().time, time);
 }
 
 void read_players(const Trace& trace, std::span<const TracePose> poses, std::vector<PlayerState>& players) {

@@ -15,7 +15,19 @@
 namespace camdir::app {
 namespace {
 
-constexpr std::size_t looked_at = 1000;  // poses of a match, about
+constexpr std::size_t looked_at = 1000;            // poses of a match, about
+constexpr std::size_t fewest_kills = 4;            // that say something of a match
+constexpr std::int64_t dies_within = 300'000'000;  // ns
+
+// Or is gone, or has jumped, from `time` on.
+bool dies(const evaluation::Trace& trace, std::uint32_t player, std::int64_t time) {
+    auto frame = std::ranges::lower_bound(trace.frames, time, {}, &evaluation::TraceFrame::time);
+    for (; frame != trace.frames.end() && frame->time - time <= dies_within; ++frame) {
+        const std::uint32_t at = evaluation::pose_of(trace, *frame, player);
+        if (at == evaluation::absent || !trace.poses[at].alive || trace.poses[at].discontinuity) return true;
+    }
+    return false;
+}
 
 void warn_of_models_without(const std::map<std::uint32_t, std::uint32_t>& places, const std::string& map,
                             const std::string& file, std::span<const evaluation::MoverRow> rows) {
@@ -99,6 +111,25 @@ void warn_of_another_map(const std::string& trace, const evaluation::Trace& pose
     std::cerr << "camera-director: warning: " << trace << ": " << inside << " of " << alive
               << " poses that were looked at are in the free space of " << freespace
               << "; expected a match on this map\n";
+}
+
+void warn_of_another_match(const std::string& file, std::span<const evaluation::TraceEvent> events,
+                           const std::string& trace, const evaluation::Trace& poses) {
+    if (events.empty()) {
+        std::cerr << "camera-director: warning: " << file << " has no event that is directed by\n";
+        return;
+    }
+    if (std::ranges::all_of(poses.poses, &evaluation::TracePose::alive)) return;
+    std::size_t kills = 0;
+    std::size_t deaths = 0;
+    for (const evaluation::TraceEvent& event : events) {
+        if (event.kind != "kill" || !event.subject) continue;
+        ++kills;
+        deaths += dies(poses, *event.subject, event.time) ? 1 : 0;
+    }
+    if (kills < fewest_kills || 2 * deaths >= kills) return;
+    std::cerr << "camera-director: warning: " << file << ": of " << kills << " who are killed " << deaths
+              << " die in " << trace << " then; expected the events of this match, by its clock\n";
 }
 
 }  // namespace camdir::app

@@ -9,6 +9,7 @@
 
 #include "app/progress.hpp"
 #include "base/error.hpp"
+#include "evaluation/events.hpp"
 #include "evaluation/kills.hpp"
 #include "evaluation/mover_tracks.hpp"
 #include "evaluation/trace.hpp"
@@ -71,5 +72,10 @@ void warn_of_another_source(const std::string& freespace, const std::string& map
 // free space of the baked file, if there is one.
 void warn_of_another_map(const std::string& trace, const evaluation::Trace& poses,
                          const std::string& freespace, const SourceMap& opened);
+
+// Warns on standard error where the events of `file` have nothing to direct by, or most of those who are
+// killed live on in the match `trace`, in which somebody dies.
+void warn_of_another_match(const std::string& file, std::span<const evaluation::TraceEvent> events,
+                           const std::string& trace, const evaluation::Trace& poses);
 
 }  // namespace camdir::app

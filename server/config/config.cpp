@@ -27,7 +27,12 @@ class ValidationErrors {
         if (shown.size() > max_shown) shown = shown.substr(0, max_shown) + "...";
         add(pointer + ": " + shown + ": expected " + expected);
     }
-    void add(std::string line) { lines_.push_back(std::move(line)); }
+    void add(std::string line) {
+        if (lines_.size() < max_lines)
+            lines_.push_back(std::move(line));
+        else
+            ++left_out_;
+    }
 
     [[nodiscard]] bool none() const { return lines_.empty(); }
     // Each line begins with `prefix`.
@@ -35,18 +40,23 @@ class ValidationErrors {
         std::string all;
         for (const std::string& line : lines_)
             all += (all.empty() ? "" : separator) + prefix + line;
-        return all;
+        return left_out_ == 0 ? all : all + separator + prefix + std::to_string(left_out_) + " errors more";
     }
 
   private:
     static constexpr std::size_t max_shown = 60;
+    static constexpr std::size_t max_lines = 40;
     std::vector<std::string> lines_;
+    std::size_t left_out_ = 0;
 };
 
-// RFC 6901.
+// RFC 6901; as in JSON where a terminal would act on it, and not longer than people read.
 std::string escaped(const std::string& token) {
+    constexpr std::size_t longest = 60;
+    const std::string quoted = json(token).dump(-1, ' ', true, json::error_handler_t::replace);
     std::string result;
-    for (const char c : token) {
+    for (const char c : quoted.substr(1, quoted.size() - 2)) {
+        if (result.size() >= longest) return result + "...";
         if (c == '~')
             result += "~0";
         else if (c == '/')
@@ -77,7 +87,12 @@ std::string suggestion(const std::string& name, const std::vector<std::string>& 
 }
 
 std::string unknown(const std::string& name, const std::vector<std::string>& known) {
-    return "unknown key" + suggestion(name, known);
+    const std::string meant = suggestion(name, known);
+    if (!meant.empty()) return "unknown key" + meant;
+    std::string all;
+    for (const std::string& one : known)
+        all += (all.empty() ? "" : ", ") + one;
+    return "unknown key, expected one of " + all;
 }
 
 // What took the place of a key of earlier versions; empty where there was none.

@@ -27,6 +27,16 @@ std::vector<Meeting> meetings_of(std::span<const PlayerState> players) {
     return meetings;
 }
 
+// Blocks of so many words get more of them, of zeros.
+void widen(std::vector<Footage::Word>& blocks, std::size_t from, std::size_t to) {
+    const std::size_t count = from > 0 ? blocks.size() / from : 0;
+    std::vector<Footage::Word> wide(count * to, 0);
+    for (std::size_t block = 0; block < count; ++block)
+        std::copy_n(blocks.begin() + static_cast<std::ptrdiff_t>(block * from), from,
+                    wide.begin() + static_cast<std::ptrdiff_t>(block * to));
+    blocks = std::move(wide);
+}
+
 }  // namespace
 
 Beat beat_of(double seconds) {
@@ -88,15 +98,18 @@ void Footage::look_up_showing(Row& row) const {
                 row.showing[player * words() + rush / word_bits] |= Word{1} << rush % word_bits;
 }
 
+// Nothing before shows them, and their rush shows nobody.
 void Footage::add_player() {
     assert(players_ < max_players);
+    const std::size_t words_before = words();
     const auto player = static_cast<Index>(players_++);
     followed_.push_back(player);
     jumps_.emplace_back();
     for (Row& row : rows_) {
         row.players.emplace_back();
         row.takes.emplace_back().subject = player;
-        look_up_showing(row);
+        if (words() > words_before) widen(row.showing, words_before, words());
+        row.showing.resize((players_ + 1) * words(), 0);
     }
 }
 

@@ -1,7 +1,9 @@
 #include "director/scout.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <span>
+#include <iterator>
+#include <utility>
 
 #include "freespace/fixed_shots.hpp"
 #include "freespace/visibility.hpp"
@@ -77,20 +79,37 @@ void Scout::add_player() {
 void Scout::look(const freespace::Space& space, float unit) {
     const direction::Index self = present[done++];
     direction::PlayerState& player = players[self];
+    const std::vector<direction::Index> nearest =
+        has_many() ? nearest_to(self) : std::vector<direction::Index>();
+    const std::span<const direction::Index> all(has_many() ? nearest : present);
     const Viewpoint eye(space, player.eye);
-    for (const direction::Index other : std::span(present).subspan(done)) {
-        if (!eye.sees(players[other].eye)) continue;
+    for (const direction::Index other : has_many() ? all : all.subspan(done)) {
+        if (player.sees[other] || !eye.sees(players[other].eye)) continue;
         player.sees.set(other);
         players[other].sees.set(self);
     }
-    look_from_behind(space, unit, self);
+    look_from_behind(space, unit, self, all);
     look_from_fixed(space, unit, self);
     if (!finished()) return;
     for (direction::Take& take : std::span(takes).first(fixed))
         take.subject = direction::subject_in(take, players);
 }
 
-void Scout::look_from_behind(const freespace::Space& space, float unit, direction::Index self) {
+std::vector<direction::Index> Scout::nearest_to(direction::Index self) const {
+    std::vector<std::pair<float, direction::Index>> others;
+    others.reserve(present.size());
+    for (const direction::Index other : present)
+        if (other != self) others.emplace_back((players[other].eye - players[self].eye).squaredNorm(), other);
+    const auto last = others.begin() + most_looked_at;
+    std::ranges::nth_element(others, last);
+    std::vector<direction::Index> nearest;
+    std::transform(others.begin(), last, std::back_inserter(nearest),
+                   [](const auto& other) { return other.second; });
+    return nearest;
+}
+
+void Scout::look_from_behind(const freespace::Space& space, float unit, direction::Index self,
+                             std::span<const direction::Index> others) {
     const direction::PlayerState& player = players[self];
     direction::Take& take = takes[fixed + self];
     const Vec3f behind = player.eye - distance * unit * player.facing;
@@ -106,7 +125,7 @@ void Scout::look_from_behind(const freespace::Space& space, float unit, directio
         take.framed.set(other);
         if (!take.shown[other] && camera.sees(point)) take.shown.set(other);
     };
-    for (const direction::Index other : present) {
+    for (const direction::Index other : others) {
         if (other == self) continue;
         look_at(other, players[other].eye);
         look_at(other, centre_below(players[other].eye, unit));

@@ -1,12 +1,16 @@
 // What the cameras that follow the players, and those that stand still, would show at one instant.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "direction/footage.hpp"
 #include "freespace/space.hpp"
 
 namespace camdir::director {
+
+// Of more players each is looked at together with so many nearest others.
+inline constexpr std::size_t most_looked_at = 31;
 
 // A beat in the making: places, views and teams of the players are given, what they and their cameras see is
 // found out player by player. A camera stands behind its player's eye on the line of view, 120 units of
@@ -25,13 +29,16 @@ struct Scout {
     // One more, who is not present.
     void add_player();
     [[nodiscard]] bool finished() const { return done == present.size(); }
-    // Of the next one: whom the player sees of those after, what their camera shows, and which of the fixed
-    // cameras show them. `space`: at the time of the beat, the same for all. `unit`: 0.0254 m in map units.
-    // Precondition: not finished.
+    // Of the next one: whom the player sees of those after (or, of many, of those nearest), what their camera
+    // shows of the same, and which of the fixed cameras show them. `space`: at the time of the beat, the same
+    // for all. `unit`: 0.0254 m in map units. Precondition: not finished.
     void look(const freespace::Space& space, float unit);
 
   private:
-    void look_from_behind(const freespace::Space& space, float unit, direction::Index self);
+    [[nodiscard]] bool has_many() const { return present.size() > most_looked_at + 1; }
+    [[nodiscard]] std::vector<direction::Index> nearest_to(direction::Index self) const;
+    void look_from_behind(const freespace::Space& space, float unit, direction::Index self,
+                          std::span<const direction::Index> others);
     void look_from_fixed(const freespace::Space& space, float unit, direction::Index self);
 };
 

@@ -16,7 +16,8 @@ export function choose(matches, now, wanted) {
     const entry = matches.find(({id}) => id === now.id);
     const begin = id => ({id, from: 'newest'});
     if (now.id === null) {
-        const first = matches.find(({id}) => id === wanted) ?? matches.find(({goesOn}) => goesOn) ?? matches[0];
+        const first = matches.find(({id}) => id === wanted) ?? matches.find(({stream}) => stream?.shots.length > 0)
+            ?? matches.find(({goesOn}) => goesOn) ?? matches[0];
         return first ? begin(first.id) : null;
     }
     if (now.isRecorded) return now.hasEnded && entry?.goesOn && !entry.stream ? begin(entry.id) : null;  // another one begins

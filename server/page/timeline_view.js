@@ -37,7 +37,7 @@ export function modeOf({target, flags}) {
 }
 
 const modeTexts = {visible: 'In view', hidden: 'Out of sight', searching: 'Searching', fixed: 'Stands still', held: 'Held', absent: 'Absent'};
-const groupTexts = {...modeTexts, visible: 'All in view', searching: 'Not all in view'};
+const groupTexts = {...modeTexts, visible: 'All living in view', searching: 'Not all in view'};
 
 // In words; `isOfGroup`: the shot is of several players.
 export function modeText(shot, isOfGroup) {

@@ -56,7 +56,7 @@ let watched = null;       // the entry of `matches` that it shows
 let missed = 0;           // lists in a row that did not have its stream
 let fullUntil = 0;        // its stream has no room
 let runsSince = null;     // when lists began to say that it runs; null: they do not
-let linked = null;        // the match of a link that is not in the list yet
+let linked = server.matchOfAddress;  // the match of a link that is not in the list yet, unless the viewer has chosen one
 let matches = [];         // of findMatches
 let camera = null;        // the id of the camera that is shown
 let wished = null;        // the one that the viewer has chosen, which may not be there at the time that is shown
@@ -378,6 +378,7 @@ function showLists() {
         detail: `${map}, ${stream?.state ?? (goesOn ? 'broadcast' : 'recorded')}`, pressed: id === watched?.id,
         choose: () => {
             server.rememberMatch(id);
+            linked = null;
             watch(id);
         },
     })), 'No match is running.');

@@ -23,20 +23,20 @@ double seconds(Beat beat) {
     return static_cast<double>(beat) * direction::beat_s;
 }
 
-// Colours repeat after eight players; the lane has the number.
-std::string colour(std::size_t player) {
-    return "player-" + std::to_string(player % 8);
+// Colours repeat after eight players; the lane has the number. Fixed cameras have one for themselves.
+std::string colour(std::size_t rush, std::size_t players) {
+    return rush < players ? "player-" + std::to_string(rush % 8) : "fixed";
 }
 
 std::string number(int value) {
     return std::to_string(value);
 }
 
-// "player 3", or "fixed camera 2".
+// "player 3", or "fixed camera 2", the map's shot 2.
 std::string name_of(const ProgrammeSubject& subject, std::size_t rush) {
     const auto& players = subject.stage.trace.players;
     if (rush < players.size()) return "player " + std::to_string(players[rush]);
-    return "fixed camera " + std::to_string(rush - players.size() + 1);
+    return "fixed camera " + std::to_string(rush - players.size());
 }
 
 // Null where the player who is followed has no pose.
@@ -66,19 +66,19 @@ class Timeline {
   private:
     static std::string legend() {
         return "<p>A row a minute, a lane a player; the last one is of the fixed cameras. Wide: this camera "
-               "is "
-               "on the air; point at it for the reason. Thin: the player is in a moment. A disc is a kill on "
-               "its killer's lane, a "
-               "cross on its victim's: green where the programme shows one of them from 1 s before to 0.5 s "
-               "after, red where not.</p>\n";
+               "is on the air; point at it for the reason. Thin: the player is in a moment. A disc is a kill "
+               "on its killer's lane, a cross on its victim's: green where the programme shows one of them "
+               "from 1 s before to 0.5 s after, red where not. “kill 3-1”: player 3 kills player 1; whoever "
+               "shows that best is on the air, perhaps neither of them.</p>\n";
     }
 
     [[nodiscard]] std::string row(Beat begin) const {
         const Beat end = std::min(begin + row_beats, subject_.footage.beats());
         const int height = top(players_.size() + 1) + 16;
-        std::string svg = "<svg class=\"timeline\" viewBox=\"0 0 " + number(label_width + beat_width * 600) +
-                          ' ' + number(height) + "\" role=\"img\" aria-label=\"Shots from " +
-                          decimal(seconds(begin), 0) + " s to " + decimal(seconds(end), 0) + " s\">";
+        std::string svg = "<div class=\"table\"><svg class=\"timeline\" viewBox=\"0 0 " +
+                          number(label_width + beat_width * 600) + ' ' + number(height) +
+                          "\" role=\"img\" aria-label=\"Shots from " + decimal(seconds(begin), 0) + " s to " +
+                          decimal(seconds(end), 0) + " s\">";
         svg += lanes() + seconds_axis(begin, end, height);
         for (const direction::Moment& moment : subject_.moments)
             if (subject_.rules.moments[moment.rule].is_on()) svg += moment_bars(moment, begin, end);
@@ -86,7 +86,7 @@ class Timeline {
             svg += shot_bar(i, begin, end);
         for (std::size_t i = 0; i < kills_.size(); ++i)
             svg += kill_marks(i, begin, end);
-        return svg + "</svg>\n";
+        return svg + "</svg></div>\n";
     }
 
     [[nodiscard]] std::string lanes() const {
@@ -112,10 +112,10 @@ class Timeline {
         if (shot.end <= begin || shot.begin >= end) return {};
         const int left = x(std::max(shot.begin, begin), begin);
         const int right = x(std::min(shot.end, end), begin);
-        return "<rect class=\"shot " + colour(shot.rush) + "\" x=\"" + number(left) + "\" y=\"" +
-               number(top(std::min(shot.rush, players_.size())) + 3) + "\" width=\"" + number(right - left) +
-               "\" height=\"10\"><title>" + decimal(seconds(shot.begin), 1) + " s to " +
-               decimal(seconds(shot.end), 1) + " s, " + name_of(subject_, shot.rush) + ": " +
+        return "<rect class=\"shot " + colour(shot.rush, players_.size()) + "\" x=\"" + number(left) +
+               "\" y=\"" + number(top(std::min(shot.rush, players_.size())) + 3) + "\" width=\"" +
+               number(right - left) + "\" height=\"10\"><title>" + decimal(seconds(shot.begin), 1) +
+               " s to " + decimal(seconds(shot.end), 1) + " s, " + name_of(subject_, shot.rush) + ": " +
                escape(subject_.reasons[i]) + "</title></rect>";
     }
 

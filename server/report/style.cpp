@@ -58,14 +58,16 @@ td.best{color:var(--best);font-weight:600}
 .camera-0{--c:var(--c0)}.camera-1{--c:var(--c1)}.camera-2{--c:var(--c2)}
 .player-0{--c:#e61a26}.player-1{--c:#0073d9}.player-2{--c:#e08700}.player-3{--c:#1a9933}
 .player-4{--c:#9926b3}.player-5{--c:#00929e}.player-6{--c:#d94d99}.player-7{--c:#734d26}
+.fixed{--c:#868e96}
 .key{display:inline-block;width:.75em;height:.75em;border-radius:2px;margin:0 .35em 0 .1em;background:var(--c)}
 .key.cut{width:2px;border-radius:0}
 .legend{max-width:none;display:flex;flex-wrap:wrap;gap:.1rem .9rem}
-.timeline{margin:.6rem 0}
+.timeline{margin:.6rem 0;min-width:760px}
 .timeline text{font-size:11px;fill:var(--soft)}.timeline .lane{fill:var(--panel)}.timeline .shot{fill:var(--c)}
 .timeline .moment{fill:var(--soft);opacity:.35}
 .timeline circle.seen{fill:var(--best);stroke:#fff}.timeline circle.missed{fill:#e03131;stroke:#fff}
-.timeline path{fill:none;stroke-width:2.5}.timeline path.seen{stroke:var(--best)}.timeline path.missed{stroke:#e03131}
+.timeline path{fill:none;stroke-width:2.5;filter:drop-shadow(0 0 1px #fff) drop-shadow(0 0 1px #fff)}
+.timeline path.seen{stroke:var(--best)}.timeline path.missed{stroke:#e03131}
 .strip.cut{grid-template-columns:repeat(3,1fr);max-width:960px;width:auto;height:auto}
 .plan{background:#fff;border-radius:6px}
 .plan path{fill:none;stroke:var(--c)}

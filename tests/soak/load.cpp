@@ -31,7 +31,13 @@ std::vector<camera_director::Match> open_matches(const camera_director::Context&
     return matches;
 }
 
-void publish(camera_director::Match& match, const PoseArrays& poses, std::int64_t frame_time) {
+// The events before the poses that show what they did.
+void publish(camera_director::Match& match, const MatchFrame& frame, std::int64_t frame_time) {
+    for (camera_director::MatchEvent event : frame.events) {
+        event.frame_time = frame_time;
+        match.publish(event).value();
+    }
+    const PoseArrays& poses = frame.poses;
     match
         .publish({.frame_time = frame_time,
                   .player_id = poses.player_id,
@@ -76,6 +82,11 @@ void PoseArrays::clear() {
     velocity.clear();
 }
 
+void MatchFrame::clear() {
+    poses.clear();
+    events.clear();
+}
+
 void PoseArrays::add(std::uint32_t id, const Vec3f& at, const Quatf& looking, const Vec3f& moving,
                      std::uint32_t pose_flags) {
     player_id.push_back(id);
@@ -94,25 +105,26 @@ int run(const Load& load, std::uint32_t player_count, const std::stop_token& sto
     const double game_interval_ns = 1e9 * load.speed / load.rate_hz;
     const Clock::time_point start = Clock::now();
     std::uint64_t late = 0;
-    PoseArrays poses;
-    std::uint64_t frame = 0;
-    for (;; ++frame) {
-        const auto due = start + std::chrono::duration_cast<Clock::duration>(frame * interval);
+    MatchFrame frame;
+    std::uint64_t number = 0;
+    for (;; ++number) {
+        const auto due = start + std::chrono::duration_cast<Clock::duration>(number * interval);
         if (load.seconds > 0.0 && due - start >= std::chrono::duration<double>(load.seconds)) break;
         if (!sleep_until(due, stop)) break;
         if (Clock::now() - due > interval) ++late;
-        const auto frame_time = std::llround(static_cast<double>(frame) * game_interval_ns);
+        const auto frame_time = std::llround(static_cast<double>(number) * game_interval_ns);
         for (std::size_t i = 0; i < matches.size(); ++i) {
-            poses.clear();
-            load.matches[i](frame, poses);
-            publish(matches[i], poses, frame_time);
+            frame.clear();
+            load.matches[i](number, frame);
+            publish(matches[i], frame, frame_time);
         }
     }
 
     const double took = std::chrono::duration<double>(Clock::now() - start).count();
-    std::cout << "matches " << matches.size() << "\nframes " << frame * matches.size() << "\nseconds " << took
-              << "\nrate_hz " << static_cast<double>(frame) / took << "\nlate_ticks " << late << '\n';
-    return late * 100 > frame ? 1 : 0;
+    std::cout << "matches " << matches.size() << "\nframes " << number * matches.size() << "\nseconds "
+              << took << "\nrate_hz " << static_cast<double>(number) / took << "\nlate_ticks " << late
+              << '\n';
+    return late * 100 > number ? 1 : 0;
 }
 
 }  // namespace camdir::soak

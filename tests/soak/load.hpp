@@ -1,4 +1,4 @@
-// Shared by the load generators: publishes the poses of any number of matches at a constant rate.
+// Shared by the load generators: publishes the poses and events of any number of matches at a constant rate.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -34,9 +34,16 @@ struct PoseArrays {
              std::uint32_t pose_flags);
 };
 
-// The players of one match. Called once per frame with `frame` counting from 0; fills `poses`, which is
+struct MatchFrame {
+    PoseArrays poses;
+    std::vector<camera_director::MatchEvent> events;  // that happened in it; `frame_time` is not used
+
+    void clear();
+};
+
+// The frames of one match. Called once per frame with `number` counting from 0; fills `frame`, which is
 // empty.
-using Players = std::function<void(std::uint64_t frame, PoseArrays& poses)>;
+using MatchFrames = std::function<void(std::uint64_t number, MatchFrame& frame)>;
 
 struct Load {
     Network network;
@@ -48,7 +55,7 @@ struct Load {
     double speed = 1.0;     // of the game's clock relative to real time
     double delay_s = 0.0;   // spectator delay
     double seconds = 0.0;   // duration; 0 = until interrupted
-    std::vector<Players> matches;
+    std::vector<MatchFrames> matches;
 };
 
 // Publishes for load.seconds or until a stop is requested, then prints a summary to standard output. Returns

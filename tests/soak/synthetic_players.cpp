@@ -21,15 +21,15 @@ struct Options {
     Load load;
 };
 
-Players walk(const Roads& roads, const Options& options, std::uint32_t match) {
+MatchFrames walk(const Roads& roads, const Options& options, std::uint32_t match) {
     auto walkers = std::make_shared<std::vector<Walker>>();
     for (std::uint32_t player = 0; player < options.players; ++player) {
         walkers->emplace_back(roads, options.style, options.seed + 1000 * match + player);
     }
     const double dt = options.load.speed / options.load.rate_hz;
-    return [walkers, dt](std::uint64_t /*frame*/, PoseArrays& poses) {
+    return [walkers, dt](std::uint64_t /*number*/, MatchFrame& frame) {
         for (std::uint32_t player = 0; player < walkers->size(); ++player) {
-            (*walkers)[player].step(player, dt, poses);
+            (*walkers)[player].step(player, dt, frame.poses);
         }
     };
 }

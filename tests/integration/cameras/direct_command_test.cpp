@@ -142,6 +142,29 @@ TEST_F(DirectCommand, TakesTheEventsOfADemo) {
     EXPECT_EQ(json::parse(written(file)).at("kills"), 0);
 }
 
+TEST_F(DirectCommand, WarnsOfEventsInWhichOthersDie) {
+    std::string poses = "t_ms,player,x,y,z,pitch,yaw,roll,vx,vy,vz,viewheight,team,teleport_bit,alive\n";
+    for (int t = 0; t < 4000; t += 50) {
+        poses += std::to_string(t) + ",0,2.5,0,1.5,0,0,0,0,0,0,0,0,0,1\n";
+        poses +=
+            std::to_string(t) + ",1,0,2.5,1.5,0,0,0,0,0,0,0,0,0," + (t >= 1000 && t < 1500 ? "0\n" : "1\n");
+    }
+    ASSERT_TRUE(write_file(trace_, poses));
+    const auto with_kills_of = [&](const char* rows) {
+        std::string table = "t_ms,event,player,other\n";
+        for (int i = 0; i < 4; ++i)
+            table += rows;
+        ASSERT_TRUE(write_file(events_, table));
+        ASSERT_EQ(direct({}), 0) << errors_;
+    };
+    with_kills_of("1000,kill,0,1\n");
+    EXPECT_THAT(errors_, Not(HasSubstr("die in")));
+    with_kills_of("2000,kill,0,1\n");
+    EXPECT_THAT(errors_, HasSubstr("events.csv: of 4 who are killed 0 die in"));
+    with_kills_of("");
+    EXPECT_THAT(errors_, HasSubstr("events.csv has no event that is directed by"));
+}
+
 TEST_F(DirectCommand, RefusesEventsOfAnotherMatchAndLeavesWhatWasThere) {
     const std::string file = folder_ / "programme.csv";
     ASSERT_TRUE(write_file(file, "old"));

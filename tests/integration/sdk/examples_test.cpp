@@ -137,6 +137,28 @@ TEST_F(Examples, AnObserverWithoutADirectorFailsAndSaysSo) {
     EXPECT_THAT(watcher.errors(), HasSubstr("no camera after 0.2 s: is a director at --directors"));
 }
 
+TEST_F(Examples, AnObserverThatNeverGetsACameraSaysWhatTheDirectorAnsweredLast) {
+    FakeDirector director(domain_.number(), "example");
+    ChildProcess server({game_server, "--domain", domain_.text()});
+    ChildProcess watcher({observer, "--domain", domain_.text(), "--target", "3,1", "--patience", "5"});
+    std::optional<ReceivedRequest> request;
+    ASSERT_TRUE(eventually([&] { return (request = director.take_request()).has_value(); }))
+        << watcher.errors();
+    EXPECT_EQ(request->target, CDIR_SHOW_GROUP);
+    EXPECT_EQ(request->group, (std::vector<std::uint32_t>{3, 1}));
+    ASSERT_TRUE(eventually([&] {
+        (void)director.show_match();
+        while (const auto poses = director.take_poses())
+            director.write_status("example-observer", poses->epoch, CDIR_SHOT_WAITING_FOR_MAP, 0,
+                                  "the delay");
+        return watcher.errors().find("no camera after") != std::string::npos;
+    })) << watcher.errors();
+    EXPECT_EQ(watcher.wait(), 1);
+    EXPECT_THAT(watcher.errors(), HasSubstr("the director's last answer: waiting for the map: the delay"));
+    server.send_signal(SIGINT);
+    EXPECT_EQ(server.wait(), 0);
+}
+
 TEST_F(Examples, GameServerThatIsKilledIsNoticed) {
     FakeDirector director(domain_.number(), "example");
     ChildProcess server({game_server, "--domain", domain_.text()});
@@ -172,10 +194,12 @@ TEST(ExamplesCommandLine, HelpIsPrintedAndBadUsageIsRefused) {
             EXPECT_EQ(child.output(), "") << wrong[0];
         }
     }
-    for (const char* target : {"bob", "", "-1", "1.5", "4294967294", "99999999999999999999"}) {
+    for (const char* target :
+         {"bob", "", "-1", "1.5", "4294967294", "99999999999999999999", "1,", ",1", "1,2,3,4,5"}) {
         ChildProcess child({observer, "--target", target});
         EXPECT_EQ(child.wait(), 2) << target;
-        EXPECT_THAT(child.errors(), HasSubstr("--target: expected a player's number or auto, not '"))
+        EXPECT_THAT(child.errors(),
+                    HasSubstr("--target: expected auto, a player's number, or those of a group"))
             << target;
     }
     ChildProcess bad_match({game_server, "--match", "a/b"});

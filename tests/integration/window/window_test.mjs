@@ -165,6 +165,26 @@ const tests = {
         await watch('walk-0');
         await browser.until(`cameraDirector.state().live && cameraDirector.state().cameras.length === ${players}`);
     },
+    async 'a link to a match that begins later leads there once it has begun, unless the viewer has chosen another'(browser) {
+        const begin = match => programs.start('example-game-server', '--match', match, '--map', 'hall', '--centre', '8,8,1.7',
+            '--radius', '1', '--domain', domain);
+        const open = async match => {
+            await browser.open('about:blank');
+            await browser.open(`${url}/#match=${match}`);
+            await browser.until(`window.cameraDirector?.state().match === 'walk-0'`);
+        };
+        await open('later');
+        const later = begin('later');
+        await browser.until(`cameraDirector.state().match === 'later'`);
+        await stop(later);
+        await open('latest');
+        await browser.evaluate(`[...document.querySelectorAll('#matches button')].find(b => b.textContent.includes('walk-0')).click()`);
+        const latest = begin('latest');
+        await browser.until(`[...document.querySelectorAll('#matches button')].some(b => b.textContent.includes('latest'))`);
+        assert.equal(await browser.evaluate('cameraDirector.state().match'), 'walk-0');
+        await stop(latest);
+        await browser.until(`cameraDirector.state().live && cameraDirector.state().cameras.length === ${players}`);
+    },
     async 'nothing is wider than a small phone'(browser) {
         await browser.resize({width: 360, height: 740, scale: 2, mobile: true});
         await browser.until('innerWidth === 360');

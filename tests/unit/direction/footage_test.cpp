@@ -79,6 +79,24 @@ TEST(Footage, WhoComesLaterIsShownByNoRushBefore) {
     EXPECT_FALSE(is_showing(footage, 0, 1, 0));
 }
 
+// From one word of rushes to three.
+TEST(Footage, WhoComesLaterChangesNothingOfWhatWasShown) {
+    std::mt19937 random(14);
+    const Script script = random_script(60, 5, random, 2);
+    const Footage before = script.footage();
+    Footage footage = before;
+    for (int i = 0; i < 80; ++i)
+        footage.add_player();
+    ASSERT_EQ(footage.words(), 3U);
+    for (Beat beat = 0; beat < footage.beats(); ++beat)
+        for (std::size_t rush = 0; rush < footage.rushes(); ++rush) {
+            for (Index player = 0; player < footage.players(); ++player)
+                ASSERT_EQ(is_showing(footage, beat, rush, player),
+                          rush < before.rushes() && player < 60 && before.take(beat, rush).shown[player]);
+            ASSERT_FALSE(is_showing(footage, beat, rush, nobody));
+        }
+}
+
 TEST(Footage, APictureIsOfTheNearestWhoMeetsAnEnemy) {
     Script script(4, 1);  // 100 units apart along x
     Take take;

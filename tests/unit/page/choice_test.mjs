@@ -3,15 +3,16 @@ import assert from 'node:assert/strict';
 import {test} from 'node:test';
 import {choose, isFull, maxRefusals} from '../../../server/page/choice.js';
 
-const live = (id, more = {}) => ({id, stream: {}, sync: null, goesOn: true, ...more});
+const live = (id, more = {}) => ({id, stream: {shots: []}, sync: null, goesOn: true, ...more});
 const broadcast = (id, goesOn = true) => ({id, stream: null, sync: `${id}/sync`, goesOn});
 const watching = more => ({id: 'a', isRecorded: false, hasEnded: false, isOpen: true, missed: 0, refusals: 0, ...more});
 const nothing = watching({id: null, isOpen: false});
 
-test('it begins with the match of the link, else with one that goes on', () => {
+test('it begins with the match of the link, else with one that has a camera, else with one that goes on', () => {
     assert.equal(choose([], nothing, 'a'), null);
     assert.equal(choose([live('b'), live('a')], nothing, 'a').id, 'a');
     assert.equal(choose([broadcast('old', false), live('b')], nothing, 'a').id, 'b');
+    assert.equal(choose([live('b'), live('c', {stream: {shots: [{}]}})], nothing, 'a').id, 'c');
     assert.equal(choose([broadcast('old', false)], nothing, null).id, 'old');
 });
 

@@ -28,7 +28,7 @@ test('a shot of nobody is a fixed camera, unless its player is absent', () => {
 test('what a shot of a group does is of all of them', () => {
     const shot = flags => ({target: 0, flags});
     assert.equal(modeText(shot(cameraFlag.visible), false), 'In view');
-    assert.equal(modeText(shot(cameraFlag.visible), true), 'All in view');
+    assert.equal(modeText(shot(cameraFlag.visible), true), 'All living in view');
     assert.equal(modeText(shot(cameraFlag.searching), true), 'Not all in view');
     assert.equal(modeText(shot(cameraFlag.absent), true), 'Absent');
 });
