@@ -16,7 +16,7 @@
 static void report_status(cdir_observer observer, cdir_shot_status* last) {
     cdir_shot_status status = cdir_shot_status_default();
     check("reading the status", cdir_observer_shot_status(observer, &status));
-    if (status.state != last->state) {
+    if (status.state != last->state || strcmp(status.reason, last->reason) != 0) {
         fprintf(stderr, "shot: %s%s%s\n", cdir_shot_state_name(status.state), status.reason[0] ? ": " : "",
                 status.reason);
     }
@@ -36,13 +36,15 @@ static void print_reason(const cdir_camera* camera, const cdir_player* players, 
     const char* subject = name_of(camera->reason_subject, players, count);
     if (camera->reason[0] != '\0') fprintf(stderr, ": %s", camera->reason);
     if (actor != NULL) fprintf(stderr, ", %s", actor);
-    if (subject != NULL) fprintf(stderr, "%s %s", actor != NULL ? " and" : ",", subject);
+    if (subject != NULL && camera->reason_subject != camera->reason_actor)
+        fprintf(stderr, "%s %s", actor != NULL ? " and" : ",", subject);
     fputc('\n', stderr);
 }
 
 /* Says who is shown, and why, when that differs from the last camera of which it was said; NULL: there is
- * none. Returns false when it is not known yet. */
-static bool report_target(cdir_observer observer, const cdir_camera* camera, const cdir_camera* last) {
+ * none. The target of a group shot is its first player. Returns false when it is not known yet. */
+static bool report_target(cdir_observer observer, const cdir_camera* camera, const cdir_camera* last,
+                          bool shows_group) {
     static cdir_player players[CDIR_MAX_PLAYERS];
     cdir_match_info info = cdir_match_info_default();
     uint32_t count = 0;
@@ -56,7 +58,7 @@ static bool report_target(cdir_observer observer, const cdir_camera* camera, con
     if (camera->target == CDIR_CHOOSE_TARGET && (camera->flags & CDIR_CAMERA_TARGET_ABSENT) == 0)
         name = "none, a fixed camera";
     if (name != NULL) {
-        fprintf(stderr, "target: %s", name);
+        fprintf(stderr, "target: %s%s", shows_group ? "the group of " : "", name);
         print_reason(camera, players, count);
     }
     return true;
@@ -75,15 +77,16 @@ static void end_without_camera(double seconds, const cdir_shot_status* status) {
     if (status->state == CDIR_SHOT_UNANSWERED)
         fprintf(stderr, "is a director at --directors, and does it know the match and its map?\n");
     else
-        fprintf(stderr,
-                "the director's last answer: %s%s%s. A longer --seconds or --patience waits for more.\n",
-                cdir_shot_state_name(status->state), status->reason[0] ? ": " : "", status->reason);
+        fprintf(stderr, "the director's last answer: %s%s%s\n", cdir_shot_state_name(status->state),
+                status->reason[0] ? ": " : "", status->reason);
+    if (status->state == CDIR_SHOT_WAITING_FOR_MAP || status->state == CDIR_SHOT_WAITING_FOR_PLAYER)
+        fprintf(stderr, "a longer --seconds or --patience waits for more\n");
     exit(EXIT_FAILURE);
 }
 
 /* Prints the camera once per display frame, for `seconds` (0 = without limit) or until the user stops the
  * program. Ends with an error when there is none after `patience` seconds, or until the end. */
-static void watch(cdir_observer observer, double rate, double seconds, double patience) {
+static void watch(cdir_observer observer, bool shows_group, double rate, double seconds, double patience) {
     const int64_t start = monotonic_ns();
     const int64_t period = (int64_t)(1e9 / rate);
     cdir_shot_status status = cdir_shot_status_default();
@@ -108,7 +111,7 @@ static void watch(cdir_observer observer, double rate, double seconds, double pa
         if (cdir_observer_display_time(observer, &display_time) == CDIR_OK &&
             cdir_observer_camera_at(observer, display_time, &camera, &view) == CDIR_OK) {
             print_camera(&camera, &view);
-            if (report_target(observer, &camera, told ? &last : NULL)) {
+            if (report_target(observer, &camera, told ? &last : NULL, shows_group)) {
                 last = camera;
                 told = true;
             }
@@ -226,7 +229,7 @@ int main(int argc, char** argv) {
     check("joining the domain", cdir_context_open(&options, &context));
     check("opening the observer", cdir_observer_open(context, match_id, observer_id, NULL, &observer));
     check("requesting the shot", cdir_observer_request(observer, &request));
-    watch(observer, rate, seconds, patience);
+    watch(observer, request.target == CDIR_SHOW_GROUP, rate, seconds, patience);
     report_counters(observer);
     check("closing", cdir_context_close(context)); /* closes the observer and withdraws the request too */
     return EXIT_SUCCESS;

@@ -235,14 +235,15 @@ std::string reason_text(const direction::Reason& reason, const direction::Rules&
     return text;
 }
 
-// "fixed camera 2, near spawn point 3: kill 1-0"; of a shot that follows its player the reason alone.
+// "fixed camera 2 near spawn point 3: kill 1-0", without a comma for tables; of a shot that follows its
+// player the reason alone.
 std::string shot_text(const Inputs& inputs, const Rushes& rushes, const direction::Shot& shot) {
     const std::string reason = reason_text(shot.reason, inputs.rules, inputs.trace);
     if (!rushes.edited.is_fixed(shot.rush)) return reason;
     const std::size_t number = shot.rush - inputs.trace.players.size();
     const std::uint32_t spawn_point = rushes.fixed[number].spawn_point;
     const std::string place =
-        spawn_point == freespace::none ? "" : ", near spawn point " + std::to_string(spawn_point);
+        spawn_point == freespace::none ? "" : " near spawn point " + std::to_string(spawn_point);
     return "fixed camera " + std::to_string(number) + place + ": " + reason;
 }
 

@@ -122,8 +122,12 @@ void warn_of_another_match(const std::string& file, std::span<const evaluation::
     if (std::ranges::all_of(poses.poses, &evaluation::TracePose::alive)) return;
     std::size_t kills = 0;
     std::size_t deaths = 0;
-    for (const evaluation::TraceEvent& event : events) {
-        if (event.kind != "kill" || !event.subject) continue;
+    const std::size_t stride = events.size() / looked_at + 1;
+    for (std::size_t i = 0; i < events.size(); i += stride) {
+        const evaluation::TraceEvent& event = events[i];
+        if (event.kind != "kill" || !event.subject || event.time < poses.frames.front().time ||
+            event.time > poses.frames.back().time - dies_within)
+            continue;
         ++kills;
         deaths += dies(poses, *event.subject, event.time) ? 1 : 0;
     }

@@ -74,7 +74,7 @@ void warn_of_another_map(const std::string& trace, const evaluation::Trace& pose
                          const std::string& freespace, const SourceMap& opened);
 
 // Warns on standard error where the events of `file` have nothing to direct by, or most of those who are
-// killed live on in the match `trace`, in which somebody dies.
+// killed in the time of the match `trace` live on in it, although somebody dies there.
 void warn_of_another_match(const std::string& file, std::span<const evaluation::TraceEvent> events,
                            const std::string& trace, const evaluation::Trace& poses);
 

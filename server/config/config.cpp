@@ -6,6 +6,7 @@
 #include <set>
 
 #include "base/file.hpp"
+#include "base/utf8.hpp"
 #include "config/json_text.hpp"
 #include "config/keys.hpp"
 #include "config/spelling.hpp"
@@ -40,7 +41,8 @@ class ValidationErrors {
         std::string all;
         for (const std::string& line : lines_)
             all += (all.empty() ? "" : separator) + prefix + line;
-        return left_out_ == 0 ? all : all + separator + prefix + std::to_string(left_out_) + " errors more";
+        if (left_out_ > 0) all += separator + prefix + "errors left out: " + std::to_string(left_out_);
+        return all;
     }
 
   private:
@@ -50,13 +52,12 @@ class ValidationErrors {
     std::size_t left_out_ = 0;
 };
 
-// RFC 6901; as in JSON where a terminal would act on it, and not longer than people read.
+// RFC 6901, but that a terminal cannot be commanded by it, and that it is not longer than people read.
 std::string escaped(const std::string& token) {
     constexpr std::size_t longest = 60;
-    const std::string quoted = json(token).dump(-1, ' ', true, json::error_handler_t::replace);
+    const std::string shown = printable(token);
     std::string result;
-    for (const char c : quoted.substr(1, quoted.size() - 2)) {
-        if (result.size() >= longest) return result + "...";
+    for (const char c : shown.substr(0, utf8_prefix(shown, longest))) {
         if (c == '~')
             result += "~0";
         else if (c == '/')
@@ -64,7 +65,7 @@ std::string escaped(const std::string& token) {
         else
             result += c;
     }
-    return result;
+    return shown.size() > longest ? result + "..." : result;
 }
 
 std::vector<std::string> names_in(const std::string& section) {
@@ -87,12 +88,16 @@ std::string suggestion(const std::string& name, const std::vector<std::string>& 
 }
 
 std::string unknown(const std::string& name, const std::vector<std::string>& known) {
-    const std::string meant = suggestion(name, known);
-    if (!meant.empty()) return "unknown key" + meant;
-    std::string all;
+    return "unknown key" + suggestion(name, known);
+}
+
+// For people who edit a file.
+std::string unknown_of(const std::string& name, const std::vector<std::string>& known) {
+    std::string text = unknown(name, known);
+    if (text != unknown(name, {})) return text;
     for (const std::string& one : known)
-        all += (all.empty() ? "" : ", ") + one;
-    return "unknown key, expected one of " + all;
+        text += (&one == &known.front() ? ", expected one of " : ", ") + one;
+    return text;
 }
 
 // What took the place of a key of earlier versions; empty where there was none.
@@ -115,7 +120,7 @@ void read_object(const std::string& section, const std::string& pointer, const j
         if (const std::string use = successor(place); !use.empty())
             errors.add(place + ": no longer a key: use " + use);
         else if (key == nullptr)
-            errors.add(place + ": " + unknown(name, names_in(section)));
+            errors.add(place + ": " + unknown_of(name, names_in(section)));
         else if (!assign(*key, value, target))
             errors.add(place, value, expected(*key));
     }
@@ -293,7 +298,7 @@ void read_root(const json& root, Config& config, ValidationErrors& errors) {
         if (std::find(known.begin(), known.end(), name) != known.end())
             read_section(name, value, config, errors);
         else
-            errors.add("/" + escaped(name) + ": " + unknown(name, known));
+            errors.add("/" + escaped(name) + ": " + unknown_of(name, known));
     }
 }
 

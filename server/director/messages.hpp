@@ -151,6 +151,16 @@ struct MatchEvent {
                                                                : std::nullopt;
 }
 
+// The kind that tables of events call so, "flag_taken" or, as some games do, "respawn"; none of others.
+[[nodiscard]] inline std::optional<MatchEventKind> event_kind_named(std::string_view name) {
+    if (name == "respawn") return MatchEventKind::spawn;
+    for (std::size_t i = 0; i < match_event_names.size(); ++i) {
+        const auto same = [](char a, char b) { return a == b || (a == ' ' && b == '_'); };
+        if (std::ranges::equal(match_event_names[i], name, same)) return static_cast<MatchEventKind>(i + 1);
+    }
+    return {};
+}
+
 struct ObserverRequest {
     std::string match_id;
     std::string observer_id;

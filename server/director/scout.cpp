@@ -74,6 +74,7 @@ void Scout::add_player() {
     direction::Take& take = takes.emplace_back();
     take.subject = static_cast<direction::Index>(players.size());
     players.emplace_back();
+    looked_at_.emplace_back();
 }
 
 void Scout::look(const freespace::Space& space, float unit) {
@@ -84,7 +85,9 @@ void Scout::look(const freespace::Space& space, float unit) {
     const std::span<const direction::Index> all(has_many() ? nearest : present);
     const Viewpoint eye(space, player.eye);
     for (const direction::Index other : has_many() ? all : all.subspan(done)) {
-        if (player.sees[other] || !eye.sees(players[other].eye)) continue;
+        if (looked_at_[other][self]) continue;
+        looked_at_[self].set(other);
+        if (!eye.sees(players[other].eye)) continue;
         player.sees.set(other);
         players[other].sees.set(self);
     }

@@ -9,7 +9,7 @@
 
 namespace camdir::director {
 
-// Of more players each is looked at together with so many nearest others.
+// Of a match of more, whom a player sees, and whom their camera shows, is asked of so many nearest others.
 inline constexpr std::size_t most_looked_at = 31;
 
 // A beat in the making: places, views and teams of the players are given, what they and their cameras see is
@@ -35,6 +35,8 @@ struct Scout {
     void look(const freespace::Space& space, float unit);
 
   private:
+    std::vector<direction::PlayerSet> looked_at_;  // by player: whom of those nearest they have looked at
+
     [[nodiscard]] bool has_many() const { return present.size() > most_looked_at + 1; }
     [[nodiscard]] std::vector<direction::Index> nearest_to(direction::Index self) const;
     void look_from_behind(const freespace::Space& space, float unit, direction::Index self,

@@ -56,7 +56,7 @@ let watched = null;       // the entry of `matches` that it shows
 let missed = 0;           // lists in a row that did not have its stream
 let fullUntil = 0;        // its stream has no room
 let runsSince = null;     // when lists began to say that it runs; null: they do not
-let linked = server.matchOfAddress;  // the match of a link that is not in the list yet, unless the viewer has chosen one
+let linked = server.matchOfAddress;  // the match of a link that is not in the list yet, until the viewer watches something else on purpose
 let matches = [];         // of findMatches
 let camera = null;        // the id of the camera that is shown
 let wished = null;        // the one that the viewer has chosen, which may not be there at the time that is shown
@@ -204,6 +204,7 @@ function watchBroadcast() {
 }
 
 function chooseCamera(id) {
+    linked = null;
     camera = wished = id;
     dirty = true;
 }
@@ -240,6 +241,7 @@ function stepCamera(by) {
 // What is older than the stream's minutes is in the recording.
 function seek(t) {
     if (!source?.range) return;
+    linked = null;
     const [first, last] = source.range;
     const {paused} = model.clock;
     if (!isRecorded() && watched.sync && t < first - 1) watch(watched.id, {behind: last - t}); else source.seek(t);
@@ -253,6 +255,7 @@ function step(ms) {
 }
 
 function goToBegin() {
+    linked = null;
     if (!isRecorded() && watched?.sync) watch(watched.id, {t: 0}); else if (source?.range) seek(source.range[0]);
 }
 

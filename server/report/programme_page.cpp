@@ -112,11 +112,13 @@ class Timeline {
         if (shot.end <= begin || shot.begin >= end) return {};
         const int left = x(std::max(shot.begin, begin), begin);
         const int right = x(std::min(shot.end, end), begin);
+        // The reason of a fixed camera's shot names it.
+        const std::string who = shot.rush < players_.size() ? name_of(subject_, shot.rush) + ": " : "";
         return "<rect class=\"shot " + colour(shot.rush, players_.size()) + "\" x=\"" + number(left) +
                "\" y=\"" + number(top(std::min(shot.rush, players_.size())) + 3) + "\" width=\"" +
                number(right - left) + "\" height=\"10\"><title>" + decimal(seconds(shot.begin), 1) +
-               " s to " + decimal(seconds(shot.end), 1) + " s, " + name_of(subject_, shot.rush) + ": " +
-               escape(subject_.reasons[i]) + "</title></rect>";
+               " s to " + decimal(seconds(shot.end), 1) + " s, " + who + escape(subject_.reasons[i]) +
+               "</title></rect>";
     }
 
     [[nodiscard]] std::string moment_bars(const direction::Moment& moment, Beat begin, Beat end) const {

@@ -31,11 +31,16 @@ std::vector<camera_director::Match> open_matches(const camera_director::Context&
     return matches;
 }
 
-// The events before the poses that show what they did.
-void publish(camera_director::Match& match, const MatchFrame& frame, std::int64_t frame_time) {
+// The events before the poses that show what they did. Returns how many found no room in the queue.
+std::uint64_t publish(camera_director::Match& match, const MatchFrame& frame, std::int64_t frame_time) {
+    std::uint64_t lost = 0;
     for (camera_director::MatchEvent event : frame.events) {
         event.frame_time = frame_time;
-        match.publish(event).value();
+        const auto sent = match.publish(event);
+        if (!sent && sent.error().status() == CDIR_BUSY)
+            ++lost;
+        else
+            sent.value();
     }
     const PoseArrays& poses = frame.poses;
     match
@@ -46,6 +51,7 @@ void publish(camera_director::Match& match, const MatchFrame& frame, std::int64_
                   .velocity = poses.velocity,
                   .flags = poses.flags})
         .value();
+    return lost;
 }
 
 // Returns false when a stop was requested.
@@ -105,6 +111,7 @@ int run(const Load& load, std::uint32_t player_count, const std::stop_token& sto
     const double game_interval_ns = 1e9 * load.speed / load.rate_hz;
     const Clock::time_point start = Clock::now();
     std::uint64_t late = 0;
+    std::uint64_t lost_events = 0;
     MatchFrame frame;
     std::uint64_t number = 0;
     for (;; ++number) {
@@ -116,14 +123,14 @@ int run(const Load& load, std::uint32_t player_count, const std::stop_token& sto
         for (std::size_t i = 0; i < matches.size(); ++i) {
             frame.clear();
             load.matches[i](number, frame);
-            publish(matches[i], frame, frame_time);
+            lost_events += publish(matches[i], frame, frame_time);
         }
     }
 
     const double took = std::chrono::duration<double>(Clock::now() - start).count();
     std::cout << "matches " << matches.size() << "\nframes " << number * matches.size() << "\nseconds "
               << took << "\nrate_hz " << static_cast<double>(number) / took << "\nlate_ticks " << late
-              << '\n';
+              << "\nlost_events " << lost_events << '\n';
     return late * 100 > number ? 1 : 0;
 }
 

@@ -34,7 +34,7 @@ Result<evaluation::RecordedMatch> read(const Options& options) {
     if (!match->warning.empty()) std::cerr << "pose-replay: warning: " << match->warning << '\n';
     if (match->trace.frames.size() < 2) return fail(options.trace + ": fewer than two frames");
     if (options.events.empty()) return match;
-    auto events = evaluation::read_events(options.events, match->trace);
+    auto events = evaluation::read_events(options.events, match->trace, is_sent);
     if (!events) return tl::unexpected(events.error());
     match->events = std::move(*events);
     return match;

@@ -261,9 +261,8 @@ class GroupStep {
     // The members that are to stay in the picture: those that the viewpoint was chosen for, and whoever else
     // is seen and finds room; of those who find no room together, while they are not all seen soon, who is
     // seen.
-    [[nodiscard]] MemberSet wanted_in_picture() const {
+    [[nodiscard]] MemberSet wanted_in_picture(MemberSet seen) const {
         const Members::Instant& now = members_.now();
-        const MemberSet seen = seen_from(space_, state_.position, now);
         if (seen == 0) return 0;
         const MemberSet framed = state_.framed & now.living;
         if (fit_one_picture(framed | seen)) return framed | seen;
@@ -291,8 +290,9 @@ class GroupStep {
     // Towards the look that keeps them in the dead zone soon, above all when it will be reached; critically
     // damped, but as fast as keeps them in the picture now.
     void turn() {
-        const MemberSet wanted = wanted_in_picture();
-        const float fastest = wanted == members_.now().living
+        const MemberSet seen = seen_from(space_, state_.position, members_.now());
+        const MemberSet wanted = wanted_in_picture(seen);
+        const float fastest = (wanted & seen) == members_.now().living
                                   ? profile_.turn_limit
                                   : std::min(profile_.turn_limit, fastest_partial_turn);
         Look look = state_.look;

@@ -161,6 +161,8 @@ TEST_F(DirectCommand, WarnsOfEventsInWhichOthersDie) {
     EXPECT_THAT(errors_, Not(HasSubstr("die in")));
     with_kills_of("2000,kill,0,1\n");
     EXPECT_THAT(errors_, HasSubstr("events.csv: of 4 who are killed 0 die in"));
+    with_kills_of("9000,kill,0,1\n");
+    EXPECT_THAT(errors_, Not(HasSubstr("die in"))) << "they are not of the time of the poses";
     with_kills_of("");
     EXPECT_THAT(errors_, HasSubstr("events.csv has no event that is directed by"));
 }
@@ -189,6 +191,25 @@ TEST_F(DirectCommand, AJumpOfTheCameraIsOneCutHoweverRareTheFramesAre) {
     EXPECT_EQ(figures.at("shot_s_p50"), 2.0);
     EXPECT_EQ(figures.at("shots_under_1_5"), 0);
     EXPECT_NEAR(figures.at("cuts_per_minute"), 60.0 / 3.8, 1e-9);
+}
+
+// Nobody may be shown for longer than 2 s at a time.
+TEST_F(DirectCommand, NamesFixedCamerasInItsTableAndOnItsPage) {
+    const std::string file = folder_ / "programme.csv";
+    const std::string page = folder_ / "programme.html";
+    const std::string config = folder_ / "director.json";
+    write_trace(0.0, 30'000);
+    write_freespace({{.position = Vec3f(6, 0, 4), .yaw = std::numbers::pi_v<float>, .spawn_point = 0}});
+    ASSERT_TRUE(write_file(config, R"({"direction": {"maximum_shot_s": 2, "preferred_shot_s": 2}})"));
+    ASSERT_EQ(direct({"--config", config, "--cameras", file, "--report", page}), 0) << errors_;
+    std::istringstream rows(written(file));
+    bool has_fixed = false;
+    for (std::string row; std::getline(rows, row);) {
+        ASSERT_EQ(std::ranges::count(row, ','), 10) << row;
+        has_fixed = has_fixed || row.find(",fixed camera 0 near spawn point 0: ") != std::string::npos;
+    }
+    EXPECT_TRUE(has_fixed);
+    EXPECT_THAT(written(page), HasSubstr(" s, fixed camera 0 near spawn point 0: "));
 }
 
 TEST_F(DirectCommand, RefusesADelayThatIsNoNumber) {

@@ -25,16 +25,28 @@ class HallMatch : public testing::Test {
     }
 
     // All of it `aside` metres off along x.
-    void write_trace(double aside) const {
+    void write_trace(double aside, int milliseconds = 4000) const {
         std::ostringstream trace;
         trace << "t_ms,player,x,y,z,pitch,yaw,roll,vx,vy,vz,viewheight,team,teleport_bit,alive\n";
-        for (int t = 0; t <= 4000; t += 16) {
+        for (int t = 0; t <= milliseconds; t += 16) {
             const double angle = 1e-3 * t;
             trace << t << ",0," << aside + 2.5 * std::sin(angle) << ',' << -2.5 * std::cos(angle) << ",3.4,0,"
                   << angle * 180.0 / std::numbers::pi << ",0,0,0,0,0.6,0,0,1\n"
                   << t << ",1," << aside << ",0,3.4,0,0,0,0,0,0,0.6,0,0,1\n";
         }
         ASSERT_TRUE(write_file(trace_, trace.str()));
+    }
+
+    void write_freespace(const std::vector<freespace::FixedShot>& fixed_shots = {}) const {
+        freespace::Contents contents = test::empty_contents();
+        contents.metadata.map_name = "hall";
+        contents.metadata.metres_per_unit = 1.0F;
+        contents.metadata.d0 = 0.4F;
+        contents.vertices = {{-8, -8, 4, 3.5F}, {8, -8, 4, 3.5F}, {8, 8, 4, 3.5F}, {-8, 8, 4, 3.5F}};
+        contents.triangles = {{0, 1, 2}, {0, 2, 3}};
+        contents.spawn_points = {{Vec3f(0, 0, 4), 0.0F}};
+        contents.fixed_shots = fixed_shots;
+        ASSERT_TRUE(write_file(vfs_, freespace::encode(contents)));
     }
 
     test::TemporaryFolder folder_;
@@ -52,17 +64,6 @@ class HallMatch : public testing::Test {
         for (const char* face : {"1 3 4 2", "5 6 8 7", "1 2 6 5", "3 7 8 4", "1 5 7 3", "2 4 8 6"})
             obj << "f " << face << '\n';
         ASSERT_TRUE(write_file(map_, obj.str()));
-    }
-
-    void write_freespace() const {
-        freespace::Contents contents = test::empty_contents();
-        contents.metadata.map_name = "hall";
-        contents.metadata.metres_per_unit = 1.0F;
-        contents.metadata.d0 = 0.4F;
-        contents.vertices = {{-8, -8, 4, 3.5F}, {8, -8, 4, 3.5F}, {8, 8, 4, 3.5F}, {-8, 8, 4, 3.5F}};
-        contents.triangles = {{0, 1, 2}, {0, 2, 3}};
-        contents.spawn_points = {{Vec3f(0, 0, 4), 0.0F}};
-        ASSERT_TRUE(write_file(vfs_, freespace::encode(contents)));
     }
 };
 

@@ -155,6 +155,7 @@ TEST_F(Examples, AnObserverThatNeverGetsACameraSaysWhatTheDirectorAnsweredLast) 
     })) << watcher.errors();
     EXPECT_EQ(watcher.wait(), 1);
     EXPECT_THAT(watcher.errors(), HasSubstr("the director's last answer: waiting for the map: the delay"));
+    EXPECT_THAT(watcher.errors(), HasSubstr("a longer --seconds or --patience waits for more"));
     server.send_signal(SIGINT);
     EXPECT_EQ(server.wait(), 0);
 }

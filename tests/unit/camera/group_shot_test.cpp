@@ -413,7 +413,7 @@ TEST(GroupShot, DoesNotWhirlRoundForOneOfTwoWhoPassesCloseBy) {
     CheckedGroup shot(plan);
     Poses poses = {pose_at(plan.eye(2, 2), 0.0F), pose_at(plan.eye(2, 11), 0.0F)};
     Camera before = shot.step(poses);
-    float fastest = 0.0F;  // rad/s: he, seen from the camera
+    float fastest = 0.0F;  // rad/s: who runs, seen from the camera
     for (int i = 1; i < 600; ++i) {
         const Vec3f eye_before = poses[0]->eye;
         poses[0]->eye.x() = plan.eye(2, 4).x() + 180.0F * std::sin(0.03F * static_cast<float>(i));

@@ -164,7 +164,7 @@ TEST(Config, RefusesProfileNamesThatDoNotFitIntoARequest) {
 TEST(Config, EscapesPointers) {
     EXPECT_THAT(problem(R"({"profiles": {"a/b~c": {"distance": "x"}}})"),
                 HasSubstr("/profiles/a~1b~0c/distance: "));
-    EXPECT_THAT(problem(R"({"\u001b[31mred\n": 1})"), HasSubstr(R"(/\u001b[31mred\n: )"));
+    EXPECT_THAT(problem(R"({"\u001b[31mred\n": 1})"), HasSubstr("/?[31mred?: "));
     EXPECT_THAT(problem("{\"" + std::string(100000, 'x') + "\": 1}"),
                 HasSubstr("/" + std::string(60, 'x') + "...: "));
 }
@@ -178,7 +178,7 @@ TEST(Config, LeavesOutErrorsBeyondWhatPeopleRead) {
     std::string many = "{";
     for (int i = 0; i < 1000; ++i)
         many += "\"key " + std::to_string(i) + "\": 1, ";
-    EXPECT_THAT(problem(many + "\"last\": 1}"), HasSubstr("961 errors more"));
+    EXPECT_THAT(problem(many + "\"last\": 1}"), HasSubstr("errors left out: 961"));
 }
 
 TEST(Config, SurvivesMutations) {

@@ -23,6 +23,8 @@ Scout row_of(const freespace::Freespace& freespace, const Vec3f& first, std::siz
 
 class ScoutTest : public testing::Test {
   protected:
+    void expect_nearest(std::size_t players);
+
     test::Plan plan_{{"############", "#..........#", "#..........#", "############"}};
     freespace::Freespace freespace_ = plan_.freespace();
 };
@@ -39,9 +41,13 @@ TEST_F(ScoutTest, OfAFewEverybodyIsLookedAt) {
 }
 
 TEST_F(ScoutTest, OfManyTheNearest) {
-    constexpr std::size_t players = 45;
+    for (const std::size_t players : {most_looked_at + 2, std::size_t{45}})
+        expect_nearest(players);
+}
+
+void ScoutTest::expect_nearest(std::size_t players) {
     const Scout scout = row_of(freespace_, plan_.eye(1, 1), players);
-    const auto looks_at = [](std::size_t self, std::size_t other) {
+    const auto looks_at = [&](std::size_t self, std::size_t other) {
         const auto distance = [&](std::size_t i) { return i > self ? i - self : self - i; };
         std::size_t nearer = 0;
         for (std::size_t i = 0; i < players; ++i)

@@ -42,15 +42,18 @@ std::vector<std::string> told(const MatchFrames& frames, std::uint64_t count) {
 
 TEST(Replay, TellsWhatHappensWithTheFirstFrameThatIsNotBeforeIt) {
     const auto match =
-        match_with("900,kill,1,4,rocket\n1100,damage,1,4,35\n1101,kill,,4,lava\n1101,jump,1,,\n");
+        match_with("1000,kill,1,4,rocket\n1100,damage,1,4,35\n1101,kill,,4,lava\n1101,jump,1,,\n");
     EXPECT_EQ(told(replay(match, 0), 4),
               (std::vector<std::string>{"0: 1 1 4 0 rocket", "1: 5 1 4 35 ", "2: 1 - 4 0 lava"}));
+    EXPECT_TRUE(is_sent("flag_taken") && is_sent("respawn"));
+    EXPECT_FALSE(is_sent("jump"));
 }
 
-TEST(Replay, GoesOnWithTheFirstFrameAfterTheLastOne) {
-    const auto match = match_with("1200,award,4,,excellent\n1350,respawn,1,,\n");
-    EXPECT_EQ(told(replay(match, 2), 8), (std::vector<std::string>{"0: 6 4 - 0 excellent", "2: 9 1 - 0 ",
-                                                                   "4: 6 4 - 0 excellent", "6: 9 1 - 0 "}));
+TEST(Replay, TellsItAgainEveryTimeAndNothingFromBeforeAndAfter) {
+    const auto match =
+        match_with("999,kill,1,4,\n1200,award,4,,excellent\n1250,respawn,1,,\n1301,kill,1,4,\n");
+    EXPECT_EQ(told(replay(match, 2), 8), (std::vector<std::string>{"0: 6 4 - 0 excellent", "1: 9 1 - 0 ",
+                                                                   "4: 6 4 - 0 excellent", "5: 9 1 - 0 "}));
 }
 
 TEST(Replay, MarksAllPlayersWhereTheMatchBeginsAnew) {
@@ -64,9 +67,14 @@ TEST(Replay, MarksAllPlayersWhereTheMatchBeginsAnew) {
     }
 }
 
-TEST(Replay, CutsNamesThatTheWireCannotHold) {
-    const auto match = match_with("1000,item,1,," + std::string(100, 'q') + '\n');
-    EXPECT_EQ(told(replay(match, 0), 1), std::vector<std::string>{"0: 7 1 - 0 " + std::string(31, 'q')});
+TEST(Replay, SendsWhatTheWireTakes) {
+    std::string long_name = "a";
+    for (int i = 0; i < 20; ++i)
+        long_name += "\u00e9";
+    const auto match =
+        match_with("1000,item,1,," + long_name + "\n1000,kill,1,4,a\tb\n1000,damage,1,4,inf\n");
+    EXPECT_EQ(told(replay(match, 0), 1), (std::vector<std::string>{"0: 7 1 - 0 " + long_name.substr(0, 31),
+                                                                   "0: 1 1 4 0 a?b", "0: 5 1 4 0 "}));
 }
 
 }  // namespace
