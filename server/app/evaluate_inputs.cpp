@@ -7,6 +7,7 @@
 #include <span>
 
 #include "app/recorded_match.hpp"
+#include "director/clock.hpp"
 #include "evaluation/resample.hpp"
 #include "freespace/distance.hpp"
 #include "maps/source.hpp"
@@ -15,14 +16,15 @@
 namespace camdir::app {
 namespace {
 
-constexpr std::size_t looked_at = 1000;            // poses of a match, about
-constexpr std::size_t fewest_kills = 4;            // that say something of a match
-constexpr std::int64_t dies_within = 300'000'000;  // ns
+constexpr std::size_t looked_at = 1000;  // poses of a match, about
+constexpr std::size_t fewest_kills = 4;  // that say something of a match
+constexpr double dies_within = 0.3;      // s
 
 // Or is gone, or has jumped, from `time` on.
 bool dies(const evaluation::Trace& trace, std::uint32_t player, std::int64_t time) {
     auto frame = std::ranges::lower_bound(trace.frames, time, {}, &evaluation::TraceFrame::time);
-    for (; frame != trace.frames.end() && frame->time - time <= dies_within; ++frame) {
+    for (; frame != trace.frames.end() && director::seconds_between(time, frame->time) <= dies_within;
+         ++frame) {
         const std::uint32_t at = evaluation::pose_of(trace, *frame, player);
         if (at == evaluation::absent || !trace.poses[at].alive || trace.poses[at].discontinuity) return true;
     }
@@ -126,7 +128,7 @@ void warn_of_another_match(const std::string& file, std::span<const evaluation::
     for (std::size_t i = 0; i < events.size(); i += stride) {
         const evaluation::TraceEvent& event = events[i];
         if (event.kind != "kill" || !event.subject || event.time < poses.frames.front().time ||
-            event.time > poses.frames.back().time - dies_within)
+            director::seconds_between(event.time, poses.frames.back().time) < dies_within)
             continue;
         ++kills;
         deaths += dies(poses, *event.subject, event.time) ? 1 : 0;
