@@ -41,6 +41,11 @@ static void print_reason(const cdir_camera* camera, const cdir_player* players, 
     fputc('\n', stderr);
 }
 
+static bool same_reason(const cdir_camera* a, const cdir_camera* b) {
+    return strcmp(a->reason, b->reason) == 0 && a->reason_actor == b->reason_actor &&
+           a->reason_subject == b->reason_subject;
+}
+
 /* Says who is shown, and why, when that differs from the last camera of which it was said; NULL: there is
  * none. The target of a group shot is its first player. Returns false when it is not known yet. */
 static bool report_target(cdir_observer observer, const cdir_camera* camera, const cdir_camera* last,
@@ -48,8 +53,7 @@ static bool report_target(cdir_observer observer, const cdir_camera* camera, con
     static cdir_player players[CDIR_MAX_PLAYERS];
     cdir_match_info info = cdir_match_info_default();
     uint32_t count = 0;
-    if (last != NULL && camera->target == last->target && strcmp(camera->reason, last->reason) == 0)
-        return true;
+    if (last != NULL && camera->target == last->target && same_reason(camera, last)) return true;
     players[0] = cdir_player_default();
     const cdir_status status = cdir_observer_match_info(observer, &info, players, CDIR_MAX_PLAYERS, &count);
     check("reading the match", status);

@@ -68,6 +68,7 @@ Result<Inputs> read_inputs(const DirectOptions& options, ProgressLine& line) {
     if (!config) return tl::unexpected(config.error());
     auto match = read_match(options.trace, line);
     if (!match) return tl::unexpected(match.error());
+    line.clear();
     if (auto fits = check_length(match->trace); !fits)
         return fail(options.trace + ": " + fits.error().message);
     if (!options.events.empty()) {
@@ -141,11 +142,9 @@ struct Running {
 };
 
 // The direction's own figures first, then the running director's, the others' and the bound's.
-Result<std::vector<Judged>> judge(const Rushes& rushes, std::span<const direction::Event> events,
-                                  std::span<const direction::Moment> moments,
-                                  std::span<const direction::Shot> shots, const Running& running,
-                                  const direction::Rules& rules, double unit, double delay,
-                                  const std::stop_token& stop) {
+std::vector<Judged> judge(const Rushes& rushes, std::span<const direction::Event> events,
+                          std::span<const direction::Moment> moments, std::span<const direction::Shot> shots,
+                          const Running& running, const direction::Rules& rules, double unit, double delay) {
     constexpr std::uint64_t seeds = 64;
     const auto figures_of = [&](const direction::Footage& footage,
                                 std::span<const direction::Shot> programme) {
@@ -155,16 +154,14 @@ Result<std::vector<Judged>> judge(const Rushes& rushes, std::span<const directio
         return figures_of(rushes.judged, programme);
     };
     std::vector<direction::Figures> switches;
-    for (std::uint64_t seed = 0; seed < seeds && !stop.stop_requested(); ++seed)
+    for (std::uint64_t seed = 0; seed < seeds; ++seed)
         switches.push_back(figures(direction::random_switch(rushes.judged, seed)));
-    if (stop.stop_requested()) return fail("interrupted", ErrorCode::interrupted);
-    return std::vector<Judged>{
-        {"direction", figures(shots)},
-        {"running", figures_of(running.judged, running.shots)},
-        {"random", direction::mean_of(switches)},
-        {"hltv", figures(direction::hltv(rushes.judged, events, unit, delay))},
-        {"quakeworld", figures(direction::quakeworld(rushes.judged, events))},
-        {"bound", figures(direction::direct_for_kills(rushes.judged, events, rules, unit))}};
+    return {{"direction", figures(shots)},
+            {"running", figures_of(running.judged, running.shots)},
+            {"random", direction::mean_of(switches)},
+            {"hltv", figures(direction::hltv(rushes.judged, events, unit, delay))},
+            {"quakeworld", figures(direction::quakeworld(rushes.judged, events))},
+            {"bound", figures(direction::direct_for_kills(rushes.judged, events, rules, unit))}};
 }
 
 // Of the rules that count, those to be shown from their begin on: what goes on for long is not, and a killer
@@ -255,8 +252,7 @@ std::string format_programme(const Inputs& inputs, const Rushes& rushes,
     std::size_t shot = 0;
     std::optional<std::size_t> shown;
     for (const evaluation::TraceFrame& frame : trace.frames) {
-        const direction::Beat beat =
-            direction::beat_of(static_cast<double>(frame.time - trace.frames.front().time) * 1e-9);
+        const direction::Beat beat = beat_at(trace, frame.time);
         while (shot + 1 < shots.size() && beat >= shots[shot].end)
             ++shot;
         const std::size_t rush = shots[shot].rush;
@@ -360,13 +356,14 @@ Result<void> direct(const DirectOptions& options) {
                                               rushes->fixed, *running, options.delay, rushes->cameras, stop);
     const auto shown = footage_of(inputs->trace, movers, cameras, rushes->fixed, unit, exact, stop);
     if (!shown) return tl::unexpected(shown.error());
+    std::optional<ExitWhenInterrupted> judging(interruption);
     auto moments = direction::find_moments(rushes->judged, events, rules, unit, 0);
     const std::size_t in_reach = direction::kills_in_reach(rushes->judged, events);
     const auto judged = judge(*rushes, events, moments_to_begin_with(moments, rules), *shots,
-                              {*running, *shown}, rules, unit, options.delay, stop);
-    if (!judged) return tl::unexpected(judged.error());
+                              {*running, *shown}, rules, unit, options.delay);
+    judging.reset();
     line.clear();
-    print_table(*judged, in_reach);
+    print_table(judged, in_reach);
     std::fprintf(stderr, "%.3f ms a decision\n",
                  took.count() * direction::cut_every / static_cast<double>(rushes->edited.beats()));
     if (!options.cameras.empty()) {
@@ -374,11 +371,11 @@ Result<void> direct(const DirectOptions& options) {
         if (!written) return written;
     }
     if (!options.json.empty()) {
-        auto written = write_file(options.json, to_json(*judged, in_reach));
+        auto written = write_file(options.json, to_json(judged, in_reach));
         if (!written) return written;
     }
     if (options.report.empty()) return {};
-    return write_report(options, *inputs, *rushes, *shots, *judged, events, std::move(moments), line, stop);
+    return write_report(options, *inputs, *rushes, *shots, judged, events, std::move(moments), line, stop);
 }
 
 }  // namespace

@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <map>
 #include <optional>
 #include <string_view>
 
 #include "base/parallel.hpp"
 #include "director/clock.hpp"
+#include "director/edit.hpp"
+#include "director/messages.hpp"
 #include "director/scout.hpp"
 #include "evaluation/picture.hpp"
 #include "evaluation/recording.hpp"
@@ -35,10 +36,6 @@ Index index_of(const Trace& trace, std::uint32_t player) {
     return static_cast<Index>(std::ranges::lower_bound(trace.players, player) - trace.players.begin());
 }
 
-double seconds_from_start(const Trace& trace, std::int64_t time) {
-    return director::seconds_between(trace.frames.front().time, time);
-}
-
 void read_players(const Trace& trace, std::span<const TracePose> poses, std::vector<PlayerState>& players) {
     for (const TracePose& pose : poses) {
         PlayerState& state = players[index_of(trace, pose.player)];
@@ -57,7 +54,7 @@ template <class Read>
 Result<direction::Footage> read_beats(const Trace& trace, const std::stop_token& stop, const Read& read) {
     std::vector<std::vector<TraceFrame>> beats;
     for (const TraceFrame& frame : trace.frames) {
-        const auto beat = static_cast<std::size_t>(direction::beat_of(seconds_from_start(trace, frame.time)));
+        const auto beat = static_cast<std::size_t>(beat_at(trace, frame.time));
         beats.resize(std::max(beats.size(), beat + 1));
         beats[beat].push_back(frame);
     }
@@ -219,9 +216,7 @@ class ProgrammeShooter {
   private:
     // Of the beat, or after it.
     [[nodiscard]] std::uint32_t first_frame(Beat beat) const {
-        const auto is_before = [&](const TraceFrame& frame) {
-            return direction::beat_of(seconds_from_start(trace_, frame.time)) < beat;
-        };
+        const auto is_before = [&](const TraceFrame& frame) { return beat_at(trace_, frame.time) < beat; };
         return static_cast<std::uint32_t>(std::ranges::partition_point(trace_.frames, is_before) -
                                           trace_.frames.begin());
     }
@@ -263,7 +258,7 @@ std::vector<std::vector<Beat>> beats_with_movers_near(const Trace& trace, const 
                                                       std::span<const freespace::FixedShot> fixed,
                                                       double unit, const std::stop_token& stop) {
     const float room = freespace::fixed_shot_room * static_cast<float>(unit);
-    const Beat end = direction::beat_of(seconds_from_start(trace, trace.frames.back().time)) + 1;
+    const Beat end = beat_at(trace, trace.frames.back().time) + 1;
     std::vector<std::vector<Beat>> near(fixed.size());
     for (Beat beat = 0; beat < end && !stop.stop_requested(); ++beat) {
         const auto since = static_cast<std::int64_t>(1e9 * direction::beat_s * static_cast<double>(beat));
@@ -275,24 +270,6 @@ std::vector<std::vector<Beat>> beats_with_movers_near(const Trace& trace, const 
     return near;
 }
 
-std::optional<EventKind> kind_of(std::string_view name) {
-    static const std::map<std::string_view, EventKind> kinds = {
-        {"kill", EventKind::kill},
-        {"flag_taken", EventKind::flag_taken},
-        {"flag_captured", EventKind::flag_captured},
-        {"objective", EventKind::objective},
-        {"damage", EventKind::damage},
-        {"award", EventKind::award},
-        {"item", EventKind::item},
-        {"round", EventKind::round_won},
-        {"spawn", EventKind::spawn},
-        {"respawn", EventKind::spawn},
-    };
-    const auto found = kinds.find(name);
-    if (found == kinds.end()) return {};
-    return found->second;
-}
-
 // What a QuakeWorld server's automatic tracking thinks of an item, in kills.
 double item_value(std::string_view item) {
     if (item == "quad" || item == "pent" || item == "ring") return 30.0;
@@ -301,6 +278,14 @@ double item_value(std::string_view item) {
 }
 
 }  // namespace
+
+double seconds_from_start(const Trace& trace, std::int64_t time) {
+    return director::seconds_between(trace.frames.front().time, time);
+}
+
+Beat beat_at(const Trace& trace, std::int64_t time) {
+    return direction::beat_of(seconds_from_start(trace, time));
+}
 
 Result<void> check_length(const Trace& trace) {
     const double length = seconds_from_start(trace, trace.frames.back().time);
@@ -381,16 +366,18 @@ evaluation::CameraPath cameras_of_programme(const Trace& trace, const RecordedMo
 }
 
 bool directs_by(std::string_view kind) {
-    return kind_of(kind).has_value();
+    const auto known = director::event_kind_named(kind);
+    constexpr std::string_view of_a_round = "end";
+    return known && director::directed_kind(*known, of_a_round);
 }
 
 std::vector<direction::Event> events_of(const Trace& trace,
                                         const std::vector<evaluation::TraceEvent>& events) {
     std::vector<direction::Event> known;
     for (const evaluation::TraceEvent& event : events) {
-        const auto kind = kind_of(event.kind);
+        const auto named = director::event_kind_named(event.kind);
+        const auto kind = named ? director::directed_kind(*named, event.detail) : std::nullopt;
         if (!kind || event.time < trace.frames.front().time) continue;
-        if (*kind == EventKind::round_won && event.detail != "end") continue;
         const auto index = [&](const std::optional<std::uint32_t>& player) {
             return player ? index_of(trace, *player) : direction::nobody;
         };

@@ -1,6 +1,7 @@
 // A recorded match as the direction sees it.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <span>
 #include <stop_token>
@@ -22,6 +23,10 @@ namespace camdir::app {
 
 // The segment between two points meets no obstacle that stands still. Called from several threads.
 using ClearLine = std::function<bool(const Vec3d&, const Vec3d&)>;
+
+// Of the footage: since the first frame of the trace.
+[[nodiscard]] double seconds_from_start(const evaluation::Trace& trace, std::int64_t time);
+[[nodiscard]] direction::Beat beat_at(const evaluation::Trace& trace, std::int64_t time);
 
 // Fails when the match is so long that its footage would take too much memory: 11 h of 8 players, 3 h of 32
 // take gigabytes.

@@ -13,6 +13,7 @@
 #include "evaluation/group_recording.hpp"
 #include "evaluation/statistics.hpp"
 #include "freespace/lookouts.hpp"
+#include "freespace/visibility.hpp"
 #include "oracle/oracle.hpp"
 
 namespace camdir::app {
@@ -51,9 +52,12 @@ Result<void> evaluate_group(const EvaluateOptions& options, const Match& match, 
     const oracle::Oracle oracle(map.scene, map.point_radius);
     evaluation::MoversAt movers_at;
     if (match.movers) movers_at = [&](std::int64_t time) { return movers.exact_at(time); };
+    const auto proves = [&](const Vec3f& from, const Vec3f& to) {
+        return freespace::sight(*map.freespace, from, to).clear;
+    };
     const auto figures =
         evaluation::judge_group(oracle, map.scene.metres_per_unit, match.frames, options.group, made->cameras,
-                                map.freespace->lookouts().positions(), movers_at, stop);
+                                map.freespace->lookouts().positions(), proves, movers_at, stop);
     line.clear();
     if (!figures) return tl::unexpected(figures.error());
     std::cerr << evaluation::to_table(*figures) << "cost                 median "

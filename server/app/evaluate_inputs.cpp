@@ -20,14 +20,18 @@ constexpr std::size_t looked_at = 1000;  // poses of a match, about
 constexpr std::size_t fewest_kills = 4;  // that say something of a match
 constexpr double dies_within = 0.3;      // s
 
-// Or is gone, or has jumped, from `time` on.
+bool is_alive(const evaluation::Trace& trace, const evaluation::TraceFrame& frame, std::uint32_t player) {
+    const std::uint32_t at = evaluation::pose_of(trace, frame, player);
+    return at != evaluation::absent && trace.poses[at].alive && !trace.poses[at].discontinuity;
+}
+
+// Or is gone, or has jumped, in the next frame or soon after `time`, which is not after the last frame.
 bool dies(const evaluation::Trace& trace, std::uint32_t player, std::int64_t time) {
     auto frame = std::ranges::lower_bound(trace.frames, time, {}, &evaluation::TraceFrame::time);
-    for (; frame != trace.frames.end() && director::seconds_between(time, frame->time) <= dies_within;
-         ++frame) {
-        const std::uint32_t at = evaluation::pose_of(trace, *frame, player);
-        if (at == evaluation::absent || !trace.poses[at].alive || trace.poses[at].discontinuity) return true;
-    }
+    do {
+        if (!is_alive(trace, *frame, player)) return true;
+        ++frame;
+    } while (frame != trace.frames.end() && director::seconds_between(time, frame->time) <= dies_within);
     return false;
 }
 
@@ -124,9 +128,7 @@ void warn_of_another_match(const std::string& file, std::span<const evaluation::
     if (std::ranges::all_of(poses.poses, &evaluation::TracePose::alive)) return;
     std::size_t kills = 0;
     std::size_t deaths = 0;
-    const std::size_t stride = events.size() / looked_at + 1;
-    for (std::size_t i = 0; i < events.size(); i += stride) {
-        const evaluation::TraceEvent& event = events[i];
+    for (const evaluation::TraceEvent& event : events) {
         if (event.kind != "kill" || !event.subject || event.time < poses.frames.front().time ||
             director::seconds_between(event.time, poses.frames.back().time) < dies_within)
             continue;

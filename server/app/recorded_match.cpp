@@ -17,14 +17,6 @@ namespace {
 constexpr std::size_t max_players = 256;  // of a trace
 constexpr float view_height = 26.0F;      // units of 0.0254 m; of a standing player of Quake's
 
-// As tables of events name it: "flag_taken".
-std::string kind_name(const director::MatchEvent& event) {
-    const auto known = director::name_of(event);
-    std::string name = known ? std::string(*known) : std::to_string(event.kind);
-    std::ranges::replace(name, ' ', '_');
-    return name;
-}
-
 // Takes the records in their order.
 class Assembly {
   public:
@@ -67,8 +59,8 @@ class Assembly {
         if (detail.empty() && std::isfinite(event.value) && event.value != 0.0F)
             detail = std::to_string(std::lround(event.value));
         events_.push_back({event.epoch,
-                           {event.frame_time, kind_name(event), player(event.actor), player(event.subject),
-                            std::move(detail)}});
+                           {event.frame_time, director::table_name_of(event), player(event.actor),
+                            player(event.subject), std::move(detail)}});
     }
 
     // Of players whom the trace knows.

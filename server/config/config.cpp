@@ -84,17 +84,12 @@ const Key* find_key(const std::string& section, const std::string& name) {
 
 std::string suggestion(const std::string& name, const std::vector<std::string>& known) {
     const std::string near = nearest_spelling(name, known);
-    return near.empty() ? std::string() : ", did you mean \"" + near + "\"?";
+    return near.empty() ? std::string() : ", did you mean \"" + printable(near) + "\"?";
 }
 
-std::string unknown(const std::string& name, const std::vector<std::string>& known) {
-    return "unknown key" + suggestion(name, known);
-}
-
-// For people who edit a file.
-std::string unknown_of(const std::string& name, const std::vector<std::string>& known) {
-    std::string text = unknown(name, known);
-    if (text != unknown(name, {})) return text;
+std::string unknown_key(const std::string& name, const std::vector<std::string>& known) {
+    if (const std::string near = suggestion(name, known); !near.empty()) return "unknown key" + near;
+    std::string text = "unknown key";
     for (const std::string& one : known)
         text += (&one == &known.front() ? ", expected one of " : ", ") + one;
     return text;
@@ -120,7 +115,7 @@ void read_object(const std::string& section, const std::string& pointer, const j
         if (const std::string use = successor(place); !use.empty())
             errors.add(place + ": no longer a key: use " + use);
         else if (key == nullptr)
-            errors.add(place + ": " + unknown_of(name, names_in(section)));
+            errors.add(place + ": " + unknown_key(name, names_in(section)));
         else if (!assign(*key, value, target))
             errors.add(place, value, expected(*key));
     }
@@ -202,6 +197,16 @@ std::vector<std::string> names_of(const std::vector<direction::Rule>& rules) {
     return names;
 }
 
+// What would be ignored is a mistake.
+void check_rule(const direction::Rule& rule, const std::string& pointer, const json& value,
+                ValidationErrors& errors) {
+    if (rule.trigger == direction::Trigger::sight || !value.is_object()) return;
+    for (const char* key : {"range", "facing"})
+        if (value.contains(key))
+            errors.add(pointer + "/" + key, value[key],
+                       "nothing, for the trigger of the rule is not \"sight\"");
+}
+
 void read_moments(const json& object, direction::Rules& rules, ValidationErrors& errors) {
     if (!object.is_object()) return errors.add("/moments", object, "an object of rules by name");
     for (const auto& [name, value] : object.items()) {
@@ -219,6 +224,7 @@ void read_moments(const json& object, direction::Rules& rules, ValidationErrors&
             rule = rules.moments.insert(rule, direction::Rule{.name = name});
         }
         read_object("/moments/*", pointer, value, {nullptr, nullptr, nullptr, &*rule}, errors);
+        check_rule(*rule, pointer, value, errors);
     }
     if (rules.moments.size() > max_rules)
         errors.add("/moments: " + std::to_string(rules.moments.size()) +
@@ -255,7 +261,7 @@ void read_overrides(const json& object, Config& config, ValidationErrors& errors
         if (const Key* key = find_key("/profiles/*", name))
             read_override(*key, pointer, value, ranges, errors);
         else
-            errors.add(pointer + ": " + unknown(name, names_in("/profiles/*")));
+            errors.add(pointer + ": " + unknown_key(name, names_in("/profiles/*")));
     }
 }
 
@@ -298,7 +304,7 @@ void read_root(const json& root, Config& config, ValidationErrors& errors) {
         if (std::find(known.begin(), known.end(), name) != known.end())
             read_section(name, value, config, errors);
         else
-            errors.add("/" + escaped(name) + ": " + unknown_of(name, known));
+            errors.add("/" + escaped(name) + ": " + unknown_key(name, known));
     }
 }
 

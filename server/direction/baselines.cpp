@@ -57,7 +57,8 @@ Index best_rank(const Footage& footage, Beat beat, double range) {
 
 const Event* kill_in(std::span<const Event> events, double from, double to) {
     for (const Event& event : events)
-        if (event.kind == EventKind::kill && event.actor != nobody && event.time >= from && event.time < to)
+        if (event.kind == EventKind::kill && event.actor != nobody && event.actor != event.subject &&
+            event.time >= from && event.time < to)
             return &event;
     return nullptr;
 }

@@ -19,9 +19,13 @@ namespace camdir::director {
     return std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
 }
 
-// In double: differences of arbitrary game times must not overflow.
+// Of arbitrary game times: their difference may be too large for an std::int64_t, and is exact but for the
+// rounding of the result.
 [[nodiscard]] inline double seconds_between(std::int64_t from, std::int64_t to) {
-    return (static_cast<double>(to) - static_cast<double>(from)) * 1e-9;
+    const auto nanoseconds = [](std::int64_t early, std::int64_t late) {
+        return static_cast<double>(static_cast<std::uint64_t>(late) - static_cast<std::uint64_t>(early));
+    };
+    return (from <= to ? nanoseconds(from, to) : -nanoseconds(to, from)) * 1e-9;
 }
 
 }  // namespace camdir::director

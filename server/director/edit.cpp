@@ -44,9 +44,19 @@ std::int64_t aligned(std::int64_t time) {
     return time - (rest < 0 ? rest + cut_every_ns : rest);
 }
 
-std::optional<direction::EventKind> kind_of(const MatchEvent& event) {
+bool in_group(std::uint32_t player, std::span<const std::uint32_t> group) {
+    return group.empty() || std::ranges::binary_search(group, player);
+}
+
+std::size_t fixed_shots_of(const Edit::Setting& setting) {
+    return setting.rules.grammar.fixed_shots ? setting.space.map().fixed_shots().size() : 0;
+}
+
+}  // namespace
+
+std::optional<direction::EventKind> directed_kind(MatchEventKind kind, std::string_view detail) {
     using direction::EventKind;
-    switch (static_cast<MatchEventKind>(event.kind)) {
+    switch (kind) {
         case MatchEventKind::kill:
             return EventKind::kill;
         case MatchEventKind::flag_taken:
@@ -62,7 +72,7 @@ std::optional<direction::EventKind> kind_of(const MatchEvent& event) {
         case MatchEventKind::item:
             return EventKind::item;
         case MatchEventKind::round:
-            if (event.detail != "end") return {};
+            if (detail != "end") return {};
             return EventKind::round_won;
         case MatchEventKind::spawn:
             return EventKind::spawn;
@@ -70,16 +80,6 @@ std::optional<direction::EventKind> kind_of(const MatchEvent& event) {
             return {};
     }
 }
-
-bool in_group(std::uint32_t player, std::span<const std::uint32_t> group) {
-    return group.empty() || std::ranges::binary_search(group, player);
-}
-
-std::size_t fixed_shots_of(const Edit::Setting& setting) {
-    return setting.rules.grammar.fixed_shots ? setting.space.map().fixed_shots().size() : 0;
-}
-
-}  // namespace
 
 void AutomaticShot::follow(std::uint32_t target, std::uint32_t fixed_shot, std::int64_t frame_time,
                            const Reason* why) {
@@ -285,7 +285,7 @@ void Edit::append_finished() {
 }
 
 void Edit::add(const MatchEvent& event) {
-    const auto kind = kind_of(event);
+    const auto kind = directed_kind(static_cast<MatchEventKind>(event.kind), event.detail);
     const double time = seconds(event.frame_time);
     if (!kind || time < 0.0 || time > newest_ + longest_gap_s) return;
     material_.add(

@@ -6,8 +6,10 @@
 #include <deque>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -23,6 +25,9 @@
 #include "freespace/space.hpp"
 
 namespace camdir::director {
+
+// As what an event is directed by; none: by nothing. `detail`: the event's.
+[[nodiscard]] std::optional<direction::EventKind> directed_kind(MatchEventKind kind, std::string_view detail);
 
 // An automatic shot's programme so far.
 struct AutomaticShot {

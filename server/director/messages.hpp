@@ -3,6 +3,7 @@
 // idl/camera_director.idl, which says what they mean.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -151,13 +152,21 @@ struct MatchEvent {
                                                                : std::nullopt;
 }
 
-// The kind that tables of events call so, "flag_taken" or, as some games do, "respawn"; none of others.
-[[nodiscard]] inline std::optional<MatchEventKind> event_kind_named(std::string_view name) {
-    if (name == "respawn") return MatchEventKind::spawn;
-    for (std::size_t i = 0; i < match_event_names.size(); ++i) {
-        const auto same = [](char a, char b) { return a == b || (a == ' ' && b == '_'); };
-        if (std::ranges::equal(match_event_names[i], name, same)) return static_cast<MatchEventKind>(i + 1);
-    }
+// As tables of events call it: "flag_taken", or the number of a kind that the director does not know.
+[[nodiscard]] inline std::string table_name_of(const MatchEvent& event) {
+    const auto known = name_of(event);
+    std::string name = known ? std::string(*known) : std::to_string(event.kind);
+    std::ranges::replace(name, ' ', '_');
+    return name;
+}
+
+// The kind that tables of events call so, or, as some games do, "respawn" or "death": a kill that is nobody
+// else's. None of others.
+[[nodiscard]] inline std::optional<MatchEventKind> event_kind_named(std::string_view table_name) {
+    if (table_name == "respawn") return MatchEventKind::spawn;
+    if (table_name == "death") return MatchEventKind::kill;
+    for (std::uint32_t kind = 1; kind <= match_event_names.size(); ++kind)
+        if (table_name_of({.kind = kind}) == table_name) return static_cast<MatchEventKind>(kind);
     return {};
 }
 

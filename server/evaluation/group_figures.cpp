@@ -74,24 +74,45 @@ bool can_show(const GroupSight& sight, const Vec3f& place, const Together& toget
                        {place.cast<double>(), camera::orientation_of(*look).cast<double>(), false}, together);
 }
 
+bool proves_all(const Proves& proves, const Vec3f& place, const Together& together) {
+    return std::ranges::all_of(together,
+                               [&](const TracePose* pose) { return proves(place, pose->eye.cast<float>()); });
+}
+
+// Whether it holds of some place. The one of which it held last, `place`, is tried first.
+template <class Holds>
+bool holds_of_some(std::span<const Vec3f> places, std::size_t& place, const Holds& holds) {
+    for (std::size_t i = 0; i < places.size(); ++i, place = (place + 1) % places.size())
+        if (holds(places[place])) return true;
+    return false;
+}
+
+// What some place would show in a frame.
+struct Possible {
+    bool all = false;
+    bool all_proved = false;
+};
+
 // By frame.
-std::vector<std::uint8_t> possible_frames(const oracle::Oracle& oracle, const Trace& trace,
-                                          std::span<const Together> counted, std::span<const Vec3f> places,
-                                          const MoversAt& movers, const std::stop_token& stop) {
-    std::vector<std::uint8_t> possible(counted.size());
-    constexpr std::size_t chunk = 64;  // frames: what showed all in one frame is tried first in the next
+std::vector<Possible> possible_frames(const oracle::Oracle& oracle, const Trace& trace,
+                                      std::span<const Together> counted, std::span<const Vec3f> places,
+                                      const Proves& proves, const MoversAt& movers,
+                                      const std::stop_token& stop) {
+    std::vector<Possible> possible(counted.size());
+    constexpr std::size_t chunk = 64;  // frames in a row
     parallel_for(std::size_t{0}, (counted.size() + chunk - 1) / chunk, [&](std::size_t part) {
-        std::size_t last = 0;
+        std::size_t shows = 0;
+        std::size_t proved = 0;
         const std::size_t end = std::min(counted.size(), (part + 1) * chunk);
         for (std::size_t f = part * chunk; f < end && !stop.stop_requested(); ++f) {
             if (counted[f].empty()) continue;
             const GroupSight sight(oracle, movers, trace.frames[f].time);
-            for (std::size_t i = 0; i < places.size() && possible[f] == 0; ++i) {
-                const std::size_t place = (last + i) % places.size();
-                if (!can_show(sight, places[place], counted[f])) continue;
-                possible[f] = 1;
-                last = place;
-            }
+            const auto can = [&](const Vec3f& place) { return can_show(sight, place, counted[f]); };
+            possible[f].all = holds_of_some(places, shows, can);
+            possible[f].all_proved =
+                possible[f].all && holds_of_some(places, proved, [&](const Vec3f& place) {
+                    return can(place) && proves_all(proves, place, counted[f]);
+                });
         }
     });
     return possible;
@@ -192,6 +213,8 @@ constexpr GroupFigure group_figures[] = {
     {"empty", "%", &GroupFigures::empty},
     {"possible", "%", &GroupFigures::possible},
     {"together_of_possible", "%", &GroupFigures::together_of_possible},
+    {"provable", "%", &GroupFigures::provable},
+    {"together_of_provable", "%", &GroupFigures::together_of_provable},
     {"comfort", "%", &GroupFigures::comfort},
     {"cuts", "/min", &GroupFigures::cuts},
     {"crossings", "/min", &GroupFigures::crossings},
@@ -220,17 +243,19 @@ std::string group_line(const char* name, const std::string& value, const char* u
 Result<GroupFigures> judge_group(const oracle::Oracle& oracle, double metres_per_unit, const Trace& trace,
                                  std::span<const std::uint32_t> members,
                                  std::span<const CameraSample> cameras, std::span<const Vec3f> places,
-                                 const MoversAt& movers, const std::stop_token& stop) {
+                                 const Proves& proves, const MoversAt& movers, const std::stop_token& stop) {
     assert(cameras.size() == trace.frames.size());
     const auto counted = counted_frames(trace, members);
-    const auto possible = possible_frames(oracle, trace, counted, places, movers, stop);
+    const auto possible = possible_frames(oracle, trace, counted, places, proves, movers, stop);
     if (stop.stop_requested()) return fail("interrupted", ErrorCode::interrupted);
     GroupFigures figures;
     std::size_t together = 0;
     std::size_t first = 0;
     std::size_t empty = 0;
     std::size_t possible_count = 0;
-    std::size_t both = 0;
+    std::size_t possible_together = 0;
+    std::size_t provable_count = 0;
+    std::size_t provable_together = 0;
     for (std::size_t f = 0; f < counted.size(); ++f) {
         if (counted[f].empty()) continue;
         const GroupSight sight(oracle, movers, trace.frames[f].time);
@@ -239,14 +264,18 @@ Result<GroupFigures> judge_group(const oracle::Oracle& oracle, double metres_per
         together += all;
         first += sight.shows(cameras[f], counted[f].front()->eye);
         empty += sight.shows_none(cameras[f], counted[f]);
-        possible_count += possible[f];
-        both += all && possible[f] != 0;
+        possible_count += possible[f].all;
+        possible_together += all && possible[f].all;
+        provable_count += possible[f].all_proved;
+        provable_together += all && possible[f].all_proved;
     }
     figures.together = percent(together, figures.frames);
     figures.first = percent(first, figures.frames);
     figures.empty = percent(empty, figures.frames);
     figures.possible = percent(possible_count, figures.frames);
-    figures.together_of_possible = percent(both, possible_count);
+    figures.together_of_possible = percent(possible_together, possible_count);
+    figures.provable = percent(provable_count, figures.frames);
+    figures.together_of_provable = percent(provable_together, provable_count);
     judge_group_motion(trace, counted, cameras, figures);
     if (movers) figures.movers = judge_group_movers(oracle, trace, counted, cameras, movers, stop);
     judge_group_steps(oracle, Thresholds(metres_per_unit), trace, counted, cameras, figures);

@@ -30,6 +30,8 @@ struct GroupFigures {
     double empty = unmeasured;     // of them: the camera shows none of them
     double possible = unmeasured;  // of them: from some place a camera shows every member, wherever it looks
     double together_of_possible = unmeasured;  // of the possible ones: the camera shows every member
+    double provable = unmeasured;  // of the counted: of some such place the sights to all are proved, too
+    double together_of_provable = unmeasured;  // of the provable ones: the camera shows every member
     Spread acc;                                // as in Metrics, within counted frames
     Spread ang_speed;
     double comfort = unmeasured;
@@ -45,14 +47,18 @@ struct GroupFigures {
 // The movers at a time of the trace. Called from several threads.
 using MoversAt = std::function<PlacedMovers(std::int64_t)>;
 
+// Whether a camera can know that the segment between two points is clear where nothing moves: as the
+// freespace's sights say. Called from several threads.
+using Proves = std::function<bool(const Vec3f&, const Vec3f&)>;
+
 // `cameras`: one for each frame of the trace, of a group of `members`. `places`: what "some place" is. Places
 // are looked at in parallel; the result does not depend on the number of threads. `movers`: empty where
 // nothing moves. Fails with ErrorCode::interrupted soon after `stop` is requested.
 [[nodiscard]] Result<GroupFigures> judge_group(const oracle::Oracle& oracle, double metres_per_unit,
                                                const Trace& trace, std::span<const std::uint32_t> members,
                                                std::span<const CameraSample> cameras,
-                                               std::span<const Vec3f> places, const MoversAt& movers,
-                                               const std::stop_token& stop);
+                                               std::span<const Vec3f> places, const Proves& proves,
+                                               const MoversAt& movers, const std::stop_token& stop);
 
 // A JSON object with a key for each figure, as to_json of Metrics.
 [[nodiscard]] std::string to_json(const GroupFigures& figures);

@@ -10,14 +10,13 @@ export function isFull(entry, refusals) {
 
 // {id, from} of what is to be watched from now on, from: 'newest' of its stream, or 'broadcast' of what is shown now; null:
 // what is watched. `matches`: the list. `now`: {id: of what is watched or null, isRecorded, hasEnded, isOpen: the stream
-// runs, missed: lists in a row that did not have the stream, refusals}. `wanted`: the match of the link, or null.
+// runs, missed: lists in a row that did not have the stream, refusals}.
 // A list may lack a match that goes on, of a server that is busy or has just begun.
-export function choose(matches, now, wanted) {
+export function choose(matches, now) {
     const entry = matches.find(({id}) => id === now.id);
     const begin = id => ({id, from: 'newest'});
     if (now.id === null) {
-        const first = matches.find(({id}) => id === wanted) ?? matches.find(({stream}) => stream?.shots.length > 0)
-            ?? matches.find(({goesOn}) => goesOn) ?? matches[0];
+        const first = matches.find(({stream}) => stream?.shots.length > 0) ?? matches.find(({goesOn}) => goesOn) ?? matches[0];
         return first ? begin(first.id) : null;
     }
     if (now.isRecorded) return now.hasEnded && entry?.goesOn && !entry.stream ? begin(entry.id) : null;  // another one begins

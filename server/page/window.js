@@ -56,7 +56,7 @@ let watched = null;       // the entry of `matches` that it shows
 let missed = 0;           // lists in a row that did not have its stream
 let fullUntil = 0;        // its stream has no room
 let runsSince = null;     // when lists began to say that it runs; null: they do not
-let linked = server.matchOfAddress;  // the match of a link that is not in the list yet, until the viewer watches something else on purpose
+let linked = server.matchOfAddress;  // the match of a link that is not in the list yet, until the viewer does something with another
 let matches = [];         // of findMatches
 let camera = null;        // the id of the camera that is shown
 let wished = null;        // the one that the viewer has chosen, which may not be there at the time that is shown
@@ -190,7 +190,7 @@ function chooseMatch() {
     // What begins to run is seen a delay later.
     if (runsSince !== null && now() - runsSince > silenceMs + delayMs()) source?.runs?.();
     const next = choose(matches, {id: watched?.id ?? null, isRecorded: isRecorded(), hasEnded: source?.state === 'ended',
-        isOpen: isInTouch(), missed, refusals: source?.refusals ?? 0}, server.matchOfAddress);
+        isOpen: isInTouch(), missed, refusals: source?.refusals ?? 0});
     if (next?.from === 'broadcast') watchBroadcast(); else if (next) watch(next.id);
 }
 
@@ -203,8 +203,13 @@ function watchBroadcast() {
     fullUntil = now() + fullForMs;
 }
 
+// What the viewer looks at on purpose is not left for the match of a link.
+function stayHere() {
+    if (watched) linked = null;
+}
+
 function chooseCamera(id) {
-    linked = null;
+    stayHere();
     camera = wished = id;
     dirty = true;
 }
@@ -241,7 +246,7 @@ function stepCamera(by) {
 // What is older than the stream's minutes is in the recording.
 function seek(t) {
     if (!source?.range) return;
-    linked = null;
+    stayHere();
     const [first, last] = source.range;
     const {paused} = model.clock;
     if (!isRecorded() && watched.sync && t < first - 1) watch(watched.id, {behind: last - t}); else source.seek(t);
@@ -255,7 +260,7 @@ function step(ms) {
 }
 
 function goToBegin() {
-    linked = null;
+    stayHere();
     if (!isRecorded() && watched?.sync) watch(watched.id, {t: 0}); else if (source?.range) seek(source.range[0]);
 }
 
@@ -269,6 +274,7 @@ function stepCut(by) {
 }
 
 function setPaused(paused) {
+    stayHere();
     if (!paused && isRecorded() && source.state === 'ended') seek(source.range[0]);
     model.clock.setPaused(paused);
     dirty = true;

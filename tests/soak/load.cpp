@@ -80,6 +80,19 @@ camera_director::ContextOptions Network::context_options() const {
             .security = security.empty() ? std::nullopt : std::optional(security)};
 }
 
+void Load::add_options(CLI::App& app) {
+    app.add_option("--match-prefix", match_prefix, "Matches are PREFIX-0, PREFIX-1, ...")
+        ->capture_default_str();
+    app.add_option("--speed", speed, "Of the game relative to real time")
+        ->check(CLI::Range(0.01, 100.0))
+        ->capture_default_str();
+    app.add_option("--delay", delay_s, "Spectator delay, s")
+        ->check(CLI::Range(0.0, 600.0))
+        ->capture_default_str();
+    app.add_option("--seconds", seconds, "Duration; 0: until interrupted")->check(CLI::NonNegativeNumber);
+    network.add_options(app);
+}
+
 void PoseArrays::clear() {
     player_id.clear();
     flags.clear();
@@ -131,7 +144,7 @@ int run(const Load& load, std::uint32_t player_count, const std::stop_token& sto
     std::cout << "matches " << matches.size() << "\nframes " << number * matches.size() << "\nseconds "
               << took << "\nrate_hz " << static_cast<double>(number) / took << "\nlate_ticks " << late
               << "\nlost_events " << lost_events << '\n';
-    return late * 100 > number ? 1 : 0;
+    return late * 100 > number || lost_events > 0 ? 1 : 0;
 }
 
 }  // namespace camdir::soak

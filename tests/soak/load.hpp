@@ -56,11 +56,14 @@ struct Load {
     double delay_s = 0.0;   // spectator delay
     double seconds = 0.0;   // duration; 0 = until interrupted
     std::vector<MatchFrames> matches;
+
+    // What all load generators are told: the same options, also the network's.
+    void add_options(CLI::App& app);
 };
 
 // Publishes for load.seconds or until a stop is requested, then prints a summary to standard output. Returns
 // the exit code: 1 when more than 1 % of the frames were over one frame late, that is, the machine is too
-// slow.
+// slow, or the library had no room for an event.
 [[nodiscard]] int run(const Load& load, std::uint32_t player_count, const std::stop_token& stop);
 
 }  // namespace camdir::soak

@@ -77,21 +77,11 @@ int main(int argc, char** argv) {
     app.add_option("--map-name", options.load.map_name, "The map's name in the director's configuration")
         ->required();
     app.add_option("--copies", options.copies, "Matches")->check(CLI::Range(1, 4096))->capture_default_str();
-    app.add_option("--match-prefix", options.load.match_prefix, "Matches are PREFIX-0, PREFIX-1, ...")
-        ->capture_default_str();
     app.add_option("--rate", options.rate_hz, "Frames sent per second; 0: as recorded")
         ->check(CLI::Range(0.0, 1000.0))
         ->capture_default_str();
-    app.add_option("--speed", options.load.speed, "Of the game relative to real time")
-        ->check(CLI::Range(0.01, 100.0))
-        ->capture_default_str();
-    app.add_option("--delay", options.load.delay_s, "Spectator delay, s")
-        ->check(CLI::Range(0.0, 600.0))
-        ->capture_default_str();
     app.add_option("--metres-per-unit", options.load.metres_per_unit)->capture_default_str();
-    app.add_option("--seconds", options.load.seconds, "Duration; 0: until interrupted")
-        ->check(CLI::NonNegativeNumber);
-    options.load.network.add_options(app);
+    options.load.add_options(app);
     return soak::run_until_interrupted(
         app, argc, argv, [&](const std::stop_token& stop) { return soak::play(std::move(options), stop); });
 }

@@ -14,8 +14,8 @@ namespace camdir::soak {
 [[nodiscard]] bool is_sent(std::string_view kind);
 
 // The frames of a match, beginning with number `first` of its trace, which has at least one. An event comes
-// with the first frame that is not before it; those before the first frame and after the last one are left
-// out. Where the match begins anew all players jump.
+// with the first frame that is not before it, a death without a killer as a kill without one; those before
+// the first frame and after the last one are left out. Where the match begins anew all players jump.
 [[nodiscard]] MatchFrames replay(std::shared_ptr<const evaluation::RecordedMatch> match, std::size_t first);
 
 }  // namespace camdir::soak

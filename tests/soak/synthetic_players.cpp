@@ -71,16 +71,8 @@ int main(int argc, char** argv) {
     app.add_option("--players", options.players, "Per match")
         ->check(CLI::Range(1, 256))
         ->capture_default_str();
-    app.add_option("--match-prefix", options.load.match_prefix, "Matches are PREFIX-0, PREFIX-1, ...")
-        ->capture_default_str();
     app.add_option("--rate", options.load.rate_hz, "Frames sent per second")
         ->check(CLI::Range(0.1, 1000.0))
-        ->capture_default_str();
-    app.add_option("--speed", options.load.speed, "Of the game relative to real time")
-        ->check(CLI::Range(0.01, 100.0))
-        ->capture_default_str();
-    app.add_option("--delay", options.load.delay_s, "Spectator delay, s")
-        ->check(CLI::Range(0.0, 600.0))
         ->capture_default_str();
     app.add_option("--stops", options.style.stops_per_s, "Per player and second")
         ->check(CLI::Range(0.0, 100.0))
@@ -92,9 +84,7 @@ int main(int argc, char** argv) {
         ->check(CLI::Range(0.1, 1000.0))
         ->capture_default_str();
     app.add_option("--seed", options.seed, "The same seed gives the same poses")->capture_default_str();
-    app.add_option("--seconds", options.load.seconds, "Duration; 0: until interrupted")
-        ->check(CLI::NonNegativeNumber);
-    options.load.network.add_options(app);
+    options.load.add_options(app);
     return soak::run_until_interrupted(
         app, argc, argv, [&](const std::stop_token& stop) { return soak::play(std::move(options), stop); });
 }

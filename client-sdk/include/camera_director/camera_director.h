@@ -432,6 +432,7 @@ CDIR_DEFAULTS(cdir_mover)
  * CDIR_MAX_MOVERS elements; may be null for 0. Publishes reliably, also to directors that come later.
  * CDIR_INVALID_ARGUMENT: cdir_last_error() names the field that is out of its range. Whether a hull is
  * bounded is for the director to check, which drops all that was published with one that is not.
+ * CDIR_BUSY: a director is so far behind that the send queue is full.
  * CDIR_NETWORK: the identity for DDS Security does not allow it: it is older than movers. */
 CDIR_API cdir_status cdir_match_set_movers(cdir_match match, const cdir_mover* movers,
                                            uint32_t mover_count) CDIR_NOEXCEPT;

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "hall_match.hpp"
@@ -142,15 +143,19 @@ TEST_F(DirectCommand, TakesTheEventsOfADemo) {
     EXPECT_EQ(json::parse(written(file)).at("kills"), 0);
 }
 
-TEST_F(DirectCommand, WarnsOfEventsInWhichOthersDie) {
+// Player 1 is dead when `is_dead` says so.
+std::string two_who_stand(int milliseconds, int every, const std::function<bool(int)>& is_dead) {
     std::string poses = "t_ms,player,x,y,z,pitch,yaw,roll,vx,vy,vz,viewheight,team,teleport_bit,alive\n";
-    for (int t = 0; t < 4000; t += 50) {
+    for (int t = 0; t < milliseconds; t += every) {
         poses += std::to_string(t) + ",0,2.5,0,1.5,0,0,0,0,0,0,0,0,0,1\n";
-        poses +=
-            std::to_string(t) + ",1,0,2.5,1.5,0,0,0,0,0,0,0,0,0," + (t >= 1000 && t < 1500 ? "0\n" : "1\n");
+        poses += std::to_string(t) + ",1,0,2.5,1.5,0,0,0,0,0,0,0,0,0," + (is_dead(t) ? "0\n" : "1\n");
     }
-    ASSERT_TRUE(write_file(trace_, poses));
-    const auto with_kills_of = [&](const char* rows) {
+    return poses;
+}
+
+TEST_F(DirectCommand, WarnsOfEventsInWhichOthersDie) {
+    ASSERT_TRUE(write_file(trace_, two_who_stand(4000, 50, [](int t) { return t >= 1000 && t < 1500; })));
+    const auto with_kills_of = [&](const std::string& rows) {
         std::string table = "t_ms,event,player,other\n";
         for (int i = 0; i < 4; ++i)
             table += rows;
@@ -161,10 +166,24 @@ TEST_F(DirectCommand, WarnsOfEventsInWhichOthersDie) {
     EXPECT_THAT(errors_, Not(HasSubstr("die in")));
     with_kills_of("2000,kill,0,1\n");
     EXPECT_THAT(errors_, HasSubstr("events.csv: of 4 who are killed 0 die in"));
+    std::string hits;
+    for (int i = 0; i < 1000; ++i)
+        hits += "2000,damage,0,1\n";
+    with_kills_of("2000,kill,0,1\n" + hits);
+    EXPECT_THAT(errors_, HasSubstr("events.csv: of 4 who are killed 0 die in")) << "however rare kills are";
     with_kills_of("9000,kill,0,1\n");
     EXPECT_THAT(errors_, Not(HasSubstr("die in"))) << "they are not of the time of the poses";
     with_kills_of("");
     EXPECT_THAT(errors_, HasSubstr("events.csv has no event that is directed by"));
+}
+
+TEST_F(DirectCommand, DoesNotWarnOfKillsBetweenRareFrames) {
+    ASSERT_TRUE(write_file(trace_, two_who_stand(10'000, 1000, [](int t) { return t % 2000 == 0; })));
+    ASSERT_TRUE(write_file(events_,
+                           "t_ms,event,player,other\n1400,kill,0,1\n3400,kill,0,1\n5400,kill,0,1\n"
+                           "7400,kill,0,1\n"));
+    ASSERT_EQ(direct({}), 0) << errors_;
+    EXPECT_THAT(errors_, Not(HasSubstr("die in")));
 }
 
 TEST_F(DirectCommand, RefusesEventsOfAnotherMatchAndLeavesWhatWasThere) {

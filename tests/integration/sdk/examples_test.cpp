@@ -140,22 +140,31 @@ TEST_F(Examples, AnObserverWithoutADirectorFailsAndSaysSo) {
 TEST_F(Examples, AnObserverThatNeverGetsACameraSaysWhatTheDirectorAnsweredLast) {
     FakeDirector director(domain_.number(), "example");
     ChildProcess server({game_server, "--domain", domain_.text()});
-    ChildProcess watcher({observer, "--domain", domain_.text(), "--target", "3,1", "--patience", "5"});
-    std::optional<ReceivedRequest> request;
-    ASSERT_TRUE(eventually([&] { return (request = director.take_request()).has_value(); }))
-        << watcher.errors();
-    EXPECT_EQ(request->target, CDIR_SHOW_GROUP);
-    EXPECT_EQ(request->group, (std::vector<std::uint32_t>{3, 1}));
-    ASSERT_TRUE(eventually([&] {
-        (void)director.show_match();
-        while (const auto poses = director.take_poses())
-            director.write_status("example-observer", poses->epoch, CDIR_SHOT_WAITING_FOR_MAP, 0,
-                                  "the delay");
-        return watcher.errors().find("no camera after") != std::string::npos;
-    })) << watcher.errors();
-    EXPECT_EQ(watcher.wait(), 1);
-    EXPECT_THAT(watcher.errors(), HasSubstr("the director's last answer: waiting for the map: the delay"));
-    EXPECT_THAT(watcher.errors(), HasSubstr("a longer --seconds or --patience waits for more"));
+    bool asked = false;
+    const auto last_words = [&](const std::string& patience) {
+        ChildProcess watcher(
+            {observer, "--domain", domain_.text(), "--target", "3,1", "--patience", patience});
+        EXPECT_TRUE(eventually([&] {
+            (void)director.show_match();
+            while (const auto request = director.take_request()) {
+                asked = true;
+                EXPECT_EQ(request->target, CDIR_SHOW_GROUP);
+                EXPECT_EQ(request->group, (std::vector<std::uint32_t>{3, 1}));
+            }
+            while (const auto poses = director.take_poses())
+                director.write_status("example-observer", poses->epoch, CDIR_SHOT_WAITING_FOR_MAP, 0,
+                                      "the delay");
+            return watcher.errors().find("no camera after") != std::string::npos;
+        })) << watcher.errors();
+        EXPECT_EQ(watcher.wait(), 1);
+        return watcher.errors();
+    };
+    std::string words = last_words("3");
+    // On a busy machine the answer takes longer to arrive.
+    if (words.find("last answer") == std::string::npos) words = last_words("45");
+    EXPECT_TRUE(asked);
+    EXPECT_THAT(words, HasSubstr("the director's last answer: waiting for the map: the delay"));
+    EXPECT_THAT(words, HasSubstr("a longer --seconds or --patience waits for more"));
     server.send_signal(SIGINT);
     EXPECT_EQ(server.wait(), 0);
 }

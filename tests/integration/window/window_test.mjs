@@ -178,9 +178,11 @@ const tests = {
         await browser.until(`cameraDirector.state().match === 'later'`);
         await stop(later);
         await open('latest');
-        await browser.evaluate(`[...document.querySelectorAll('#matches button')].find(b => b.textContent.includes('walk-0')).click()`);
+        const button = match => `[...document.querySelectorAll('#matches button')].find(b => b.textContent.includes('${match}'))`;
+        await browser.until(`Boolean(${button('walk-0')})`);
+        await browser.evaluate(`${button('walk-0')}.click()`);
         const latest = begin('latest');
-        await browser.until(`[...document.querySelectorAll('#matches button')].some(b => b.textContent.includes('latest'))`);
+        await browser.until(`Boolean(${button('latest')})`);
         assert.equal(await browser.evaluate('cameraDirector.state().match'), 'walk-0');
         await stop(latest);
         await browser.until(`cameraDirector.state().live && cameraDirector.state().cameras.length === ${players}`);

@@ -13,6 +13,7 @@
 #include "evaluation/recording.hpp"
 #include "freespace/freespace.hpp"
 #include "freespace/lookouts.hpp"
+#include "freespace/visibility.hpp"
 #include "oracle/oracle.hpp"
 #include "scene/load.hpp"
 
@@ -97,12 +98,15 @@ TEST_F(RealMatch, BothSolversKeepThePromisesAndThePlannerIsBetter) {
 
 TEST_F(RealMatch, AGroupIsShownTogetherNearlyWhereverAPlaceAllowsIt) {
     const auto places = freespace_->lookouts().positions();
+    const auto proves = [&](const Vec3f& from, const Vec3f& to) {
+        return freespace::sight(*freespace_, from, to).clear;
+    };
     double possible = 0.0, together = 0.0;
     for (const auto& members : {std::array{0U, 2U}, {0U, 3U}, {1U, 2U}, {2U, 3U}}) {
         const auto made = record_group(*freespace_, {}, trace_, {}, trace_, members, 3.0, {});
         ASSERT_TRUE(made);
-        const auto figures =
-            judge_group(*oracle_, scene_->metres_per_unit, trace_, members, made->cameras, places, {}, {});
+        const auto figures = judge_group(*oracle_, scene_->metres_per_unit, trace_, members, made->cameras,
+                                         places, proves, {}, {});
         ASSERT_TRUE(figures);
         EXPECT_EQ(figures->fly_through, 0.0);
         EXPECT_EQ(figures->pops, 0.0);

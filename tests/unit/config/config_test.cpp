@@ -255,6 +255,8 @@ TEST(Overrides, RangesThatMakeNoSenseAreErrors) {
             << choices;
     EXPECT_THAT(problem(R"({"overrides": {"distanse": [80, 90]}})"),
                 HasSubstr("test: /overrides/distanse: unknown key, did you mean \"distance\"?"));
+    EXPECT_THAT(problem(R"({"overrides": {"completely_else": [80, 90]}})"),
+                HasSubstr("test: /overrides/completely_else: unknown key, expected one of "));
 }
 
 TEST(Profiles, ThatShipAreThereAndAFileChangesSingleKeysOfThem) {
@@ -302,9 +304,15 @@ TEST(Moments, ErrorsSayWhatARuleNeeds) {
                 HasSubstr("/moments/duel/trigger: missing: expected one of \"sight\""));
     EXPECT_THAT(problem(R"({"moments": {"multi_kill": {"worth": 1}}})"),
                 HasSubstr(", for no such rule ships, did you mean \"multi-kill\"?"));
+    EXPECT_THAT(problem(R"({"moments": {"\u001b[31mboom1": {}, "\u001b[31mboom2": {}}})"),
+                AllOf(HasSubstr("did you mean \"?[31mboom1\"?"), Not(HasSubstr("\x1b"))));
     EXPECT_THAT(problem(R"({"moments": {"kill": {"trigger": "boredom"}}})"),
                 HasSubstr("/moments/kill/trigger: \"boredom\": expected one of \"sight\""));
     EXPECT_THAT(problem(R"({"moments": {"kill": {"wort": 1}}})"), HasSubstr("did you mean \"worth\"?"));
+    EXPECT_EQ(
+        problem(R"({"moments": {"kill": {"range": 300, "facing": 90}}})"),
+        "test: /moments/kill/range: 300: expected nothing, for the trigger of the rule is not \"sight\"\n"
+        "test: /moments/kill/facing: 90: expected nothing, for the trigger of the rule is not \"sight\"");
     EXPECT_EQ(problem(R"({"moments": {"frag \u00e9": {"trigger": "kill"}}})"), "no problem");
     for (const char* name : {"", "a,b", "a\\\"b", "a\\nb", "a\\u007f", "12345678901234567890123456789012"})
         EXPECT_THAT(problem(R"({"moments": {")" + std::string(name) + R"(": {"trigger": "kill"}}})"),

@@ -23,7 +23,7 @@ json document_with(const Key& key, const json& value) {
     else if (key.section == "/profiles/*")
         document["profiles"]["p"][key.name] = value;
     else if (key.section == "/moments/*")
-        document["moments"]["kill"][key.name] = value;
+        document["moments"]["sight"][key.name] = value;
     else
         document[json::json_pointer(key.section + "/" + key.name)] = value;
     return document;
@@ -32,7 +32,7 @@ json document_with(const Key& key, const json& value) {
 std::string pointer_of(const Key& key) {
     if (key.section == "/maps/*") return "/maps/0/" + key.name;
     if (key.section == "/profiles/*") return "/profiles/p/" + key.name;
-    if (key.section == "/moments/*") return "/moments/kill/" + key.name;
+    if (key.section == "/moments/*") return "/moments/sight/" + key.name;
     return key.section + "/" + key.name;
 }
 
@@ -126,7 +126,7 @@ Target target_in(const Key& key, Config& config) {
     if (key.section == "/profiles/*") return {&config, nullptr, &config.profiles.at("p")};
     if (key.section == "/moments/*")
         return {&config, nullptr, nullptr,
-                &*std::ranges::find(config.direction.moments, "kill", &direction::Rule::name)};
+                &*std::ranges::find(config.direction.moments, "sight", &direction::Rule::name)};
     return {&config};
 }
 

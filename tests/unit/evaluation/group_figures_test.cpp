@@ -37,12 +37,16 @@ Trace parted_players() {
     return trace;
 }
 
+bool always(const Vec3f& /*from*/, const Vec3f& /*to*/) {
+    return true;
+}
+
 GroupFigures judged(const Trace& trace, std::span<const CameraSample> cameras, std::span<const Vec3f> places,
-                    const MoversAt& movers = {}) {
+                    const MoversAt& movers = {}, const Proves& proves = always) {
     const scene::Scene scene = walled_room();
     const std::uint32_t members[] = {2, 7};
-    return judge_group(oracle::Oracle(scene), scene.metres_per_unit, trace, members, cameras, places, movers,
-                       {})
+    return judge_group(oracle::Oracle(scene), scene.metres_per_unit, trace, members, cameras, places, proves,
+                       movers, {})
         .value();
 }
 
@@ -63,6 +67,22 @@ TEST(GroupFigures, SayWhatIsShownAndWhatCouldBe) {
     EXPECT_NEAR(figures.together_of_possible, 100.0 * 2 / 3, 1e-9);
     EXPECT_DOUBLE_EQ(figures.fly_through, 0.0);
     EXPECT_DOUBLE_EQ(figures.cuts, 0.0);
+}
+
+TEST(GroupFigures, SayWhatTheFreespaceKnows) {
+    const Trace trace = parted_players();
+    const CameraSample cameras[] = {camera_at({-100, 50, 100}, 180), camera_at({-100, 50, 100}, 180),
+                                    camera_at({-100, 50, 100}, 180), camera_at({-100, 390, 100}, -60),
+                                    camera_at({-100, 50, 100}, 180)};
+    const Vec3f places[] = {{-380, 0, 100}, {-100, 390, 100}};
+    const auto of_the_first_place = [&](const Vec3f& from, const Vec3f&) { return from == places[0]; };
+    const GroupFigures figures = judged(trace, cameras, places, {}, of_the_first_place);
+    EXPECT_DOUBLE_EQ(figures.possible, 75.0);
+    EXPECT_DOUBLE_EQ(figures.provable, 50.0) << "the third frame is shown from the second place alone";
+    EXPECT_DOUBLE_EQ(figures.together_of_provable, 100.0);
+    const GroupFigures by_all = judged(trace, cameras, places);
+    EXPECT_DOUBLE_EQ(by_all.provable, by_all.possible);
+    EXPECT_DOUBLE_EQ(by_all.together_of_provable, by_all.together_of_possible);
 }
 
 // A door comes between the camera and the second player, and then to the camera.

@@ -45,7 +45,9 @@ TEST(Replay, TellsWhatHappensWithTheFirstFrameThatIsNotBeforeIt) {
         match_with("1000,kill,1,4,rocket\n1100,damage,1,4,35\n1101,kill,,4,lava\n1101,jump,1,,\n");
     EXPECT_EQ(told(replay(match, 0), 4),
               (std::vector<std::string>{"0: 1 1 4 0 rocket", "1: 5 1 4 35 ", "2: 1 - 4 0 lava"}));
-    EXPECT_TRUE(is_sent("flag_taken") && is_sent("respawn"));
+    EXPECT_EQ(told(replay(match_with("1000,death,,4,fell\n"), 0), 1),
+              std::vector<std::string>{"0: 1 - 4 0 fell"});
+    EXPECT_TRUE(is_sent("flag_taken") && is_sent("respawn") && is_sent("death"));
     EXPECT_FALSE(is_sent("jump"));
 }
 
