@@ -57,6 +57,7 @@ int report(const Error& error) {
 }
 
 void ExitWhenInterrupted::leave() {
+    if (::isatty(STDERR_FILENO) == 1) std::cerr << '\n';  // below the progress line
     ::_exit(report(Error{"interrupted", ErrorCode::interrupted}));
 }
 

@@ -36,6 +36,10 @@ Index index_of(const Trace& trace, std::uint32_t player) {
     return static_cast<Index>(std::ranges::lower_bound(trace.players, player) - trace.players.begin());
 }
 
+double seconds_from_start(const Trace& trace, std::int64_t time) {
+    return director::seconds_between(trace.frames.front().time, time);
+}
+
 void read_players(const Trace& trace, std::span<const TracePose> poses, std::vector<PlayerState>& players) {
     for (const TracePose& pose : poses) {
         PlayerState& state = players[index_of(trace, pose.player)];
@@ -278,10 +282,6 @@ double item_value(std::string_view item) {
 }
 
 }  // namespace
-
-double seconds_from_start(const Trace& trace, std::int64_t time) {
-    return director::seconds_between(trace.frames.front().time, time);
-}
 
 Beat beat_at(const Trace& trace, std::int64_t time) {
     return direction::beat_of(seconds_from_start(trace, time));

@@ -24,8 +24,7 @@ namespace camdir::app {
 // The segment between two points meets no obstacle that stands still. Called from several threads.
 using ClearLine = std::function<bool(const Vec3d&, const Vec3d&)>;
 
-// Of the footage: since the first frame of the trace.
-[[nodiscard]] double seconds_from_start(const evaluation::Trace& trace, std::int64_t time);
+// The beat of the footage that has a time of the trace.
 [[nodiscard]] direction::Beat beat_at(const evaluation::Trace& trace, std::int64_t time);
 
 // Fails when the match is so long that its footage would take too much memory: 11 h of 8 players, 3 h of 32

@@ -20,16 +20,17 @@ constexpr std::size_t looked_at = 1000;  // poses of a match, about
 constexpr std::size_t fewest_kills = 4;  // that say something of a match
 constexpr double dies_within = 0.3;      // s
 
-bool is_alive(const evaluation::Trace& trace, const evaluation::TraceFrame& frame, std::uint32_t player) {
+bool lives_on(const evaluation::Trace& trace, const evaluation::TraceFrame& frame, std::uint32_t player) {
     const std::uint32_t at = evaluation::pose_of(trace, frame, player);
     return at != evaluation::absent && trace.poses[at].alive && !trace.poses[at].discontinuity;
 }
 
-// Or is gone, or has jumped, in the next frame or soon after `time`, which is not after the last frame.
+// Or is gone, or has jumped: in the first frame that is not before `time`, however late, or in those within
+// dies_within of it. Precondition: there is such a frame.
 bool dies(const evaluation::Trace& trace, std::uint32_t player, std::int64_t time) {
     auto frame = std::ranges::lower_bound(trace.frames, time, {}, &evaluation::TraceFrame::time);
     do {
-        if (!is_alive(trace, *frame, player)) return true;
+        if (!lives_on(trace, *frame, player)) return true;
         ++frame;
     } while (frame != trace.frames.end() && director::seconds_between(time, frame->time) <= dies_within);
     return false;

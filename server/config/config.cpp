@@ -36,6 +36,7 @@ class ValidationErrors {
     }
 
     [[nodiscard]] bool none() const { return lines_.empty(); }
+    [[nodiscard]] std::size_t count() const { return lines_.size() + left_out_; }
     // Each line begins with `prefix`.
     [[nodiscard]] std::string joined(const std::string& prefix, const std::string& separator) const {
         std::string all;
@@ -197,10 +198,10 @@ std::vector<std::string> names_of(const std::vector<direction::Rule>& rules) {
     return names;
 }
 
-// What would be ignored is a mistake.
+// Limits of sight that would be ignored.
 void check_rule(const direction::Rule& rule, const std::string& pointer, const json& value,
                 ValidationErrors& errors) {
-    if (rule.trigger == direction::Trigger::sight || !value.is_object()) return;
+    if (rule.trigger == direction::Trigger::sight) return;
     for (const char* key : {"range", "facing"})
         if (value.contains(key))
             errors.add(pointer + "/" + key, value[key],
@@ -211,6 +212,7 @@ void read_moments(const json& object, direction::Rules& rules, ValidationErrors&
     if (!object.is_object()) return errors.add("/moments", object, "an object of rules by name");
     for (const auto& [name, value] : object.items()) {
         const std::string pointer = "/moments/" + escaped(name);
+        const std::size_t errors_before = errors.count();
         if (!is_rule_name(name))
             errors.add(pointer, name,
                        "a name of 1 to " + std::to_string(max_profile_name) +
@@ -224,7 +226,7 @@ void read_moments(const json& object, direction::Rules& rules, ValidationErrors&
             rule = rules.moments.insert(rule, direction::Rule{.name = name});
         }
         read_object("/moments/*", pointer, value, {nullptr, nullptr, nullptr, &*rule}, errors);
-        check_rule(*rule, pointer, value, errors);
+        if (errors.count() == errors_before) check_rule(*rule, pointer, value, errors);
     }
     if (rules.moments.size() > max_rules)
         errors.add("/moments: " + std::to_string(rules.moments.size()) +

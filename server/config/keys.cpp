@@ -411,8 +411,10 @@ void add_moments(std::vector<Key>& table) {
                      {},
                      false,
                      true});
-    add("range", &Rule::range, "`sight`: no farther apart; units of 0.0254 m.", "units", 1e9);
-    add("facing", &Rule::facing, "`sight`: one of the two looks this near to the other.", "degrees", 180);
+    add("range", &Rule::range, "`sight`, and no other trigger: no farther apart; units of 0.0254 m.", "units",
+        1e9);
+    add("facing", &Rule::facing,
+        "`sight`, and no other trigger: one of the two looks this near to the other.", "degrees", 180);
 }
 
 void add_profiles(std::vector<Key>& table) {

@@ -160,13 +160,15 @@ struct MatchEvent {
     return name;
 }
 
-// The kind that tables of events call so, or, as some games do, "respawn" or "death": a kill that is nobody
-// else's. None of others.
+// The kind that tables of events call so, or, as some games do, "respawn" or "death": a kill by nobody. None
+// of others.
 [[nodiscard]] inline std::optional<MatchEventKind> event_kind_named(std::string_view table_name) {
     if (table_name == "respawn") return MatchEventKind::spawn;
     if (table_name == "death") return MatchEventKind::kill;
+    const auto same = [](char a, char b) { return a == b || (a == ' ' && b == '_'); };
     for (std::uint32_t kind = 1; kind <= match_event_names.size(); ++kind)
-        if (table_name_of({.kind = kind}) == table_name) return static_cast<MatchEventKind>(kind);
+        if (std::ranges::equal(match_event_names[kind - 1], table_name, same))
+            return static_cast<MatchEventKind>(kind);
     return {};
 }
 

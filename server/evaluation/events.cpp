@@ -31,6 +31,14 @@ Result<TraceEvent> event_of(std::int64_t time, std::span<const std::string_view>
     return TraceEvent{time, std::string(row[event_kind]), *actor, *subject, std::string(row[event_detail])};
 }
 
+// Whose death it was is the subject, or the actor alone; it was nobody else's doing.
+TraceEvent in_one_shape(TraceEvent event) {
+    if (event.kind != "death") return event;
+    if (!event.subject) event.subject = event.actor;
+    event.actor.reset();
+    return event;
+}
+
 }  // namespace
 
 Result<std::optional<std::uint32_t>> player_in(std::string_view field, const char* column,
@@ -64,7 +72,7 @@ Result<std::vector<TraceEvent>> parse_events(std::span<const std::byte> bytes, c
         if (!event) return tl::unexpected(event.error());
         if (events.size() == max_events)
             return fail("more than " + std::to_string(max_events) + " events, expected those of one match");
-        events.push_back(std::move(*event));
+        events.push_back(in_one_shape(std::move(*event)));
         return {};
     });
     if (!read) return tl::unexpected(read.error());

@@ -30,10 +30,11 @@ using TakesKind = std::function<bool(std::string_view)>;
 
 // Reads the events of a match, CSV or CSV.gz, with the columns t_ms, event, player, other and perhaps detail,
 // or their other names t_ms, kind, actor, subject, value; rows of one time in the table's order. An empty
-// player is nobody, as is 1022, the world, where no player has this number. Errors name the file, the line,
-// the column and what was expected; a player whom the trace does not know and a time before the last row's
-// are errors, and so are more than max_events rows, each of which may take 300 bytes. Of rows of kinds that
-// are not taken only the time is looked at. Thread-safe.
+// player is nobody, as is 1022, the world, where no player has this number. Of a `death` the subject is who
+// died, or else the actor, and nobody is the actor. Errors name the file, the line, the column and what was
+// expected; a player whom the trace does not know and a time before the last row's are errors, and so are
+// more than max_events rows, each of which may take 300 bytes. Of rows of kinds that are not taken only the
+// time is looked at. Thread-safe.
 [[nodiscard]] Result<std::vector<TraceEvent>> read_events(const std::filesystem::path& path,
                                                           const Trace& trace, const TakesKind& takes = {});
 

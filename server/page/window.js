@@ -56,7 +56,7 @@ let watched = null;       // the entry of `matches` that it shows
 let missed = 0;           // lists in a row that did not have its stream
 let fullUntil = 0;        // its stream has no room
 let runsSince = null;     // when lists began to say that it runs; null: they do not
-let linked = server.matchOfAddress;  // the match of a link that is not in the list yet, until the viewer does something with another
+let linked = server.matchOfAddress;  // the match of a link that is not in the list yet, until the viewer looks at another on purpose
 let matches = [];         // of findMatches
 let camera = null;        // the id of the camera that is shown
 let wished = null;        // the one that the viewer has chosen, which may not be there at the time that is shown
@@ -283,6 +283,7 @@ function setPaused(paused) {
 const speeds = [0.25, 0.5, 1, 2, 4, 8];
 
 function setSpeed(speed) {
+    stayHere();
     model.clock.setSpeed(speed);
     dirty = true;
 }

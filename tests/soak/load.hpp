@@ -61,9 +61,9 @@ struct Load {
     void add_options(CLI::App& app);
 };
 
-// Publishes for load.seconds or until a stop is requested, then prints a summary to standard output. Returns
-// the exit code: 1 when more than 1 % of the frames were over one frame late, that is, the machine is too
-// slow, or the library had no room for an event.
+// Publishes for load.seconds or until a stop is requested, then prints a summary to standard output, with the
+// events for which the library had no room. Returns the exit code: 1 when more than 1 % of the frames were
+// over one frame late, that is, the machine is too slow.
 [[nodiscard]] int run(const Load& load, std::uint32_t player_count, const std::stop_token& stop);
 
 }  // namespace camdir::soak

@@ -318,13 +318,15 @@ CDIR_API cdir_status cdir_match_open(cdir_context context, const cdir_match_info
                                      cdir_match* match) CDIR_NOEXCEPT;
 
 /* Replaces the match's rate, delay and players, for instance when a player joins, leaves or changes team.
- * CDIR_CONFLICT: match_id, map_name, map_hash or metres_per_unit differ from before; restart the match. */
+ * CDIR_CONFLICT: match_id, map_name, map_hash or metres_per_unit differ from before; restart the match.
+ * CDIR_BUSY: a director is so far behind that the send queue is full. */
 CDIR_API cdir_status cdir_match_update(cdir_match match, const cdir_match_info* info,
                                        const cdir_player* players, uint32_t player_count) CDIR_NOEXCEPT;
 
 /* Begins a new epoch after a map change or a restart of the game. frame_time may start again, and the counts
  * of discontinuities do. With a delay, observers see the old epoch to its end before the new one.
- * CDIR_CONFLICT: match_id differs from before, or epoch is neither 0 nor greater than before. */
+ * CDIR_CONFLICT: match_id differs from before, or epoch is neither 0 nor greater than before.
+ * CDIR_BUSY: as cdir_match_update(). */
 CDIR_API cdir_status cdir_match_restart(cdir_match match, const cdir_match_info* info,
                                         const cdir_player* players, uint32_t player_count) CDIR_NOEXCEPT;
 
@@ -432,7 +434,7 @@ CDIR_DEFAULTS(cdir_mover)
  * CDIR_MAX_MOVERS elements; may be null for 0. Publishes reliably, also to directors that come later.
  * CDIR_INVALID_ARGUMENT: cdir_last_error() names the field that is out of its range. Whether a hull is
  * bounded is for the director to check, which drops all that was published with one that is not.
- * CDIR_BUSY: a director is so far behind that the send queue is full.
+ * CDIR_BUSY: as cdir_match_update().
  * CDIR_NETWORK: the identity for DDS Security does not allow it: it is older than movers. */
 CDIR_API cdir_status cdir_match_set_movers(cdir_match match, const cdir_mover* movers,
                                            uint32_t mover_count) CDIR_NOEXCEPT;
@@ -459,7 +461,8 @@ CDIR_DEFAULTS(cdir_mover_frame)
  * are where they were; one that no frame has named is no obstacle. To be called before
  * cdir_match_publish_poses() of the same frame_time, in every frame or in those in which something moves:
  * where nothing is elsewhere than before, nothing is sent. Never waits for a receiver.
- * CDIR_INVALID_ARGUMENT: cdir_last_error() names what is wrong. */
+ * CDIR_INVALID_ARGUMENT: cdir_last_error() names what is wrong.
+ * CDIR_BUSY: as cdir_match_update(). */
 CDIR_API cdir_status cdir_match_publish_movers(cdir_match match, const cdir_mover_frame* frame) CDIR_NOEXCEPT;
 
 /* Stores how many directors receive this match's poses now. */

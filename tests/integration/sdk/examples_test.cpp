@@ -144,18 +144,21 @@ TEST_F(Examples, AnObserverThatNeverGetsACameraSaysWhatTheDirectorAnsweredLast) 
     const auto last_words = [&](const std::string& patience) {
         ChildProcess watcher(
             {observer, "--domain", domain_.text(), "--target", "3,1", "--patience", patience});
-        EXPECT_TRUE(eventually([&] {
-            (void)director.show_match();
-            while (const auto request = director.take_request()) {
-                asked = true;
-                EXPECT_EQ(request->target, CDIR_SHOW_GROUP);
-                EXPECT_EQ(request->group, (std::vector<std::uint32_t>{3, 1}));
-            }
-            while (const auto poses = director.take_poses())
-                director.write_status("example-observer", poses->epoch, CDIR_SHOT_WAITING_FOR_MAP, 0,
-                                      "the delay");
-            return watcher.errors().find("no camera after") != std::string::npos;
-        })) << watcher.errors();
+        EXPECT_TRUE(eventually(
+            [&] {
+                (void)director.show_match();
+                while (const auto request = director.take_request()) {
+                    asked = true;
+                    EXPECT_EQ(request->target, CDIR_SHOW_GROUP);
+                    EXPECT_EQ(request->group, (std::vector<std::uint32_t>{3, 1}));
+                }
+                while (const auto poses = director.take_poses())
+                    director.write_status("example-observer", poses->epoch, CDIR_SHOT_WAITING_FOR_MAP, 0,
+                                          "the delay");
+                return watcher.errors().find("no camera after") != std::string::npos;
+            },
+            std::chrono::minutes(3)))
+            << watcher.errors();
         EXPECT_EQ(watcher.wait(), 1);
         return watcher.errors();
     };

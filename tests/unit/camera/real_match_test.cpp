@@ -113,6 +113,8 @@ TEST_F(RealMatch, AGroupIsShownTogetherNearlyWhereverAPlaceAllowsIt) {
         const double frames = static_cast<double>(figures->frames) * figures->possible / 100.0;
         possible += frames;
         together += frames * figures->together_of_possible / 100.0;
+        EXPECT_LE(figures->provable, figures->possible);
+        EXPECT_GE(figures->provable, 0.8 * figures->possible);
     }
     EXPECT_GT(possible, 500.0);
     EXPECT_GE(together, 0.92 * possible);

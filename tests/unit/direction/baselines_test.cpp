@@ -36,6 +36,11 @@ TEST(Baselines, HltvLooksAheadOnlyWithItsDelay) {
     EXPECT_EQ(hltv(script.footage(), events, 1.0, 9.0).front().rush, 0U);
 }
 
+TEST(Baselines, HltvFollowsNobodyWhoKillsThemselves) {
+    const std::vector<Event> events = {kill(3.0, 2, 2), kill(3.1, nobody, 1)};
+    EXPECT_EQ(hltv(Script(4, 200).footage(), events, 1.0, 10.0).front().rush, 0U);
+}
+
 TEST(Baselines, HltvRanksByWhoSeesMost) {
     Script script(3, 100);
     for (std::size_t beat = 0; beat < 100; ++beat) {

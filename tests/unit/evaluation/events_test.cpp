@@ -31,6 +31,18 @@ TEST(Events, OfEveryKindAreRead) {
     EXPECT_EQ((*events)[2].actor, std::nullopt);
 }
 
+TEST(Events, DeathsAreOfWhoDiedAlone) {
+    const auto events =
+        parse_rows("t_ms,kind,actor,subject\n1,death,,4\n2,death,4,4\n3,death,4,\n4,death,9,4\n5,kill,4,4\n");
+    ASSERT_TRUE(events) << events.error().message;
+    ASSERT_EQ(events->size(), 5U);
+    for (std::size_t i = 0; i < 4; ++i) {
+        EXPECT_EQ((*events)[i].actor, std::nullopt) << i;
+        EXPECT_EQ((*events)[i].subject, 4U) << i;
+    }
+    EXPECT_EQ((*events)[4].actor, 4U);
+}
+
 TEST(Events, OfKindsThatAreNotTakenMayNameAnyPlayer) {
     const auto takes = [](std::string_view kind) { return kind == "kill"; };
     const auto events = parse_rows("t_ms,kind,actor,subject\n100,jump,99,x\n200,kill,9,4\n", takes);
