@@ -32,13 +32,14 @@ struct Options {
 class Member {
   public:
     Member(const Options& options, std::uint32_t number)
-        : connected_(Clock::now()),
+        : name_("crowd-" + std::to_string(number)),
+          connected_(Clock::now()),
           context_(camera_director::Context::open({.domain = options.domain, .directors = options.directors})
                        .value()),
-          observer_(camera_director::Observer::open(
-                        context_, options.match_prefix + '-' + std::to_string(number % options.matches),
-                        "crowd-" + std::to_string(number))
-                        .value()) {
+          observer_(
+              camera_director::Observer::open(
+                  context_, options.match_prefix + '-' + std::to_string(number % options.matches), name_)
+                  .value()) {
         observer_.request({.target = number / options.matches % options.players}).value();
     }
 
@@ -57,43 +58,73 @@ class Member {
     [[nodiscard]] double waited() const {
         return std::chrono::duration<double>(Clock::now() - connected_).count();
     }
+    // What it has instead of its camera.
+    [[nodiscard]] std::string lack() const {
+        const auto status = observer_.shot_status().value();
+        const auto counters = observer_.counters().value();
+        std::string text = name_ + ", for " + std::to_string(std::lround(waited())) +
+                           " s: " + cdir_shot_state_name(status.state);
+        if (status.reason[0] != '\0') text += " (" + std::string(status.reason) + ')';
+        return text + ", " + std::to_string(counters.directors) + " directors, " +
+               std::to_string(counters.frames) + " frames";
+    }
 
   private:
+    std::string name_;
     Clock::time_point connected_;
     camera_director::Context context_;
     camera_director::Observer observer_;
 };
 
-// Of the member that waits longest.
-double wait_for_all(std::vector<Member>& members, Clock::time_point limit) {
-    std::vector<camera_director::Camera> cameras(CDIR_MAX_CAMERAS);
-    std::vector<Member*> waiting;
-    for (Member& member : members)
-        waiting.push_back(&member);
-    double longest = 0.0;
-    while (!waiting.empty()) {
-        std::erase_if(waiting, [&](Member* member) {
-            if (!member->look(cameras)) return false;
-            longest = std::max(longest, member->waited());
+// The members that do not have their cameras yet.
+class Queue {
+  public:
+    void enter(Member& member) { waiting_.push_back(&member); }
+
+    // Those that have their cameras now leave.
+    void look() {
+        std::erase_if(waiting_, [&](Member* member) {
+            if (!member->look(cameras_)) return false;
+            longest_wait_ = std::max(longest_wait_, member->waited());
             return true;
         });
-        if (Clock::now() > limit)
-            throw std::runtime_error(std::to_string(waiting.size()) + " observers do not see their cameras");
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
-    return longest;
-}
+    void wait_until_empty(Clock::time_point limit) {
+        while (!waiting_.empty()) {
+            if (Clock::now() > limit) throw std::runtime_error(lacks());
+            std::this_thread::sleep_for(std::chrono::milliseconds(50));  // a hundred processes do
+            look();
+        }
+    }
+    [[nodiscard]] double longest_wait() const { return longest_wait_; }
+
+  private:
+    [[nodiscard]] std::string lacks() const {
+        std::string text = std::to_string(waiting_.size()) + " observers do not see their cameras:";
+        for (const Member* member : waiting_)
+            text += '\n' + member->lack();
+        return text;
+    }
+
+    std::vector<Member*> waiting_;
+    std::vector<camera_director::Camera> cameras_ = std::vector<camera_director::Camera>(CDIR_MAX_CAMERAS);
+    double longest_wait_ = 0.0;
+};
 
 void run(const Options& options) {
-    stand_for_another_machine();
+    stand_for_one_of_many_machines();
     const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                         std::chrono::duration<double>(options.seconds));
     std::vector<Member> members;
     members.reserve(options.count);
-    for (std::uint32_t i = 0; i < options.count; ++i)
-        members.emplace_back(options, options.first + i);
-    const double longest = wait_for_all(members, end);
-    std::cout << "answered " << members.size() << "\nlongest_wait_ms " << std::lround(1e3 * longest) << '\n';
+    Queue queue;
+    for (std::uint32_t i = 0; i < options.count; ++i) {
+        queue.enter(members.emplace_back(options, options.first + i));
+        queue.look();  // to open the others takes seconds where hundreds do
+    }
+    queue.wait_until_empty(end);
+    std::cout << "answered " << members.size() << "\nlongest_wait_ms "
+              << std::lround(1e3 * queue.longest_wait()) << '\n';
     std::this_thread::sleep_until(end);
 }
 
