@@ -59,15 +59,9 @@ std::string discovery(const Network& network) {
 // A large send buffer, because packets to a host that is gone wait in it for seconds until the kernel has
 // given up looking for its link address: once they fill it, nothing is sent to anybody. A limit on samples,
 // of which none comes near 1 MB.
-//
-// Heartbeats are five times rarer than by default: each has to be acknowledged by every reader, and as long
-// as one has not, all are asked again, by five writers of discovery in each process. 500 clients that came at
-// once filled a director's receive buffer with acknowledgements, so that some of them were never discovered.
 std::string internals(const Network& network) {
     return element("Internal",
-                   "<SocketSendBufferSize max=\"4MB\"/>"
-                   "<HeartbeatInterval min=\"100ms\" minsched=\"100ms\">500ms</HeartbeatInterval>" +
-                       element("MaxSampleSize", "1MB") +
+                   "<SocketSendBufferSize max=\"4MB\"/>" + element("MaxSampleSize", "1MB") +
                        element("WriterLingerDuration", std::to_string(network.writer_linger.count()) + "ms") +
                        network.internal);
 }
