@@ -78,7 +78,7 @@ Result<direction::Footage> read_beats(const Trace& trace, const std::stop_token&
         if (!beats[beat].empty()) filled = beat;
         footage.append(players[filled], takes[filled]);
         for (Take& take : takes[filled])
-            take.cut = false;  // of the beats that repeat this one
+            take.forget_jumps();  // of the beats that repeat this one
     }
     return footage;
 }
@@ -130,7 +130,7 @@ class BeatReader {
             Take& take = takes[rush];
             present[rush] = true;
             if (first) take.position = camera.position.cast<float>();
-            take.cut = take.cut || camera.cut;
+            if (camera.cut) take.jump(first);
             look(take, first, sight, camera.position, poses,
                  [&](const Vec3d& point) { return evaluation::in_picture(camera, point, 1.0); });
         }
@@ -327,7 +327,8 @@ Result<direction::Footage> scouted_footage_of(const Trace& trace, const Recorded
             scout.look({freespace, &now}, static_cast<float>(unit));
         for (const TraceFrame& frame : frames)
             for (const TracePose& pose : trace.poses_of(frame))
-                if (pose.discontinuity) scout.takes[scout.fixed + index_of(trace, pose.player)].cut = true;
+                if (pose.discontinuity)
+                    scout.takes[scout.fixed + index_of(trace, pose.player)].jump(&frame == &frames.front());
         players = std::move(scout.players);
         takes = std::move(scout.takes);
         std::ranges::rotate(takes, takes.begin() + static_cast<std::ptrdiff_t>(scout.fixed));

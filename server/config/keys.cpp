@@ -627,8 +627,9 @@ const std::vector<Section>& sections() {
          "of them; a rule of another name is a new one and needs a `trigger`: `\"moments\": {\"kill\": "
          "{\"worth\": 15}, \"late awards\": {\"trigger\": \"award\", \"after_s\": 2, \"worth\": 1}}`. What "
          "moments of several rules are worth adds up: two kills in quick succession have the worth of "
-         "`kill` and that of `multi-kill` each. A `worth` and `worth_both` of 0 switch a rule off. Reloaded "
-         "by SIGHUP."},
+         "`kill` and that of `multi-kill` each. A `worth` and `worth_both` of 0 switch a rule off. A "
+         "name has 1 to 31 bytes, no commas, quotation marks and control characters, and is not that of a "
+         "reason without a moment: `opening`, `death`, `lost sight`, `length`. Reloaded by SIGHUP."},
         {"/limits",
          "Matches beyond `matches`, `participant_matches` and `participant_match_rate`, and observers beyond "
          "`observers`, wait for room, first come, first served: as many as may be served, and of one "

@@ -182,8 +182,8 @@ class Plan {
                 shots_[at(begin, rush)] = best_end(begin, begin, rush);
     }
 
-    // What its camera's jumps divide a shot into; ends of the shot ascend from call to call. A jump where it
-    // begins is no other cut than that.
+    // What its camera's jumps divide a shot into; ends of the shot ascend from call to call. A jump in the
+    // beat where it begins is no other cut than that, or one that was paid for there.
     class Pieces {
       public:
         Pieces(const Plan& plan, std::size_t rush, Beat begin)
@@ -469,6 +469,16 @@ class Plan {
     std::vector<double> length_costs_;  // by place_of_length()
 };
 
+struct NameOfReason {
+    Reason::Why why;
+    std::string_view name;
+};
+
+constexpr std::array<NameOfReason, 4> names_without_moment = {{{Reason::Why::opening, "opening"},
+                                                               {Reason::Why::death, "death"},
+                                                               {Reason::Why::hidden, "lost sight"},
+                                                               {Reason::Why::length, "length"}}};
+
 }  // namespace
 
 std::vector<Shot> plan_shots(const Footage& footage, std::span<const Moment> moments, const Rules& rules,
@@ -479,19 +489,12 @@ std::vector<Shot> plan_shots(const Footage& footage, std::span<const Moment> mom
 }
 
 std::string_view name_of(const Reason& reason, const Rules& rules) {
-    switch (reason.why) {
-        case Reason::Why::opening:
-            return "opening";
-        case Reason::Why::death:
-            return "death";
-        case Reason::Why::hidden:
-            return "lost sight";
-        case Reason::Why::length:
-            return "length";
-        case Reason::Why::moment:
-            break;
-    }
-    return rules.moments[reason.rule].name;
+    if (reason.why == Reason::Why::moment) return rules.moments[reason.rule].name;
+    return std::ranges::find(names_without_moment, reason.why, &NameOfReason::why)->name;
+}
+
+bool names_no_moment(std::string_view name) {
+    return std::ranges::find(names_without_moment, name, &NameOfReason::name) != names_without_moment.end();
 }
 
 }  // namespace camdir::direction

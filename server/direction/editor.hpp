@@ -59,5 +59,7 @@ inline constexpr Beat cut_every = 2;
 
 // "opening", "death", "lost sight" or "length"; of a moment the name of its rule.
 [[nodiscard]] std::string_view name_of(const Reason& reason, const Rules& rules);
+// Whether a reason without a moment has that name.
+[[nodiscard]] bool names_no_moment(std::string_view name);
 
 }  // namespace camdir::direction

@@ -113,9 +113,12 @@ class Judge {
         std::vector<double> lengths;
         Beat begin = 0;
         for (Beat beat = 1; beat < footage_.beats(); ++beat) {
-            if (rush_at(beat) == rush_at(beat - 1) && !footage_.take(beat, rush_at(beat)).cut) continue;
+            const std::size_t rush = rush_at(beat);
+            const bool changes = rush != rush_at(beat - 1);
+            if (!changes && !footage_.take(beat, rush).cut) continue;
             lengths.push_back(static_cast<double>(beat - begin) * beat_s);
             begin = beat;
+            if (changes && footage_.jumps_late(beat, rush)) lengths.push_back(0.0);
         }
         return lengths;
     }

@@ -53,9 +53,16 @@ struct Take {
     PlayerSet shown;                 // in the picture and not hidden, in every frame of the beat
     PlayerSet framed;                // in the picture in the first frame, hidden or not
     bool cut = false;                // the camera itself jumps
+    bool late_cut = false;           // it does after the first frame: a cut at the beat is another one
     // Whom the picture is of: of a rush that follows a player always they; of a fixed one nobody where it has
     // nobody to show.
     Index subject = nobody;
+
+    void jump(bool in_first_frame) {
+        cut = true;
+        late_cut = late_cut || !in_first_frame;
+    }
+    void forget_jumps() { cut = late_cut = false; }
 };
 
 // Of a picture that is made for nobody: the nearest of those shown who live and meet an enemy, or, where
@@ -94,6 +101,10 @@ class Footage {
 
     // The beats in which a rush's camera jumps, ascending.
     [[nodiscard]] const std::vector<Beat>& jumps(std::size_t rush) const { return jumps_[rush]; }
+    // Whether it jumps in a beat after the first frame, as far as that is known.
+    [[nodiscard]] bool jumps_late(Beat beat, std::size_t rush) const {
+        return beat >= first_ && beat < beats() && take(beat, rush).late_cut;
+    }
 
     // The rushes that show a player: rush r by bit r % 64 of word r / 64. Of nobody none, in as many words.
     using Word = std::uint64_t;

@@ -112,7 +112,7 @@ bool jumped_just_before(const Footage& footage, Beat beat, std::size_t rush) {
 }
 
 bool jumps_soon_after(const Footage& footage, Beat beat, std::size_t rush) {
-    return jumps_between(footage, rush, beat + 1, beat + shortest_piece);
+    return footage.jumps_late(beat, rush) || jumps_between(footage, rush, beat + 1, beat + shortest_piece);
 }
 
 bool stands_idle(const Footage& footage, Beat beat, std::size_t player, double slow) {

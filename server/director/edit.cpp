@@ -179,7 +179,7 @@ bool Edit::take(const PoseFrame& frame, const Setting& setting) {
     for (const PlayerPose& pose : poses) {
         const Index place = place_of(pose.player_id);
         if (continuity_.broken(pose) && place != nobody && !beats_.empty())
-            beats_.back().scout.takes[fixed_ + place].cut = true;
+            beats_.back().scout.takes[fixed_ + place].jump(!known);
     }
     return true;
 }
@@ -277,7 +277,7 @@ void Edit::append_finished() {
             const std::vector players(footage.players_at(last).begin(), footage.players_at(last).end());
             std::vector takes(footage.takes_at(last).begin(), footage.takes_at(last).end());
             for (direction::Take& take : takes)
-                take.cut = false;
+                take.forget_jumps();
             material_.append(players, takes);
         }
         material_.append(beat.scout.players, beat.scout.takes);

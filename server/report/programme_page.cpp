@@ -68,7 +68,8 @@ class Timeline {
         return "<p>A row a minute, a lane a player; the last one is of the fixed cameras. Wide: this camera "
                "is on the air; point at it for the reason. Thin: the player is in a moment. A disc is a kill "
                "on its killer's lane, a cross on its victim's: green where the programme shows one of them "
-               "from 1 s before to 0.5 s after, red where not. “kill 3-1”: player 3 kills player 1; whoever "
+               "from 1 s before to 0.5 s after, red where not, grey where the recording lacks a part of that "
+               "time. “kill 3-1”: player 3 kills player 1; whoever "
                "shows that best is on the air, perhaps neither of them.</p>\n";
     }
 
@@ -139,7 +140,8 @@ class Timeline {
         const Beat beat = direction::beat_of(kill.time);
         if (beat < begin || beat >= end) return {};
         const std::string where = number(x(beat, begin));
-        const std::string seen = shown_[i] ? "seen" : "missed";
+        const bool counts = direction::kill_counts(subject_.footage, kill.time);
+        const std::string seen = !counts ? "unjudged" : shown_[i] ? "seen" : "missed";
         const std::string title = "<title>" + decimal(kill.time, 1) +
                                   " s: " + std::to_string(players_[kill.killer]) + " kills " +
                                   std::to_string(players_[kill.victim]) + ", " + seen + "</title>";

@@ -66,6 +66,7 @@ td.best{color:var(--best);font-weight:600}
 .timeline text{font-size:11px;fill:var(--soft)}.timeline .lane{fill:var(--panel)}.timeline .shot{fill:var(--c)}
 .timeline .moment{fill:var(--soft);opacity:.35}
 .timeline circle.seen{fill:var(--best);stroke:#fff}.timeline circle.missed{fill:#e03131;stroke:#fff}
+.timeline circle.unjudged{fill:var(--soft);stroke:#fff}.timeline path.unjudged{stroke:var(--soft)}
 .timeline path{fill:none;stroke-width:2.5;filter:drop-shadow(0 0 1px #fff) drop-shadow(0 0 1px #fff)}
 .timeline path.seen{stroke:var(--best)}.timeline path.missed{stroke:#e03131}
 .strip.cut{grid-template-columns:repeat(3,1fr);max-width:960px;width:auto;height:auto}

@@ -560,9 +560,9 @@ typedef struct cdir_camera {
     uint32_t reserved;
     /* Where the director chooses the target: why it cut to this one. "opening" (the
      * shot's first, or what was shown can be shown no more: a player who left the game or the team, a
-     * fixed camera that a door comes near), "death" (of the one before), "length" (the one before was shown
-     * long enough), or the name of a rule of the director's configuration, such as "kill", with the players
-     * of its moment. Empty where it is not known: for up to a second after the observer has come.
+     * fixed camera that a door comes near), "death" or "lost sight" (of the one before), "length" (that one
+     * was shown long enough), or the name of a rule of the director's configuration, such as "kill", with the
+     * players of its moment. Empty where it is not known: for up to a second after the observer has come.
      * cdir_observer_next_frame() has it in the frame of the cut and then once a second. */
     uint32_t reason_actor;   /* player id or CDIR_NO_PLAYER */
     uint32_t reason_subject; /* player id or CDIR_NO_PLAYER */

@@ -315,6 +315,9 @@ TEST(Moments, ErrorsSayWhatARuleNeeds) {
         "test: /moments/kill/facing: 90: expected nothing, for the trigger of the rule is not \"sight\"");
     EXPECT_THAT(problem(R"({"moments": {"duel": {"trigger": "sigth", "range": 300}}})"),
                 AllOf(HasSubstr("/moments/duel/trigger: \"sigth\""), Not(HasSubstr("/range"))));
+    EXPECT_EQ(problem(R"({"moments": {"lost sight": {"trigger": "kill"}}})"),
+              "test: /moments/lost sight: \"lost sight\": expected another name: the director's own reasons "
+              "have this one");
     EXPECT_EQ(problem(R"({"moments": {"frag \u00e9": {"trigger": "kill"}}})"), "no problem");
     for (const char* name : {"", "a,b", "a\\\"b", "a\\nb", "a\\u007f", "12345678901234567890123456789012"})
         EXPECT_THAT(problem(R"({"moments": {")" + std::string(name) + R"(": {"trigger": "kill"}}})"),

@@ -90,6 +90,15 @@ TEST(Figures, PiecesAreMeasuredWithoutTheLast) {
     EXPECT_DOUBLE_EQ(figures.cuts_per_minute, 4.0 * 3.0);
 }
 
+TEST(Figures, AJumpJustAfterACutLeavesAFragment) {
+    Script script(2, 100);
+    script.take(50, 1).jump(true);
+    const std::vector<Shot> shots = {{0, 0, 50, {}}, {1, 50, 100, {}}};
+    EXPECT_EQ(judged(script, {}, shots).shots_under_1_5, 0.0);
+    script.take(50, 1).jump(false);
+    EXPECT_EQ(judged(script, {}, shots).shots_under_1_5, 1.0);
+}
+
 TEST(Figures, TheDeadAreIdleASecondLaterWhileOthersFight) {
     Script script(3, 100);
     for (std::size_t beat = 20; beat < 60; ++beat)

@@ -120,6 +120,16 @@ TEST(Grammar, ACutNextToAJumpOfACameraLeavesAFragment) {
     EXPECT_FALSE(jumped_just_before(footage, 21, 1) || jumps_soon_after(footage, 6, 1));
 }
 
+TEST(Grammar, ACutInTheBeatOfALaterJumpLeavesAFragment) {
+    Script script(2, 60);
+    script.take(20, 0).jump(false);
+    const Footage footage = script.footage();
+    EXPECT_TRUE(jumps_soon_after(footage, 20, 0));
+    EXPECT_FALSE(jumps_soon_after(footage, 21, 0));
+    EXPECT_TRUE(jumped_just_before(footage, 21, 0));
+    EXPECT_FALSE(jumps_soon_after(footage, 60, 0));  // not known yet
+}
+
 TEST(Grammar, WhoStandsForTwoSecondsWithoutAnEnemyIsIdle) {
     Script script(2, 40);
     for (std::size_t beat = 10; beat < 40; ++beat)

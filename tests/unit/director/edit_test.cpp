@@ -155,7 +155,7 @@ class EditTest : public testing::TestWithParam<double> {
             scout.present.push_back(static_cast<direction::Index>(i));
             for (std::size_t frame = 2 * beat; frame < 2 * beat + 2; ++frame)
                 if ((match.frames[frame].poses[i].flags & pose_discontinuity) != 0)
-                    scout.takes[scout.fixed + i].cut = true;
+                    scout.takes[scout.fixed + i].jump(frame == 2 * beat);
         }
         while (!scout.finished())
             scout.look(space_, static_cast<float>(unit()));
