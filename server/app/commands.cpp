@@ -3,7 +3,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <iostream>
 
@@ -42,14 +41,6 @@ bool is_same_file(const std::string& a, const std::string& b) {
 }
 
 }  // namespace
-
-CLI::Validator number_between(double least, double most) {
-    const auto is_number = [](const std::string& text) {
-        double value = 0.0;
-        return CLI::detail::lexical_cast(text, value) && std::isnan(value) ? text + " is not a number" : "";
-    };
-    return CLI::Range(least, most) & CLI::Validator(is_number, "");
-}
 
 int report(const Error& error) {
     std::cerr << "camera-director: " << error.message << '\n';

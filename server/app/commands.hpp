@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "app/number_between.hpp"
 #include "base/error.hpp"
 #include "base/signals.hpp"
 
@@ -30,9 +31,6 @@ void add_evaluate(CLI::App& root, Run& run);
 void add_direct(CLI::App& root, Run& run);
 void add_play(CLI::App& root, Run& run);
 void add_render(CLI::App& root, Run& run);
-
-// The value of an option is a number from `least` to `most`: as CLI::Range, which takes "nan" for one.
-[[nodiscard]] CLI::Validator number_between(double least, double most);
 
 // Prints the error to standard error as `camera-director: message`; returns the exit code that it stands for.
 [[nodiscard]] int report(const Error& error);

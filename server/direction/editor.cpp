@@ -469,15 +469,22 @@ class Plan {
     std::vector<double> length_costs_;  // by place_of_length()
 };
 
-struct NameOfReason {
-    Reason::Why why;
-    std::string_view name;
-};
-
-constexpr std::array<NameOfReason, 4> names_without_moment = {{{Reason::Why::opening, "opening"},
-                                                               {Reason::Why::death, "death"},
-                                                               {Reason::Why::hidden, "lost sight"},
-                                                               {Reason::Why::length, "length"}}};
+// Empty of a moment.
+std::string_view name_without_moment(Reason::Why why) {
+    switch (why) {
+        case Reason::Why::opening:
+            return "opening";
+        case Reason::Why::death:
+            return "death";
+        case Reason::Why::hidden:
+            return "lost sight";
+        case Reason::Why::length:
+            return "length";
+        case Reason::Why::moment:
+            break;
+    }
+    return {};
+}
 
 }  // namespace
 
@@ -489,12 +496,14 @@ std::vector<Shot> plan_shots(const Footage& footage, std::span<const Moment> mom
 }
 
 std::string_view name_of(const Reason& reason, const Rules& rules) {
-    if (reason.why == Reason::Why::moment) return rules.moments[reason.rule].name;
-    return std::ranges::find(names_without_moment, reason.why, &NameOfReason::why)->name;
+    return reason.why == Reason::Why::moment ? rules.moments[reason.rule].name
+                                             : name_without_moment(reason.why);
 }
 
 bool names_no_moment(std::string_view name) {
-    return std::ranges::find(names_without_moment, name, &NameOfReason::name) != names_without_moment.end();
+    using Why = Reason::Why;
+    constexpr std::array whys = {Why::opening, Why::death, Why::hidden, Why::length};
+    return std::ranges::find(whys, name, name_without_moment) != whys.end();
 }
 
 }  // namespace camdir::direction

@@ -270,12 +270,12 @@ void Edit::append_finished() {
         const PendingBeat& beat = beats_.front();
         while (footage.beats() < beat.number) {
             const direction::Beat last = footage.beats() - 1;
-            if (last < footage.first()) {
-                material_.append(beat.scout.players, beat.scout.takes);
-                continue;
+            std::vector players = beat.scout.players;  // of the first beat, if none is known
+            std::vector takes = beat.scout.takes;
+            if (last >= footage.first()) {
+                players.assign(footage.players_at(last).begin(), footage.players_at(last).end());
+                takes.assign(footage.takes_at(last).begin(), footage.takes_at(last).end());
             }
-            const std::vector players(footage.players_at(last).begin(), footage.players_at(last).end());
-            std::vector takes(footage.takes_at(last).begin(), footage.takes_at(last).end());
             for (direction::Take& take : takes)
                 take.forget_jumps();
             material_.append(players, takes);

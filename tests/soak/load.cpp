@@ -7,6 +7,8 @@
 #include <iostream>
 #include <mutex>
 
+#include "app/number_between.hpp"
+
 namespace camdir::soak {
 namespace {
 
@@ -84,10 +86,10 @@ void Load::add_options(CLI::App& app) {
     app.add_option("--match-prefix", match_prefix, "Matches are PREFIX-0, PREFIX-1, ...")
         ->capture_default_str();
     app.add_option("--speed", speed, "Of the game relative to real time")
-        ->check(CLI::Range(0.01, 100.0))
+        ->check(app::number_between(0.01, 100.0))
         ->capture_default_str();
     app.add_option("--delay", delay_s, "Spectator delay, s")
-        ->check(CLI::Range(0.0, 600.0))
+        ->check(app::number_between(0.0, 600.0))
         ->capture_default_str();
     app.add_option("--seconds", seconds, "Duration; 0: until interrupted")->check(CLI::NonNegativeNumber);
     network.add_options(app);

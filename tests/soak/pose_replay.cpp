@@ -4,6 +4,7 @@
 #include <memory>
 #include <utility>
 
+#include "app/number_between.hpp"
 #include "evaluation/events.hpp"
 #include "evaluation/match.hpp"
 #include "evaluation/resample.hpp"
@@ -77,8 +78,8 @@ int main(int argc, char** argv) {
     app.add_option("--map-name", options.load.map_name, "The map's name in the director's configuration")
         ->required();
     app.add_option("--copies", options.copies, "Matches")->check(CLI::Range(1, 4096))->capture_default_str();
-    app.add_option("--rate", options.rate_hz, "Frames sent per second; 0: as recorded")
-        ->check(CLI::Range(0.0, 1000.0))
+    app.add_option("--rate", options.rate_hz, "Frames sent per second, 0.1 or more; 0: as recorded")
+        ->check(app::number_between(0.1, 1000.0) | app::number_between(0.0, 0.0))
         ->capture_default_str();
     app.add_option("--metres-per-unit", options.load.metres_per_unit)->capture_default_str();
     options.load.add_options(app);

@@ -4,6 +4,7 @@
 #include <memory>
 #include <utility>
 
+#include "app/number_between.hpp"
 #include "load.hpp"
 #include "program.hpp"
 #include "walker.hpp"
@@ -72,16 +73,16 @@ int main(int argc, char** argv) {
         ->check(CLI::Range(1, 256))
         ->capture_default_str();
     app.add_option("--rate", options.load.rate_hz, "Frames sent per second")
-        ->check(CLI::Range(0.1, 1000.0))
+        ->check(app::number_between(0.1, 1000.0))
         ->capture_default_str();
     app.add_option("--stops", options.style.stops_per_s, "Per player and second")
-        ->check(CLI::Range(0.0, 100.0))
+        ->check(app::number_between(0.0, 100.0))
         ->capture_default_str();
     app.add_option("--teleports", options.style.teleports_per_s, "Per player and second")
-        ->check(CLI::Range(0.0, 100.0))
+        ->check(app::number_between(0.0, 100.0))
         ->capture_default_str();
     app.add_option("--clearance", options.clearance, "Least free distance of the roads, units of 0.0254 m")
-        ->check(CLI::Range(0.1, 1000.0))
+        ->check(app::number_between(0.1, 1000.0))
         ->capture_default_str();
     app.add_option("--seed", options.seed, "The same seed gives the same poses")->capture_default_str();
     options.load.add_options(app);

@@ -32,7 +32,7 @@ bool removes_leader(const Act& act) {
     return is_done_to_director(act.kind) && act.kind != ActKind::reload && act.director == Role::leader;
 }
 
-// Its processes take the machine: what others lose meanwhile is not the directors' doing.
+// Its processes are too many for the machine: what others lose meanwhile is not the directors' doing.
 bool is_crowd(const Act& act) {
     return act.kind == ActKind::crowd;
 }

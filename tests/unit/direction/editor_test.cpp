@@ -239,7 +239,7 @@ Footage jumping_match(std::mt19937& random) {
     Script script(2, beats);
     for (std::size_t rush = 0; rush < 2; ++rush) {
         for (std::size_t beat = random() % 20; beat < beats; beat += 15 + random() % 30)
-            script.take(beat, rush).cut = true;
+            script.take(beat, rush).jump(random() % 2 == 0);
         for (std::size_t beat = 0; beat < beats; ++beat)
             script.take(beat, rush).shown.set(rush, random() % 4 != 0);
     }

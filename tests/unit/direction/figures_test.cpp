@@ -95,6 +95,8 @@ TEST(Figures, AJumpJustAfterACutLeavesAFragment) {
     script.take(50, 1).jump(true);
     const std::vector<Shot> shots = {{0, 0, 50, {}}, {1, 50, 100, {}}};
     EXPECT_EQ(judged(script, {}, shots).shots_under_1_5, 0.0);
+    script.take(75, 1).jump(false);  // within the shot
+    EXPECT_EQ(judged(script, {}, shots).shots_under_1_5, 0.0);
     script.take(50, 1).jump(false);
     EXPECT_EQ(judged(script, {}, shots).shots_under_1_5, 1.0);
 }
