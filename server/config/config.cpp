@@ -218,7 +218,7 @@ void read_moments(const json& object, direction::Rules& rules, ValidationErrors&
             errors.add(pointer, name,
                        "a name of 1 to " + std::to_string(max_profile_name) +
                            " bytes without commas, quotation marks and control characters");
-        if (direction::names_no_moment(name))
+        if (direction::is_reason_without_moment(name))
             errors.add(pointer, name, "another name: the director's own reasons have this one");
         auto rule = std::ranges::find(rules.moments, name, &direction::Rule::name);
         if (rule == rules.moments.end()) {

@@ -183,7 +183,7 @@ class Plan {
     }
 
     // What its camera's jumps divide a shot into; ends of the shot ascend from call to call. A jump in the
-    // beat where it begins is no other cut than that, or one that was paid for there.
+    // beat where it begins is no other cut than that, or one that was paid for there if it was known.
     class Pieces {
       public:
         Pieces(const Plan& plan, std::size_t rush, Beat begin)
@@ -500,7 +500,7 @@ std::string_view name_of(const Reason& reason, const Rules& rules) {
                                              : name_without_moment(reason.why);
 }
 
-bool names_no_moment(std::string_view name) {
+bool is_reason_without_moment(std::string_view name) {
     using Why = Reason::Why;
     constexpr std::array whys = {Why::opening, Why::death, Why::hidden, Why::length};
     return std::ranges::find(whys, name, name_without_moment) != whys.end();

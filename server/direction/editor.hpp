@@ -59,7 +59,7 @@ inline constexpr Beat cut_every = 2;
 
 // "opening", "death", "lost sight" or "length"; of a moment the name of its rule.
 [[nodiscard]] std::string_view name_of(const Reason& reason, const Rules& rules);
-// Whether a reason without a moment has that name.
-[[nodiscard]] bool names_no_moment(std::string_view name);
+// Whether it is the name of a reason that is no moment.
+[[nodiscard]] bool is_reason_without_moment(std::string_view name);
 
 }  // namespace camdir::direction

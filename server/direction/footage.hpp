@@ -53,8 +53,7 @@ struct Take {
     PlayerSet shown;                 // in the picture and not hidden, in every frame of the beat
     PlayerSet framed;                // in the picture in the first frame, hidden or not
     bool cut = false;                // the camera itself jumps
-    bool late_cut =
-        false;  // it does after the first frame, perhaps there too: a cut at the beat is another one
+    bool late_cut = false;           // it does after the first frame: a cut at the beat is another one
     // Whom the picture is of: of a rush that follows a player always they; of a fixed one nobody where it has
     // nobody to show.
     Index subject = nobody;
